@@ -1,0 +1,106 @@
+//! Movement of an amoeboid cell (seed, 3.1.2): every step the membrane is divided anew into front, rear and two wings.
+//! Front bodies are given the speed towards the goal, rear bodies the speed towards the centroid; the wings follow.
+
+use super::heading;
+use crate::organism::Organism;
+use crate::particle::Particles;
+use crate::solver::drive::Drive;
+use glam::Vec2;
+
+/// Half-width of the front and of the rear, as a share of the membrane.
+const HALF_WIDTH: f32 = 1.0 / 8.0;
+
+/// Part of a moving membrane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MembraneRegion {
+    /// Around the node nearest to the goal.
+    Front,
+    /// Counter-clockwise of the front.
+    LeftWing,
+    /// Opposite to the front.
+    Rear,
+    /// Clockwise of the front.
+    RightWing,
+}
+
+/// The region of node `k` in a membrane of `count` nodes whose front is centred on node `front_centre`.
+pub(crate) fn region(k: u32, front_centre: u32, count: u32) -> MembraneRegion {
+    let half_width = ((count as f32 * HALF_WIDTH) as u32).max(1);
+    let ahead = (k + count - front_centre) % count;
+    let from_front = ahead.min(count - ahead);
+    if from_front <= half_width {
+        MembraneRegion::Front
+    } else if from_front >= count / 2 - half_width {
+        MembraneRegion::Rear
+    } else if ahead < count / 2 {
+        MembraneRegion::LeftWing
+    } else {
+        MembraneRegion::RightWing
+    }
+}
+
+/// Drives front and rear; returns the node of the outline that is the centre of the front, the nearest one to the goal.
+pub(crate) fn drive(
+    organism: &Organism,
+    goal: Vec2,
+    particles: &Particles,
+    drives: &mut Vec<Drive>,
+) -> Option<u32> {
+    let nodes: Vec<Vec2> = organism
+        .outline_particles()
+        .map(|i| particles.position(i as usize))
+        .collect();
+    let front_centre = crate::geometry::ring::nearest_index(&nodes, goal)? as u32;
+    let count = nodes.len() as u32;
+    let centroid = crate::geometry::polygon::centroid(&nodes)?;
+    for ((k, particle), at) in (0..count).zip(organism.outline_particles()).zip(nodes) {
+        let target = match region(k, front_centre, count) {
+            MembraneRegion::Front => goal,
+            MembraneRegion::Rear => centroid,
+            MembraneRegion::LeftWing | MembraneRegion::RightWing => continue,
+        };
+        let velocity = heading(target - at) * organism.speed;
+        drives.push(Drive {
+            particle,
+            velocity,
+            max_acceleration: f32::INFINITY,
+        });
+    }
+    Some(front_centre)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn t18_t19_regions_are_symmetric_about_the_front_and_cover_the_ring() {
+        for count in [12u32, 40, 65] {
+            for front in [0, 5, count - 1] {
+                let regions: Vec<_> = (0..count).map(|k| region(k, front, count)).collect();
+                let size = |wanted| regions.iter().filter(|&&r| r == wanted).count();
+                assert_eq!(regions[front as usize], MembraneRegion::Front);
+                assert_eq!(
+                    regions[((front + count / 2) % count) as usize],
+                    MembraneRegion::Rear
+                );
+                assert_eq!(
+                    regions[((front + count / 4) % count) as usize],
+                    MembraneRegion::LeftWing
+                );
+                assert_eq!(
+                    regions[((front + count - count / 4) % count) as usize],
+                    MembraneRegion::RightWing
+                );
+                assert_eq!(
+                    size(MembraneRegion::Front) % 2,
+                    1,
+                    "symmetric neighbours both ways"
+                );
+                let wings =
+                    size(MembraneRegion::LeftWing).abs_diff(size(MembraneRegion::RightWing));
+                assert!(wings <= 1 && size(MembraneRegion::LeftWing) > 0);
+            }
+        }
+    }
+}

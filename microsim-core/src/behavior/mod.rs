@@ -1,0 +1,109 @@
+//! What organisms do, over the solver: how they choose a goal and how they move towards it.
+
+pub(crate) mod controller;
+pub(crate) mod crawl;
+pub(crate) mod front_pull;
+
+use crate::event::Event;
+use crate::id::OrganismId;
+use crate::inputs::Inputs;
+use crate::organism::Organism;
+use crate::particle::Particles;
+use crate::solver::drive::Drive;
+use crate::world::organisms::Organisms;
+use glam::Vec2;
+
+/// How an organism moves towards its goal, and what it remembers of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Locomotion {
+    /// It does not.
+    None,
+    /// Its front body pulls it (seed, 3.1.1). `front` is a position in the outline.
+    FrontPull { front: u32 },
+    /// Its membrane's front and rear drive it (seed, 3.1.2). `front_centre` is a position in the outline, while it moves.
+    Crawl { front_centre: Option<u32> },
+    /// Somebody pulls all of it with finite force.
+    Tow { max_acceleration: f32 },
+}
+
+/// Turns inputs and controllers into the drives of this step.
+pub(crate) fn steer_organisms(
+    organisms: &mut Organisms,
+    inputs: &Inputs,
+    particles: &Particles,
+    surroundings: &controller::Surroundings,
+    drives: &mut Vec<Drive>,
+    events: &mut Vec<Event>,
+) {
+    drives.clear();
+    for (id, organism) in organisms.iter_mut() {
+        if organism.is_quarantined {
+            continue;
+        }
+        let at = place(organism, particles);
+        let own = organism
+            .controller
+            .advance(at, &mut organism.rng, surroundings);
+        let goal = inputs.get(id).map_or(own, |intent| intent.goal());
+        move_towards(id, organism, goal, particles, drives, events);
+    }
+}
+
+fn move_towards(
+    id: OrganismId,
+    organism: &mut Organism,
+    goal: Option<Vec2>,
+    particles: &Particles,
+    drives: &mut Vec<Drive>,
+    events: &mut Vec<Event>,
+) {
+    match organism.locomotion.clone() {
+        Locomotion::None => {}
+        Locomotion::FrontPull { front } => {
+            let Some(goal) = goal else { return };
+            let new_front = front_pull::drive(organism, front, goal, particles, drives);
+            if new_front != front {
+                events.push(Event::FrontSwitched { organism: id });
+                organism.locomotion = Locomotion::FrontPull { front: new_front };
+            }
+        }
+        Locomotion::Crawl { .. } => {
+            let front_centre =
+                goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
+            organism.locomotion = Locomotion::Crawl { front_centre };
+        }
+        Locomotion::Tow { max_acceleration } => {
+            let particle = organism.body.particle(0);
+            let way = goal.map_or(Vec2::ZERO, |goal| {
+                goal - particles.position(particle as usize)
+            });
+            let velocity = heading(way) * organism.speed;
+            drives.push(Drive {
+                particle,
+                velocity,
+                max_acceleration,
+            });
+        }
+    }
+}
+
+/// Unit vector of a way, or zero when there is no way to go.
+pub(crate) fn heading(way: Vec2) -> Vec2 {
+    crate::geometry::ring::direction_or(way, Vec2::ZERO)
+}
+
+/// Where an organism is, for its controller: the mean of its outline, or its first particle.
+fn place(organism: &Organism, particles: &Particles) -> Vec2 {
+    let count = organism.outline.len();
+    if count == 0 {
+        return organism
+            .particles()
+            .next()
+            .map_or(organism.home, |i| particles.position(i as usize));
+    }
+    organism
+        .outline_particles()
+        .map(|i| particles.position(i as usize))
+        .sum::<Vec2>()
+        / count as f32
+}

@@ -1,0 +1,72 @@
+//! Everything about a world that is fixed when it is made.
+
+use crate::error::{Error, count_in_range, in_range};
+use glam::Vec2;
+
+/// Largest coordinate, in length units: beyond it `f32` is too coarse for contacts.
+pub(crate) const MAX_EXTENT: f32 = 20_000.0;
+
+/// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldConfig {
+    /// Width and height of the walled room; its lower left corner is the origin. 1 to 20 000 each.
+    pub size: Vec2,
+    /// Time of one step, s. 0.001 to 0.1.
+    pub dt: f32,
+    /// Substeps per step, 1 to 64. More are stiffer and cost proportionally; below 6 jams stretch visibly.
+    pub substeps: u32,
+    /// Acceleration on everything, units/s2. Components within ±1000.
+    pub gravity: Vec2,
+    /// Drag of the medium, 1/s: a free particle loses this fraction of its speed per second. 0 to 100.
+    pub damping: f32,
+    /// Speed limit of every particle, units/s, 0.1 to 1000. Bounds how far anything moves in a step, hence the margin with
+    /// which pairs are searched, and is what makes walls and membranes tight (thesis 3.1.2, 4.2.2).
+    pub max_speed: f32,
+    /// Seed of every random number in the world.
+    pub seed: u64,
+    /// Most particles that the world accepts, 1 to 4 000 000.
+    pub max_particles: u32,
+}
+
+impl Default for WorldConfig {
+    fn default() -> Self {
+        Self {
+            size: Vec2::new(160.0, 90.0),
+            dt: 1.0 / 60.0,
+            substeps: 8,
+            gravity: Vec2::ZERO,
+            damping: 0.5,
+            max_speed: 20.0,
+            seed: 0,
+            max_particles: 500_000,
+        }
+    }
+}
+
+impl WorldConfig {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        in_range("size.x", self.size.x, 1.0, MAX_EXTENT)?;
+        in_range("size.y", self.size.y, 1.0, MAX_EXTENT)?;
+        in_range("dt", self.dt, 0.001, 0.1)?;
+        count_in_range("substeps", self.substeps, 1, 64)?;
+        in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
+        in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
+        in_range("damping", self.damping, 0.0, 100.0)?;
+        in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
+        count_in_range("max_particles", self.max_particles, 1, 4_000_000)
+    }
+
+    /// Time of one substep, s.
+    pub(crate) fn substep(&self) -> f32 {
+        self.dt / self.substeps as f32
+    }
+
+    /// Farthest that a particle moves in one step.
+    pub(crate) fn reach(&self) -> f32 {
+        self.max_speed * self.dt
+    }
+}

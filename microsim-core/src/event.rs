@@ -1,0 +1,57 @@
+//! What happened in a step. Events are kept until the next step begins, in an order that depends on the state only.
+
+use crate::id::OrganismId;
+
+/// One thing that happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Event {
+    /// Two organisms began to touch. Exactly one [`Event::ContactEnded`] follows, even if one is removed.
+    ContactBegan {
+        /// The organism with the smaller index.
+        a: OrganismId,
+        /// The other one.
+        b: OrganismId,
+    },
+    /// Two organisms stopped touching.
+    ContactEnded {
+        /// The organism with the smaller index.
+        a: OrganismId,
+        /// The other one.
+        b: OrganismId,
+    },
+    /// A rigid cell's goal lies behind it, so its opposite body became its front.
+    FrontSwitched {
+        /// The cell.
+        organism: OrganismId,
+    },
+    /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.
+    Quarantined {
+        /// The organism.
+        organism: OrganismId,
+    },
+}
+
+impl Event {
+    /// Name of its kind, for counting.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::ContactBegan { .. } => "contact_began",
+            Self::ContactEnded { .. } => "contact_ended",
+            Self::FrontSwitched { .. } => "front_switched",
+            Self::Quarantined { .. } => "quarantined",
+        }
+    }
+
+    /// The organisms that it is about.
+    #[must_use]
+    pub fn organisms(&self) -> [Option<OrganismId>; 2] {
+        match *self {
+            Self::ContactBegan { a, b } | Self::ContactEnded { a, b } => [Some(a), Some(b)],
+            Self::FrontSwitched { organism } | Self::Quarantined { organism } => {
+                [Some(organism), None]
+            }
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Generational handles: a stale one never names a newer organism.
+
+/// Names one organism of a world for as long as it lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct OrganismId {
+    pub(crate) index: u32,
+    pub(crate) generation: u32,
+}
+
+impl OrganismId {
+    /// Position in the world's table; reused after removal.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.index
+    }
+
+    /// How many organisms had this index before.
+    #[must_use]
+    pub fn generation(self) -> u32 {
+        self.generation
+    }
+}
+
+/// Names a template that was added to a world; valid as long as the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TemplateId(pub(crate) u32);
+
+/// Names an obstacle of a world; valid as long as the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ObstacleId(pub(crate) u32);

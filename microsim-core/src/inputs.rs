@@ -1,0 +1,105 @@
+//! What organisms are told to do in a step: small, copyable, the same for mouse, bot and replay.
+
+use crate::error::{Error, in_range};
+use crate::id::OrganismId;
+use glam::Vec2;
+
+/// The wish of one organism for one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Intent {
+    goal: Option<Vec2>,
+}
+
+impl Intent {
+    /// To stay: no command at all.
+    pub const REST: Self = Self { goal: None };
+
+    /// To move towards a point. The speed does not depend on how far away it is.
+    ///
+    /// # Errors
+    /// When a coordinate is not finite or beyond ±1 000 000.
+    pub fn toward(goal: Vec2) -> Result<Self, Error> {
+        in_range("goal.x", goal.x, -1e6, 1e6)?;
+        in_range("goal.y", goal.y, -1e6, 1e6)?;
+        Ok(Self { goal: Some(goal) })
+    }
+
+    /// Where to move, if anywhere.
+    #[must_use]
+    pub fn goal(&self) -> Option<Vec2> {
+        self.goal
+    }
+}
+
+/// The intents of one step. An organism that is not named here follows its own controller.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inputs {
+    intents: Vec<(OrganismId, Intent)>,
+}
+
+impl Inputs {
+    /// No commands.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Commands `organism`, in place of what it was commanded before. A handle that is stale by the time of the step has
+    /// no effect.
+    pub fn set(&mut self, organism: OrganismId, intent: Intent) {
+        match self.intents.binary_search_by_key(&organism, |&(id, _)| id) {
+            Ok(at) => self.intents[at].1 = intent,
+            Err(at) => self.intents.insert(at, (organism, intent)),
+        }
+    }
+
+    /// The command given to `organism`, if any.
+    #[must_use]
+    pub fn get(&self, organism: OrganismId) -> Option<Intent> {
+        let at = self
+            .intents
+            .binary_search_by_key(&organism, |&(id, _)| id)
+            .ok()?;
+        Some(self.intents[at].1)
+    }
+
+    /// Takes all commands back.
+    pub fn clear(&mut self) {
+        self.intents.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn later_commands_replace_earlier_ones() {
+        let id = |index| OrganismId {
+            index,
+            generation: 0,
+        };
+        let mut inputs = Inputs::new();
+        inputs.set(id(4), Intent::REST);
+        inputs.set(id(1), Intent::toward(Vec2::ONE).unwrap());
+        inputs.set(id(4), Intent::toward(Vec2::X).unwrap());
+        assert_eq!(inputs.get(id(4)).unwrap().goal(), Some(Vec2::X));
+        assert_eq!(inputs.get(id(2)), None);
+        inputs.clear();
+        assert_eq!(inputs.get(id(4)), None);
+    }
+
+    #[test]
+    fn goals_must_be_finite() {
+        assert_eq!(
+            Intent::toward(Vec2::new(0.0, f32::NAN))
+                .unwrap_err()
+                .field(),
+            "goal.y"
+        );
+        assert_eq!(
+            Intent::toward(Vec2::new(1e9, 0.0)).unwrap_err().field(),
+            "goal.x"
+        );
+    }
+}

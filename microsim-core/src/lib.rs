@@ -1,0 +1,74 @@
+//! Deterministic position-based physics for deforming single-celled organisms.
+//!
+//! A [`World`] holds organisms made of discs that constraints hold together. Each [`World::step`] runs the same list of
+//! phases (see [`Phase`]): what organisms want becomes velocities, pairs that may touch are found once, and then small
+//! substeps predict positions, correct them (fluid, constraints, contacts, walls) and turn the corrections back into
+//! velocities.
+//!
+//! ```
+//! use microsim_core::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, World, WorldConfig, glam::Vec2};
+//!
+//! let mut world = World::new(WorldConfig { size: Vec2::new(100.0, 60.0), ..WorldConfig::default() })?;
+//! let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 30.0))?;
+//! world.spawn(&AgarSpec { radius: 1.0, ..AgarSpec::default() }.into(), Placement::at(70.0, 30.0))?;
+//!
+//! let start = world.centroid(cell).unwrap();
+//! let mut inputs = Inputs::new();
+//! inputs.set(cell, Intent::toward(Vec2::new(70.0, 30.0))?);
+//! for _ in 0..120 {
+//!     world.step(&inputs);
+//! }
+//! assert!(world.centroid(cell).unwrap().x > start.x + 3.0);
+//! assert_eq!(world.census().leaks, 0);
+//! # Ok::<(), microsim_core::Error>(())
+//! ```
+//!
+//! The library does no input or output, reads no clock, prints nothing and has no threads and no global state. Stepping
+//! cannot fail; everything handed in is checked when it is handed in. Equal configuration, seed and inputs give equal
+//! bits on every platform ([`World::digest`]).
+
+mod behavior;
+mod collision;
+mod config;
+mod error;
+mod event;
+pub mod geometry;
+mod id;
+mod inputs;
+mod organism;
+mod particle;
+mod rng;
+#[cfg(feature = "scenario")]
+pub mod scenario;
+mod solver;
+mod step;
+mod template;
+mod world;
+
+pub use behavior::controller::Controller;
+pub use behavior::crawl::MembraneRegion;
+pub use config::WorldConfig;
+pub use error::{Error, ErrorKind};
+pub use event::Event;
+pub use id::{ObstacleId, OrganismId, TemplateId};
+pub use inputs::{Inputs, Intent};
+pub use organism::agar::AgarSpec;
+pub use organism::filled_chain::AmoeboidCellSpec;
+pub use organism::fluid_block::FluidBlockSpec;
+pub use organism::platelet::PlateletSpec;
+pub use organism::probe::ProbeSpec;
+pub use organism::soft_body::RigidCellSpec;
+pub use organism::{Kind, OrganismSpec, Placement};
+pub use particle::{CollisionGroups, Material};
+pub use rng::Rng;
+pub use solver::fluid::{FluidMode, FluidParams};
+pub use solver::obstacle::Obstacle;
+pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
+pub use step::Phase;
+pub use template::{Node, Role, Template, TemplateBuilder};
+pub use world::World;
+pub use world::measure::{Census, Quality};
+pub use world::query::RayHit;
+pub use world::view::{OrganismView, ParticleView, View};
+
+pub use {glam, parry2d};

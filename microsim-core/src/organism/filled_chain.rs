@@ -1,0 +1,264 @@
+//! Amoeboid cell (seed, 3.1.2): a filled chain.
+//!
+//! ```text
+//!     o-o-o-o        membrane: a closed chain of equal discs that touch, evenly on an ellipse
+//!    o . . . o       . cytoplasm: viscous fluid, its particles wider than any gap the chain can open
+//!     o-o-o-o
+//! ```
+
+use super::fluid_block::hexagonal_fill;
+use super::{Blueprint, FluidPlan, Kind, OrganismSpec};
+use crate::behavior::Locomotion;
+use crate::error::{Error, in_range, out_of_range};
+use crate::geometry::polygon::{contains_point, perimeter};
+use crate::geometry::ring::ellipse;
+use crate::particle::Material;
+use crate::solver::fluid::{FluidMode, FluidParams};
+use crate::solver::{Distance, MinDistance, Rope};
+use crate::template::{Node, Role, Template, TemplateBuilder};
+use glam::Vec2;
+
+/// Inverse stiffness of a link of the chain.
+const LINK_COMPLIANCE: f32 = 1e-5;
+/// A link never gets longer than this many rest lengths (seed, 4.2.2: a joint with a maximum length).
+pub(crate) const STRAIN_LIMIT: f32 = 1.25;
+/// Nodes `i` and `i + 2` stay this many rest lengths apart, so that the membrane does not fold.
+const FOLD_LIMIT: f32 = 1.3;
+/// Most nodes of a membrane.
+const MAX_NODES: f32 = 4096.0;
+
+/// A membrane filled with cytoplasm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AmoeboidCellSpec {
+    /// Semi-axes at rest, units, each at least three node radii and at most 500.
+    pub radii: Vec2,
+    /// Radius of a membrane node, units, 0.1 to 10. The seed's 0.78 for cells of any size.
+    pub node_radius: f32,
+    /// Rest spacing of the cytoplasm in node radii, 1.2 to 3: particles are wider than half a gap (T17) and narrower than
+    /// would keep the cell from deforming.
+    pub cytoplasm_spacing: f32,
+    /// Viscosity of the cytoplasm, 0 to 1, see [`FluidParams::viscosity`].
+    pub viscosity: f32,
+    /// Speed of its front and rear when it moves, units/s, 0 to 1000.
+    pub speed: f32,
+}
+
+impl Default for AmoeboidCellSpec {
+    fn default() -> Self {
+        Self {
+            radii: Vec2::new(11.0, 11.0),
+            node_radius: 0.78,
+            cytoplasm_spacing: 1.65,
+            viscosity: 0.02,
+            speed: 8.0,
+        }
+    }
+}
+
+impl From<AmoeboidCellSpec> for OrganismSpec {
+    fn from(spec: AmoeboidCellSpec) -> Self {
+        Self::AmoeboidCell(spec)
+    }
+}
+
+impl AmoeboidCellSpec {
+    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
+        in_range("node_radius", self.node_radius, 0.1, 10.0)?;
+        in_range("radii.x", self.radii.x, 3.0 * self.node_radius, 500.0)?;
+        in_range("radii.y", self.radii.y, 3.0 * self.node_radius, 500.0)?;
+        in_range("cytoplasm_spacing", self.cytoplasm_spacing, 1.2, 3.0)?;
+        in_range("viscosity", self.viscosity, 0.0, 1.0)?;
+        in_range("speed", self.speed, 0.0, 1000.0)?;
+        let chain = self.chain()?;
+        Ok(Blueprint {
+            kind: Kind::AmoeboidCell,
+            fluid: Some(self.cytoplasm(&chain)),
+            template: Some(self.membrane(&chain)?),
+            scale: 1.0,
+            is_loose: true,
+            locomotion: Locomotion::Crawl { front_centre: None },
+            speed: self.speed,
+        })
+    }
+
+    /// Centres of the chain: as many as fit without a gap.
+    fn chain(&self) -> Result<Vec<Vec2>, Error> {
+        let radii = self.radii - Vec2::splat(self.node_radius);
+        let around = perimeter(&ellipse(radii, 256));
+        let count = around / (2.0 * self.node_radius);
+        if count > MAX_NODES {
+            let accepted =
+                format!("at most {MAX_NODES} membrane nodes (perimeter over 2 node radii)");
+            return Err(out_of_range("radii", f64::from(count), accepted));
+        }
+        Ok(ellipse(radii, count as usize))
+    }
+
+    fn membrane(&self, chain: &[Vec2]) -> Result<Template, Error> {
+        let material = Material {
+            friction: 0.05,
+            restitution: 0.0,
+        };
+        let mut builder = Template::builder();
+        let disc = |position| Node {
+            role: Role::Membrane,
+            material,
+            ..Node::disc(position, 1.0, self.node_radius)
+        };
+        let ring: Vec<u32> = chain
+            .iter()
+            .map(|&position| builder.node(disc(position)))
+            .collect();
+        let rest_length = perimeter(chain) / chain.len() as f32;
+        builder.outline(&ring);
+        (0..ring.len()).for_each(|k| link(&mut builder, &ring, k, rest_length));
+        builder.build()
+    }
+
+    fn cytoplasm(&self, chain: &[Vec2]) -> FluidPlan {
+        let spacing = self.cytoplasm_spacing * self.node_radius;
+        let inset = Vec2::splat(self.node_radius + 0.5 * spacing);
+        let radii = self.radii - Vec2::splat(self.node_radius) - inset;
+        let room = ellipse(radii, chain.len());
+        let points = hexagonal_fill(self.radii * 2.0, spacing)
+            .into_iter()
+            .filter(|&p| contains_point(&room, p));
+        let params = FluidParams {
+            spacing,
+            particle_mass: 1.0,
+            viscosity: self.viscosity,
+            mode: FluidMode::Density,
+        };
+        FluidPlan {
+            params,
+            points: points.collect(),
+            is_enclosed: true,
+        }
+    }
+}
+
+/// Links node `k` to the next one, and keeps it off the one after that.
+fn link(builder: &mut TemplateBuilder, ring: &[u32], k: usize, rest_length: f32) {
+    let after = |steps: usize| ring[(k + steps) % ring.len()];
+    let (a, b) = (ring[k], after(1));
+    builder.distance(Distance {
+        a,
+        b,
+        rest_length,
+        compliance: LINK_COMPLIANCE,
+        damping: 0.0,
+    });
+    builder.rope(Rope {
+        a,
+        b,
+        max_length: STRAIN_LIMIT * rest_length,
+    });
+    builder.min_distance(MinDistance {
+        a,
+        b: after(2),
+        min_length: FOLD_LIMIT * rest_length,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blueprint(spec: &AmoeboidCellSpec) -> (Template, FluidPlan) {
+        let blueprint = spec.blueprint().unwrap();
+        (blueprint.template.unwrap(), blueprint.fluid.unwrap())
+    }
+
+    #[test]
+    fn t15_t16_chain_of_touching_equal_discs_of_the_same_radius_at_any_size() {
+        for radii in [
+            Vec2::new(6.0, 5.0),
+            Vec2::new(15.0, 11.0),
+            Vec2::new(40.0, 40.0),
+        ] {
+            let (template, _) = blueprint(&AmoeboidCellSpec {
+                radii,
+                ..AmoeboidCellSpec::default()
+            });
+            let count = template.outline().len();
+            let position = |k: usize| template.nodes()[k % count].position;
+            assert!(
+                template
+                    .nodes()
+                    .iter()
+                    .all(|node| node.radius == 0.78 && node.mass.is_finite())
+            );
+            for k in 0..count {
+                let gap = (position(k + 1) - position(k)).length() - 2.0 * 0.78;
+                assert!(gap.abs() < 0.1 * 0.78, "gap {gap} in a chain of {count}");
+            }
+            let distances = &template.constraints().distances;
+            assert_eq!(distances.len(), count, "neighbours joined, ring closed");
+            assert!(
+                distances
+                    .iter()
+                    .all(|c| c.rest_length == distances[0].rest_length)
+            );
+        }
+    }
+
+    #[test]
+    fn t17_cytoplasm_fills_most_of_the_cell_and_fits_through_no_gap() {
+        let spec = AmoeboidCellSpec::default();
+        let (template, fluid) = blueprint(&spec);
+        let radius = 0.5 * fluid.params.spacing;
+        let widest =
+            STRAIN_LIMIT * template.constraints().distances[0].rest_length - 2.0 * spec.node_radius;
+        assert!(
+            radius > 0.5 * widest,
+            "radius {radius}, widest gap {widest}"
+        );
+        let cell = std::f32::consts::PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
+        let share = fluid.points.len() as f32 * 0.866 * fluid.params.spacing.powi(2) / cell;
+        assert!((0.75..1.0).contains(&share), "fills {share} of the room");
+        assert!(fluid.params.viscosity > 0.0 && fluid.params.viscosity < 0.2);
+    }
+
+    #[test]
+    fn t25_links_have_a_maximum_length() {
+        let (template, _) = blueprint(&AmoeboidCellSpec::default());
+        assert_eq!(template.constraints().ropes.len(), template.outline().len());
+    }
+
+    #[test]
+    fn bad_numbers_are_refused_by_name() {
+        let refuse = |spec: AmoeboidCellSpec, field: &str| {
+            assert_eq!(spec.blueprint().unwrap_err().field(), field)
+        };
+        let spec = AmoeboidCellSpec::default;
+        refuse(
+            AmoeboidCellSpec {
+                radii: Vec2::new(1.0, 10.0),
+                ..spec()
+            },
+            "radii.x",
+        );
+        refuse(
+            AmoeboidCellSpec {
+                node_radius: f32::INFINITY,
+                ..spec()
+            },
+            "node_radius",
+        );
+        refuse(
+            AmoeboidCellSpec {
+                radii: Vec2::splat(500.0),
+                node_radius: 0.1,
+                ..spec()
+            },
+            "radii",
+        );
+        refuse(
+            AmoeboidCellSpec {
+                cytoplasm_spacing: 0.1,
+                ..spec()
+            },
+            "cytoplasm_spacing",
+        );
+    }
+}

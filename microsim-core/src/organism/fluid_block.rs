@@ -1,0 +1,112 @@
+//! Fluid block: free fluid that fills a rectangle when it is spawned.
+
+use super::{Blueprint, FluidPlan, Kind, OrganismSpec};
+use crate::behavior::Locomotion;
+use crate::error::{Error, in_range, out_of_range};
+use crate::solver::fluid::FluidParams;
+use glam::Vec2;
+
+/// A rectangle of fluid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FluidBlockSpec {
+    /// Width and height, units, 0.1 to 20 000 each.
+    pub size: Vec2,
+    /// The fluid. Blocks of equal fluid mix.
+    pub fluid: FluidParams,
+}
+
+impl Default for FluidBlockSpec {
+    fn default() -> Self {
+        Self {
+            size: Vec2::splat(20.0),
+            fluid: FluidParams::default(),
+        }
+    }
+}
+
+impl From<FluidBlockSpec> for OrganismSpec {
+    fn from(spec: FluidBlockSpec) -> Self {
+        Self::FluidBlock(spec)
+    }
+}
+
+/// Points of a hexagonal lattice in a rectangle around the origin, inset by half a spacing.
+pub(crate) fn hexagonal_fill(size: Vec2, spacing: f32) -> Vec<Vec2> {
+    let rise = spacing * 0.75f32.sqrt();
+    let rows = ((size.y - spacing) / rise) as i64 + 1;
+    let mut points = Vec::new();
+    for row in 0..rows {
+        let inset = if row % 2 == 0 { 0.5 } else { 1.0 };
+        let columns = ((size.x - (inset + 0.5) * spacing) / spacing) as i64 + 1;
+        for column in 0..columns {
+            let corner = Vec2::new(
+                (column as f32 + inset) * spacing,
+                row as f32 * rise + 0.5 * spacing,
+            );
+            points.push(corner - size * 0.5);
+        }
+    }
+    points
+}
+
+impl FluidBlockSpec {
+    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
+        self.fluid
+            .validate()
+            .map_err(|error| error.within("fluid"))?;
+        in_range("size.x", self.size.x, self.fluid.spacing, 20_000.0)?;
+        in_range("size.y", self.size.y, self.fluid.spacing, 20_000.0)?;
+        let about = f64::from(self.size.x) * f64::from(self.size.y)
+            / f64::from(self.fluid.spacing).powi(2)
+            * 1.2;
+        if about > 4e6 {
+            return Err(out_of_range(
+                "size",
+                about,
+                "at most 4000000 particles (spacing squared x 0.87 each)".to_owned(),
+            ));
+        }
+        Ok(Blueprint {
+            kind: Kind::FluidBlock,
+            template: None,
+            scale: 1.0,
+            is_loose: true,
+            fluid: Some(FluidPlan {
+                params: self.fluid,
+                points: hexagonal_fill(self.size, self.fluid.spacing),
+                is_enclosed: false,
+            }),
+            locomotion: Locomotion::None,
+            speed: 0.0,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fill_keeps_its_spacing_and_stays_inside() {
+        let points = hexagonal_fill(Vec2::new(10.0, 6.0), 1.0);
+        assert!((60..=72).contains(&points.len()), "{} points", points.len());
+        for (k, a) in points.iter().enumerate() {
+            assert!(a.x.abs() <= 4.5 + 1e-4 && a.y.abs() <= 2.5 + 1e-4, "{a}");
+            assert!(points[..k].iter().all(|b| (*a - *b).length() > 0.99));
+        }
+    }
+
+    #[test]
+    fn absurd_sizes_are_refused() {
+        let spec = FluidBlockSpec {
+            size: Vec2::splat(19_000.0),
+            ..FluidBlockSpec::default()
+        };
+        assert_eq!(spec.blueprint().unwrap_err().field(), "size");
+        let spec = FluidBlockSpec {
+            size: Vec2::splat(0.5),
+            ..FluidBlockSpec::default()
+        };
+        assert_eq!(spec.blueprint().unwrap_err().field(), "size.x");
+    }
+}

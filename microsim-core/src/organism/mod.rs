@@ -1,0 +1,284 @@
+//! Organisms: recipes over the generic solver, one file each. A spec is plain data; its [`Blueprint`] says what particles,
+//! constraints and locomotion it amounts to.
+
+pub(crate) mod agar;
+pub(crate) mod filled_chain;
+pub(crate) mod fluid_block;
+pub(crate) mod platelet;
+pub(crate) mod probe;
+pub(crate) mod soft_body;
+
+use crate::behavior::Locomotion;
+use crate::behavior::controller::Controller;
+use crate::error::{Error, in_range};
+use crate::geometry::ring::{rotate, unit_vector};
+use crate::rng::Rng;
+use crate::solver::ConstraintSet;
+use crate::solver::fluid::FluidParams;
+use crate::solver::lanes::LANES;
+use crate::template::Template;
+use glam::Vec2;
+
+/// What an organism is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+#[repr(u8)]
+pub enum Kind {
+    /// A soft body that keeps its shape, like a paramecium.
+    RigidCell,
+    /// A membrane filled with cytoplasm, like a neutrophil.
+    AmoeboidCell,
+    /// A soft obstacle that returns to its anchor.
+    Platelet,
+    /// A small disc to be eaten.
+    Agar,
+    /// A heavy disc that an experimenter drives.
+    Probe,
+    /// Fluid on its own.
+    FluidBlock,
+    /// Spawned from a template that the library does not know.
+    Custom,
+}
+
+impl Kind {
+    /// Name in scenario files and output.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RigidCell => "rigid_cell",
+            Self::AmoeboidCell => "amoeboid_cell",
+            Self::Platelet => "platelet",
+            Self::Agar => "agar",
+            Self::Probe => "probe",
+            Self::FluidBlock => "fluid_block",
+            Self::Custom => "custom",
+        }
+    }
+}
+
+/// Any organism, as plain data.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum OrganismSpec {
+    /// See [`soft_body::RigidCellSpec`].
+    RigidCell(soft_body::RigidCellSpec),
+    /// See [`filled_chain::AmoeboidCellSpec`].
+    AmoeboidCell(filled_chain::AmoeboidCellSpec),
+    /// See [`platelet::PlateletSpec`].
+    Platelet(platelet::PlateletSpec),
+    /// See [`agar::AgarSpec`].
+    Agar(agar::AgarSpec),
+    /// See [`probe::ProbeSpec`].
+    Probe(probe::ProbeSpec),
+    /// See [`fluid_block::FluidBlockSpec`].
+    FluidBlock(fluid_block::FluidBlockSpec),
+}
+
+impl OrganismSpec {
+    /// What it amounts to in particles and constraints.
+    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
+        match self {
+            Self::RigidCell(spec) => spec.blueprint(),
+            Self::AmoeboidCell(spec) => spec.blueprint(),
+            Self::Platelet(spec) => spec.blueprint(),
+            Self::Agar(spec) => spec.blueprint(),
+            Self::Probe(spec) => spec.blueprint(),
+            Self::FluidBlock(spec) => spec.blueprint(),
+        }
+    }
+
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.blueprint().map(drop)
+    }
+
+    /// Farthest that it reaches from its place, units.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn extent(&self) -> Result<f32, Error> {
+        self.blueprint().map(|blueprint| blueprint.extent())
+    }
+}
+
+/// Where and how an organism is put into the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// Its centre, units from the room's lower left corner.
+    pub at: Vec2,
+    /// Its direction, radians counter-clockwise from the x axis, within ±1000.
+    pub angle: f32,
+    /// Size relative to what its spec or template says, 0.01 to 100.
+    pub scale: f32,
+    /// What steers it when no input does.
+    pub controller: Controller,
+}
+
+impl Placement {
+    /// At this place, unturned, in its own size, steered by inputs only.
+    #[must_use]
+    pub fn at(x: f32, y: f32) -> Self {
+        Self {
+            at: Vec2::new(x, y),
+            angle: 0.0,
+            scale: 1.0,
+            controller: Controller::Still,
+        }
+    }
+
+    /// The same with another controller.
+    #[must_use]
+    pub fn steered_by(mut self, controller: Controller) -> Self {
+        self.controller = controller;
+        self
+    }
+
+    /// The same, turned to `angle` radians.
+    #[must_use]
+    pub fn turned(mut self, angle: f32) -> Self {
+        self.angle = angle;
+        self
+    }
+
+    /// The same in another size.
+    #[must_use]
+    pub fn scaled(mut self, scale: f32) -> Self {
+        self.scale = scale;
+        self
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        in_range("at.x", self.at.x, -1e5, 1e5)?;
+        in_range("at.y", self.at.y, -1e5, 1e5)?;
+        in_range("angle", self.angle, -1000.0, 1000.0)?;
+        in_range("scale", self.scale, 0.01, 100.0)?;
+        self.controller
+            .validate()
+            .map_err(|error| error.within("controller"))
+    }
+
+    /// Takes a point of the organism's own frame into the world.
+    pub(crate) fn place(&self, point: Vec2, scale: f32) -> Vec2 {
+        self.at + rotate(point * scale, unit_vector(self.angle))
+    }
+}
+
+/// What a spec amounts to.
+#[derive(Clone, Debug)]
+pub(crate) struct Blueprint {
+    pub kind: Kind,
+    /// Its discs and constraints; none for fluid on its own.
+    pub template: Option<Template>,
+    /// Size of the organism relative to the template: templates of equal shape are shared by all sizes.
+    pub scale: f32,
+    /// Whether its topology may change while it lives, so that it cannot lie in a block.
+    pub is_loose: bool,
+    pub fluid: Option<FluidPlan>,
+    pub locomotion: Locomotion,
+    /// Speed when it moves, units/s.
+    pub speed: f32,
+}
+
+/// Fluid that comes with an organism.
+#[derive(Clone, Debug)]
+pub(crate) struct FluidPlan {
+    pub params: FluidParams,
+    /// Places in the organism's own frame.
+    pub points: Vec<Vec2>,
+    /// Whether it is held by a membrane of its own rather than mixing with other fluid of its kind.
+    pub is_enclosed: bool,
+}
+
+impl Blueprint {
+    pub(crate) fn particle_count(&self) -> usize {
+        let nodes = self
+            .template
+            .as_ref()
+            .map_or(0, |template| template.nodes().len());
+        nodes + self.fluid.as_ref().map_or(0, |fluid| fluid.points.len())
+    }
+
+    fn extent(&self) -> f32 {
+        let body = self
+            .template
+            .as_ref()
+            .map_or(0.0, |template| template.extent() * self.scale);
+        self.fluid
+            .iter()
+            .flat_map(|fluid| {
+                fluid
+                    .points
+                    .iter()
+                    .map(|p| p.length() + 0.5 * fluid.params.spacing)
+            })
+            .fold(body, |far, reach| if reach > far { reach } else { far })
+    }
+}
+
+/// Where the particles of an organism lie in the store.
+#[derive(Clone, Debug)]
+pub(crate) enum Body {
+    /// In one lane of a block. `first` is the particle of slot 0.
+    Lane { block: u32, first: u32 },
+    /// At indices of their own; the constraints are over particle indices.
+    Loose {
+        particles: Vec<u32>,
+        constraints: ConstraintSet,
+    },
+}
+
+impl Body {
+    /// Particle of a node: a slot of a lane, or already an index.
+    pub(crate) fn particle(&self, node: u32) -> u32 {
+        match self {
+            Self::Lane { first, .. } => first + node * LANES as u32,
+            Self::Loose { .. } => node,
+        }
+    }
+}
+
+/// One living organism.
+#[derive(Clone, Debug)]
+pub(crate) struct Organism {
+    pub kind: Kind,
+    pub body: Body,
+    /// Slots in its block; 0 for a loose body.
+    pub slots: u32,
+    /// Nodes of its outline, counter-clockwise.
+    pub outline: Vec<u32>,
+    /// Index of the fluid that it holds or consists of.
+    pub fluid: Option<u32>,
+    /// Its particles in that fluid, in the order in which they came.
+    pub fluid_particles: Vec<u32>,
+    pub locomotion: Locomotion,
+    pub speed: f32,
+    pub controller: Controller,
+    pub rng: Rng,
+    /// Area that it had when it was spawned, square units; changes only by scaling (seed, 3.3.1).
+    pub spawn_area: f32,
+    /// Where it was spawned.
+    pub home: Vec2,
+    pub is_quarantined: bool,
+}
+
+impl Organism {
+    /// Particles of the outline, counter-clockwise.
+    pub(crate) fn outline_particles(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        self.outline.iter().map(|&node| self.body.particle(node))
+    }
+
+    /// All its particles: those of the body by node, then the fluid.
+    pub(crate) fn particles(&self) -> impl Iterator<Item = u32> + '_ {
+        let loose: &[u32] = match &self.body {
+            Body::Lane { .. } => &[],
+            Body::Loose { particles, .. } => particles,
+        };
+        let in_lane = (0..self.slots).map(|slot| self.body.particle(slot));
+        in_lane
+            .chain(loose.iter().copied())
+            .chain(self.fluid_particles.iter().copied())
+    }
+}

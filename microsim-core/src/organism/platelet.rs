@@ -1,0 +1,228 @@
+//! Platelet (seed, 3.1.4): a soft obstacle that returns to its place.
+//!
+//! ```text
+//!      o o o          o  satellites: one rigid ring, a spring to the nucleus each
+//!    o  ___  o        ( ) interlayer: almost reaches the ring and holds it out; concentric with the nucleus
+//!   o  / N \  o ~~~ x     N  nucleus, x  anchor: a contracting rope leads to it
+//!    o  ---  o
+//!      o o o
+//! ```
+
+use super::{Blueprint, Kind, OrganismSpec};
+use crate::behavior::Locomotion;
+use crate::error::{Error, count_in_range, in_range};
+use crate::geometry::ring::{ellipse, unit_vector};
+use crate::particle::CollisionGroups;
+use crate::solver::{Anchor, Distance, MinDistance};
+use crate::template::{Node, Role, Template, TemplateBuilder};
+use glam::Vec2;
+
+/// Share of a satellite's radius that stays free between ring and interlayer.
+const INTERLAYER_GAP: f32 = 0.1;
+
+/// A soft obstacle on a rope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateletSpec {
+    /// Outer radius, units, 0.2 to 100.
+    pub radius: f32,
+    /// Satellites in the ring, 8 to 64. With nucleus and interlayer, 18 to 28 give the seed's 20 to 30 bodies.
+    pub satellites: u32,
+    /// Mass of the nucleus and of the interlayer, each, in satellites, 1 to 1000.
+    pub core_mass: f32,
+    /// Inverse stiffness of the spokes (length/force), 0 to 1.
+    pub spoke_compliance: f32,
+    /// Inverse stiffness with which the rope contracts, 0 to 10. Larger lets cells push through more easily.
+    pub anchor_compliance: f32,
+    /// Longest that the rope gets, in radii, 0 to 100.
+    pub rope_length: f32,
+}
+
+impl Default for PlateletSpec {
+    fn default() -> Self {
+        Self {
+            radius: 2.5,
+            satellites: 28,
+            core_mass: 40.0,
+            spoke_compliance: 2e-4,
+            anchor_compliance: 5e-3,
+            rope_length: 4.0,
+        }
+    }
+}
+
+impl From<PlateletSpec> for OrganismSpec {
+    fn from(spec: PlateletSpec) -> Self {
+        Self::Platelet(spec)
+    }
+}
+
+impl PlateletSpec {
+    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
+        in_range("radius", self.radius, 0.2, 100.0)?;
+        count_in_range("satellites", self.satellites, 8, 64)?;
+        in_range("core_mass", self.core_mass, 1.0, 1000.0)?;
+        in_range("spoke_compliance", self.spoke_compliance, 0.0, 1.0)?;
+        in_range("anchor_compliance", self.anchor_compliance, 0.0, 10.0)?;
+        in_range("rope_length", self.rope_length, 0.0, 100.0)?;
+        Ok(Blueprint {
+            kind: Kind::Platelet,
+            template: Some(self.template()?),
+            scale: self.radius,
+            is_loose: false,
+            fluid: None,
+            locomotion: Locomotion::None,
+            speed: 0.0,
+        })
+    }
+
+    /// The platelet of outer radius 1.
+    fn template(&self) -> Result<Template, Error> {
+        // Neighbouring satellites touch: r = R sin(pi / n), and R + r = 1.
+        let half_angle_sine = unit_vector(std::f32::consts::PI / self.satellites as f32).y;
+        let ring_radius = 1.0 / (1.0 + half_angle_sine);
+        let satellite_radius = ring_radius * half_angle_sine;
+        let mut builder = Template::builder();
+        let core = Core::add(
+            &mut builder,
+            self.core_mass,
+            ring_radius - (1.0 + INTERLAYER_GAP) * satellite_radius,
+        );
+        let satellite = |position| Node {
+            role: Role::Membrane,
+            ..Node::disc(position, 1.0, satellite_radius)
+        };
+        let points = ellipse(Vec2::splat(ring_radius), self.satellites as usize);
+        let ring: Vec<u32> = points
+            .into_iter()
+            .map(|at| builder.node(satellite(at)))
+            .collect();
+        builder.ring(&ring, 0.0).outline(&ring);
+        let held_out = ring_radius - INTERLAYER_GAP * satellite_radius;
+        for &a in &ring {
+            let compliance = self.spoke_compliance;
+            builder.distance(Distance {
+                a,
+                b: core.nucleus,
+                rest_length: ring_radius,
+                compliance,
+                damping: 0.0,
+            });
+            builder.min_distance(MinDistance {
+                a,
+                b: core.interlayer,
+                min_length: held_out,
+            });
+        }
+        builder.anchor(Anchor {
+            node: core.nucleus,
+            anchor: core.anchor,
+            rest_length: 0.0,
+            max_length: self.rope_length,
+            compliance: self.anchor_compliance,
+        });
+        builder.build()
+    }
+}
+
+/// What lies at the centre.
+struct Core {
+    nucleus: u32,
+    interlayer: u32,
+    anchor: u32,
+}
+
+impl Core {
+    fn add(builder: &mut TemplateBuilder, mass: f32, interlayer_radius: f32) -> Self {
+        let inside = |radius, role| Node {
+            role,
+            ..Node::disc(Vec2::ZERO, mass, radius)
+        };
+        let nucleus = Node {
+            groups: CollisionGroups::NONE,
+            ..inside(0.4, Role::Nucleus)
+        };
+        let nucleus = builder.node(nucleus);
+        let interlayer = builder.node(inside(interlayer_radius, Role::Interlayer));
+        let anchor = builder.node(Node::fixed(Vec2::ZERO));
+        builder.link(nucleus, interlayer, 0.0);
+        Self {
+            nucleus,
+            interlayer,
+            anchor,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn template() -> Template {
+        PlateletSpec::default()
+            .blueprint()
+            .unwrap()
+            .template
+            .unwrap()
+    }
+
+    #[test]
+    fn t48_has_twenty_to_thirty_dynamic_bodies() {
+        for satellites in [18, 28] {
+            let spec = PlateletSpec {
+                satellites,
+                ..PlateletSpec::default()
+            };
+            let template = spec.blueprint().unwrap().template.unwrap();
+            let dynamic = template
+                .nodes()
+                .iter()
+                .filter(|node| node.mass.is_finite())
+                .count();
+            assert!((20..=30).contains(&dynamic), "{dynamic} bodies");
+        }
+    }
+
+    #[test]
+    fn t45_ring_nucleus_and_interlayer() {
+        let template = template();
+        let with = |role| {
+            template
+                .nodes()
+                .iter()
+                .filter(move |node| node.role == role)
+                .collect::<Vec<_>>()
+        };
+        let (satellites, nucleus, interlayer) = (
+            with(Role::Membrane),
+            with(Role::Nucleus),
+            with(Role::Interlayer),
+        );
+        assert_eq!(
+            (satellites.len(), nucleus.len(), interlayer.len()),
+            (28, 1, 1)
+        );
+        assert_eq!(nucleus[0].position, interlayer[0].position, "concentric");
+        assert!(
+            !nucleus[0].groups.meets(interlayer[0].groups),
+            "no collision with the nucleus"
+        );
+        let ring_radius = satellites[0].position.length();
+        let gap = ring_radius - satellites[0].radius - interlayer[0].radius;
+        assert!(
+            gap > 0.0 && gap < 0.2 * satellites[0].radius,
+            "almost reaches the satellites, gap {gap}"
+        );
+        assert_eq!(template.constraints().min_distances.len(), 28);
+        assert!((template.extent() - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn t46_nucleus_hangs_on_a_static_anchor_by_a_contracting_rope() {
+        let template = template();
+        let anchor = template.constraints().anchors[0];
+        let post = template.nodes()[anchor.anchor as usize];
+        assert_eq!(template.nodes()[anchor.node as usize].role, Role::Nucleus);
+        assert!(post.mass.is_infinite() && post.groups == CollisionGroups::NONE);
+        assert!(anchor.rest_length == 0.0 && anchor.max_length == 4.0 && anchor.compliance > 0.0);
+    }
+}

@@ -1,0 +1,219 @@
+//! The one particle store: everything that moves is a disc in these arrays.
+//!
+//! Plain `f32` columns, so that a kernel over eight neighbouring entries compiles to vector instructions. Two layouts
+//! share the one index space, and only [`crate::solver`] knows the difference:
+//!
+//! ```text
+//! block: eight instances of one template, slot-major         loose: one index each, reused after removal
+//!   base + slot * 8 + lane                                     membranes and cytoplasm that grow, free fluid
+//!   slot 0: |0 1 2 3 4 5 6 7|  slot 1: |0 1 2 3 4 5 6 7| ...   | . | . | . |
+//! ```
+//!
+//! A dead entry (an empty lane, a freed index) has inverse mass 0, owner [`NO_OWNER`] and belongs to no collision group.
+
+use glam::Vec2;
+
+/// Owner of an entry that holds no live particle.
+pub(crate) const NO_OWNER: u32 = u32::MAX;
+
+/// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CollisionGroups {
+    /// Groups that this particle is in, one bit each.
+    pub memberships: u32,
+    /// Groups that it collides with, one bit each.
+    pub filter: u32,
+}
+
+impl CollisionGroups {
+    /// In every group, colliding with every group.
+    pub const ALL: Self = Self {
+        memberships: u32::MAX,
+        filter: u32::MAX,
+    };
+    /// Colliding with nothing.
+    pub const NONE: Self = Self {
+        memberships: 0,
+        filter: 0,
+    };
+
+    /// Whether particles of these two groups collide.
+    #[must_use]
+    pub fn meets(self, other: Self) -> bool {
+        self.memberships & other.filter != 0 && other.memberships & self.filter != 0
+    }
+}
+
+/// Surface of a particle in contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Coulomb friction coefficient, 0 to 10; of two materials the geometric mean counts.
+    pub friction: f32,
+    /// Fraction of the approach speed kept after an impact, 0 to 1; of two materials the larger counts.
+    pub restitution: f32,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            friction: 0.2,
+            restitution: 0.0,
+        }
+    }
+}
+
+/// One particle, as it is put into the store.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Particle {
+    pub position: Vec2,
+    pub velocity: Vec2,
+    pub inv_mass: f32,
+    pub radius: f32,
+    pub groups: CollisionGroups,
+    pub material: Material,
+    /// What the particle is to its owner; the solver does not read it.
+    pub role: u8,
+    /// Collides with particles of its own owner too.
+    pub self_collides: bool,
+    pub owner: u32,
+    /// 0, or one plus the index of the fluid that it belongs to.
+    pub fluid: u32,
+}
+
+/// The store: one column per property, all of the same length.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Particles {
+    /// Position, length units.
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
+    /// Position at the start of the substep.
+    pub prev_x: Vec<f32>,
+    pub prev_y: Vec<f32>,
+    /// Velocity, length units per second.
+    pub vx: Vec<f32>,
+    pub vy: Vec<f32>,
+    /// 1 / mass; 0 for what nothing can move.
+    pub inv_mass: Vec<f32>,
+    pub radius: Vec<f32>,
+    pub groups: Vec<CollisionGroups>,
+    pub material: Vec<Material>,
+    pub role: Vec<u8>,
+    pub self_collides: Vec<bool>,
+    pub owner: Vec<u32>,
+    pub fluid: Vec<u32>,
+    /// Freed loose indices, the last freed first.
+    free: Vec<u32>,
+}
+
+impl Particles {
+    /// Number of entries, dead ones included.
+    pub(crate) fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether entry `i` holds a live particle.
+    pub(crate) fn is_live(&self, i: usize) -> bool {
+        self.owner[i] != NO_OWNER
+    }
+
+    pub(crate) fn position(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
+    }
+
+    pub(crate) fn velocity(&self, i: usize) -> Vec2 {
+        Vec2::new(self.vx[i], self.vy[i])
+    }
+
+    /// Puts one loose particle into the store.
+    pub(crate) fn insert(&mut self, particle: &Particle) -> u32 {
+        let index = self.free.pop().unwrap_or_else(|| self.extend(1));
+        self.set(index as usize, particle);
+        index
+    }
+
+    /// Frees a loose particle; its index is handed out again.
+    pub(crate) fn remove(&mut self, index: u32) {
+        self.kill(index as usize);
+        self.free.push(index);
+    }
+
+    /// Appends `count` dead entries and returns the first one's index.
+    pub(crate) fn extend(&mut self, count: usize) -> u32 {
+        let first = self.len();
+        let len = first + count;
+        for column in [
+            &mut self.x,
+            &mut self.y,
+            &mut self.prev_x,
+            &mut self.prev_y,
+            &mut self.vx,
+            &mut self.vy,
+            &mut self.inv_mass,
+            &mut self.radius,
+        ] {
+            column.resize(len, 0.0);
+        }
+        self.groups.resize(len, CollisionGroups::NONE);
+        self.material.resize(len, Material::default());
+        self.role.resize(len, 0);
+        self.self_collides.resize(len, false);
+        self.owner.resize(len, NO_OWNER);
+        self.fluid.resize(len, 0);
+        u32::try_from(first).unwrap_or(NO_OWNER)
+    }
+
+    /// Overwrites entry `i`.
+    pub(crate) fn set(&mut self, i: usize, particle: &Particle) {
+        self.x[i] = particle.position.x;
+        self.y[i] = particle.position.y;
+        self.prev_x[i] = particle.position.x;
+        self.prev_y[i] = particle.position.y;
+        self.vx[i] = particle.velocity.x;
+        self.vy[i] = particle.velocity.y;
+        self.inv_mass[i] = particle.inv_mass;
+        self.radius[i] = particle.radius;
+        self.groups[i] = particle.groups;
+        self.material[i] = particle.material;
+        self.role[i] = particle.role;
+        self.self_collides[i] = particle.self_collides;
+        self.owner[i] = particle.owner;
+        self.fluid[i] = particle.fluid;
+    }
+
+    /// Makes entry `i` dead without freeing its index (a lane of a block).
+    pub(crate) fn kill(&mut self, i: usize) {
+        self.vx[i] = 0.0;
+        self.vy[i] = 0.0;
+        self.inv_mass[i] = 0.0;
+        self.groups[i] = CollisionGroups::NONE;
+        self.owner[i] = NO_OWNER;
+        self.fluid[i] = 0;
+    }
+
+    /// Stops entry `i` where it is for good: no velocity, no collisions, infinite mass.
+    pub(crate) fn freeze(&mut self, i: usize, at: Vec2) {
+        self.x[i] = at.x;
+        self.y[i] = at.y;
+        self.prev_x[i] = at.x;
+        self.prev_y[i] = at.y;
+        self.vx[i] = 0.0;
+        self.vy[i] = 0.0;
+        self.inv_mass[i] = 0.0;
+        self.groups[i] = CollisionGroups::NONE;
+    }
+
+    /// Where entry `i` was when the substep began.
+    pub(crate) fn last_position(&self, i: usize) -> Vec2 {
+        Vec2::new(self.prev_x[i], self.prev_y[i])
+    }
+
+    /// Freed loose indices, in the reverse order in which they are handed out again.
+    pub(crate) fn free_indices(&self) -> &[u32] {
+        &self.free
+    }
+
+    /// Indices of the live particles, ascending.
+    pub(crate) fn live(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.len()).filter(|&i| self.is_live(i))
+    }
+}

@@ -1,0 +1,85 @@
+//! Anchor constraint: a rope from a node to a static point that tends to contract (seed, 3.1.4).
+//!
+//! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
+//! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
+
+use super::lanes::{Pair, Span, ratio};
+use crate::particle::Particles;
+
+/// A node held to a static anchor by a contracting rope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// The held node.
+    pub node: u32,
+    /// The static node that it is held to (mass infinite).
+    pub anchor: u32,
+    /// Length to which the rope contracts, units, at least 0.
+    pub rest_length: f32,
+    /// Length beyond which it does not stretch, units, at least `rest_length`.
+    pub max_length: f32,
+    /// Inverse stiffness of the contraction (length/force), at least 0.
+    pub compliance: f32,
+}
+
+#[inline(always)]
+pub(crate) fn project<const L: usize>(
+    list: &[Anchor],
+    span: Span<L>,
+    particles: &mut Particles,
+    h: f32,
+) {
+    for c in list {
+        let alpha = c.compliance / (h * h);
+        contract(c, c.rest_length, alpha, span, particles);
+        contract(c, c.max_length, 0.0, span, particles);
+    }
+}
+
+#[inline(always)]
+fn contract<const L: usize>(
+    c: &Anchor,
+    length: f32,
+    alpha: f32,
+    span: Span<L>,
+    particles: &mut Particles,
+) {
+    let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
+    let mut multiplier = [0.0; L];
+    for l in 0..L {
+        let excess = pair.length[l] - length * span.scale[l];
+        let active = if excess > 0.0 { excess } else { 0.0 };
+        multiplier[l] = ratio(-active, pair.weight(l) + alpha);
+    }
+    pair.push(particles, multiplier);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::line;
+    use super::*;
+
+    const ANCHOR: Anchor = Anchor {
+        node: 1,
+        anchor: 0,
+        rest_length: 0.0,
+        max_length: 2.0,
+        compliance: 1e-4,
+    };
+
+    #[test]
+    fn pulls_home_softly_and_stops_hard() {
+        let mut p = line(1.0, [0.0, 1.0]);
+        project(&[ANCHOR], Span::LOOSE, &mut p, 0.01);
+        assert_eq!((p.x[0], p.x[1]), (0.0, 0.5));
+        let mut p = line(100.0, [0.0, 1.0]);
+        project(&[ANCHOR], Span::LOOSE, &mut p, 0.001);
+        assert_eq!(p.x[1], 2.0);
+    }
+
+    #[test]
+    fn node_at_its_anchor_stays() {
+        let mut p = line(0.0, [0.0, 1.0]);
+        project(&[ANCHOR], Span::LOOSE, &mut p, 0.01);
+        assert_eq!((p.x[1], p.y[1]), (0.0, 0.0));
+    }
+}

@@ -1,0 +1,130 @@
+//! Blocks: eight instances of one template side by side in the particle store, solved in lanes.
+
+use super::ConstraintSet;
+use super::lanes::{LANES, Span};
+use crate::particle::{NO_OWNER, Particles};
+
+/// Eight instances of a template; empty lanes hold dead particles.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// Index of the template in the world.
+    pub template: u32,
+    /// First particle of slot 0.
+    pub base: u32,
+    /// Owner in each lane, or [`NO_OWNER`].
+    pub owner: [u32; LANES],
+    /// Size of each instance relative to the template.
+    pub scale: [f32; LANES],
+}
+
+impl Block {
+    /// A block with eight empty lanes, its `slots * 8` particles appended to the store.
+    pub(crate) fn new(template: u32, slots: usize, particles: &mut Particles) -> Self {
+        let base = particles.extend(slots * LANES);
+        Self {
+            template,
+            base,
+            owner: [NO_OWNER; LANES],
+            scale: [1.0; LANES],
+        }
+    }
+
+    /// Particle of a slot in a lane.
+    pub(crate) fn particle(&self, slot: u32, lane: usize) -> u32 {
+        self.base + slot * LANES as u32 + lane as u32
+    }
+
+    /// The first empty lane.
+    pub(crate) fn free_lane(&self) -> Option<usize> {
+        self.owner.iter().position(|&owner| owner == NO_OWNER)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.owner.iter().all(|&owner| owner == NO_OWNER)
+    }
+
+    /// Projects the template's constraints in all eight lanes.
+    pub(crate) fn project(&self, constraints: &ConstraintSet, particles: &mut Particles, h: f32) {
+        constraints.project(
+            Span {
+                base: self.base as usize,
+                scale: self.scale,
+            },
+            particles,
+            h,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Distance;
+    use super::super::testing::disc;
+    use super::*;
+    use glam::Vec2;
+
+    fn spring_chain(nodes: u32) -> ConstraintSet {
+        let link = |a| Distance {
+            a,
+            b: a + 1,
+            rest_length: 1.0,
+            compliance: 1e-4,
+            damping: 0.01,
+        };
+        ConstraintSet {
+            distances: (0..nodes - 1).map(link).collect(),
+            ..ConstraintSet::default()
+        }
+    }
+
+    fn wobbly(slot: u32, lane: usize) -> Vec2 {
+        Vec2::new(
+            slot as f32 * 1.3 + lane as f32 * 0.01,
+            (slot as f32 * 0.7 + lane as f32) * 0.1,
+        )
+    }
+
+    #[test]
+    fn lanes_give_the_same_bits_as_the_generic_path() {
+        let constraints = spring_chain(5);
+        let mut in_lanes = Particles::default();
+        let mut block = Block::new(0, 5, &mut in_lanes);
+        block.owner = [0; LANES];
+        let mut loose = vec![Particles::default(); LANES];
+        for lane in 0..LANES {
+            for slot in 0..5 {
+                in_lanes.set(
+                    block.particle(slot, lane) as usize,
+                    &disc(wobbly(slot, lane), 1.0),
+                );
+                loose[lane].insert(&disc(wobbly(slot, lane), 1.0));
+            }
+        }
+        for _ in 0..10 {
+            block.project(&constraints, &mut in_lanes, 0.01);
+            loose
+                .iter_mut()
+                .for_each(|p| constraints.project(Span::LOOSE, p, 0.01));
+        }
+        for lane in 0..LANES {
+            for slot in 0..5 {
+                let i = block.particle(slot, lane) as usize;
+                assert_eq!(
+                    in_lanes.position(i),
+                    loose[lane].position(slot as usize),
+                    "slot {slot} lane {lane}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_lane_stays_as_it_is() {
+        let mut particles = Particles::default();
+        let block = Block::new(0, 5, &mut particles);
+        block.project(&spring_chain(5), &mut particles, 0.01);
+        assert!(
+            block.is_empty() && (0..particles.len()).all(|i| particles.position(i) == Vec2::ZERO)
+        );
+    }
+}

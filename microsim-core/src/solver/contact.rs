@@ -1,0 +1,218 @@
+//! Contacts between discs, with friction and restitution.
+//!
+//! `C = |x_j - x_i| - (r_i + r_j) >= 0`. Friction moves both along the contact by at most `mu` times the depth (Macklin
+//! et al. 2014, "Unified Particle Physics", section 6.1, static and kinetic coefficient equal); restitution is a velocity
+//! pass after the substep (Mueller et al. 2020, "Detailed Rigid Body Simulation", eq. 34).
+
+use super::lanes::ratio;
+use crate::particle::{Material, Particles};
+use glam::Vec2;
+
+/// Two discs near enough that they may touch during the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    pub i: u32,
+    pub j: u32,
+    pub friction: f32,
+    pub restitution: f32,
+    /// Touched in any substep since the pair was found.
+    pub touched: bool,
+}
+
+/// An impact of this substep that has to bounce.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Impact {
+    i: u32,
+    /// The other disc; `None` if it is a static obstacle.
+    j: Option<u32>,
+    /// From `i` to the other.
+    normal: Vec2,
+    /// Speed of separation that restitution asks for.
+    rebound: f32,
+}
+
+/// Friction and restitution of two surfaces on each other.
+pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
+    let restitution = if a.restitution > b.restitution {
+        a.restitution
+    } else {
+        b.restitution
+    };
+    ((a.friction * b.friction).sqrt(), restitution)
+}
+
+/// Pushes overlapping discs apart.
+pub(crate) fn project(
+    contacts: &mut [Contact],
+    particles: &mut Particles,
+    impacts: &mut Vec<Impact>,
+) {
+    for contact in contacts {
+        let (i, j) = (contact.i as usize, contact.j as usize);
+        let (dx, dy) = (
+            particles.x[j] - particles.x[i],
+            particles.y[j] - particles.y[i],
+        );
+        let reach = particles.radius[i] + particles.radius[j];
+        let squared = dx * dx + dy * dy;
+        if squared < reach * reach {
+            contact.touched = true;
+            separate(
+                contact,
+                Vec2::new(dx, dy),
+                squared,
+                reach,
+                particles,
+                impacts,
+            );
+        }
+    }
+}
+
+fn separate(
+    c: &Contact,
+    between: Vec2,
+    squared: f32,
+    reach: f32,
+    p: &mut Particles,
+    impacts: &mut Vec<Impact>,
+) {
+    let (i, j) = (c.i as usize, c.j as usize);
+    let length = squared.sqrt();
+    let normal = if length > 1e-6 {
+        between / length
+    } else {
+        Vec2::X
+    };
+    let (wi, wj) = (p.inv_mass[i], p.inv_mass[j]);
+    let depth = reach - length;
+    if c.restitution > 0.0 {
+        let approach = (p.velocity(j) - p.velocity(i)).dot(normal);
+        if approach < 0.0 {
+            impacts.push(Impact {
+                i: c.i,
+                j: Some(c.j),
+                normal,
+                rebound: -c.restitution * approach,
+            });
+        }
+    }
+    let push = normal * ratio(depth, wi + wj);
+    shift(p, i, -push * wi);
+    shift(p, j, push * wj);
+    let slip = moved(p, j) - moved(p, i);
+    let rub = friction(slip, normal, c.friction * depth) * ratio(1.0, wi + wj);
+    shift(p, i, -rub * wi);
+    shift(p, j, rub * wj);
+}
+
+/// The move that takes back slip along a surface, by at most `most`.
+pub(crate) fn friction(slip: Vec2, normal: Vec2, most: f32) -> Vec2 {
+    let along = slip - normal * slip.dot(normal);
+    -along * super::ratio_limit(along.length_squared(), most)
+}
+
+pub(crate) fn shift(p: &mut Particles, i: usize, by: Vec2) {
+    p.x[i] += by.x;
+    p.y[i] += by.y;
+}
+
+/// How far particle `i` has moved since the substep began.
+pub(crate) fn moved(p: &Particles, i: usize) -> Vec2 {
+    Vec2::new(p.x[i] - p.prev_x[i], p.y[i] - p.prev_y[i])
+}
+
+impl Impact {
+    /// An impact of particle `i` on a static surface, if it approaches it.
+    pub(crate) fn on_static(p: &Particles, i: u32, normal: Vec2, restitution: f32) -> Option<Self> {
+        let approach = -p.velocity(i as usize).dot(normal);
+        let bounces = restitution > 0.0 && approach < 0.0;
+        bounces.then_some(Self {
+            i,
+            j: None,
+            normal,
+            rebound: -restitution * approach,
+        })
+    }
+}
+
+/// Gives every impact of the substep its speed of separation.
+pub(crate) fn apply_restitution(impacts: &mut Vec<Impact>, p: &mut Particles) {
+    for impact in impacts.drain(..) {
+        let i = impact.i as usize;
+        let (other, wj) = impact.j.map_or((Vec2::ZERO, 0.0), |j| {
+            (p.velocity(j as usize), p.inv_mass[j as usize])
+        });
+        let lacking = impact.rebound - (other - p.velocity(i)).dot(impact.normal);
+        if lacking > 0.0 {
+            let impulse = impact.normal * ratio(lacking, p.inv_mass[i] + wj);
+            p.vx[i] -= impulse.x * p.inv_mass[i];
+            p.vy[i] -= impulse.y * p.inv_mass[i];
+            if let Some(j) = impact.j {
+                p.vx[j as usize] += impulse.x * wj;
+                p.vy[j as usize] += impulse.y * wj;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_pair_laws, line, momentum};
+    use super::*;
+
+    fn touching(friction: f32, restitution: f32) -> Contact {
+        Contact {
+            i: 0,
+            j: 1,
+            friction,
+            restitution,
+            touched: false,
+        }
+    }
+
+    #[test]
+    fn obeys_the_laws_of_a_pair_constraint() {
+        assert_pair_laws(&[0.6], 1.0, |p| {
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new())
+        });
+    }
+
+    #[test]
+    fn discs_apart_are_left_alone_and_not_touched() {
+        let mut p = line(1.2, [1.0, 1.0]);
+        let mut contact = touching(0.5, 0.0);
+        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new());
+        assert!(!contact.touched && p.x[1] == 1.2);
+    }
+
+    #[test]
+    fn friction_takes_back_slip_up_to_mu_times_depth() {
+        for (mu, kept) in [(0.0, 0.3), (0.5, 0.25), (100.0, 0.0)] {
+            let mut p = line(0.9, [0.0, 1.0]);
+            p.y[1] = 0.3;
+            p.x[1] = (0.81f32 - 0.09).sqrt();
+            p.prev_x[1] = p.x[1];
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new());
+            let normal = p.position(1).normalize();
+            let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
+            assert!(slip <= kept + 0.02, "mu {mu}: slip {slip}");
+        }
+    }
+
+    #[test]
+    fn restitution_returns_its_share_of_the_approach_speed() {
+        let mut p = line(0.99, [1.0, 1.0]);
+        p.vx = vec![1.0, -1.0];
+        let mut impacts = Vec::new();
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts);
+        p.vx = vec![0.0, 0.0];
+        apply_restitution(&mut impacts, &mut p);
+        assert!(
+            (p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6,
+            "separation {}",
+            p.vx[1] - p.vx[0]
+        );
+        assert!(impacts.is_empty() && momentum(&p).is_finite());
+    }
+}

@@ -1,0 +1,125 @@
+//! Distance constraint: two nodes keep their rest length, like a spring.
+//!
+//! `C = |x_b - x_a| - l`, gradient `±n`. One XPBD iteration per substep with the multiplier starting at 0
+//! (Macklin, Mueller, Chentanez 2016, eqs. 18 and 26; Macklin et al. 2019, "Small Steps"):
+//!
+//! `lambda = (-C - g n.(dx_b - dx_a)) / ((1 + g)(w_a + w_b) + alpha / h^2)`, with `g = tau / h`,
+//! where `dx` is the move since the substep began.
+
+use super::lanes::{Pair, Span, ratio};
+use crate::particle::Particles;
+
+/// Two nodes at a fixed distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// First node.
+    pub a: u32,
+    /// Second node.
+    pub b: u32,
+    /// Length at rest, units, at least 0.
+    pub rest_length: f32,
+    /// Inverse stiffness (length/force), at least 0; 0 is rigid.
+    pub compliance: f32,
+    /// Damping time (damping coefficient over stiffness), s, 0 to 10; 0 is undamped.
+    pub damping: f32,
+}
+
+#[inline(always)]
+pub(crate) fn project<const L: usize>(
+    list: &[Distance],
+    span: Span<L>,
+    particles: &mut Particles,
+    h: f32,
+) {
+    for c in list {
+        let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
+        let gamma = c.damping / h;
+        let resisted = if c.damping > 0.0 {
+            pair.opening(particles)
+        } else {
+            [0.0; L]
+        };
+        let alpha = c.compliance / (h * h);
+        let mut multiplier = [0.0; L];
+        for l in 0..L {
+            let error = pair.length[l] - c.rest_length * span.scale[l];
+            multiplier[l] = ratio(
+                -error - gamma * resisted[l],
+                (1.0 + gamma) * pair.weight(l) + alpha,
+            );
+        }
+        pair.push(particles, multiplier);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_pair_laws, line};
+    use super::*;
+
+    fn constraint(compliance: f32) -> Distance {
+        Distance {
+            a: 0,
+            b: 1,
+            rest_length: 1.0,
+            compliance,
+            damping: 0.0,
+        }
+    }
+
+    #[test]
+    fn obeys_the_laws_of_a_pair_constraint() {
+        for compliance in [0.0, 1e-3] {
+            assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
+                project(&[constraint(compliance)], Span::LOOSE, p, 0.01)
+            });
+        }
+    }
+
+    #[test]
+    fn rigid_is_satisfied_at_once_and_shared_by_mass() {
+        let mut p = line(2.0, [1.0, 0.5]);
+        project(&[constraint(0.0)], Span::LOOSE, &mut p, 0.01);
+        assert!((p.x[1] - p.x[0] - 1.0).abs() < 1e-6);
+        assert!(
+            (p.x[0] - 2.0 / 3.0).abs() < 1e-6,
+            "the light one moves twice as far, got {}",
+            p.x[0]
+        );
+    }
+
+    #[test]
+    fn compliance_leaves_the_error_that_the_formula_says() {
+        let mut p = line(2.0, [1.0, 1.0]);
+        project(&[constraint(1e-4)], Span::LOOSE, &mut p, 0.01);
+        // alpha / h^2 = 1, so a third of the error stays.
+        assert!(
+            (p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6,
+            "length {}",
+            p.x[1] - p.x[0]
+        );
+    }
+
+    #[test]
+    fn damping_resists_motion_along_the_line() {
+        let mut free = line(2.0, [1.0, 1.0]);
+        free.prev_x[1] = 1.9;
+        let mut damped = free.clone();
+        let soft = Distance {
+            rest_length: 2.0,
+            ..constraint(1e-4)
+        };
+        project(&[soft], Span::LOOSE, &mut free, 0.01);
+        project(
+            &[Distance {
+                damping: 0.02,
+                ..soft
+            }],
+            Span::LOOSE,
+            &mut damped,
+            0.01,
+        );
+        assert_eq!(free.x[1], 2.0);
+        assert!(damped.x[1] < 2.0 && damped.x[1] > 1.9);
+    }
+}

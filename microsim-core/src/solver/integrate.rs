@@ -1,0 +1,114 @@
+//! The two ends of a substep: where particles would go, and what velocity their corrected positions amount to.
+
+use super::ratio_limit;
+use crate::particle::Particles;
+use glam::Vec2;
+
+/// `v += h g`, limited to the speed limit; `x += h v`, for everything that can move.
+pub(crate) fn predict_positions(particles: &mut Particles, gravity: Vec2, max_speed: f32, h: f32) {
+    let Particles {
+        x,
+        y,
+        prev_x,
+        prev_y,
+        vx,
+        vy,
+        inv_mass,
+        ..
+    } = particles;
+    let columns = x
+        .iter_mut()
+        .zip(y)
+        .zip(prev_x.iter_mut().zip(prev_y))
+        .zip(vx.iter_mut().zip(vy))
+        .zip(inv_mass);
+    for ((((x, y), (prev_x, prev_y)), (vx, vy)), inv_mass) in columns {
+        let moves = if *inv_mass > 0.0 { h } else { 0.0 };
+        *vx += moves * gravity.x;
+        *vy += moves * gravity.y;
+        let limit = ratio_limit(*vx * *vx + *vy * *vy, max_speed);
+        *vx *= limit;
+        *vy *= limit;
+        *prev_x = *x;
+        *prev_y = *y;
+        *x += moves * *vx;
+        *y += moves * *vy;
+    }
+}
+
+/// `v = (x - x_prev) / h`, damped. A particle that the projections moved farther than the speed limit allows is moved
+/// back along its way, so that nothing travels farther in a step than pairs were searched for.
+pub(crate) fn update_velocities(particles: &mut Particles, damping: f32, max_speed: f32, h: f32) {
+    let keep = 1.0 / (1.0 + damping * h);
+    let (longest, inverse) = (max_speed * h, 1.0 / h);
+    let Particles {
+        x,
+        y,
+        prev_x,
+        prev_y,
+        vx,
+        vy,
+        ..
+    } = particles;
+    let columns = x
+        .iter_mut()
+        .zip(y)
+        .zip(prev_x.iter().zip(prev_y))
+        .zip(vx.iter_mut().zip(vy));
+    for (((x, y), (prev_x, prev_y)), (vx, vy)) in columns {
+        let (dx, dy) = (*x - *prev_x, *y - *prev_y);
+        let limit = ratio_limit(dx * dx + dy * dy, longest);
+        *x = *prev_x + dx * limit;
+        *y = *prev_y + dy * limit;
+        *vx = dx * limit * inverse * keep;
+        *vy = dy * limit * inverse * keep;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::line;
+    use super::*;
+
+    #[test]
+    fn free_fall_follows_the_closed_form() {
+        let mut p = line(1.0, [1.0, 0.0]);
+        for _ in 0..100 {
+            predict_positions(&mut p, Vec2::new(0.0, -10.0), 1e3, 0.01);
+            update_velocities(&mut p, 0.0, 1e3, 0.01);
+        }
+        assert!((p.vy[0] + 10.0).abs() < 1e-2, "v {}", p.vy[0]);
+        assert!((p.y[0] + 5.0).abs() < 0.06, "y {}", p.y[0]);
+        assert_eq!(
+            (p.y[1], p.vy[1]),
+            (0.0, 0.0),
+            "what has no inverse mass does not fall"
+        );
+    }
+
+    #[test]
+    fn nothing_moves_farther_than_the_speed_limit() {
+        let mut p = line(1.0, [1.0, 1.0]);
+        p.vx[0] = 1e6;
+        predict_positions(&mut p, Vec2::ZERO, 5.0, 0.01);
+        p.x[0] += 100.0;
+        update_velocities(&mut p, 0.0, 5.0, 0.01);
+        assert!((p.x[0] - 0.05).abs() < 1e-6, "x {}", p.x[0]);
+        assert!((p.vx[0] - 5.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn damping_takes_its_share_per_second() {
+        let mut p = line(1.0, [1.0, 1.0]);
+        p.vx[0] = 1.0;
+        for _ in 0..1000 {
+            predict_positions(&mut p, Vec2::ZERO, 10.0, 0.001);
+            update_velocities(&mut p, 0.5, 10.0, 0.001);
+        }
+        assert!(
+            (p.vx[0] - (-0.5f64).exp() as f32).abs() < 1e-3,
+            "v {}",
+            p.vx[0]
+        );
+    }
+}

@@ -1,0 +1,147 @@
+//! Lanes: one kernel for eight bodies of a block at once, or for one list of loose particles.
+//!
+//! ```text
+//! slot a  |0 1 2 3 4 5 6 7|      L = 8: the same constraint of eight instances of a template; the inner loops over lanes
+//! slot b  |0 1 2 3 4 5 6 7|             compile to vector instructions
+//!         one constraint         L = 1: base 0, so that a slot is a particle index; the generic path, same arithmetic
+//! ```
+//!
+//! The number of lanes is fixed here and never taken from the CPU: results do not depend on it.
+
+use crate::particle::Particles;
+
+/// Instances of a template in one block.
+pub(crate) const LANES: usize = 8;
+
+/// Nearer than this, two points have no direction between them.
+const MIN_LENGTH: f32 = 1e-6;
+
+/// Where the slots of a constraint list lie in the particle store, and how large each instance is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span<const L: usize> {
+    pub base: usize,
+    /// Factor on every length of the instance.
+    pub scale: [f32; L],
+}
+
+impl Span<1> {
+    /// Slots are particle indices.
+    pub(crate) const LOOSE: Self = Self {
+        base: 0,
+        scale: [1.0],
+    };
+}
+
+impl<const L: usize> Span<L> {
+    pub(crate) fn at(&self, slot: u32) -> usize {
+        self.base + slot as usize * L
+    }
+}
+
+/// The `L` entries of a column from `at` on.
+#[inline(always)]
+pub(crate) fn load<const L: usize>(column: &[f32], at: usize) -> [f32; L] {
+    let mut lanes = [0.0; L];
+    lanes.copy_from_slice(&column[at..at + L]);
+    lanes
+}
+
+/// Adds `amount` to the `L` entries of a column from `at` on.
+#[inline(always)]
+pub(crate) fn add<const L: usize>(column: &mut [f32], at: usize, amount: [f32; L]) {
+    for (entry, amount) in column[at..at + L].iter_mut().zip(amount) {
+        *entry += amount;
+    }
+}
+
+/// Two slots and the unit vector from the first to the second, in each lane.
+pub(crate) struct Pair<const L: usize> {
+    a: usize,
+    b: usize,
+    normal_x: [f32; L],
+    normal_y: [f32; L],
+    inv_mass_a: [f32; L],
+    inv_mass_b: [f32; L],
+    pub(crate) length: [f32; L],
+}
+
+impl<const L: usize> Pair<L> {
+    #[inline(always)]
+    pub(crate) fn load(particles: &Particles, a: usize, b: usize) -> Self {
+        let (ax, ay) = (load::<L>(&particles.x, a), load::<L>(&particles.y, a));
+        let (bx, by) = (load::<L>(&particles.x, b), load::<L>(&particles.y, b));
+        let mut pair = Self {
+            a,
+            b,
+            normal_x: [0.0; L],
+            normal_y: [0.0; L],
+            inv_mass_a: load(&particles.inv_mass, a),
+            inv_mass_b: load(&particles.inv_mass, b),
+            length: [0.0; L],
+        };
+        for l in 0..L {
+            let (dx, dy) = (bx[l] - ax[l], by[l] - ay[l]);
+            let length = (dx * dx + dy * dy).sqrt();
+            let inverse = if length > MIN_LENGTH {
+                1.0 / length
+            } else {
+                0.0
+            };
+            pair.length[l] = length;
+            pair.normal_x[l] = dx * inverse;
+            pair.normal_y[l] = dy * inverse;
+        }
+        pair
+    }
+
+    /// Sum of the two inverse masses.
+    #[inline(always)]
+    pub(crate) fn weight(&self, lane: usize) -> f32 {
+        self.inv_mass_a[lane] + self.inv_mass_b[lane]
+    }
+
+    /// How far the two slots have moved apart, along the line between them, since the substep began.
+    #[inline(always)]
+    pub(crate) fn opening(&self, particles: &Particles) -> [f32; L] {
+        let moved = |column: &[f32], prev: &[f32]| {
+            let (at, bt) = (load::<L>(column, self.a), load::<L>(column, self.b));
+            let (ap, bp) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
+            std::array::from_fn::<f32, L, _>(|l| (bt[l] - bp[l]) - (at[l] - ap[l]))
+        };
+        let (dx, dy) = (
+            moved(&particles.x, &particles.prev_x),
+            moved(&particles.y, &particles.prev_y),
+        );
+        std::array::from_fn(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+    }
+
+    /// Moves both slots apart by `multiplier` times their inverse masses (together if it is negative).
+    #[inline(always)]
+    pub(crate) fn push(&self, particles: &mut Particles, multiplier: [f32; L]) {
+        let mut shift = [[0.0; L]; 4];
+        for l in 0..L {
+            let (ma, mb) = (
+                -multiplier[l] * self.inv_mass_a[l],
+                multiplier[l] * self.inv_mass_b[l],
+            );
+            shift[0][l] = ma * self.normal_x[l];
+            shift[1][l] = ma * self.normal_y[l];
+            shift[2][l] = mb * self.normal_x[l];
+            shift[3][l] = mb * self.normal_y[l];
+        }
+        add(&mut particles.x, self.a, shift[0]);
+        add(&mut particles.y, self.a, shift[1]);
+        add(&mut particles.x, self.b, shift[2]);
+        add(&mut particles.y, self.b, shift[3]);
+    }
+}
+
+/// `numerator / denominator`, or 0 where nothing can move.
+#[inline(always)]
+pub(crate) fn ratio(numerator: f32, denominator: f32) -> f32 {
+    if denominator > 0.0 {
+        numerator / denominator
+    } else {
+        0.0
+    }
+}

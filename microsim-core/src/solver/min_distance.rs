@@ -1,0 +1,63 @@
+//! Minimum distance constraint: two nodes never get nearer than a minimum.
+//!
+//! `C = l_min - |x_b - x_a| <= 0`, projected rigidly when violated. Keeps a ring off its interlayer and a membrane from
+//! folding (nodes `i` and `i + 2`).
+
+use super::lanes::{Pair, Span, ratio};
+use crate::particle::Particles;
+
+/// Two nodes at least so far apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MinDistance {
+    /// First node.
+    pub a: u32,
+    /// Second node.
+    pub b: u32,
+    /// Smallest length, units, at least 0.
+    pub min_length: f32,
+}
+
+#[inline(always)]
+pub(crate) fn project<const L: usize>(
+    list: &[MinDistance],
+    span: Span<L>,
+    particles: &mut Particles,
+) {
+    for c in list {
+        let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
+        let mut multiplier = [0.0; L];
+        for l in 0..L {
+            let deficit = c.min_length * span.scale[l] - pair.length[l];
+            let active = if deficit > 0.0 { deficit } else { 0.0 };
+            multiplier[l] = ratio(active, pair.weight(l));
+        }
+        pair.push(particles, multiplier);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_pair_laws, line};
+    use super::*;
+
+    const STANDOFF: MinDistance = MinDistance {
+        a: 0,
+        b: 1,
+        min_length: 1.0,
+    };
+
+    #[test]
+    fn obeys_the_laws_of_a_pair_constraint() {
+        assert_pair_laws(&[0.5], 1.0, |p| project(&[STANDOFF], Span::LOOSE, p));
+    }
+
+    #[test]
+    fn acts_only_when_too_near() {
+        let mut far = line(1.5, [1.0, 1.0]);
+        project(&[STANDOFF], Span::LOOSE, &mut far);
+        assert_eq!(far.x[1], 1.5);
+        let mut near = line(0.5, [1.0, 1.0]);
+        project(&[STANDOFF], Span::LOOSE, &mut near);
+        assert_eq!((near.x[0], near.x[1]), (-0.25, 0.75));
+    }
+}

@@ -1,0 +1,86 @@
+//! What every constraint must obey, as a shared check for the tests of each.
+
+use crate::geometry::ring::unit_vector;
+use crate::particle::{CollisionGroups, Material, Particle, Particles};
+use glam::Vec2;
+
+/// A disc of radius 0.5 at rest.
+pub(crate) fn disc(position: Vec2, inv_mass: f32) -> Particle {
+    Particle {
+        position,
+        velocity: Vec2::ZERO,
+        inv_mass,
+        radius: 0.5,
+        groups: CollisionGroups::ALL,
+        material: Material {
+            friction: 0.0,
+            restitution: 0.0,
+        },
+        role: 0,
+        self_collides: false,
+        owner: 0,
+        fluid: 0,
+    }
+}
+
+/// Two particles on the x axis, the first at the origin.
+pub(crate) fn line(distance: f32, inv_mass: [f32; 2]) -> Particles {
+    let mut particles = Particles::default();
+    particles.insert(&disc(Vec2::ZERO, inv_mass[0]));
+    particles.insert(&disc(Vec2::new(distance, 0.0), inv_mass[1]));
+    particles
+}
+
+/// Particles evenly on a circle.
+pub(crate) fn ring(count: usize, radius: f32) -> Particles {
+    let mut particles = Particles::default();
+    for k in 0..count {
+        let angle = std::f32::consts::TAU * k as f32 / count as f32;
+        particles.insert(&disc(unit_vector(angle) * radius, 1.0));
+    }
+    particles
+}
+
+/// Sum of mass times position, which no inner constraint may change.
+pub(crate) fn momentum(particles: &Particles) -> Vec2 {
+    let moving = particles.live().filter(|&i| particles.inv_mass[i] > 0.0);
+    moving
+        .map(|i| particles.position(i) / particles.inv_mass[i])
+        .sum()
+}
+
+/// Checks a pair constraint that asks for `target` between particles 0 and 1: the error shrinks, momentum stays, the
+/// target is a fixed point, and coincident or immovable particles give no NaN.
+pub(crate) fn assert_pair_laws(violated: &[f32], target: f32, project: impl Fn(&mut Particles)) {
+    for &length in violated {
+        let mut p = line(length, [1.0, 0.25]);
+        let before = momentum(&p);
+        project(&mut p);
+        let after = (p.position(1) - p.position(0)).length();
+        assert!(
+            (after - target).abs() < (length - target).abs(),
+            "{length} -> {after}, wanted {target}"
+        );
+        assert!((momentum(&p) - before).length() < 1e-5, "momentum");
+        let mut pinned = line(length, [0.0, 0.0]);
+        project(&mut pinned);
+        assert_eq!(
+            (pinned.x[0], pinned.x[1]),
+            (0.0, length),
+            "pinned particles stay"
+        );
+    }
+    let mut rest = line(target, [1.0, 1.0]);
+    project(&mut rest);
+    assert_eq!(
+        (rest.x[0], rest.x[1]),
+        (0.0, target),
+        "the target is a fixed point"
+    );
+    let mut coincident = line(0.0, [1.0, 1.0]);
+    project(&mut coincident);
+    assert!(
+        coincident.position(0).is_finite() && coincident.position(1).is_finite(),
+        "coincident particles"
+    );
+}

@@ -1,0 +1,374 @@
+//! Templates: the recipe of a body, validated once and shared by all its instances.
+//!
+//! Instances of one template have the same topology, which is what lets eight of them be solved side by side. They may
+//! differ in place, direction and size.
+
+use crate::error::{Error, in_range};
+use crate::particle::{CollisionGroups, Material};
+use crate::solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope, check_ring};
+use glam::Vec2;
+
+/// What a particle is to its organism; for drawing and for rules, not for the solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+#[repr(u8)]
+pub enum Role {
+    /// Anything without a more special role.
+    Plain,
+    /// On the outline: a satellite of the outermost ring or a node of a membrane.
+    Membrane,
+    /// A satellite of an inner ring.
+    InnerRing,
+    /// The heavy centre of a soft body.
+    Nucleus,
+    /// The disc that holds a platelet's ring out.
+    Interlayer,
+    /// A static point that a rope leads to.
+    Anchor,
+    /// Fluid inside a membrane.
+    Cytoplasm,
+    /// Fluid on its own.
+    Fluid,
+}
+
+impl Role {
+    const ALL: [Self; 8] = [
+        Self::Plain,
+        Self::Membrane,
+        Self::InnerRing,
+        Self::Nucleus,
+        Self::Interlayer,
+        Self::Anchor,
+        Self::Cytoplasm,
+        Self::Fluid,
+    ];
+
+    pub(crate) fn from_u8(role: u8) -> Self {
+        Self::ALL.get(role as usize).copied().unwrap_or(Self::Plain)
+    }
+}
+
+/// One particle of a template, in the template's own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Position relative to the instance's place, units, components within ±10 000.
+    pub position: Vec2,
+    /// Mass, 0.000 001 to 1 000 000, or infinite for what nothing moves.
+    pub mass: f32,
+    /// Radius, units, 0 to 1000.
+    pub radius: f32,
+    /// What it collides with; never with particles of its own instance.
+    pub groups: CollisionGroups,
+    /// Its surface.
+    pub material: Material,
+    /// What it is to its organism.
+    pub role: Role,
+}
+
+impl Node {
+    /// A disc of this mass and radius that collides with everything.
+    #[must_use]
+    pub fn disc(position: Vec2, mass: f32, radius: f32) -> Self {
+        let (groups, material) = (CollisionGroups::ALL, Material::default());
+        Self {
+            position,
+            mass,
+            radius,
+            groups,
+            material,
+            role: Role::Plain,
+        }
+    }
+
+    /// A point that nothing moves or touches.
+    #[must_use]
+    pub fn fixed(position: Vec2) -> Self {
+        let (groups, material) = (CollisionGroups::NONE, Material::default());
+        Self {
+            position,
+            mass: f32::INFINITY,
+            radius: 0.0,
+            groups,
+            material,
+            role: Role::Anchor,
+        }
+    }
+
+    fn validate(&self, k: usize) -> Result<(), Error> {
+        let field = |name: &str| format!("nodes[{k}].{name}");
+        in_range(&field("position.x"), self.position.x, -1e4, 1e4)?;
+        in_range(&field("position.y"), self.position.y, -1e4, 1e4)?;
+        if self.mass != f32::INFINITY {
+            in_range(&field("mass"), self.mass, 1e-6, 1e6)?;
+        }
+        in_range(&field("radius"), self.radius, 0.0, 1000.0)?;
+        in_range(
+            &field("material.friction"),
+            self.material.friction,
+            0.0,
+            10.0,
+        )?;
+        in_range(
+            &field("material.restitution"),
+            self.material.restitution,
+            0.0,
+            1.0,
+        )
+    }
+}
+
+/// A validated recipe of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Template {
+    nodes: Vec<Node>,
+    constraints: ConstraintSet,
+    outline: Vec<u32>,
+}
+
+impl Template {
+    /// An empty recipe to add to.
+    #[must_use]
+    pub fn builder() -> TemplateBuilder {
+        TemplateBuilder::default()
+    }
+
+    /// Its particles; a node's index here is its slot.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Its constraints, over slots.
+    #[must_use]
+    pub fn constraints(&self) -> &ConstraintSet {
+        &self.constraints
+    }
+
+    /// Slots of its outline, counter-clockwise; empty if it has none.
+    #[must_use]
+    pub fn outline(&self) -> &[u32] {
+        &self.outline
+    }
+
+    /// Farthest that a disc of it reaches from its place.
+    #[must_use]
+    pub fn extent(&self) -> f32 {
+        self.nodes.iter().fold(0.0, |far, node| {
+            let reach = node.position.length() + node.radius;
+            if reach > far { reach } else { far }
+        })
+    }
+}
+
+/// Collects nodes and constraints; [`TemplateBuilder::build`] checks them.
+///
+/// ```
+/// use microsim_core::{Node, Template, glam::Vec2};
+///
+/// let mut builder = Template::builder();
+/// let a = builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+/// let b = builder.node(Node::disc(Vec2::X, 1.0, 0.5));
+/// builder.link(a, b, 0.0);
+/// let dumbbell = builder.build()?;
+/// assert_eq!(dumbbell.constraints().distances[0].rest_length, 1.0);
+/// # Ok::<(), microsim_core::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct TemplateBuilder {
+    nodes: Vec<Node>,
+    constraints: ConstraintSet,
+    outline: Vec<u32>,
+}
+
+impl TemplateBuilder {
+    /// Adds a particle and returns its slot.
+    pub fn node(&mut self, node: Node) -> u32 {
+        self.nodes.push(node);
+        self.nodes.len() as u32 - 1
+    }
+
+    /// Links two slots at their present distance, with this compliance and no damping.
+    pub fn link(&mut self, a: u32, b: u32, compliance: f32) -> &mut Self {
+        self.spring(a, b, compliance, 0.0)
+    }
+
+    /// Links two slots at their present distance, with this compliance and damping time.
+    pub fn spring(&mut self, a: u32, b: u32, compliance: f32, damping: f32) -> &mut Self {
+        let rest_length = self.distance_between(a, b);
+        self.distance(Distance {
+            a,
+            b,
+            rest_length,
+            compliance,
+            damping,
+        })
+    }
+
+    /// Links the slots of a ring each to the next, at their present distances. Even links come before odd ones: links
+    /// that share no node follow each other, so the processor can overlap them.
+    pub fn ring(&mut self, ring: &[u32], compliance: f32) -> &mut Self {
+        for parity in 0..2 {
+            for k in (parity..ring.len()).step_by(2) {
+                self.link(ring[k], ring[(k + 1) % ring.len()], compliance);
+            }
+        }
+        self
+    }
+
+    /// Adds a distance constraint.
+    pub fn distance(&mut self, constraint: Distance) -> &mut Self {
+        self.constraints.distances.push(constraint);
+        self
+    }
+
+    /// Adds a rope.
+    pub fn rope(&mut self, constraint: Rope) -> &mut Self {
+        self.constraints.ropes.push(constraint);
+        self
+    }
+
+    /// Adds a minimum distance.
+    pub fn min_distance(&mut self, constraint: MinDistance) -> &mut Self {
+        self.constraints.min_distances.push(constraint);
+        self
+    }
+
+    /// Adds a contracting rope to a static node.
+    pub fn anchor(&mut self, constraint: Anchor) -> &mut Self {
+        self.constraints.anchors.push(constraint);
+        self
+    }
+
+    /// Adds an area constraint.
+    pub fn area(&mut self, constraint: Area) -> &mut Self {
+        self.constraints.areas.push(constraint);
+        self
+    }
+
+    /// Declares the outline: slots, counter-clockwise.
+    pub fn outline(&mut self, outline: &[u32]) -> &mut Self {
+        self.outline = outline.to_vec();
+        self
+    }
+
+    /// Checks everything and returns the template.
+    ///
+    /// # Errors
+    /// Names the node or constraint that is out of range or refers to a slot that does not exist.
+    pub fn build(self) -> Result<Template, Error> {
+        let Self {
+            nodes,
+            constraints,
+            outline,
+        } = self;
+        if nodes.is_empty() || nodes.len() > 10_000 {
+            return Err(Error::reference("nodes", "1 to 10000 nodes"));
+        }
+        nodes
+            .iter()
+            .enumerate()
+            .try_for_each(|(k, node)| node.validate(k))?;
+        constraints.validate(nodes.len())?;
+        if !outline.is_empty() {
+            check_ring(&outline, nodes.len(), "outline")?;
+        }
+        Ok(Template {
+            nodes,
+            constraints,
+            outline,
+        })
+    }
+
+    fn distance_between(&self, a: u32, b: u32) -> f32 {
+        match (self.nodes.get(a as usize), self.nodes.get(b as usize)) {
+            (Some(a), Some(b)) => (b.position - a.position).length(),
+            _ => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+
+    fn two_nodes() -> TemplateBuilder {
+        let mut builder = Template::builder();
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+        builder.node(Node::disc(Vec2::new(0.0, 2.0), 1.0, 0.5));
+        builder
+    }
+
+    #[test]
+    fn links_rest_at_the_present_distance() {
+        let mut builder = two_nodes();
+        builder.link(0, 1, 1e-4);
+        let template = builder.build().unwrap();
+        assert_eq!(template.constraints().distances[0].rest_length, 2.0);
+        assert_eq!(template.extent(), 2.5);
+    }
+
+    #[test]
+    fn every_bad_input_is_refused_by_name() {
+        let refuse = |change: &dyn Fn(&mut TemplateBuilder), field: &str| {
+            let mut builder = two_nodes();
+            change(&mut builder);
+            assert_eq!(builder.build().unwrap_err().field(), field);
+        };
+        refuse(
+            &|b| drop(b.node(Node::disc(Vec2::NAN, 1.0, 0.5))),
+            "nodes[2].position.x",
+        );
+        refuse(
+            &|b| drop(b.node(Node::disc(Vec2::ZERO, 0.0, 0.5))),
+            "nodes[2].mass",
+        );
+        refuse(
+            &|b| drop(b.node(Node::disc(Vec2::ZERO, 1.0, -0.5))),
+            "nodes[2].radius",
+        );
+        refuse(&|b| drop(b.link(0, 7, 0.0)), "distances[0].a");
+        refuse(&|b| drop(b.link(1, 1, 0.0)), "distances[0].a");
+        refuse(&|b| drop(b.link(0, 1, f32::NAN)), "distances[0].compliance");
+        refuse(
+            &|b| {
+                drop(b.rope(Rope {
+                    a: 0,
+                    b: 1,
+                    max_length: -1.0,
+                }))
+            },
+            "ropes[0].max_length",
+        );
+        refuse(
+            &|b| {
+                drop(b.min_distance(MinDistance {
+                    a: 0,
+                    b: 9,
+                    min_length: 1.0,
+                }))
+            },
+            "min_distances[0].a",
+        );
+        let anchor = Anchor {
+            node: 0,
+            anchor: 1,
+            rest_length: 2.0,
+            max_length: 1.0,
+            compliance: 0.0,
+        };
+        refuse(&|b| drop(b.anchor(anchor)), "anchors[0].max_length");
+        refuse(&|b| drop(b.outline(&[0, 1])), "outline");
+        let area = Area {
+            ring: vec![0, 1, 1],
+            rest_area: 1.0,
+            compliance: 0.0,
+            is_upper_bound: false,
+        };
+        refuse(&|b| drop(b.area(area.clone())), "areas[0].ring");
+        assert!(matches!(
+            Template::builder().build().unwrap_err().kind(),
+            ErrorKind::BadReference { .. }
+        ));
+    }
+}

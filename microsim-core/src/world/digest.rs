@@ -1,0 +1,212 @@
+//! Digest: 64 bits that stand for the whole state.
+//!
+//! FNV-1a over fixed-width little-endian words. Order: step index; every particle entry by index (owner, then for live
+//! ones x, y, vx, vy, inverse mass, radius, role, fluid, groups); every organism by index (kind, outline, locomotion,
+//! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
+//! positive and every NaN the same, so that equal states have equal digests.
+
+use super::World;
+use crate::behavior::Locomotion;
+use crate::behavior::controller::Controller;
+use crate::organism::{Body, Organism};
+use crate::solver::ConstraintSet;
+use glam::Vec2;
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+struct Digest(u64);
+
+impl Digest {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+
+    fn word(&mut self, word: u32) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(Self::PRIME);
+        }
+    }
+
+    fn long(&mut self, long: u64) {
+        self.word(long as u32);
+        self.word((long >> 32) as u32);
+    }
+
+    fn float(&mut self, value: f32) {
+        let canonical = if value == 0.0 { 0.0 } else { value };
+        self.word(if value.is_nan() {
+            f32::NAN.to_bits() & 0x7fff_ffff
+        } else {
+            canonical.to_bits()
+        });
+    }
+
+    fn vector(&mut self, v: Vec2) {
+        self.float(v.x);
+        self.float(v.y);
+    }
+
+    fn words(&mut self, words: impl IntoIterator<Item = u32>) {
+        let mut count = 0;
+        for word in words {
+            self.word(word);
+            count += 1;
+        }
+        self.word(count);
+    }
+}
+
+impl World {
+    /// 64 bits that stand for the whole state: equal worlds have equal digests on every platform, and worlds that differ
+    /// anywhere in what the next step depends on differ in it (up to chance, 2^-64).
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let mut digest = Digest(Digest::OFFSET);
+        digest.long(self.step_index);
+        self.digest_particles(&mut digest);
+        for (id, organism) in self.organisms.iter() {
+            digest.words([id.index, id.generation]);
+            digest_organism(organism, &mut digest);
+        }
+        digest.words(self.organisms.bookkeeping());
+        for block in &self.blocks {
+            digest.words(block.owner);
+            block.scale.iter().for_each(|&scale| digest.float(scale));
+        }
+        digest.words(
+            self.touching
+                .pairs()
+                .iter()
+                .flat_map(|(a, b)| [a.index, b.index]),
+        );
+        digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
+        for fluid in &self.fluids {
+            digest.words(fluid.particles.iter().copied());
+        }
+        digest.0
+    }
+
+    fn digest_particles(&self, digest: &mut Digest) {
+        let p = &self.particles;
+        for i in 0..p.len() {
+            digest.word(p.owner[i]);
+            if p.is_live(i) {
+                for value in [p.x[i], p.y[i], p.vx[i], p.vy[i], p.inv_mass[i], p.radius[i]] {
+                    digest.float(value);
+                }
+                digest.word(u32::from(p.role[i]));
+                digest.word(p.fluid[i]);
+                digest.word(p.groups[i].memberships);
+                digest.word(p.groups[i].filter);
+            }
+        }
+        digest.words(p.free_indices().iter().copied());
+    }
+}
+
+fn digest_organism(organism: &Organism, digest: &mut Digest) {
+    digest.word(organism.kind as u32);
+    digest.words(organism.particles());
+    digest.words(organism.outline.iter().copied());
+    if let Body::Loose { constraints, .. } = &organism.body {
+        digest_constraints(constraints, digest);
+    }
+    match organism.locomotion {
+        Locomotion::None => digest.word(0),
+        Locomotion::FrontPull { front } => digest.words([1, front]),
+        Locomotion::Crawl { front_centre } => {
+            digest.words([2, front_centre.map_or(u32::MAX, |k| k)])
+        }
+        Locomotion::Tow { max_acceleration } => digest.float(max_acceleration),
+    }
+    digest.float(organism.speed);
+    digest_controller(&organism.controller, digest);
+    digest.long(organism.rng.state);
+    digest.long(organism.rng.increment);
+    digest.word(u32::from(organism.is_quarantined));
+}
+
+fn digest_constraints(set: &ConstraintSet, digest: &mut Digest) {
+    let ConstraintSet {
+        distances,
+        min_distances,
+        areas,
+        anchors,
+        ropes,
+    } = set;
+    for c in distances {
+        digest.words([c.a, c.b]);
+        [c.rest_length, c.compliance, c.damping]
+            .into_iter()
+            .for_each(|value| digest.float(value));
+    }
+    for c in min_distances {
+        digest.words([c.a, c.b]);
+        digest.float(c.min_length);
+    }
+    for c in areas {
+        digest.words(c.ring.iter().copied());
+        [c.rest_area, c.compliance]
+            .into_iter()
+            .for_each(|value| digest.float(value));
+    }
+    for c in anchors {
+        digest.words([c.node, c.anchor]);
+        [c.rest_length, c.max_length, c.compliance]
+            .into_iter()
+            .for_each(|value| digest.float(value));
+    }
+    for c in ropes {
+        digest.words([c.a, c.b]);
+        digest.float(c.max_length);
+    }
+}
+
+fn digest_controller(controller: &Controller, digest: &mut Digest) {
+    match controller {
+        Controller::Still => digest.word(0),
+        Controller::Wander {
+            interval,
+            rest,
+            goal,
+            remaining,
+        } => {
+            digest.word(1);
+            [interval[0], interval[1], *rest, *remaining]
+                .into_iter()
+                .for_each(|value| digest.float(value));
+            digest.vector(goal.unwrap_or(Vec2::NAN));
+        }
+        Controller::Patrol {
+            through,
+            repeats,
+            next,
+        } => {
+            digest.words([2, u32::from(*repeats), *next]);
+            through.iter().for_each(|&point| digest.vector(point));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_and_nans_are_canonical_and_order_matters() {
+        let of = |values: &[f32]| {
+            let mut digest = Digest(Digest::OFFSET);
+            values.iter().for_each(|&value| digest.float(value));
+            digest.0
+        };
+        assert_eq!(of(&[0.0]), of(&[-0.0]));
+        assert_eq!(of(&[f32::NAN]), of(&[-f32::NAN]));
+        assert_ne!(of(&[1.0, 2.0]), of(&[2.0, 1.0]));
+    }
+
+    #[test]
+    fn words_are_hashed_as_fnv1a_does() {
+        // FNV-1a of the four bytes "abcd".
+        let mut digest = Digest(Digest::OFFSET);
+        digest.word(u32::from_le_bytes(*b"abcd"));
+        assert_eq!(digest.0, 0xfc17_9f83_ee07_24dd);
+    }
+}

@@ -1,0 +1,232 @@
+//! Measures: what there is, whether anything is where it must not be, and how well constraints hold.
+
+use super::World;
+use crate::geometry::polygon::contains_point;
+use crate::organism::{Body, Kind, Organism};
+use crate::solver::{ConstraintSet, Distance};
+use crate::template::Role;
+use glam::Vec2;
+
+/// Counts of what is in the world, and of what must not happen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Census {
+    /// Organisms.
+    pub organisms: usize,
+    /// Dynamic discs that are not fluid: the "dynamic bodies" of the seed's Table 4.1.
+    pub bodies: usize,
+    /// All live particles: discs, fluid and static points.
+    pub particles: usize,
+    /// Constraints, without contacts and fluid density.
+    pub constraints: usize,
+    /// Cytoplasm particles outside their own membrane (ray cast, seed 3.1.3).
+    pub leaks: usize,
+    /// Rigid cells whose nucleus is inside an amoeboid cell that has not absorbed them (seed, 4.2.2).
+    pub improper_absorptions: usize,
+    /// Organisms that are frozen.
+    pub quarantined: usize,
+}
+
+/// How well the constraints hold at the end of a step. All are 0 when nothing is violated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quality {
+    /// Mean relative error of the lengths of outline links.
+    pub ring_error_mean: f32,
+    /// Largest relative error of the length of an outline link.
+    pub ring_error_max: f32,
+    /// Deepest overlap of two discs of different organisms, as a share of the smaller radius.
+    pub penetration_max: f32,
+    /// Largest relative excess of an outline link over its rest length.
+    pub edge_stretch_max: f32,
+    /// Largest distance of a platelet's nucleus from its anchor, as a share of the platelet's outer radius.
+    pub anchor_offset_max: f32,
+    /// Mean compression of all fluid, over its rest density.
+    pub fluid_compression_mean: f32,
+}
+
+impl World {
+    /// Counts what is in the world. Costs about as much as a substep.
+    #[must_use]
+    pub fn census(&self) -> Census {
+        let p = &self.particles;
+        let is_body = |&i: &usize| p.inv_mass[i] > 0.0 && p.fluid[i] == 0;
+        let constraints = self
+            .organisms
+            .iter()
+            .map(|(_, organism)| self.constraints_of(organism).len())
+            .sum();
+        Census {
+            organisms: self.organisms.len(),
+            bodies: p.live().filter(is_body).count(),
+            particles: p.live().count(),
+            constraints,
+            leaks: self
+                .organisms
+                .iter()
+                .map(|(_, organism)| self.leaks_of(organism))
+                .sum(),
+            improper_absorptions: self.improper_absorptions(),
+            quarantined: self
+                .organisms
+                .iter()
+                .filter(|(_, organism)| organism.is_quarantined)
+                .count(),
+        }
+    }
+
+    /// Measures how well the constraints hold.
+    #[must_use]
+    pub fn quality(&self) -> Quality {
+        let mut quality = Quality {
+            penetration_max: self.deepest_overlap(),
+            ..Quality::default()
+        };
+        let mut links = 0.0;
+        for (_, organism) in self.organisms.iter() {
+            let offset = self.anchor_offset(organism);
+            quality.anchor_offset_max = larger(quality.anchor_offset_max, offset);
+            for error in self.outline_strains(organism) {
+                quality.ring_error_mean += error.abs();
+                quality.ring_error_max = larger(quality.ring_error_max, error.abs());
+                quality.edge_stretch_max = larger(quality.edge_stretch_max, error);
+                links += 1.0;
+            }
+        }
+        quality.ring_error_mean /= if links > 0.0 { links } else { 1.0 };
+        quality.fluid_compression_mean = self.mean_compression();
+        quality
+    }
+
+    fn constraints_of<'a>(&'a self, organism: &'a Organism) -> &'a ConstraintSet {
+        match &organism.body {
+            Body::Lane { block, .. } => {
+                self.templates[self.blocks[*block as usize].template as usize].constraints()
+            }
+            Body::Loose { constraints, .. } => constraints,
+        }
+    }
+
+    /// Scale of an organism's constraints.
+    fn scale_of(&self, organism: &Organism) -> f32 {
+        match organism.body {
+            Body::Lane { block, first } => {
+                let block = &self.blocks[block as usize];
+                block.scale[(first - block.base) as usize]
+            }
+            Body::Loose { .. } => 1.0,
+        }
+    }
+
+    fn leaks_of(&self, organism: &Organism) -> usize {
+        if organism.outline.is_empty() || organism.fluid_particles.is_empty() {
+            return 0;
+        }
+        let outline = self.outline_of(organism);
+        let is_outside =
+            |&&i: &&u32| !contains_point(&outline, self.particles.position(i as usize));
+        organism.fluid_particles.iter().filter(is_outside).count()
+    }
+
+    fn improper_absorptions(&self) -> usize {
+        let cells = self
+            .organisms
+            .iter()
+            .filter(|(_, organism)| organism.kind == Kind::AmoeboidCell);
+        let outlines: Vec<Vec<Vec2>> = cells.map(|(_, cell)| self.outline_of(cell)).collect();
+        let rigid = self
+            .organisms
+            .iter()
+            .filter(|(_, organism)| organism.kind == Kind::RigidCell);
+        let nuclei = rigid.filter_map(|(_, cell)| {
+            cell.particles()
+                .map(|i| i as usize)
+                .find(|&i| self.particles.role[i] == Role::Nucleus as u8)
+        });
+        let is_inside = |i: &usize| {
+            outlines
+                .iter()
+                .any(|o| contains_point(o, self.particles.position(*i)))
+        };
+        nuclei.filter(is_inside).count()
+    }
+
+    fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
+        organism
+            .outline_particles()
+            .map(|i| self.particles.position(i as usize))
+            .collect()
+    }
+
+    /// Relative error of each rigid link between neighbours of the outline, positive when stretched.
+    fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
+        let set = self.constraints_of(organism);
+        let scale = self.scale_of(organism);
+        let is_membrane = |node: u32| {
+            self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8
+        };
+        let links = set
+            .distances
+            .iter()
+            .filter(move |c| is_membrane(c.a) && is_membrane(c.b) && c.rest_length > 0.0);
+        links.map(move |c: &Distance| {
+            let at = |node| {
+                self.particles
+                    .position(organism.body.particle(node) as usize)
+            };
+            (at(c.b) - at(c.a)).length() / (c.rest_length * scale) - 1.0
+        })
+    }
+
+    fn anchor_offset(&self, organism: &Organism) -> f32 {
+        let at = |node| {
+            self.particles
+                .position(organism.body.particle(node) as usize)
+        };
+        let anchors = self.constraints_of(organism).anchors.iter();
+        anchors.fold(0.0, |far, c| {
+            larger(
+                far,
+                (at(c.node) - at(c.anchor)).length() / self.scale_of(organism),
+            )
+        })
+    }
+
+    fn deepest_overlap(&self) -> f32 {
+        let p = &self.particles;
+        self.scratch
+            .broad_phase
+            .contacts
+            .iter()
+            .fold(0.0, |deepest, contact| {
+                let (i, j) = (contact.i as usize, contact.j as usize);
+                if p.owner[i] == p.owner[j] || !p.is_live(i) || !p.is_live(j) {
+                    return deepest;
+                }
+                let smaller = if p.radius[i] < p.radius[j] {
+                    p.radius[i]
+                } else {
+                    p.radius[j]
+                };
+                let depth = p.radius[i] + p.radius[j] - (p.position(i) - p.position(j)).length();
+                larger(deepest, if smaller > 0.0 { depth / smaller } else { 0.0 })
+            })
+    }
+
+    fn mean_compression(&self) -> f32 {
+        let fluids = self
+            .fluids
+            .iter()
+            .filter(|fluid| !fluid.particles.is_empty());
+        let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
+            let share = fluid.particles.len() as f32;
+            (
+                sum + fluid.clone().mean_compression(&self.particles) * share,
+                count + share,
+            )
+        });
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+}
+
+fn larger(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
+}

@@ -1,0 +1,236 @@
+//! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
+//! their own.
+
+pub(crate) mod digest;
+pub(crate) mod measure;
+pub(crate) mod organisms;
+mod quarantine;
+pub(crate) mod query;
+mod spawn;
+pub(crate) mod touching;
+pub(crate) mod view;
+
+use crate::collision::broad_phase::BroadPhase;
+use crate::collision::filter::Exemptions;
+use crate::config::WorldConfig;
+use crate::error::{Error, ErrorKind, in_range};
+use crate::event::Event;
+use crate::id::{ObstacleId, OrganismId, TemplateId};
+use crate::inputs::Inputs;
+use crate::organism::Kind;
+use crate::particle::{Material, Particles};
+use crate::solver::block::Block;
+use crate::solver::contact::Impact;
+use crate::solver::drive::Drive;
+use crate::solver::fluid::Fluid;
+use crate::solver::obstacle::Obstacle;
+use crate::step::{self, Phase};
+use crate::template::Template;
+use glam::Vec2;
+use organisms::Organisms;
+use parry2d::math::Pose;
+use parry2d::shape::SharedShape;
+use touching::Touching;
+
+/// Obstacles that every world has: its four walls.
+const WALLS: usize = 4;
+
+/// A room with organisms in it. Cloning it is a snapshot: the clone has the same future.
+#[derive(Clone, Debug)]
+pub struct World {
+    pub(crate) config: WorldConfig,
+    pub(crate) particles: Particles,
+    pub(crate) templates: Vec<Template>,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) fluids: Vec<Fluid>,
+    pub(crate) obstacles: Vec<Obstacle>,
+    pub(crate) exemptions: Exemptions,
+    pub(crate) organisms: Organisms,
+    pub(crate) touching: Touching,
+    pub(crate) events: Vec<Event>,
+    pub(crate) step_index: u64,
+    pub(crate) scratch: Scratch,
+}
+
+/// What a step works with and the next one does not need.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    pub broad_phase: BroadPhase,
+    pub drives: Vec<Drive>,
+    pub impacts: Vec<Impact>,
+}
+
+impl World {
+    /// An empty room.
+    ///
+    /// # Errors
+    /// Names the field of `config` that is out of range.
+    pub fn new(config: WorldConfig) -> Result<Self, Error> {
+        config.validate()?;
+        Ok(Self {
+            obstacles: walls(config.size),
+            config,
+            particles: Particles::default(),
+            templates: Vec::new(),
+            blocks: Vec::new(),
+            fluids: Vec::new(),
+            exemptions: Exemptions::default(),
+            organisms: Organisms::default(),
+            touching: Touching::default(),
+            events: Vec::new(),
+            step_index: 0,
+            scratch: Scratch::default(),
+        })
+    }
+
+    /// Advances the world by [`WorldConfig::dt`]. Cannot fail and does not panic.
+    pub fn step(&mut self, inputs: &Inputs) {
+        step::advance(self, inputs, &mut |_| {});
+    }
+
+    /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
+    /// measuring: the core itself reads no clock.
+    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase)) {
+        step::advance(self, inputs, &mut finished);
+    }
+
+    /// What happened in the last step.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Settings that the world was made with.
+    #[must_use]
+    pub fn config(&self) -> &WorldConfig {
+        &self.config
+    }
+
+    /// Number of steps taken.
+    #[must_use]
+    pub fn step_index(&self) -> u64 {
+        self.step_index
+    }
+
+    /// Simulated time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.step_index as f64 * f64::from(self.config.dt)
+    }
+
+    /// Adds a recipe for bodies of an embedder's own, see [`World::spawn_template`].
+    pub fn add_template(&mut self, template: Template) -> TemplateId {
+        TemplateId(self.template_index(template))
+    }
+
+    /// Index of an equal template, added if there is none.
+    pub(crate) fn template_index(&mut self, template: Template) -> u32 {
+        let known = self.templates.iter().position(|other| *other == template);
+        known.unwrap_or_else(|| {
+            self.templates.push(template);
+            self.templates.len() - 1
+        }) as u32
+    }
+
+    /// Adds static geometry: any `parry2d` shape.
+    ///
+    /// # Errors
+    /// When the pose is not finite, the shape's box is not finite or a material number is out of range.
+    pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
+        let Material {
+            friction,
+            restitution,
+        } = obstacle.material;
+        in_range("material.friction", friction, 0.0, 10.0)?;
+        in_range("material.restitution", restitution, 0.0, 1.0)?;
+        in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
+        in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
+        let bounds = obstacle.bounds();
+        if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
+            return Err(Error::unsupported(
+                "shape",
+                "a shape with a finite bounding box",
+            ));
+        }
+        self.obstacles.push(obstacle);
+        Ok(ObstacleId(self.obstacles.len() as u32 - 1))
+    }
+
+    /// The obstacles that were added, without the walls.
+    pub fn obstacles(&self) -> impl Iterator<Item = &Obstacle> {
+        self.obstacles.iter().skip(WALLS)
+    }
+
+    /// Lets two organisms pass through each other, or collide again.
+    ///
+    /// # Errors
+    /// When a handle is stale.
+    pub fn set_exempt(
+        &mut self,
+        a: OrganismId,
+        b: OrganismId,
+        is_exempt: bool,
+    ) -> Result<(), Error> {
+        self.organism_or_stale(a, "a")?;
+        self.organism_or_stale(b, "b")?;
+        self.exemptions.set(a.index, b.index, is_exempt);
+        Ok(())
+    }
+
+    /// Handles of all organisms, in a stable order.
+    pub fn organisms(&self) -> impl Iterator<Item = OrganismId> + '_ {
+        self.organisms.iter().map(|(id, _)| id)
+    }
+
+    /// What an organism is; `None` for a stale handle.
+    #[must_use]
+    pub fn kind(&self, id: OrganismId) -> Option<Kind> {
+        self.organisms.get(id).map(|organism| organism.kind)
+    }
+
+    /// Centre of an organism: the area centroid of its outline, or its particles' mean. `None` for a stale handle.
+    #[must_use]
+    pub fn centroid(&self, id: OrganismId) -> Option<Vec2> {
+        let outline: Vec<Vec2> = self.view().organism(id)?.outline().collect();
+        crate::geometry::polygon::centroid(&outline).or_else(|| self.mean_position(id))
+    }
+
+    fn mean_position(&self, id: OrganismId) -> Option<Vec2> {
+        let organism = self.organisms.get(id)?;
+        let (sum, count) = organism
+            .particles()
+            .fold((Vec2::ZERO, 0.0), |(sum, count), i| {
+                (sum + self.particles.position(i as usize), count + 1.0)
+            });
+        Some(sum / count)
+    }
+
+    pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {
+        self.organisms
+            .get(id)
+            .map(drop)
+            .ok_or_else(|| Error::new(ErrorKind::Stale, field))
+    }
+}
+
+/// Thick slabs around the room; the overlap at the corners closes them.
+fn walls(size: Vec2) -> Vec<Obstacle> {
+    let thickness = 0.5 * (size.x + size.y);
+    let half = size * 0.5;
+    let slab = |half_extents: Vec2, centre: Vec2| {
+        Obstacle::new(
+            SharedShape::cuboid(half_extents.x, half_extents.y),
+            Pose::translation(centre.x, centre.y),
+        )
+    };
+    let (across, along) = (
+        Vec2::new(half.x + thickness, 0.5 * thickness),
+        Vec2::new(0.5 * thickness, half.y + thickness),
+    );
+    vec![
+        slab(across, Vec2::new(half.x, -0.5 * thickness)),
+        slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
+        slab(along, Vec2::new(-0.5 * thickness, half.y)),
+        slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
+    ]
+}

@@ -1,0 +1,102 @@
+//! The table of organisms: slots with generations, so that stale handles are recognised.
+
+use crate::id::OrganismId;
+use crate::organism::Organism;
+
+/// Slots of organisms, in the order of their index.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Organisms {
+    slots: Vec<Slot>,
+    /// Indices of empty slots, the last freed first.
+    free: Vec<u32>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Slot {
+    generation: u32,
+    organism: Option<Organism>,
+}
+
+impl Organisms {
+    /// The handle that the next organism gets.
+    pub(crate) fn next_id(&self) -> OrganismId {
+        let index = self.free.last().copied().unwrap_or(self.slots.len() as u32);
+        OrganismId {
+            index,
+            generation: self
+                .slots
+                .get(index as usize)
+                .map_or(0, |slot| slot.generation),
+        }
+    }
+
+    /// Puts an organism under [`Organisms::next_id`].
+    pub(crate) fn insert(&mut self, organism: Organism) -> OrganismId {
+        let id = self.next_id();
+        if self.free.pop().is_none() {
+            self.slots.push(Slot::default());
+        }
+        self.slots[id.index as usize].organism = Some(organism);
+        id
+    }
+
+    pub(crate) fn remove(&mut self, id: OrganismId) -> Option<Organism> {
+        self.get(id)?;
+        let slot = &mut self.slots[id.index as usize];
+        slot.generation = slot.generation.wrapping_add(1);
+        self.free.push(id.index);
+        slot.organism.take()
+    }
+
+    pub(crate) fn get(&self, id: OrganismId) -> Option<&Organism> {
+        let slot = self.slots.get(id.index as usize)?;
+        slot.organism
+            .as_ref()
+            .filter(|_| slot.generation == id.generation)
+    }
+
+    /// The handle of the organism that lives at an index.
+    pub(crate) fn id_at(&self, index: u32) -> Option<OrganismId> {
+        let slot = self.slots.get(index as usize)?;
+        slot.organism.as_ref().map(|_| OrganismId {
+            index,
+            generation: slot.generation,
+        })
+    }
+
+    /// All organisms, by index.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
+        self.slots.iter().zip(0u32..).filter_map(|(slot, index)| {
+            let id = OrganismId {
+                index,
+                generation: slot.generation,
+            };
+            slot.organism.as_ref().map(|organism| (id, organism))
+        })
+    }
+
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
+        self.slots
+            .iter_mut()
+            .zip(0u32..)
+            .filter_map(|(slot, index)| {
+                let id = OrganismId {
+                    index,
+                    generation: slot.generation,
+                };
+                slot.organism.as_mut().map(|organism| (id, organism))
+            })
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.slots.len() - self.free.len()
+    }
+
+    /// Generations of all slots, free ones included, and the order in which free ones are handed out.
+    pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
+        self.slots
+            .iter()
+            .map(|slot| slot.generation)
+            .chain(self.free.iter().copied())
+    }
+}

@@ -1,0 +1,429 @@
+//! Putting organisms into the world and taking them out. Everything is checked before anything changes.
+
+use super::World;
+use crate::error::{Error, ErrorKind};
+use crate::id::{OrganismId, TemplateId};
+use crate::organism::{Blueprint, Body, FluidPlan, Kind, Organism, OrganismSpec, Placement};
+use crate::particle::{CollisionGroups, Material, Particle};
+use crate::rng::Rng;
+use crate::solver::block::Block;
+use crate::solver::fluid::Fluid;
+use crate::solver::lanes::LANES;
+use crate::solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
+use crate::template::{Node, Role, Template};
+use glam::Vec2;
+
+/// Discs may overlap by this share of the sum of their radii when they are spawned: neighbours may touch.
+const OVERLAP_TOLERANCE: f32 = 0.02;
+
+impl World {
+    /// Puts an organism into the world.
+    ///
+    /// # Errors
+    /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
+    /// what is already there, or when the world would hold too many particles. Nothing is changed then.
+    pub fn spawn(
+        &mut self,
+        spec: &OrganismSpec,
+        placement: Placement,
+    ) -> Result<OrganismId, Error> {
+        self.spawn_blueprint(spec.blueprint()?, placement)
+    }
+
+    /// Puts an instance of an embedder's own template into the world.
+    ///
+    /// # Errors
+    /// As for [`World::spawn`], and when the template is not one of this world's.
+    pub fn spawn_template(
+        &mut self,
+        template: TemplateId,
+        placement: Placement,
+    ) -> Result<OrganismId, Error> {
+        let template = self.templates.get(template.0 as usize).cloned();
+        let template = template.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
+        self.spawn_blueprint(Blueprint::custom(template), placement)
+    }
+
+    /// Takes an organism out of the world.
+    ///
+    /// # Errors
+    /// When the handle is stale.
+    pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
+        let organism = self
+            .organisms
+            .remove(id)
+            .ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        self.exemptions.forget(id.index);
+        if let Some(fluid) = organism.fluid {
+            let fluid = &mut self.fluids[fluid as usize];
+            fluid
+                .particles
+                .retain(|i| self.particles.owner[*i as usize] != id.index);
+        }
+        match organism.body {
+            Body::Lane { block, first } => {
+                let block = &mut self.blocks[block as usize];
+                block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
+                (0..organism.slots)
+                    .for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
+            }
+            Body::Loose { particles, .. } => {
+                particles.into_iter().for_each(|i| self.particles.remove(i))
+            }
+        }
+        organism
+            .fluid_particles
+            .into_iter()
+            .for_each(|i| self.particles.remove(i));
+        Ok(())
+    }
+
+    fn spawn_blueprint(
+        &mut self,
+        blueprint: Blueprint,
+        placement: Placement,
+    ) -> Result<OrganismId, Error> {
+        placement.validate()?;
+        let asked = self.particles.live().count() as u64 + blueprint.particle_count() as u64;
+        let limit = u64::from(self.config.max_particles);
+        if asked > limit {
+            return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
+        }
+        let scale = blueprint.scale * placement.scale;
+        let id = self.organisms.next_id();
+        let planned = plan_particles(&blueprint, &placement, scale, id.index);
+        self.check_place(&planned)?;
+
+        let nodes = blueprint
+            .template
+            .as_ref()
+            .map_or(0, |template| template.nodes().len());
+        let (body_plan, fluid_plan) = planned.split_at(nodes);
+        let outline = blueprint
+            .template
+            .as_ref()
+            .map_or(Vec::new(), |template| template.outline().to_vec());
+        let (body, outline, slots) = match blueprint.template {
+            Some(template) if !blueprint.is_loose => (
+                self.add_to_block(template, id.index, scale, body_plan),
+                outline,
+                nodes as u32,
+            ),
+            template => {
+                let (body, outline) = self.add_loose(template, scale, body_plan, &outline);
+                (body, outline, 0)
+            }
+        };
+        let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
+        let mut organism = Organism {
+            kind: blueprint.kind,
+            body,
+            slots,
+            outline,
+            fluid,
+            fluid_particles,
+            locomotion: blueprint.locomotion,
+            speed: blueprint.speed,
+            controller: placement.controller,
+            rng: Rng::new(
+                self.config.seed,
+                (u64::from(id.generation) << 32) | u64::from(id.index),
+            ),
+            spawn_area: 0.0,
+            home: placement.at,
+            is_quarantined: false,
+        };
+        let outline: Vec<Vec2> = organism
+            .outline_particles()
+            .map(|i| self.particles.position(i as usize))
+            .collect();
+        organism.spawn_area = crate::geometry::polygon::signed_area(&outline);
+        Ok(self.organisms.insert(organism))
+    }
+
+    /// Checks that planned discs lie inside the walls and overlap nothing.
+    fn check_place(&self, planned: &[Particle]) -> Result<(), Error> {
+        let size = self.config.size;
+        let colliding = |p: &&Particle| p.groups.memberships != 0;
+        for p in planned {
+            let is_inside = p.position.cmpge(Vec2::splat(p.radius)).all()
+                && p.position.cmple(size - p.radius).all();
+            if !is_inside {
+                let accepted = format!("everything within 0 to {} by 0 to {}", size.x, size.y);
+                return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
+            }
+        }
+        if let Some(with) = self.overlap(
+            &planned
+                .iter()
+                .filter(colliding)
+                .copied()
+                .collect::<Vec<_>>(),
+        ) {
+            return Err(Error::new(ErrorKind::Overlap { with }, "at"));
+        }
+        Ok(())
+    }
+
+    /// Names what the discs overlap, if anything.
+    fn overlap(&self, discs: &[Particle]) -> Option<String> {
+        let obstacles = self.obstacles.iter().skip(super::WALLS);
+        let blocked = |obstacle: &crate::solver::obstacle::Obstacle, disc: &Particle| {
+            let (surface, is_inside) = obstacle.nearest(disc.position);
+            let gap = (disc.position - surface).length();
+            disc.groups.meets(obstacle.groups)
+                && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
+        };
+        if obstacles
+            .into_iter()
+            .any(|obstacle| discs.iter().any(|disc| blocked(obstacle, disc)))
+        {
+            return Some("an obstacle".to_owned());
+        }
+        let bounds = Bounds::around(discs);
+        let p = &self.particles;
+        let hit = p
+            .live()
+            .filter(|&i| bounds.touches(p.position(i), p.radius[i]))
+            .find(|&i| {
+                discs.iter().any(|disc| {
+                    let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
+                    disc.groups.meets(p.groups[i])
+                        && (disc.position - p.position(i)).length_squared() < reach * reach
+                })
+            })?;
+        let organism = self.organisms.id_at(p.owner[hit])?;
+        let centre = self.centroid(organism)?;
+        Some(format!(
+            "the {} at [{:.1}, {:.1}]",
+            self.kind(organism)?.name(),
+            centre.x,
+            centre.y
+        ))
+    }
+
+    /// Puts a body into a lane of a block of its template.
+    fn add_to_block(
+        &mut self,
+        template: Template,
+        owner: u32,
+        scale: f32,
+        planned: &[Particle],
+    ) -> Body {
+        let slots = template.nodes().len();
+        let template = self.template_index(template);
+        let has_room = |block: &Block| block.template == template && block.free_lane().is_some();
+        let index = self.blocks.iter().position(has_room).unwrap_or_else(|| {
+            self.blocks
+                .push(Block::new(template, slots, &mut self.particles));
+            self.blocks.len() - 1
+        });
+        let block = &mut self.blocks[index];
+        let lane = block.free_lane().unwrap_or(0);
+        block.owner[lane] = owner;
+        block.scale[lane] = scale;
+        for (slot, particle) in (0u32..).zip(planned) {
+            self.particles
+                .set(block.particle(slot, lane) as usize, particle);
+        }
+        Body::Lane {
+            block: index as u32,
+            first: block.particle(0, lane),
+        }
+    }
+
+    /// Puts a body at indices of its own; returns it with its outline.
+    fn add_loose(
+        &mut self,
+        template: Option<Template>,
+        scale: f32,
+        planned: &[Particle],
+        outline: &[u32],
+    ) -> (Body, Vec<u32>) {
+        let particles: Vec<u32> = planned
+            .iter()
+            .map(|particle| self.particles.insert(particle))
+            .collect();
+        let index = |node: u32| particles[node as usize];
+        let constraints = template.map_or_else(ConstraintSet::default, |t| {
+            rebase(t.constraints(), scale, index)
+        });
+        let outline = outline.iter().map(|&node| index(node)).collect();
+        (
+            Body::Loose {
+                particles,
+                constraints,
+            },
+            outline,
+        )
+    }
+
+    /// Adds an organism's fluid to the fluid that it mixes with, or to one of its own.
+    fn add_fluid(
+        &mut self,
+        plan: Option<FluidPlan>,
+        planned: &[Particle],
+    ) -> (Option<u32>, Vec<u32>) {
+        let Some(plan) = plan else {
+            return (None, Vec::new());
+        };
+        let is_enclosed = |fluid: &Fluid| {
+            fluid
+                .particles
+                .first()
+                .is_some_and(|&i| self.particles.role[i as usize] == Role::Cytoplasm as u8)
+        };
+        let mixes = |fluid: &Fluid| {
+            let is_same = !plan.is_enclosed && fluid.params == plan.params && !is_enclosed(fluid);
+            is_same || fluid.particles.is_empty()
+        };
+        let index = self
+            .fluids
+            .iter()
+            .position(mixes)
+            .unwrap_or(self.fluids.len());
+        if index == self.fluids.len() {
+            self.fluids.push(Fluid::new(plan.params));
+        } else if self.fluids[index].particles.is_empty() {
+            self.fluids[index] = Fluid::new(plan.params);
+        }
+        let in_fluid = |particle: &Particle| Particle {
+            fluid: index as u32 + 1,
+            ..*particle
+        };
+        let particles: Vec<u32> = planned
+            .iter()
+            .map(|p| self.particles.insert(&in_fluid(p)))
+            .collect();
+        self.fluids[index].particles.extend(&particles);
+        (Some(index as u32), particles)
+    }
+}
+
+impl Blueprint {
+    fn custom(template: Template) -> Self {
+        Self {
+            kind: Kind::Custom,
+            template: Some(template),
+            scale: 1.0,
+            is_loose: false,
+            fluid: None,
+            locomotion: crate::behavior::Locomotion::None,
+            speed: 0.0,
+        }
+    }
+}
+
+/// The particles of a blueprint in the world: nodes first, then fluid.
+fn plan_particles(
+    blueprint: &Blueprint,
+    placement: &Placement,
+    scale: f32,
+    owner: u32,
+) -> Vec<Particle> {
+    let nodes = blueprint.template.iter().flat_map(Template::nodes);
+    let self_collides = blueprint.is_loose;
+    let body = nodes.map(|node: &Node| Particle {
+        position: placement.place(node.position, scale),
+        velocity: Vec2::ZERO,
+        inv_mass: 1.0 / node.mass,
+        radius: node.radius * scale,
+        groups: node.groups,
+        material: node.material,
+        role: node.role as u8,
+        self_collides,
+        owner,
+        fluid: 0,
+    });
+    let fluid = blueprint.fluid.iter().flat_map(|plan| {
+        plan.points.iter().map(|&point| Particle {
+            position: placement.place(point, placement.scale),
+            velocity: Vec2::ZERO,
+            inv_mass: 1.0 / plan.params.particle_mass,
+            radius: 0.5 * plan.params.spacing,
+            groups: CollisionGroups::ALL,
+            material: Material {
+                friction: 0.0,
+                restitution: 0.0,
+            },
+            role: if plan.is_enclosed {
+                Role::Cytoplasm
+            } else {
+                Role::Fluid
+            } as u8,
+            self_collides: false,
+            owner,
+            fluid: 0,
+        })
+    });
+    body.chain(fluid).collect()
+}
+
+/// A template's constraints over particle indices instead of slots, in the size of the instance.
+fn rebase(set: &ConstraintSet, scale: f32, index: impl Fn(u32) -> u32) -> ConstraintSet {
+    let ConstraintSet {
+        distances,
+        min_distances,
+        areas,
+        anchors,
+        ropes,
+    } = set;
+    let distance = |c: &Distance| Distance {
+        a: index(c.a),
+        b: index(c.b),
+        rest_length: c.rest_length * scale,
+        ..*c
+    };
+    let min_distance = |c: &MinDistance| MinDistance {
+        a: index(c.a),
+        b: index(c.b),
+        min_length: c.min_length * scale,
+    };
+    let area = |c: &Area| Area {
+        ring: c.ring.iter().map(|&node| index(node)).collect(),
+        rest_area: c.rest_area * scale * scale,
+        ..c.clone()
+    };
+    let anchor = |c: &Anchor| Anchor {
+        node: index(c.node),
+        anchor: index(c.anchor),
+        rest_length: c.rest_length * scale,
+        max_length: c.max_length * scale,
+        ..*c
+    };
+    let rope = |c: &Rope| Rope {
+        a: index(c.a),
+        b: index(c.b),
+        max_length: c.max_length * scale,
+    };
+    ConstraintSet {
+        distances: distances.iter().map(distance).collect(),
+        min_distances: min_distances.iter().map(min_distance).collect(),
+        areas: areas.iter().map(area).collect(),
+        anchors: anchors.iter().map(anchor).collect(),
+        ropes: ropes.iter().map(rope).collect(),
+    }
+}
+
+/// Axis-aligned box around discs.
+struct Bounds {
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Bounds {
+    fn around(discs: &[Particle]) -> Self {
+        let empty = Self {
+            low: Vec2::splat(f32::INFINITY),
+            high: Vec2::splat(f32::NEG_INFINITY),
+        };
+        discs.iter().fold(empty, |b, disc| Self {
+            low: b.low.min(disc.position - disc.radius),
+            high: b.high.max(disc.position + disc.radius),
+        })
+    }
+
+    fn touches(&self, centre: Vec2, radius: f32) -> bool {
+        centre.cmpge(self.low - radius).all() && centre.cmple(self.high + radius).all()
+    }
+}

@@ -1,0 +1,176 @@
+//! A read-only view for drawing and measuring.
+
+use super::World;
+use crate::behavior::Locomotion;
+use crate::behavior::crawl::{MembraneRegion, region};
+use crate::id::OrganismId;
+use crate::organism::{Kind, Organism};
+use crate::template::Role;
+use glam::Vec2;
+
+/// Borrows a world for reading.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    world: &'a World,
+}
+
+/// One organism, for reading.
+#[derive(Clone, Copy, Debug)]
+pub struct OrganismView<'a> {
+    world: &'a World,
+    organism: &'a Organism,
+    id: OrganismId,
+}
+
+/// One particle, for reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParticleView {
+    /// Centre, units.
+    pub position: Vec2,
+    /// Velocity, units/s.
+    pub velocity: Vec2,
+    /// Radius, units.
+    pub radius: f32,
+    /// What it is to its organism.
+    pub role: Role,
+}
+
+impl World {
+    /// A read-only view of the present state.
+    #[must_use]
+    pub fn view(&self) -> View<'_> {
+        View { world: self }
+    }
+}
+
+impl<'a> View<'a> {
+    /// All organisms, in a stable order.
+    pub fn organisms(self) -> impl Iterator<Item = OrganismView<'a>> {
+        let world = self.world;
+        world
+            .organisms
+            .iter()
+            .map(move |(id, organism)| OrganismView {
+                world,
+                organism,
+                id,
+            })
+    }
+
+    /// One organism; `None` for a stale handle.
+    #[must_use]
+    pub fn organism(self, id: OrganismId) -> Option<OrganismView<'a>> {
+        let organism = self.world.organisms.get(id)?;
+        Some(OrganismView {
+            world: self.world,
+            organism,
+            id,
+        })
+    }
+}
+
+impl<'a> OrganismView<'a> {
+    /// Its handle.
+    #[must_use]
+    pub fn id(self) -> OrganismId {
+        self.id
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn kind(self) -> Kind {
+        self.organism.kind
+    }
+
+    /// Area that it had when it was spawned, square units; 0 without an outline.
+    #[must_use]
+    pub fn spawn_area(self) -> f32 {
+        self.organism.spawn_area
+    }
+
+    /// Whether its state was no longer finite and it is frozen.
+    #[must_use]
+    pub fn is_quarantined(self) -> bool {
+        self.organism.is_quarantined
+    }
+
+    /// Its particles: those of the body in the order of their nodes, then its fluid.
+    pub fn particles(self) -> impl Iterator<Item = ParticleView> + 'a {
+        self.organism.particles().map(move |i| self.particle(i))
+    }
+
+    /// Centres of its outline, counter-clockwise; empty if it has none.
+    pub fn outline(self) -> impl ExactSizeIterator<Item = Vec2> + 'a {
+        self.organism
+            .outline_particles()
+            .map(move |i| self.world.particles.position(i as usize))
+    }
+
+    /// Its outline pushed out by the discs' radius, away from the centre of the outline (seed, 3.2.1): nothing that
+    /// touches leaves a gap in the picture.
+    #[must_use]
+    pub fn surface(self) -> Vec<Vec2> {
+        let outline: Vec<Vec2> = self.outline().collect();
+        let count = outline.len();
+        let pushed = self
+            .organism
+            .outline_particles()
+            .zip(0..count)
+            .map(|(i, k)| {
+                let along = outline[(k + 1) % count] - outline[(k + count - 1) % count];
+                outline[k]
+                    - along.perp().normalize_or_zero() * self.world.particles.radius[i as usize]
+            });
+        pushed.collect()
+    }
+
+    /// Its heavy centre, if it has one.
+    #[must_use]
+    pub fn nucleus(self) -> Option<ParticleView> {
+        self.particles()
+            .find(|particle| particle.role == Role::Nucleus)
+    }
+
+    /// Its front body (soft bodies), or the centre of its front while it crawls.
+    #[must_use]
+    pub fn front(self) -> Option<Vec2> {
+        self.front_index().map(|k| {
+            self.world
+                .particles
+                .position(self.organism.body.particle(self.organism.outline[k]) as usize)
+        })
+    }
+
+    /// Position in the outline of its front, see [`OrganismView::front`].
+    #[must_use]
+    pub fn front_index(self) -> Option<usize> {
+        match self.organism.locomotion {
+            Locomotion::FrontPull { front } => Some(front as usize),
+            Locomotion::Crawl { front_centre } => front_centre.map(|k| k as usize),
+            Locomotion::None | Locomotion::Tow { .. } => None,
+        }
+    }
+
+    /// The region of each node of the outline while it crawls; `None` when it does not.
+    #[must_use]
+    pub fn membrane_regions(self) -> Option<Vec<MembraneRegion>> {
+        let Locomotion::Crawl {
+            front_centre: Some(front),
+        } = self.organism.locomotion
+        else {
+            return None;
+        };
+        let count = self.organism.outline.len() as u32;
+        Some((0..count).map(|k| region(k, front, count)).collect())
+    }
+
+    fn particle(self, i: u32) -> ParticleView {
+        let (particles, i) = (&self.world.particles, i as usize);
+        ParticleView {
+            position: particles.position(i),
+            velocity: particles.velocity(i),
+            radius: particles.radius[i],
+            role: Role::from_u8(particles.role[i]),
+        }
+    }
+}
