@@ -108,17 +108,15 @@ impl fmt::Display for Error {
             ErrorKind::OutOfRange { value, accepted } => {
                 write!(f, "`{field}` is {value}, accepted: {accepted}")
             }
-            ErrorKind::BadReference { accepted } => write!(
-                f,
-                "`{field}` refers to nothing usable, accepted: {accepted}"
-            ),
+            ErrorKind::BadReference { accepted } => {
+                write!(f, "`{field}` refers to nothing usable, accepted: {accepted}")
+            }
             ErrorKind::OutsideWorld { accepted } => {
                 write!(f, "`{field}` lies outside the walls, accepted: {accepted}")
             }
-            ErrorKind::Overlap { with } => write!(
-                f,
-                "`{field}` overlaps {with}, accepted: a place where nothing overlaps"
-            ),
+            ErrorKind::Overlap { with } => {
+                write!(f, "`{field}` overlaps {with}, accepted: a place where nothing overlaps")
+            }
             ErrorKind::TooMany { asked, limit } => {
                 write!(
                     f,

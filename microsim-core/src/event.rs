@@ -49,9 +49,7 @@ impl Event {
     pub fn organisms(&self) -> [Option<OrganismId>; 2] {
         match *self {
             Self::ContactBegan { a, b } | Self::ContactEnded { a, b } => [Some(a), Some(b)],
-            Self::FrontSwitched { organism } | Self::Quarantined { organism } => {
-                [Some(organism), None]
-            }
+            Self::FrontSwitched { organism } | Self::Quarantined { organism } => [Some(organism), None],
         }
     }
 }

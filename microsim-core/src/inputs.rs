@@ -56,10 +56,7 @@ impl Inputs {
     /// The command given to `organism`, if any.
     #[must_use]
     pub fn get(&self, organism: OrganismId) -> Option<Intent> {
-        let at = self
-            .intents
-            .binary_search_by_key(&organism, |&(id, _)| id)
-            .ok()?;
+        let at = self.intents.binary_search_by_key(&organism, |&(id, _)| id).ok()?;
         Some(self.intents[at].1)
     }
 
@@ -75,10 +72,7 @@ mod tests {
 
     #[test]
     fn later_commands_replace_earlier_ones() {
-        let id = |index| OrganismId {
-            index,
-            generation: 0,
-        };
+        let id = |index| OrganismId { index, generation: 0 };
         let mut inputs = Inputs::new();
         inputs.set(id(4), Intent::REST);
         inputs.set(id(1), Intent::toward(Vec2::ONE).unwrap());
@@ -91,15 +85,7 @@ mod tests {
 
     #[test]
     fn goals_must_be_finite() {
-        assert_eq!(
-            Intent::toward(Vec2::new(0.0, f32::NAN))
-                .unwrap_err()
-                .field(),
-            "goal.y"
-        );
-        assert_eq!(
-            Intent::toward(Vec2::new(1e9, 0.0)).unwrap_err().field(),
-            "goal.x"
-        );
+        assert_eq!(Intent::toward(Vec2::new(0.0, f32::NAN)).unwrap_err().field(), "goal.y");
+        assert_eq!(Intent::toward(Vec2::new(1e9, 0.0)).unwrap_err().field(), "goal.x");
     }
 }

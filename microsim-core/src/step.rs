@@ -97,14 +97,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
         size: config.size,
         dt: config.dt,
     };
-    steer_organisms(
-        organisms,
-        inputs,
-        particles,
-        &surroundings,
-        &mut scratch.drives,
-        events,
-    );
+    steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
 }
 
 fn find_pairs(world: &mut World) {
@@ -152,11 +145,7 @@ fn project_constraints(world: &mut World, h: f32) {
         ..
     } = world;
     for block in blocks.iter().filter(|block| !block.is_empty()) {
-        block.project(
-            templates[block.template as usize].constraints(),
-            particles,
-            h,
-        );
+        block.project(templates[block.template as usize].constraints(), particles, h);
     }
     for (_, organism) in organisms.iter() {
         if let Body::Loose { constraints, .. } = &organism.body {
@@ -192,9 +181,7 @@ fn update_velocities(world: &mut World, h: f32) {
     } = world;
     integrate::update_velocities(particles, config.damping, config.max_speed, h);
     contact::apply_restitution(&mut scratch.impacts, particles);
-    fluids
-        .iter_mut()
-        .for_each(|fluid| fluid.apply_viscosity(particles));
+    fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles));
 }
 
 fn conclude(world: &mut World) {
@@ -208,4 +195,5 @@ fn conclude(world: &mut World) {
     } = world;
     touching.update(&scratch.broad_phase.contacts, particles, organisms, events);
     world.quarantine();
+    world.rebase();
 }

@@ -84,10 +84,7 @@ impl Controller {
             }
             Self::Patrol { through, next, .. } => {
                 if through.is_empty() || through.len() > 1000 || *next as usize >= through.len() {
-                    return Err(Error::reference(
-                        "through",
-                        "1 to 1000 points, `next` one of them",
-                    ));
+                    return Err(Error::reference("through", "1 to 1000 points, `next` one of them"));
                 }
                 through
                     .iter()
@@ -98,12 +95,7 @@ impl Controller {
     }
 
     /// Decides for one step; `at` is where the organism is. Returns its goal, if it has one.
-    pub(crate) fn advance(
-        &mut self,
-        at: Vec2,
-        rng: &mut Rng,
-        around: &Surroundings,
-    ) -> Option<Vec2> {
+    pub(crate) fn advance(&mut self, at: Vec2, rng: &mut Rng, around: &Surroundings) -> Option<Vec2> {
         match self {
             Self::Still => None,
             Self::Wander {
@@ -115,17 +107,12 @@ impl Controller {
                 *remaining -= around.dt;
                 if *remaining <= 0.0 {
                     *remaining = rng.range(interval[0], interval[1]);
-                    let point =
-                        Vec2::new(rng.range(0.0, around.size.x), rng.range(0.0, around.size.y));
+                    let point = Vec2::new(rng.range(0.0, around.size.x), rng.range(0.0, around.size.y));
                     *goal = (rng.unit() >= *rest).then_some(point);
                 }
                 *goal
             }
-            Self::Patrol {
-                through,
-                repeats,
-                next,
-            } => {
+            Self::Patrol { through, repeats, next } => {
                 let goal = through[*next as usize];
                 let has_arrived = (goal - at).length_squared() < ARRIVED * ARRIVED;
                 let is_last = *next as usize + 1 == through.len();

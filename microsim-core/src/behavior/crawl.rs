@@ -40,12 +40,7 @@ pub(crate) fn region(k: u32, front_centre: u32, count: u32) -> MembraneRegion {
 }
 
 /// Drives front and rear; returns the node of the outline that is the centre of the front, the nearest one to the goal.
-pub(crate) fn drive(
-    organism: &Organism,
-    goal: Vec2,
-    particles: &Particles,
-    drives: &mut Vec<Drive>,
-) -> Option<u32> {
+pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, drives: &mut Vec<Drive>) -> Option<u32> {
     let nodes: Vec<Vec2> = organism
         .outline_particles()
         .map(|i| particles.position(i as usize))
@@ -80,10 +75,7 @@ mod tests {
                 let regions: Vec<_> = (0..count).map(|k| region(k, front, count)).collect();
                 let size = |wanted| regions.iter().filter(|&&r| r == wanted).count();
                 assert_eq!(regions[front as usize], MembraneRegion::Front);
-                assert_eq!(
-                    regions[((front + count / 2) % count) as usize],
-                    MembraneRegion::Rear
-                );
+                assert_eq!(regions[((front + count / 2) % count) as usize], MembraneRegion::Rear);
                 assert_eq!(
                     regions[((front + count / 4) % count) as usize],
                     MembraneRegion::LeftWing
@@ -92,13 +84,8 @@ mod tests {
                     regions[((front + count - count / 4) % count) as usize],
                     MembraneRegion::RightWing
                 );
-                assert_eq!(
-                    size(MembraneRegion::Front) % 2,
-                    1,
-                    "symmetric neighbours both ways"
-                );
-                let wings =
-                    size(MembraneRegion::LeftWing).abs_diff(size(MembraneRegion::RightWing));
+                assert_eq!(size(MembraneRegion::Front) % 2, 1, "symmetric neighbours both ways");
+                let wings = size(MembraneRegion::LeftWing).abs_diff(size(MembraneRegion::RightWing));
                 assert!(wings <= 1 && size(MembraneRegion::LeftWing) > 0);
             }
         }

@@ -16,11 +16,7 @@ pub(crate) fn drive(
     drives: &mut Vec<Drive>,
 ) -> u32 {
     let count = organism.outline.len() as u32;
-    let particle = |k: u32| {
-        organism
-            .body
-            .particle(organism.outline[(k % count) as usize])
-    };
+    let particle = |k: u32| organism.body.particle(organism.outline[(k % count) as usize]);
     let way = |k: u32| goal - particles.position(particle(k) as usize);
     let opposite = (front + count / 2) % count;
     let front = if way(opposite).length_squared() < way(front).length_squared() {

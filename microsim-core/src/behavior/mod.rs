@@ -41,9 +41,7 @@ pub(crate) fn steer_organisms(
             continue;
         }
         let at = place(organism, particles);
-        let own = organism
-            .controller
-            .advance(at, &mut organism.rng, surroundings);
+        let own = organism.controller.advance(at, &mut organism.rng, surroundings);
         let goal = inputs.get(id).map_or(own, |intent| intent.goal());
         move_towards(id, organism, goal, particles, drives, events);
     }
@@ -68,15 +66,12 @@ fn move_towards(
             }
         }
         Locomotion::Crawl { .. } => {
-            let front_centre =
-                goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
+            let front_centre = goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
         Locomotion::Tow { max_acceleration } => {
             let particle = organism.body.particle(0);
-            let way = goal.map_or(Vec2::ZERO, |goal| {
-                goal - particles.position(particle as usize)
-            });
+            let way = goal.map_or(Vec2::ZERO, |goal| goal - particles.position(particle as usize));
             let velocity = heading(way) * organism.speed;
             drives.push(Drive {
                 particle,

@@ -41,13 +41,9 @@ impl BroadPhase {
         let (small_radius, large_radius) = self.sort_by_size(around.particles);
         let margin = 2.0 * around.reach;
         let fill = |grid: &mut Grid, radius: f32, entries: &[u32]| {
-            grid.fill(
-                Vec2::ZERO,
-                around.size,
-                2.0 * radius + margin,
-                entries,
-                |e| around.particles.position(e as usize),
-            );
+            grid.fill(Vec2::ZERO, around.size, 2.0 * radius + margin, entries, |e| {
+                around.particles.position(e as usize)
+            });
         };
         fill(&mut self.fine, small_radius, &self.small);
         fill(&mut self.coarse, large_radius, &self.large);
@@ -125,10 +121,7 @@ fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &m
             let right = grid.row_range(row, column..column + 2);
             let above = grid.row_range(row + 1, column.saturating_sub(1)..column + 2);
             for k in cell {
-                for &j in entries[k + 1..right.end]
-                    .iter()
-                    .chain(&entries[above.clone()])
-                {
+                for &j in entries[k + 1..right.end].iter().chain(&entries[above.clone()]) {
                     consider(entries[k], j, around, margin, contacts);
                 }
             }
@@ -139,9 +132,8 @@ fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &m
 fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
     let p = around.particles;
     let (a, b) = (i as usize, j as usize);
-    let (dx, dy) = (p.x[b] - p.x[a], p.y[b] - p.y[a]);
     let reach = p.radius[a] + p.radius[b] + margin;
-    if dx * dx + dy * dy < reach * reach && may_collide(p, a, b, around.exemptions) {
+    if p.between(a, b).length_squared() < reach * reach && may_collide(p, a, b, around.exemptions) {
         let (friction, restitution) = combine(p.material[a], p.material[b]);
         contacts.push(Contact {
             i,
@@ -155,10 +147,7 @@ fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mu
 
 fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bool {
     let (fluid_a, fluid_b) = (p.fluid[a], p.fluid[b]);
-    if (fluid_a != 0 && fluid_a == fluid_b)
-        || p.inv_mass[a] + p.inv_mass[b] <= 0.0
-        || !p.groups[a].meets(p.groups[b])
-    {
+    if (fluid_a != 0 && fluid_a == fluid_b) || p.inv_mass[a] + p.inv_mass[b] <= 0.0 || !p.groups[a].meets(p.groups[b]) {
         return false;
     }
     if p.owner[a] == p.owner[b] {
@@ -203,11 +192,7 @@ mod tests {
             size,
             reach: 0.1,
         });
-        let mut pairs: Vec<_> = broad
-            .contacts
-            .iter()
-            .map(|c| (c.i.min(c.j), c.i.max(c.j)))
-            .collect();
+        let mut pairs: Vec<_> = broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect();
         pairs.sort_unstable();
         pairs
     }

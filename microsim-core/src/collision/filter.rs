@@ -47,9 +47,7 @@ mod tests {
         let mut exemptions = Exemptions::default();
         exemptions.set(7, 3, true);
         exemptions.set(3, 9, true);
-        assert!(
-            exemptions.contains(3, 7) && exemptions.contains(9, 3) && !exemptions.contains(7, 9)
-        );
+        assert!(exemptions.contains(3, 7) && exemptions.contains(9, 3) && !exemptions.contains(7, 9));
         exemptions.set(3, 7, false);
         assert!(!exemptions.contains(7, 3));
         exemptions.forget(9);

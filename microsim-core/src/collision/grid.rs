@@ -23,14 +23,7 @@ pub(crate) struct Grid {
 impl Grid {
     /// Sorts `entries` by the cell of their position. `low..high` is the area to cover; what lies outside it is put into
     /// the border cells.
-    pub(crate) fn fill(
-        &mut self,
-        low: Vec2,
-        high: Vec2,
-        cell: f32,
-        entries: &[u32],
-        position: impl Fn(u32) -> Vec2,
-    ) {
+    pub(crate) fn fill(&mut self, low: Vec2, high: Vec2, cell: f32, entries: &[u32], position: impl Fn(u32) -> Vec2) {
         self.resize(low, high, cell, entries.len());
         let mut cells = std::mem::take(&mut self.cells);
         cells.clear();
@@ -56,21 +49,12 @@ impl Grid {
 
     fn resize(&mut self, low: Vec2, high: Vec2, cell: f32, count: usize) {
         let extent = high - low;
-        let longest = if extent.x > extent.y {
-            extent.x
-        } else {
-            extent.y
-        };
+        let longest = if extent.x > extent.y { extent.x } else { extent.y };
         let budget = (4 * count + 1024) as f32;
-        let bounds = [
-            cell,
-            longest / MAX_CELLS,
-            (extent.x * extent.y / budget).sqrt(),
-        ];
-        let cell = bounds.into_iter().fold(
-            0.0,
-            |largest, bound| if bound > largest { bound } else { largest },
-        );
+        let bounds = [cell, longest / MAX_CELLS, (extent.x * extent.y / budget).sqrt()];
+        let cell = bounds
+            .into_iter()
+            .fold(0.0, |largest, bound| if bound > largest { bound } else { largest });
         self.origin = low;
         self.inverse_cell = if cell > 0.0 { 1.0 / cell } else { 0.0 };
         self.columns = (extent.x * self.inverse_cell) as usize + 1;
@@ -117,11 +101,7 @@ impl Grid {
     /// Entries of the cells that a box touches, row by row.
     pub(crate) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = u32> + '_ {
         let ((c0, r0), (c1, r1)) = (self.cell_of(low), self.cell_of(high));
-        (r0..=r1).flat_map(move |row| {
-            self.entries[self.row_range(row, c0..c1 + 1)]
-                .iter()
-                .copied()
-        })
+        (r0..=r1).flat_map(move |row| self.entries[self.row_range(row, c0..c1 + 1)].iter().copied())
     }
 }
 
@@ -139,9 +119,7 @@ mod tests {
         let entries: Vec<u32> = (0..500).collect();
         let mut grid = Grid::default();
         for _ in 0..2 {
-            grid.fill(Vec2::ZERO, Vec2::new(20.0, 10.0), 1.5, &entries, |e| {
-                points[e as usize]
-            });
+            grid.fill(Vec2::ZERO, Vec2::new(20.0, 10.0), 1.5, &entries, |e| points[e as usize]);
         }
         let mut seen = grid.entries().to_vec();
         seen.sort_unstable();

@@ -9,9 +9,7 @@ pub mod polygon;
 pub mod ring;
 pub mod triangulate;
 
-pub use polygon::{
-    centroid, contains_point, is_simple, nearest_on_segment, perimeter, signed_area,
-};
+pub use polygon::{centroid, contains_point, is_simple, nearest_on_segment, perimeter, signed_area};
 pub use ring::{direction_or, ellipse, nearest_index, rotate, unit_vector};
 pub use triangulate::triangulate;
 
@@ -38,15 +36,10 @@ mod arbitrary {
     /// A counter-clockwise convex polygon that is never thin: vertices on a circle.
     pub(super) fn convex_polygon() -> impl Strategy<Value = Vec<Vec2>> {
         let centre = (-20.0f32..20.0, -20.0f32..20.0);
-        (
-            0.5f32..10.0,
-            prop::collection::vec(0.0f32..0.4, 3..40),
-            centre,
-        )
-            .prop_map(|(radius, jitter, (x, y))| {
-                let spokes: Vec<_> = jitter.into_iter().map(|jitter| (radius, jitter)).collect();
-                place_spokes(&spokes, Vec2::new(x, y))
-            })
+        (0.5f32..10.0, prop::collection::vec(0.0f32..0.4, 3..40), centre).prop_map(|(radius, jitter, (x, y))| {
+            let spokes: Vec<_> = jitter.into_iter().map(|jitter| (radius, jitter)).collect();
+            place_spokes(&spokes, Vec2::new(x, y))
+        })
     }
 
     /// Points in no particular order: as a polygon they mostly cross themselves.

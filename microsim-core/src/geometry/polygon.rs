@@ -109,10 +109,7 @@ fn edges(polygon: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
 
 /// `to - from`, in `f64`.
 fn offset(from: Vec2, to: Vec2) -> (f64, f64) {
-    (
-        f64::from(to.x) - f64::from(from.x),
-        f64::from(to.y) - f64::from(from.y),
-    )
+    (f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y))
 }
 
 /// Whether the ray from `point` towards +x crosses the edge.
@@ -145,11 +142,7 @@ fn area_centroid(polygon: &[Vec2], origin: Vec2, doubled_area: f64) -> Vec2 {
         sum_x += weight * (ax + bx);
         sum_y += weight * (ay + by);
     }
-    shifted(
-        origin,
-        sum_x / (3.0 * doubled_area),
-        sum_y / (3.0 * doubled_area),
-    )
+    shifted(origin, sum_x / (3.0 * doubled_area), sum_y / (3.0 * doubled_area))
 }
 
 fn vertex_mean(polygon: &[Vec2], origin: Vec2) -> Vec2 {
@@ -165,10 +158,7 @@ fn vertex_mean(polygon: &[Vec2], origin: Vec2) -> Vec2 {
 
 /// `origin + (x, y)`, rounded once.
 fn shifted(origin: Vec2, x: f64, y: f64) -> Vec2 {
-    Vec2::new(
-        (f64::from(origin.x) + x) as f32,
-        (f64::from(origin.y) + y) as f32,
-    )
+    Vec2::new((f64::from(origin.x) + x) as f32, (f64::from(origin.y) + y) as f32)
 }
 
 /// Whether the edge at `index` meets no edge after it, but for the vertices that neighbours share.
@@ -217,12 +207,7 @@ mod tests {
     use super::*;
 
     fn unit_square() -> Vec<Vec2> {
-        vec![
-            vec2(0.0, 0.0),
-            vec2(1.0, 0.0),
-            vec2(1.0, 1.0),
-            vec2(0.0, 1.0),
-        ]
+        vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0)]
     }
 
     /// Counter-clockwise; the notch is the upper right quarter of a square with side 2.
@@ -238,12 +223,7 @@ mod tests {
     }
 
     fn bow_tie() -> Vec<Vec2> {
-        vec![
-            vec2(0.0, 0.0),
-            vec2(1.0, 1.0),
-            vec2(1.0, 0.0),
-            vec2(0.0, 1.0),
-        ]
+        vec![vec2(0.0, 0.0), vec2(1.0, 1.0), vec2(1.0, 0.0), vec2(0.0, 1.0)]
     }
 
     fn reversed(polygon: &[Vec2]) -> Vec<Vec2> {
@@ -272,12 +252,7 @@ mod tests {
 
     #[test]
     fn ray_through_vertices_counts_each_passage_once() {
-        let diamond = [
-            vec2(1.0, 0.0),
-            vec2(0.0, 1.0),
-            vec2(-1.0, 0.0),
-            vec2(0.0, -1.0),
-        ];
+        let diamond = [vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0), vec2(0.0, -1.0)];
         assert!(contains_point(&diamond, vec2(0.0, 0.0)));
         for outside in [vec2(-2.0, 0.0), vec2(-1.0, 1.0), vec2(-1.0, -1.0)] {
             assert!(!contains_point(&diamond, outside), "{outside}");
@@ -293,34 +268,19 @@ mod tests {
         for (a, b) in [(a, b), (b, a)] {
             assert!(crosses_ray(a, b, vec2(0.0, 0.0)));
             assert!(!crosses_ray(a, b, vec2(2.0, 0.0)));
-            assert!(
-                crosses_ray(a, b, vec2(0.0, -1.0)),
-                "an edge owns its lower end"
-            );
-            assert!(
-                !crosses_ray(a, b, vec2(0.0, 1.0)),
-                "an edge does not own its upper end"
-            );
+            assert!(crosses_ray(a, b, vec2(0.0, -1.0)), "an edge owns its lower end");
+            assert!(!crosses_ray(a, b, vec2(0.0, 1.0)), "an edge does not own its upper end");
         }
     }
 
     #[test]
     fn points_on_a_shared_edge_belong_to_exactly_one_polygon() {
-        let corners = [
-            vec2(0.1, 0.0),
-            vec2(0.7, 1.0),
-            vec2(-3.0, 0.3),
-            vec2(3.0, 0.4),
-        ];
+        let corners = [vec2(0.1, 0.0), vec2(0.7, 1.0), vec2(-3.0, 0.3), vec2(3.0, 0.4)];
         let left = [corners[0], corners[1], corners[2]];
         let right = [corners[1], corners[0], corners[3]];
         for step in 1..100 {
             let point = corners[0].lerp(corners[1], step as f32 / 100.0);
-            assert_ne!(
-                contains_point(&left, point),
-                contains_point(&right, point),
-                "{point}"
-            );
+            assert_ne!(contains_point(&left, point), contains_point(&right, point), "{point}");
         }
     }
 
@@ -340,10 +300,7 @@ mod tests {
 
     #[test]
     fn area_far_from_the_origin_keeps_its_digits() {
-        let far: Vec<_> = unit_square()
-            .iter()
-            .map(|v| *v + Vec2::splat(1.0e5))
-            .collect();
+        let far: Vec<_> = unit_square().iter().map(|v| *v + Vec2::splat(1.0e5)).collect();
         assert_eq!(signed_area(&far), 1.0);
         assert_eq!(centroid(&far), Some(Vec2::splat(1.0e5 + 0.5)));
     }
@@ -352,10 +309,7 @@ mod tests {
     fn centroid_without_area_is_the_vertex_mean() {
         assert_eq!(centroid(&[]), None);
         assert_eq!(centroid(&[vec2(3.0, 4.0)]), Some(vec2(3.0, 4.0)));
-        assert_eq!(
-            centroid(&[vec2(0.0, 0.0), vec2(2.0, 4.0)]),
-            Some(vec2(1.0, 2.0))
-        );
+        assert_eq!(centroid(&[vec2(0.0, 0.0), vec2(2.0, 4.0)]), Some(vec2(1.0, 2.0)));
         let line = [vec2(0.0, 0.0), vec2(1.0, 1.0), vec2(5.0, 5.0)];
         assert_eq!(centroid(&line), Some(vec2(2.0, 2.0)));
         assert_eq!(centroid(&bow_tie()), Some(vec2(0.5, 0.5)));
@@ -375,26 +329,11 @@ mod tests {
             vec2(0.0, 2.0),
         ];
         assert!(!is_simple(&pinched));
-        let flat_vertex = [
-            vec2(0.0, 0.0),
-            vec2(1.0, 0.0),
-            vec2(2.0, 0.0),
-            vec2(1.0, 1.0),
-        ];
+        let flat_vertex = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(2.0, 0.0), vec2(1.0, 1.0)];
         assert!(is_simple(&flat_vertex));
-        let spike = [
-            vec2(0.0, 0.0),
-            vec2(2.0, 0.0),
-            vec2(1.0, 0.0),
-            vec2(1.0, 1.0),
-        ];
+        let spike = [vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0)];
         assert!(!is_simple(&spike));
-        let repeated = [
-            vec2(0.0, 0.0),
-            vec2(1.0, 0.0),
-            vec2(1.0, 0.0),
-            vec2(0.0, 1.0),
-        ];
+        let repeated = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 0.0), vec2(0.0, 1.0)];
         assert!(!is_simple(&repeated));
         assert!(!is_simple(&[Vec2::ONE; 3]));
     }

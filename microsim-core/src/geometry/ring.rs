@@ -32,11 +32,7 @@ pub fn ellipse(radii: Vec2, count: usize) -> Vec<Vec2> {
             // Every point is folded into the first quadrant and mirrored back, so symmetry is
             // exact. In units of a quarter arc / `count`, the position of the point is 4 index.
             let (quadrant, rest) = (4 * index / count, 4 * index % count);
-            let part = if quadrant % 2 == 0 {
-                rest
-            } else {
-                count - rest
-            };
+            let part = if quadrant % 2 == 0 { rest } else { count - rest };
             mirrored(quarter.point(radii, part, count), quadrant)
         })
         .collect()
@@ -68,11 +64,7 @@ pub fn rotate(v: Vec2, direction: Vec2) -> Vec2 {
 
 /// The unit vector along `v`, or `fallback` if `v` is zero or not finite.
 pub fn direction_or(v: Vec2, fallback: Vec2) -> Vec2 {
-    let size = if v.x.abs() > v.y.abs() {
-        v.x.abs()
-    } else {
-        v.y.abs()
-    };
+    let size = if v.x.abs() > v.y.abs() { v.x.abs() } else { v.y.abs() };
     if size == 0.0 || !v.is_finite() {
         return fallback;
     }
@@ -104,9 +96,7 @@ impl QuarterArc {
             sum += (dx * dx + dy * dy).sqrt();
             lengths.push(sum);
         }
-        Self {
-            lengths: Some(lengths),
-        }
+        Self { lengths: Some(lengths) }
     }
 
     /// The point at `part` / `count` of the arc, with `part` in 0..=count.
@@ -144,11 +134,7 @@ fn mirrored(point: Vec2, quadrant: usize) -> Vec2 {
     } else {
         point.x
     };
-    let y = if quadrant >= 2 {
-        0.0 - point.y
-    } else {
-        point.y
-    };
+    let y = if quadrant >= 2 { 0.0 - point.y } else { point.y };
     Vec2::new(x, y)
 }
 
@@ -164,12 +150,7 @@ mod tests {
 
     /// Length of the arc between parameter angles, in f64 and by other means than the table.
     fn arc_length(radii: Vec2, from: f64, to: f64) -> f64 {
-        let at = |t: f64| {
-            (
-                f64::from(radii.x) * libm::cos(t),
-                f64::from(radii.y) * libm::sin(t),
-            )
-        };
+        let at = |t: f64| (f64::from(radii.x) * libm::cos(t), f64::from(radii.y) * libm::sin(t));
         let steps = 2000;
         let chord = |step: usize| {
             let (x0, y0) = at(from + (to - from) * step as f64 / f64::from(steps));
@@ -200,20 +181,11 @@ mod tests {
 
     #[test]
     fn four_points_of_an_ellipse_are_its_vertices() {
-        let expected = [
-            vec2(3.0, 0.0),
-            vec2(0.0, 2.0),
-            vec2(-3.0, 0.0),
-            vec2(0.0, -2.0),
-        ];
+        let expected = [vec2(3.0, 0.0), vec2(0.0, 2.0), vec2(-3.0, 0.0), vec2(0.0, -2.0)];
         let ring = ellipse(vec2(3.0, 2.0), 4);
         assert_eq!(ring, expected);
         assert_eq!(ellipse(vec2(-3.0, -2.0), 4), expected);
-        let zeros: Vec<_> = ring
-            .iter()
-            .flat_map(|p| p.to_array())
-            .filter(|c| *c == 0.0)
-            .collect();
+        let zeros: Vec<_> = ring.iter().flat_map(|p| p.to_array()).filter(|c| *c == 0.0).collect();
         assert!(zeros.iter().all(|zero| zero.is_sign_positive()));
     }
 
@@ -221,10 +193,7 @@ mod tests {
     fn circle_points_have_equal_angles() {
         for (index, point) in ellipse(Vec2::splat(5.0), 7).into_iter().enumerate() {
             let expected = unit_vector(TAU * index as f32 / 7.0) * 5.0;
-            assert!(
-                point.abs_diff_eq(expected, 1.0e-5),
-                "{index}: {point} {expected}"
-            );
+            assert!(point.abs_diff_eq(expected, 1.0e-5), "{index}: {point} {expected}");
         }
     }
 
@@ -236,28 +205,14 @@ mod tests {
         let flat = ellipse(vec2(4.0, 0.0), 8);
         for (index, point) in flat.iter().enumerate() {
             let expected = 2.0 * (index as f32 - 4.0).abs() - 4.0;
-            assert!(
-                point.abs_diff_eq(vec2(expected, 0.0), 1.0e-3),
-                "{index}: {point}"
-            );
+            assert!(point.abs_diff_eq(vec2(expected, 0.0), 1.0e-3), "{index}: {point}");
         }
     }
 
     #[test]
     fn extreme_radii_do_not_panic() {
-        for bad in [
-            f32::NAN,
-            f32::INFINITY,
-            f32::MAX,
-            f32::MIN_POSITIVE,
-            1.0e-45,
-        ] {
-            for radii in [
-                vec2(bad, 1.0),
-                vec2(1.0, bad),
-                Vec2::splat(bad),
-                vec2(bad, 0.0),
-            ] {
+        for bad in [f32::NAN, f32::INFINITY, f32::MAX, f32::MIN_POSITIVE, 1.0e-45] {
+            for radii in [vec2(bad, 1.0), vec2(1.0, bad), Vec2::splat(bad), vec2(bad, 0.0)] {
                 assert_eq!(ellipse(radii, 13).len(), 13);
             }
         }
@@ -286,12 +241,7 @@ mod tests {
             let direction = direction_or(Vec2::splat(size), Vec2::X);
             assert!((direction.length() - 1.0).abs() < 1.0e-6, "{size}");
         }
-        for bad in [
-            Vec2::ZERO,
-            -Vec2::ZERO,
-            vec2(f32::NAN, 1.0),
-            vec2(1.0, f32::INFINITY),
-        ] {
+        for bad in [Vec2::ZERO, -Vec2::ZERO, vec2(f32::NAN, 1.0), vec2(1.0, f32::INFINITY)] {
             assert_eq!(direction_or(bad, Vec2::Y), Vec2::Y);
         }
     }

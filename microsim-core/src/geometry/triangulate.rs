@@ -52,8 +52,7 @@ fn is_ear(polygon: &[Vec2], ring: &[u32], tip: usize) -> bool {
     let corners = corners_at(polygon, ring, tip);
     // Vertices at the place of a corner are no obstacle: they are where a boundary touches itself.
     let blocks = |vertex: Vec2| !corners.contains(&vertex) && is_in_triangle(corners, vertex);
-    turn(corners[0], corners[1], corners[2]) > 0.0
-        && !ring.iter().any(|&index| blocks(polygon[index as usize]))
+    turn(corners[0], corners[1], corners[2]) > 0.0 && !ring.iter().any(|&index| blocks(polygon[index as usize]))
 }
 
 /// The tip of the triangle with the least area: the least wrong one to force.
@@ -72,11 +71,7 @@ fn flattest_tip(polygon: &[Vec2], ring: &[u32]) -> usize {
 /// The indices of the vertex at position `tip` and its neighbours, in order.
 fn triangle_at(ring: &[u32], tip: usize) -> [u32; 3] {
     let count = ring.len();
-    [
-        ring[(tip + count - 1) % count],
-        ring[tip],
-        ring[(tip + 1) % count],
-    ]
+    [ring[(tip + count - 1) % count], ring[tip], ring[(tip + 1) % count]]
 }
 
 fn corners_at(polygon: &[Vec2], ring: &[u32], tip: usize) -> [Vec2; 3] {
@@ -114,10 +109,7 @@ mod tests {
         let areas = triangle_areas(polygon, &triangles);
         assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
         let (sum, expected) = (areas.iter().sum::<f32>(), signed_area(polygon).abs());
-        assert!(
-            (sum - expected).abs() <= 1.0e-5 * (1.0 + expected),
-            "{sum} {expected}"
-        );
+        assert!((sum - expected).abs() <= 1.0e-5 * (1.0 + expected), "{sum} {expected}");
         for triangle in triangles {
             let [a, b, c] = triangle.map(|index| polygon[index as usize]);
             let outside = !contains_point(polygon, (a + b + c) / 3.0);
@@ -140,47 +132,26 @@ mod tests {
 
     #[test]
     fn concave_shapes_are_covered() {
-        let arrow = [
-            vec2(0.0, 0.0),
-            vec2(2.0, -1.0),
-            vec2(0.5, 0.0),
-            vec2(2.0, 1.0),
-        ];
+        let arrow = [vec2(0.0, 0.0), vec2(2.0, -1.0), vec2(0.5, 0.0), vec2(2.0, 1.0)];
         assert_covers_both_windings(&arrow);
         let comb: Vec<_> = (0..20)
             .map(|i| vec2(i as f32, if i % 2 == 0 { 1.0 } else { 5.0 }))
             .chain([vec2(19.0, 0.0), vec2(0.0, 0.0)])
             .collect();
         assert_covers_both_windings(&comb);
-        let spiral: Vec<_> = [
-            (0, 0),
-            (5, 0),
-            (5, 5),
-            (1, 5),
-            (1, 2),
-            (3, 2),
-            (3, 3),
-            (2, 3),
-        ]
-        .into_iter()
-        .chain([(2, 4), (4, 4), (4, 1), (0, 1)])
-        .map(|(x, y)| vec2(x as f32, y as f32))
-        .collect();
+        let spiral: Vec<_> = [(0, 0), (5, 0), (5, 5), (1, 5), (1, 2), (3, 2), (3, 3), (2, 3)]
+            .into_iter()
+            .chain([(2, 4), (4, 4), (4, 1), (0, 1)])
+            .map(|(x, y)| vec2(x as f32, y as f32))
+            .collect();
         assert_covers_both_windings(&spiral);
     }
 
     #[test]
     fn flat_vertices_make_no_flat_triangles() {
         let side = |from: Vec2, to: Vec2| (0..4).map(move |i| from.lerp(to, i as f32 / 4.0));
-        let corners = [
-            vec2(0.0, 0.0),
-            vec2(4.0, 0.0),
-            vec2(4.0, 4.0),
-            vec2(0.0, 4.0),
-        ];
-        let square: Vec<_> = (0..4)
-            .flat_map(|i| side(corners[i], corners[(i + 1) % 4]))
-            .collect();
+        let corners = [vec2(0.0, 0.0), vec2(4.0, 0.0), vec2(4.0, 4.0), vec2(0.0, 4.0)];
+        let square: Vec<_> = (0..4).flat_map(|i| side(corners[i], corners[(i + 1) % 4])).collect();
         assert_covers_both_windings(&square);
         let triangle: Vec<_> = side(corners[0], corners[1])
             .chain(side(corners[1], corners[2]))
@@ -209,12 +180,7 @@ mod tests {
 
     #[test]
     fn bow_tie_is_cut_by_force() {
-        let bow_tie = [
-            vec2(0.0, 0.0),
-            vec2(1.0, 1.0),
-            vec2(1.0, 0.0),
-            vec2(0.0, 1.0),
-        ];
+        let bow_tie = [vec2(0.0, 0.0), vec2(1.0, 1.0), vec2(1.0, 0.0), vec2(0.0, 1.0)];
         assert_eq!(triangulate(&bow_tie).len(), 2);
     }
 

@@ -87,8 +87,7 @@ impl AmoeboidCellSpec {
         let around = perimeter(&ellipse(radii, 256));
         let count = around / (2.0 * self.node_radius);
         if count > MAX_NODES {
-            let accepted =
-                format!("at most {MAX_NODES} membrane nodes (perimeter over 2 node radii)");
+            let accepted = format!("at most {MAX_NODES} membrane nodes (perimeter over 2 node radii)");
             return Err(out_of_range("radii", f64::from(count), accepted));
         }
         Ok(ellipse(radii, count as usize))
@@ -105,10 +104,7 @@ impl AmoeboidCellSpec {
             material,
             ..Node::disc(position, 1.0, self.node_radius)
         };
-        let ring: Vec<u32> = chain
-            .iter()
-            .map(|&position| builder.node(disc(position)))
-            .collect();
+        let ring: Vec<u32> = chain.iter().map(|&position| builder.node(disc(position))).collect();
         let rest_length = perimeter(chain) / chain.len() as f32;
         builder.outline(&ring);
         (0..ring.len()).for_each(|k| link(&mut builder, &ring, k, rest_length));
@@ -171,11 +167,7 @@ mod tests {
 
     #[test]
     fn t15_t16_chain_of_touching_equal_discs_of_the_same_radius_at_any_size() {
-        for radii in [
-            Vec2::new(6.0, 5.0),
-            Vec2::new(15.0, 11.0),
-            Vec2::new(40.0, 40.0),
-        ] {
+        for radii in [Vec2::new(6.0, 5.0), Vec2::new(15.0, 11.0), Vec2::new(40.0, 40.0)] {
             let (template, _) = blueprint(&AmoeboidCellSpec {
                 radii,
                 ..AmoeboidCellSpec::default()
@@ -194,11 +186,7 @@ mod tests {
             }
             let distances = &template.constraints().distances;
             assert_eq!(distances.len(), count, "neighbours joined, ring closed");
-            assert!(
-                distances
-                    .iter()
-                    .all(|c| c.rest_length == distances[0].rest_length)
-            );
+            assert!(distances.iter().all(|c| c.rest_length == distances[0].rest_length));
         }
     }
 
@@ -207,12 +195,8 @@ mod tests {
         let spec = AmoeboidCellSpec::default();
         let (template, fluid) = blueprint(&spec);
         let radius = 0.5 * fluid.params.spacing;
-        let widest =
-            STRAIN_LIMIT * template.constraints().distances[0].rest_length - 2.0 * spec.node_radius;
-        assert!(
-            radius > 0.5 * widest,
-            "radius {radius}, widest gap {widest}"
-        );
+        let widest = STRAIN_LIMIT * template.constraints().distances[0].rest_length - 2.0 * spec.node_radius;
+        assert!(radius > 0.5 * widest, "radius {radius}, widest gap {widest}");
         let cell = std::f32::consts::PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
         let share = fluid.points.len() as f32 * 0.866 * fluid.params.spacing.powi(2) / cell;
         assert!((0.75..1.0).contains(&share), "fills {share} of the room");
@@ -227,9 +211,7 @@ mod tests {
 
     #[test]
     fn bad_numbers_are_refused_by_name() {
-        let refuse = |spec: AmoeboidCellSpec, field: &str| {
-            assert_eq!(spec.blueprint().unwrap_err().field(), field)
-        };
+        let refuse = |spec: AmoeboidCellSpec, field: &str| assert_eq!(spec.blueprint().unwrap_err().field(), field);
         let spec = AmoeboidCellSpec::default;
         refuse(
             AmoeboidCellSpec {

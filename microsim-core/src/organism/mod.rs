@@ -155,14 +155,12 @@ impl Placement {
         in_range("at.y", self.at.y, -1e5, 1e5)?;
         in_range("angle", self.angle, -1000.0, 1000.0)?;
         in_range("scale", self.scale, 0.01, 100.0)?;
-        self.controller
-            .validate()
-            .map_err(|error| error.within("controller"))
+        self.controller.validate().map_err(|error| error.within("controller"))
     }
 
-    /// Takes a point of the organism's own frame into the world.
-    pub(crate) fn place(&self, point: Vec2, scale: f32) -> Vec2 {
-        self.at + rotate(point * scale, unit_vector(self.angle))
+    /// Takes a point of the organism's own frame into the world's directions, relative to `origin`.
+    pub(crate) fn place(&self, point: Vec2, scale: f32, origin: Vec2) -> Vec2 {
+        (self.at - origin) + rotate(point * scale, unit_vector(self.angle))
     }
 }
 
@@ -194,10 +192,7 @@ pub(crate) struct FluidPlan {
 
 impl Blueprint {
     pub(crate) fn particle_count(&self) -> usize {
-        let nodes = self
-            .template
-            .as_ref()
-            .map_or(0, |template| template.nodes().len());
+        let nodes = self.template.as_ref().map_or(0, |template| template.nodes().len());
         nodes + self.fluid.as_ref().map_or(0, |fluid| fluid.points.len())
     }
 
@@ -208,12 +203,7 @@ impl Blueprint {
             .map_or(0.0, |template| template.extent() * self.scale);
         self.fluid
             .iter()
-            .flat_map(|fluid| {
-                fluid
-                    .points
-                    .iter()
-                    .map(|p| p.length() + 0.5 * fluid.params.spacing)
-            })
+            .flat_map(|fluid| fluid.points.iter().map(|p| p.length() + 0.5 * fluid.params.spacing))
             .fold(body, |far, reach| if reach > far { reach } else { far })
     }
 }
@@ -268,6 +258,14 @@ impl Organism {
     /// Particles of the outline, counter-clockwise.
     pub(crate) fn outline_particles(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
         self.outline.iter().map(|&node| self.body.particle(node))
+    }
+
+    /// The first particle of its body, if it has one.
+    pub(crate) fn first_node(&self) -> Option<u32> {
+        match &self.body {
+            Body::Lane { first, .. } => Some(*first),
+            Body::Loose { particles, .. } => particles.first().copied(),
+        }
     }
 
     /// All its particles: those of the body by node, then the fluid.

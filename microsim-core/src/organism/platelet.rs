@@ -92,10 +92,7 @@ impl PlateletSpec {
             ..Node::disc(position, 1.0, satellite_radius)
         };
         let points = ellipse(Vec2::splat(ring_radius), self.satellites as usize);
-        let ring: Vec<u32> = points
-            .into_iter()
-            .map(|at| builder.node(satellite(at)))
-            .collect();
+        let ring: Vec<u32> = points.into_iter().map(|at| builder.node(satellite(at))).collect();
         builder.ring(&ring, 0.0).outline(&ring);
         let held_out = ring_radius - INTERLAYER_GAP * satellite_radius;
         for &a in &ring {
@@ -158,11 +155,7 @@ mod tests {
     use super::*;
 
     fn template() -> Template {
-        PlateletSpec::default()
-            .blueprint()
-            .unwrap()
-            .template
-            .unwrap()
+        PlateletSpec::default().blueprint().unwrap().template.unwrap()
     }
 
     #[test]
@@ -173,11 +166,7 @@ mod tests {
                 ..PlateletSpec::default()
             };
             let template = spec.blueprint().unwrap().template.unwrap();
-            let dynamic = template
-                .nodes()
-                .iter()
-                .filter(|node| node.mass.is_finite())
-                .count();
+            let dynamic = template.nodes().iter().filter(|node| node.mass.is_finite()).count();
             assert!((20..=30).contains(&dynamic), "{dynamic} bodies");
         }
     }
@@ -192,15 +181,8 @@ mod tests {
                 .filter(move |node| node.role == role)
                 .collect::<Vec<_>>()
         };
-        let (satellites, nucleus, interlayer) = (
-            with(Role::Membrane),
-            with(Role::Nucleus),
-            with(Role::Interlayer),
-        );
-        assert_eq!(
-            (satellites.len(), nucleus.len(), interlayer.len()),
-            (28, 1, 1)
-        );
+        let (satellites, nucleus, interlayer) = (with(Role::Membrane), with(Role::Nucleus), with(Role::Interlayer));
+        assert_eq!((satellites.len(), nucleus.len(), interlayer.len()), (28, 1, 1));
         assert_eq!(nucleus[0].position, interlayer[0].position, "concentric");
         assert!(
             !nucleus[0].groups.meets(interlayer[0].groups),

@@ -22,12 +22,7 @@ pub struct Anchor {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(
-    list: &[Anchor],
-    span: Span<L>,
-    particles: &mut Particles,
-    h: f32,
-) {
+pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles: &mut Particles, h: f32) {
     for c in list {
         let alpha = c.compliance / (h * h);
         contract(c, c.rest_length, alpha, span, particles);
@@ -36,13 +31,7 @@ pub(crate) fn project<const L: usize>(
 }
 
 #[inline(always)]
-fn contract<const L: usize>(
-    c: &Anchor,
-    length: f32,
-    alpha: f32,
-    span: Span<L>,
-    particles: &mut Particles,
-) {
+fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Particles) {
     let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
     let mut multiplier = [0.0; L];
     for l in 0..L {

@@ -19,32 +19,15 @@ pub struct Area {
     pub is_upper_bound: bool,
 }
 
-pub(crate) fn project<const L: usize>(
-    list: &[Area],
-    span: Span<L>,
-    particles: &mut Particles,
-    h: f32,
-) {
+pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &mut Particles, h: f32) {
     for c in list {
         for lane in 0..L {
-            project_lane(
-                c,
-                |slot| span.at(slot) + lane,
-                span.scale[lane],
-                particles,
-                h,
-            );
+            project_lane(c, |slot| span.at(slot) + lane, span.scale[lane], particles, h);
         }
     }
 }
 
-fn project_lane(
-    c: &Area,
-    at: impl Fn(u32) -> usize,
-    scale: f32,
-    particles: &mut Particles,
-    h: f32,
-) {
+fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Particles, h: f32) {
     let count = c.ring.len();
     let node = |k: usize| at(c.ring[k % count]);
     let (origin_x, origin_y) = (particles.x[node(0)], particles.y[node(0)]);
@@ -114,11 +97,7 @@ mod tests {
             for _ in 0..8 {
                 project(&[constraint(12, target, false)], Span::LOOSE, &mut p, 0.01);
             }
-            assert!(
-                (area_of(&p) - target).abs() < 1e-3,
-                "area {} for {target}",
-                area_of(&p)
-            );
+            assert!((area_of(&p) - target).abs() < 1e-3, "area {} for {target}", area_of(&p));
             assert!((momentum(&p) - before).length() < 1e-4);
         }
     }

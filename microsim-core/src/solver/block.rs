@@ -93,18 +93,13 @@ mod tests {
         let mut loose = vec![Particles::default(); LANES];
         for lane in 0..LANES {
             for slot in 0..5 {
-                in_lanes.set(
-                    block.particle(slot, lane) as usize,
-                    &disc(wobbly(slot, lane), 1.0),
-                );
+                in_lanes.set(block.particle(slot, lane) as usize, &disc(wobbly(slot, lane), 1.0));
                 loose[lane].insert(&disc(wobbly(slot, lane), 1.0));
             }
         }
         for _ in 0..10 {
             block.project(&constraints, &mut in_lanes, 0.01);
-            loose
-                .iter_mut()
-                .for_each(|p| constraints.project(Span::LOOSE, p, 0.01));
+            loose.iter_mut().for_each(|p| constraints.project(Span::LOOSE, p, 0.01));
         }
         for lane in 0..LANES {
             for slot in 0..5 {
@@ -123,8 +118,6 @@ mod tests {
         let mut particles = Particles::default();
         let block = Block::new(0, 5, &mut particles);
         block.project(&spring_chain(5), &mut particles, 0.01);
-        assert!(
-            block.is_empty() && (0..particles.len()).all(|i| particles.position(i) == Vec2::ZERO)
-        );
+        assert!(block.is_empty() && (0..particles.len()).all(|i| particles.position(i) == Vec2::ZERO));
     }
 }

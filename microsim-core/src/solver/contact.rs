@@ -42,48 +42,23 @@ pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
 }
 
 /// Pushes overlapping discs apart.
-pub(crate) fn project(
-    contacts: &mut [Contact],
-    particles: &mut Particles,
-    impacts: &mut Vec<Impact>,
-) {
+pub(crate) fn project(contacts: &mut [Contact], particles: &mut Particles, impacts: &mut Vec<Impact>) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
-        let (dx, dy) = (
-            particles.x[j] - particles.x[i],
-            particles.y[j] - particles.y[i],
-        );
+        let between = particles.between(i, j);
         let reach = particles.radius[i] + particles.radius[j];
-        let squared = dx * dx + dy * dy;
+        let squared = between.length_squared();
         if squared < reach * reach {
             contact.touched = true;
-            separate(
-                contact,
-                Vec2::new(dx, dy),
-                squared,
-                reach,
-                particles,
-                impacts,
-            );
+            separate(contact, between, squared, reach, particles, impacts);
         }
     }
 }
 
-fn separate(
-    c: &Contact,
-    between: Vec2,
-    squared: f32,
-    reach: f32,
-    p: &mut Particles,
-    impacts: &mut Vec<Impact>,
-) {
+fn separate(c: &Contact, between: Vec2, squared: f32, reach: f32, p: &mut Particles, impacts: &mut Vec<Impact>) {
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
-    let normal = if length > 1e-6 {
-        between / length
-    } else {
-        Vec2::X
-    };
+    let normal = if length > 1e-6 { between / length } else { Vec2::X };
     let (wi, wj) = (p.inv_mass[i], p.inv_mass[j]);
     let depth = reach - length;
     if c.restitution > 0.0 {
@@ -140,9 +115,9 @@ impl Impact {
 pub(crate) fn apply_restitution(impacts: &mut Vec<Impact>, p: &mut Particles) {
     for impact in impacts.drain(..) {
         let i = impact.i as usize;
-        let (other, wj) = impact.j.map_or((Vec2::ZERO, 0.0), |j| {
-            (p.velocity(j as usize), p.inv_mass[j as usize])
-        });
+        let (other, wj) = impact
+            .j
+            .map_or((Vec2::ZERO, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
         let lacking = impact.rebound - (other - p.velocity(i)).dot(impact.normal);
         if lacking > 0.0 {
             let impulse = impact.normal * ratio(lacking, p.inv_mass[i] + wj);
@@ -173,9 +148,7 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new())
-        });
+        assert_pair_laws(&[0.6], 1.0, |p| project(&mut [touching(0.0, 0.0)], p, &mut Vec::new()));
     }
 
     #[test]
@@ -188,15 +161,15 @@ mod tests {
 
     #[test]
     fn friction_takes_back_slip_up_to_mu_times_depth() {
-        for (mu, kept) in [(0.0, 0.3), (0.5, 0.25), (100.0, 0.0)] {
+        for (mu, kept) in [(0.0, 0.3), (0.5, 0.25), (100.0, 1e-3)] {
             let mut p = line(0.9, [0.0, 1.0]);
             p.y[1] = 0.3;
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new());
             let normal = p.position(1).normalize();
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new());
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
-            assert!(slip <= kept + 0.02, "mu {mu}: slip {slip}");
+            assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
     }
 

@@ -25,12 +25,7 @@ pub struct Distance {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(
-    list: &[Distance],
-    span: Span<L>,
-    particles: &mut Particles,
-    h: f32,
-) {
+pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particles: &mut Particles, h: f32) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
         let gamma = c.damping / h;
@@ -43,10 +38,7 @@ pub(crate) fn project<const L: usize>(
         let mut multiplier = [0.0; L];
         for l in 0..L {
             let error = pair.length[l] - c.rest_length * span.scale[l];
-            multiplier[l] = ratio(
-                -error - gamma * resisted[l],
-                (1.0 + gamma) * pair.weight(l) + alpha,
-            );
+            multiplier[l] = ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha);
         }
         pair.push(particles, multiplier);
     }
@@ -110,15 +102,7 @@ mod tests {
             ..constraint(1e-4)
         };
         project(&[soft], Span::LOOSE, &mut free, 0.01);
-        project(
-            &[Distance {
-                damping: 0.02,
-                ..soft
-            }],
-            Span::LOOSE,
-            &mut damped,
-            0.01,
-        );
+        project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped, 0.01);
         assert_eq!(free.x[1], 2.0);
         assert!(damped.x[1] < 2.0 && damped.x[1] > 1.9);
     }

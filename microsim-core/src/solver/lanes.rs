@@ -26,10 +26,7 @@ pub(crate) struct Span<const L: usize> {
 
 impl Span<1> {
     /// Slots are particle indices.
-    pub(crate) const LOOSE: Self = Self {
-        base: 0,
-        scale: [1.0],
-    };
+    pub(crate) const LOOSE: Self = Self { base: 0, scale: [1.0] };
 }
 
 impl<const L: usize> Span<L> {
@@ -82,11 +79,7 @@ impl<const L: usize> Pair<L> {
         for l in 0..L {
             let (dx, dy) = (bx[l] - ax[l], by[l] - ay[l]);
             let length = (dx * dx + dy * dy).sqrt();
-            let inverse = if length > MIN_LENGTH {
-                1.0 / length
-            } else {
-                0.0
-            };
+            let inverse = if length > MIN_LENGTH { 1.0 / length } else { 0.0 };
             pair.length[l] = length;
             pair.normal_x[l] = dx * inverse;
             pair.normal_y[l] = dy * inverse;
@@ -120,10 +113,7 @@ impl<const L: usize> Pair<L> {
     pub(crate) fn push(&self, particles: &mut Particles, multiplier: [f32; L]) {
         let mut shift = [[0.0; L]; 4];
         for l in 0..L {
-            let (ma, mb) = (
-                -multiplier[l] * self.inv_mass_a[l],
-                multiplier[l] * self.inv_mass_b[l],
-            );
+            let (ma, mb) = (-multiplier[l] * self.inv_mass_a[l], multiplier[l] * self.inv_mass_b[l]);
             shift[0][l] = ma * self.normal_x[l];
             shift[1][l] = ma * self.normal_y[l];
             shift[2][l] = mb * self.normal_x[l];

@@ -18,11 +18,7 @@ pub struct MinDistance {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(
-    list: &[MinDistance],
-    span: Span<L>,
-    particles: &mut Particles,
-) {
+pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Particles) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
         let mut multiplier = [0.0; L];

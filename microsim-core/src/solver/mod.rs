@@ -99,57 +99,27 @@ impl ConstraintSet {
         }
         for (k, c) in min_distances.iter().enumerate() {
             check_pair(c.a, c.b, nodes, &format!("min_distances[{k}].a"))?;
-            in_range(
-                &format!("min_distances[{k}].min_length"),
-                c.min_length,
-                0.0,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("min_distances[{k}].min_length"), c.min_length, 0.0, MAX_LENGTH)?;
         }
         for (k, c) in areas.iter().enumerate() {
             check_ring(&c.ring, nodes, &format!("areas[{k}].ring"))?;
-            in_range(
-                &format!("areas[{k}].rest_area"),
-                c.rest_area,
-                1e-6,
-                MAX_LENGTH,
-            )?;
-            in_range(
-                &format!("areas[{k}].compliance"),
-                c.compliance,
-                0.0,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("areas[{k}].rest_area"), c.rest_area, 1e-6, MAX_LENGTH)?;
+            in_range(&format!("areas[{k}].compliance"), c.compliance, 0.0, MAX_LENGTH)?;
         }
         for (k, c) in anchors.iter().enumerate() {
             check_pair(c.node, c.anchor, nodes, &format!("anchors[{k}].node"))?;
-            in_range(
-                &format!("anchors[{k}].rest_length"),
-                c.rest_length,
-                0.0,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("anchors[{k}].rest_length"), c.rest_length, 0.0, MAX_LENGTH)?;
             in_range(
                 &format!("anchors[{k}].max_length"),
                 c.max_length,
                 c.rest_length,
                 MAX_LENGTH,
             )?;
-            in_range(
-                &format!("anchors[{k}].compliance"),
-                c.compliance,
-                0.0,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("anchors[{k}].compliance"), c.compliance, 0.0, MAX_LENGTH)?;
         }
         for (k, c) in ropes.iter().enumerate() {
             check_pair(c.a, c.b, nodes, &format!("ropes[{k}].a"))?;
-            in_range(
-                &format!("ropes[{k}].max_length"),
-                c.max_length,
-                0.0,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("ropes[{k}].max_length"), c.max_length, 0.0, MAX_LENGTH)?;
         }
         Ok(())
     }
@@ -167,14 +137,10 @@ pub(crate) fn check_ring(ring: &[u32], nodes: usize, field: &str) -> Result<(), 
     let mut sorted = ring.to_vec();
     sorted.sort_unstable();
     sorted.dedup();
-    let is_known =
-        sorted.len() == ring.len() && ring.len() >= 3 && ring.iter().all(|&n| (n as usize) < nodes);
-    is_known.then_some(()).ok_or_else(|| {
-        Error::reference(
-            field,
-            format!("three or more different nodes below {nodes}"),
-        )
-    })
+    let is_known = sorted.len() == ring.len() && ring.len() >= 3 && ring.iter().all(|&n| (n as usize) < nodes);
+    is_known
+        .then_some(())
+        .ok_or_else(|| Error::reference(field, format!("three or more different nodes below {nodes}")))
 }
 
 /// The factor that brings a vector of this squared length down to `longest`; 1 if it is not longer.

@@ -7,7 +7,8 @@ use glam::Vec2;
 /// A disc of radius 0.5 at rest.
 pub(crate) fn disc(position: Vec2, inv_mass: f32) -> Particle {
     Particle {
-        position,
+        origin: Vec2::ZERO,
+        offset: position,
         velocity: Vec2::ZERO,
         inv_mass,
         radius: 0.5,
@@ -44,9 +45,7 @@ pub(crate) fn ring(count: usize, radius: f32) -> Particles {
 /// Sum of mass times position, which no inner constraint may change.
 pub(crate) fn momentum(particles: &Particles) -> Vec2 {
     let moving = particles.live().filter(|&i| particles.inv_mass[i] > 0.0);
-    moving
-        .map(|i| particles.position(i) / particles.inv_mass[i])
-        .sum()
+    moving.map(|i| particles.position(i) / particles.inv_mass[i]).sum()
 }
 
 /// Checks a pair constraint that asks for `target` between particles 0 and 1: the error shrinks, momentum stays, the
@@ -64,19 +63,11 @@ pub(crate) fn assert_pair_laws(violated: &[f32], target: f32, project: impl Fn(&
         assert!((momentum(&p) - before).length() < 1e-5, "momentum");
         let mut pinned = line(length, [0.0, 0.0]);
         project(&mut pinned);
-        assert_eq!(
-            (pinned.x[0], pinned.x[1]),
-            (0.0, length),
-            "pinned particles stay"
-        );
+        assert_eq!((pinned.x[0], pinned.x[1]), (0.0, length), "pinned particles stay");
     }
     let mut rest = line(target, [1.0, 1.0]);
     project(&mut rest);
-    assert_eq!(
-        (rest.x[0], rest.x[1]),
-        (0.0, target),
-        "the target is a fixed point"
-    );
+    assert_eq!((rest.x[0], rest.x[1]), (0.0, target), "the target is a fixed point");
     let mut coincident = line(0.0, [1.0, 1.0]);
     project(&mut coincident);
     assert!(

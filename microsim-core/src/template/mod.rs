@@ -102,18 +102,8 @@ impl Node {
             in_range(&field("mass"), self.mass, 1e-6, 1e6)?;
         }
         in_range(&field("radius"), self.radius, 0.0, 1000.0)?;
-        in_range(
-            &field("material.friction"),
-            self.material.friction,
-            0.0,
-            10.0,
-        )?;
-        in_range(
-            &field("material.restitution"),
-            self.material.restitution,
-            0.0,
-            1.0,
-        )
+        in_range(&field("material.friction"), self.material.friction, 0.0, 10.0)?;
+        in_range(&field("material.restitution"), self.material.restitution, 0.0, 1.0)
     }
 }
 
@@ -264,10 +254,7 @@ impl TemplateBuilder {
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
-        nodes
-            .iter()
-            .enumerate()
-            .try_for_each(|(k, node)| node.validate(k))?;
+        nodes.iter().enumerate().try_for_each(|(k, node)| node.validate(k))?;
         constraints.validate(nodes.len())?;
         if !outline.is_empty() {
             check_ring(&outline, nodes.len(), "outline")?;
@@ -319,14 +306,8 @@ mod tests {
             &|b| drop(b.node(Node::disc(Vec2::NAN, 1.0, 0.5))),
             "nodes[2].position.x",
         );
-        refuse(
-            &|b| drop(b.node(Node::disc(Vec2::ZERO, 0.0, 0.5))),
-            "nodes[2].mass",
-        );
-        refuse(
-            &|b| drop(b.node(Node::disc(Vec2::ZERO, 1.0, -0.5))),
-            "nodes[2].radius",
-        );
+        refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 0.0, 0.5))), "nodes[2].mass");
+        refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 1.0, -0.5))), "nodes[2].radius");
         refuse(&|b| drop(b.link(0, 7, 0.0)), "distances[0].a");
         refuse(&|b| drop(b.link(1, 1, 0.0)), "distances[0].a");
         refuse(&|b| drop(b.link(0, 1, f32::NAN)), "distances[0].compliance");

@@ -1,7 +1,7 @@
 //! Digest: 64 bits that stand for the whole state.
 //!
 //! FNV-1a over fixed-width little-endian words. Order: step index; every particle entry by index (owner, then for live
-//! ones x, y, vx, vy, inverse mass, radius, role, fluid, groups); every organism by index (kind, outline, locomotion,
+//! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups); every organism by index (kind, outline, locomotion,
 //! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
 //! positive and every NaN the same, so that equal states have equal digests.
 
@@ -71,12 +71,7 @@ impl World {
             digest.words(block.owner);
             block.scale.iter().for_each(|&scale| digest.float(scale));
         }
-        digest.words(
-            self.touching
-                .pairs()
-                .iter()
-                .flat_map(|(a, b)| [a.index, b.index]),
-        );
+        digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, b.index]));
         digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
         for fluid in &self.fluids {
             digest.words(fluid.particles.iter().copied());
@@ -89,7 +84,16 @@ impl World {
         for i in 0..p.len() {
             digest.word(p.owner[i]);
             if p.is_live(i) {
-                for value in [p.x[i], p.y[i], p.vx[i], p.vy[i], p.inv_mass[i], p.radius[i]] {
+                for value in [
+                    p.origin_x[i],
+                    p.origin_y[i],
+                    p.x[i],
+                    p.y[i],
+                    p.vx[i],
+                    p.vy[i],
+                    p.inv_mass[i],
+                    p.radius[i],
+                ] {
                     digest.float(value);
                 }
                 digest.word(u32::from(p.role[i]));
@@ -112,9 +116,7 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     match organism.locomotion {
         Locomotion::None => digest.word(0),
         Locomotion::FrontPull { front } => digest.words([1, front]),
-        Locomotion::Crawl { front_centre } => {
-            digest.words([2, front_centre.map_or(u32::MAX, |k| k)])
-        }
+        Locomotion::Crawl { front_centre } => digest.words([2, front_centre.map_or(u32::MAX, |k| k)]),
         Locomotion::Tow { max_acceleration } => digest.float(max_acceleration),
     }
     digest.float(organism.speed);
@@ -175,11 +177,7 @@ fn digest_controller(controller: &Controller, digest: &mut Digest) {
                 .for_each(|value| digest.float(value));
             digest.vector(goal.unwrap_or(Vec2::NAN));
         }
-        Controller::Patrol {
-            through,
-            repeats,
-            next,
-        } => {
+        Controller::Patrol { through, repeats, next } => {
             digest.words([2, u32::from(*repeats), *next]);
             through.iter().for_each(|&point| digest.vector(point));
         }

@@ -59,11 +59,7 @@ impl World {
             bodies: p.live().filter(is_body).count(),
             particles: p.live().count(),
             constraints,
-            leaks: self
-                .organisms
-                .iter()
-                .map(|(_, organism)| self.leaks_of(organism))
-                .sum(),
+            leaks: self.organisms.iter().map(|(_, organism)| self.leaks_of(organism)).sum(),
             improper_absorptions: self.improper_absorptions(),
             quarantined: self
                 .organisms
@@ -98,9 +94,7 @@ impl World {
 
     fn constraints_of<'a>(&'a self, organism: &'a Organism) -> &'a ConstraintSet {
         match &organism.body {
-            Body::Lane { block, .. } => {
-                self.templates[self.blocks[*block as usize].template as usize].constraints()
-            }
+            Body::Lane { block, .. } => self.templates[self.blocks[*block as usize].template as usize].constraints(),
             Body::Loose { constraints, .. } => constraints,
         }
     }
@@ -121,8 +115,7 @@ impl World {
             return 0;
         }
         let outline = self.outline_of(organism);
-        let is_outside =
-            |&&i: &&u32| !contains_point(&outline, self.particles.position(i as usize));
+        let is_outside = |&&i: &&u32| !contains_point(&outline, self.particles.position(i as usize));
         organism.fluid_particles.iter().filter(is_outside).count()
     }
 
@@ -141,11 +134,7 @@ impl World {
                 .map(|i| i as usize)
                 .find(|&i| self.particles.role[i] == Role::Nucleus as u8)
         });
-        let is_inside = |i: &usize| {
-            outlines
-                .iter()
-                .any(|o| contains_point(o, self.particles.position(*i)))
-        };
+        let is_inside = |i: &usize| outlines.iter().any(|o| contains_point(o, self.particles.position(*i)));
         nuclei.filter(is_inside).count()
     }
 
@@ -160,62 +149,45 @@ impl World {
     fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
         let set = self.constraints_of(organism);
         let scale = self.scale_of(organism);
-        let is_membrane = |node: u32| {
-            self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8
-        };
+        let is_membrane =
+            |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
         let links = set
             .distances
             .iter()
             .filter(move |c| is_membrane(c.a) && is_membrane(c.b) && c.rest_length > 0.0);
         links.map(move |c: &Distance| {
-            let at = |node| {
-                self.particles
-                    .position(organism.body.particle(node) as usize)
-            };
+            let at = |node| self.particles.position(organism.body.particle(node) as usize);
             (at(c.b) - at(c.a)).length() / (c.rest_length * scale) - 1.0
         })
     }
 
     fn anchor_offset(&self, organism: &Organism) -> f32 {
-        let at = |node| {
-            self.particles
-                .position(organism.body.particle(node) as usize)
-        };
+        let at = |node| self.particles.position(organism.body.particle(node) as usize);
         let anchors = self.constraints_of(organism).anchors.iter();
         anchors.fold(0.0, |far, c| {
-            larger(
-                far,
-                (at(c.node) - at(c.anchor)).length() / self.scale_of(organism),
-            )
+            larger(far, (at(c.node) - at(c.anchor)).length() / self.scale_of(organism))
         })
     }
 
     fn deepest_overlap(&self) -> f32 {
         let p = &self.particles;
-        self.scratch
-            .broad_phase
-            .contacts
-            .iter()
-            .fold(0.0, |deepest, contact| {
-                let (i, j) = (contact.i as usize, contact.j as usize);
-                if p.owner[i] == p.owner[j] || !p.is_live(i) || !p.is_live(j) {
-                    return deepest;
-                }
-                let smaller = if p.radius[i] < p.radius[j] {
-                    p.radius[i]
-                } else {
-                    p.radius[j]
-                };
-                let depth = p.radius[i] + p.radius[j] - (p.position(i) - p.position(j)).length();
-                larger(deepest, if smaller > 0.0 { depth / smaller } else { 0.0 })
-            })
+        self.scratch.broad_phase.contacts.iter().fold(0.0, |deepest, contact| {
+            let (i, j) = (contact.i as usize, contact.j as usize);
+            if p.owner[i] == p.owner[j] || !p.is_live(i) || !p.is_live(j) {
+                return deepest;
+            }
+            let smaller = if p.radius[i] < p.radius[j] {
+                p.radius[i]
+            } else {
+                p.radius[j]
+            };
+            let depth = p.radius[i] + p.radius[j] - (p.position(i) - p.position(j)).length();
+            larger(deepest, if smaller > 0.0 { depth / smaller } else { 0.0 })
+        })
     }
 
     fn mean_compression(&self) -> f32 {
-        let fluids = self
-            .fluids
-            .iter()
-            .filter(|fluid| !fluid.particles.is_empty());
+        let fluids = self.fluids.iter().filter(|fluid| !fluid.particles.is_empty());
         let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
             let share = fluid.particles.len() as f32;
             (

@@ -6,6 +6,7 @@ pub(crate) mod measure;
 pub(crate) mod organisms;
 mod quarantine;
 pub(crate) mod query;
+mod rebase;
 mod spawn;
 pub(crate) mod touching;
 pub(crate) mod view;
@@ -137,20 +138,14 @@ impl World {
     /// # Errors
     /// When the pose is not finite, the shape's box is not finite or a material number is out of range.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
-        let Material {
-            friction,
-            restitution,
-        } = obstacle.material;
+        let Material { friction, restitution } = obstacle.material;
         in_range("material.friction", friction, 0.0, 10.0)?;
         in_range("material.restitution", restitution, 0.0, 1.0)?;
         in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
         in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
         let bounds = obstacle.bounds();
         if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
-            return Err(Error::unsupported(
-                "shape",
-                "a shape with a finite bounding box",
-            ));
+            return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
@@ -165,12 +160,7 @@ impl World {
     ///
     /// # Errors
     /// When a handle is stale.
-    pub fn set_exempt(
-        &mut self,
-        a: OrganismId,
-        b: OrganismId,
-        is_exempt: bool,
-    ) -> Result<(), Error> {
+    pub fn set_exempt(&mut self, a: OrganismId, b: OrganismId, is_exempt: bool) -> Result<(), Error> {
         self.organism_or_stale(a, "a")?;
         self.organism_or_stale(b, "b")?;
         self.exemptions.set(a.index, b.index, is_exempt);
@@ -197,11 +187,9 @@ impl World {
 
     fn mean_position(&self, id: OrganismId) -> Option<Vec2> {
         let organism = self.organisms.get(id)?;
-        let (sum, count) = organism
-            .particles()
-            .fold((Vec2::ZERO, 0.0), |(sum, count), i| {
-                (sum + self.particles.position(i as usize), count + 1.0)
-            });
+        let (sum, count) = organism.particles().fold((Vec2::ZERO, 0.0), |(sum, count), i| {
+            (sum + self.particles.position(i as usize), count + 1.0)
+        });
         Some(sum / count)
     }
 

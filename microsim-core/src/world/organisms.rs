@@ -23,10 +23,7 @@ impl Organisms {
         let index = self.free.last().copied().unwrap_or(self.slots.len() as u32);
         OrganismId {
             index,
-            generation: self
-                .slots
-                .get(index as usize)
-                .map_or(0, |slot| slot.generation),
+            generation: self.slots.get(index as usize).map_or(0, |slot| slot.generation),
         }
     }
 
@@ -50,9 +47,7 @@ impl Organisms {
 
     pub(crate) fn get(&self, id: OrganismId) -> Option<&Organism> {
         let slot = self.slots.get(id.index as usize)?;
-        slot.organism
-            .as_ref()
-            .filter(|_| slot.generation == id.generation)
+        slot.organism.as_ref().filter(|_| slot.generation == id.generation)
     }
 
     /// The handle of the organism that lives at an index.
@@ -76,16 +71,13 @@ impl Organisms {
     }
 
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
-        self.slots
-            .iter_mut()
-            .zip(0u32..)
-            .filter_map(|(slot, index)| {
-                let id = OrganismId {
-                    index,
-                    generation: slot.generation,
-                };
-                slot.organism.as_mut().map(|organism| (id, organism))
-            })
+        self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
+            let id = OrganismId {
+                index,
+                generation: slot.generation,
+            };
+            slot.organism.as_mut().map(|organism| (id, organism))
+        })
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -2,6 +2,7 @@
 
 use super::World;
 use crate::event::Event;
+use glam::Vec2;
 
 impl World {
     /// Freezes every organism with a particle that is not finite or has left the room by more than the room's size.
@@ -15,16 +16,13 @@ impl World {
             ..
         } = self;
         let is_sane = |i: u32| {
-            let (x, y) = (particles.x[i as usize], particles.y[i as usize]);
+            let Vec2 { x, y } = particles.position(i as usize);
             let velocity = particles.vx[i as usize] + particles.vy[i as usize];
             let in_x = x > -config.size.x && x < 2.0 * config.size.x;
             in_x && y > -config.size.y && y < 2.0 * config.size.y && velocity.is_finite()
         };
         let mut lost = Vec::new();
-        for (id, organism) in organisms
-            .iter_mut()
-            .filter(|(_, organism)| !organism.is_quarantined)
-        {
+        for (id, organism) in organisms.iter_mut().filter(|(_, organism)| !organism.is_quarantined) {
             if !organism.particles().all(is_sane) {
                 organism.is_quarantined = true;
                 events.push(Event::Quarantined { organism: id });
@@ -36,14 +34,12 @@ impl World {
             particles.freeze(
                 i as usize,
                 if last.is_finite() {
-                    last.clamp(glam::Vec2::ZERO, config.size)
+                    last.clamp(Vec2::ZERO, config.size)
                 } else {
                     home
                 },
             );
-            fluids
-                .iter_mut()
-                .for_each(|fluid| fluid.particles.retain(|&j| j != i));
+            fluids.iter_mut().for_each(|fluid| fluid.particles.retain(|&j| j != i));
         }
     }
 }
@@ -61,13 +57,7 @@ mod tests {
         let sound = world
             .spawn(&AgarSpec::default().into(), Placement::at(40.0, 20.0))
             .unwrap();
-        let first = world
-            .organisms
-            .get(broken)
-            .unwrap()
-            .particles()
-            .next()
-            .unwrap() as usize;
+        let first = world.organisms.get(broken).unwrap().particles().next().unwrap() as usize;
         world.particles.x[first] = f32::NAN;
         world.step(&Inputs::new());
         assert_eq!(world.events(), [Event::Quarantined { organism: broken }]);

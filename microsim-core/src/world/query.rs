@@ -25,15 +25,8 @@ impl World {
     }
 
     /// Organisms that a circle touches: one of their discs, or the area within their outline, reaches into it.
-    pub fn organisms_in_circle(
-        &self,
-        centre: Vec2,
-        radius: f32,
-    ) -> impl Iterator<Item = OrganismId> + '_ {
-        self.find(
-            move |disc, r| (disc - centre).length() <= r + radius,
-            Some(centre),
-        )
+    pub fn organisms_in_circle(&self, centre: Vec2, radius: f32) -> impl Iterator<Item = OrganismId> + '_ {
+        self.find(move |disc, r| (disc - centre).length() <= r + radius, Some(centre))
     }
 
     /// Organisms with a disc that reaches into the box from `low` to `high`.
@@ -55,9 +48,7 @@ impl World {
         let mut nearest: Option<(OrganismId, f32, Vec2)> = None;
         for (id, i) in hits.filter(|&(_, i)| self.particles.groups[i].memberships != 0) {
             let centre = self.particles.position(i);
-            if let Some(distance) =
-                ray_to_circle(origin, direction, centre, self.particles.radius[i])
-            {
+            if let Some(distance) = ray_to_circle(origin, direction, centre, self.particles.radius[i]) {
                 if distance <= length && nearest.is_none_or(|(_, best, _)| distance < best) {
                     nearest = Some((id, distance, centre));
                 }

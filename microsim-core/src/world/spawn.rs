@@ -22,11 +22,7 @@ impl World {
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
     /// what is already there, or when the world would hold too many particles. Nothing is changed then.
-    pub fn spawn(
-        &mut self,
-        spec: &OrganismSpec,
-        placement: Placement,
-    ) -> Result<OrganismId, Error> {
+    pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         self.spawn_blueprint(spec.blueprint()?, placement)
     }
 
@@ -34,11 +30,7 @@ impl World {
     ///
     /// # Errors
     /// As for [`World::spawn`], and when the template is not one of this world's.
-    pub fn spawn_template(
-        &mut self,
-        template: TemplateId,
-        placement: Placement,
-    ) -> Result<OrganismId, Error> {
+    pub fn spawn_template(&mut self, template: TemplateId, placement: Placement) -> Result<OrganismId, Error> {
         let template = self.templates.get(template.0 as usize).cloned();
         let template = template.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
         self.spawn_blueprint(Blueprint::custom(template), placement)
@@ -64,12 +56,9 @@ impl World {
             Body::Lane { block, first } => {
                 let block = &mut self.blocks[block as usize];
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
-                (0..organism.slots)
-                    .for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
+                (0..organism.slots).for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
             }
-            Body::Loose { particles, .. } => {
-                particles.into_iter().for_each(|i| self.particles.remove(i))
-            }
+            Body::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
         organism
             .fluid_particles
@@ -78,11 +67,7 @@ impl World {
         Ok(())
     }
 
-    fn spawn_blueprint(
-        &mut self,
-        blueprint: Blueprint,
-        placement: Placement,
-    ) -> Result<OrganismId, Error> {
+    fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
         let asked = self.particles.live().count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
@@ -94,10 +79,7 @@ impl World {
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
         self.check_place(&planned)?;
 
-        let nodes = blueprint
-            .template
-            .as_ref()
-            .map_or(0, |template| template.nodes().len());
+        let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
         let outline = blueprint
             .template
@@ -125,10 +107,7 @@ impl World {
             locomotion: blueprint.locomotion,
             speed: blueprint.speed,
             controller: placement.controller,
-            rng: Rng::new(
-                self.config.seed,
-                (u64::from(id.generation) << 32) | u64::from(id.index),
-            ),
+            rng: Rng::new(self.config.seed, (u64::from(id.generation) << 32) | u64::from(id.index)),
             spawn_area: 0.0,
             home: placement.at,
             is_quarantined: false,
@@ -146,20 +125,14 @@ impl World {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
         for p in planned {
-            let is_inside = p.position.cmpge(Vec2::splat(p.radius)).all()
-                && p.position.cmple(size - p.radius).all();
+            let is_inside =
+                p.position().cmpge(Vec2::splat(p.radius)).all() && p.position().cmple(size - p.radius).all();
             if !is_inside {
                 let accepted = format!("everything within 0 to {} by 0 to {}", size.x, size.y);
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
             }
         }
-        if let Some(with) = self.overlap(
-            &planned
-                .iter()
-                .filter(colliding)
-                .copied()
-                .collect::<Vec<_>>(),
-        ) {
+        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>()) {
             return Err(Error::new(ErrorKind::Overlap { with }, "at"));
         }
         Ok(())
@@ -169,10 +142,9 @@ impl World {
     fn overlap(&self, discs: &[Particle]) -> Option<String> {
         let obstacles = self.obstacles.iter().skip(super::WALLS);
         let blocked = |obstacle: &crate::solver::obstacle::Obstacle, disc: &Particle| {
-            let (surface, is_inside) = obstacle.nearest(disc.position);
-            let gap = (disc.position - surface).length();
-            disc.groups.meets(obstacle.groups)
-                && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
+            let (surface, is_inside) = obstacle.nearest(disc.position());
+            let gap = (disc.position() - surface).length();
+            disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
         };
         if obstacles
             .into_iter()
@@ -188,8 +160,7 @@ impl World {
             .find(|&i| {
                 discs.iter().any(|disc| {
                     let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
-                    disc.groups.meets(p.groups[i])
-                        && (disc.position - p.position(i)).length_squared() < reach * reach
+                    disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
                 })
             })?;
         let organism = self.organisms.id_at(p.owner[hit])?;
@@ -203,19 +174,12 @@ impl World {
     }
 
     /// Puts a body into a lane of a block of its template.
-    fn add_to_block(
-        &mut self,
-        template: Template,
-        owner: u32,
-        scale: f32,
-        planned: &[Particle],
-    ) -> Body {
+    fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Body {
         let slots = template.nodes().len();
         let template = self.template_index(template);
         let has_room = |block: &Block| block.template == template && block.free_lane().is_some();
         let index = self.blocks.iter().position(has_room).unwrap_or_else(|| {
-            self.blocks
-                .push(Block::new(template, slots, &mut self.particles));
+            self.blocks.push(Block::new(template, slots, &mut self.particles));
             self.blocks.len() - 1
         });
         let block = &mut self.blocks[index];
@@ -223,8 +187,7 @@ impl World {
         block.owner[lane] = owner;
         block.scale[lane] = scale;
         for (slot, particle) in (0u32..).zip(planned) {
-            self.particles
-                .set(block.particle(slot, lane) as usize, particle);
+            self.particles.set(block.particle(slot, lane) as usize, particle);
         }
         Body::Lane {
             block: index as u32,
@@ -240,30 +203,15 @@ impl World {
         planned: &[Particle],
         outline: &[u32],
     ) -> (Body, Vec<u32>) {
-        let particles: Vec<u32> = planned
-            .iter()
-            .map(|particle| self.particles.insert(particle))
-            .collect();
+        let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
         let index = |node: u32| particles[node as usize];
-        let constraints = template.map_or_else(ConstraintSet::default, |t| {
-            rebase(t.constraints(), scale, index)
-        });
+        let constraints = template.map_or_else(ConstraintSet::default, |t| rebase(t.constraints(), scale, index));
         let outline = outline.iter().map(|&node| index(node)).collect();
-        (
-            Body::Loose {
-                particles,
-                constraints,
-            },
-            outline,
-        )
+        (Body::Loose { particles, constraints }, outline)
     }
 
     /// Adds an organism's fluid to the fluid that it mixes with, or to one of its own.
-    fn add_fluid(
-        &mut self,
-        plan: Option<FluidPlan>,
-        planned: &[Particle],
-    ) -> (Option<u32>, Vec<u32>) {
+    fn add_fluid(&mut self, plan: Option<FluidPlan>, planned: &[Particle]) -> (Option<u32>, Vec<u32>) {
         let Some(plan) = plan else {
             return (None, Vec::new());
         };
@@ -277,11 +225,7 @@ impl World {
             let is_same = !plan.is_enclosed && fluid.params == plan.params && !is_enclosed(fluid);
             is_same || fluid.particles.is_empty()
         };
-        let index = self
-            .fluids
-            .iter()
-            .position(mixes)
-            .unwrap_or(self.fluids.len());
+        let index = self.fluids.iter().position(mixes).unwrap_or(self.fluids.len());
         if index == self.fluids.len() {
             self.fluids.push(Fluid::new(plan.params));
         } else if self.fluids[index].particles.is_empty() {
@@ -291,10 +235,7 @@ impl World {
             fluid: index as u32 + 1,
             ..*particle
         };
-        let particles: Vec<u32> = planned
-            .iter()
-            .map(|p| self.particles.insert(&in_fluid(p)))
-            .collect();
+        let particles: Vec<u32> = planned.iter().map(|p| self.particles.insert(&in_fluid(p))).collect();
         self.fluids[index].particles.extend(&particles);
         (Some(index as u32), particles)
     }
@@ -315,16 +256,13 @@ impl Blueprint {
 }
 
 /// The particles of a blueprint in the world: nodes first, then fluid.
-fn plan_particles(
-    blueprint: &Blueprint,
-    placement: &Placement,
-    scale: f32,
-    owner: u32,
-) -> Vec<Particle> {
+fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owner: u32) -> Vec<Particle> {
     let nodes = blueprint.template.iter().flat_map(Template::nodes);
     let self_collides = blueprint.is_loose;
+    let origin = placement.at.round();
     let body = nodes.map(|node: &Node| Particle {
-        position: placement.place(node.position, scale),
+        origin,
+        offset: placement.place(node.position, scale, origin),
         velocity: Vec2::ZERO,
         inv_mass: 1.0 / node.mass,
         radius: node.radius * scale,
@@ -337,7 +275,8 @@ fn plan_particles(
     });
     let fluid = blueprint.fluid.iter().flat_map(|plan| {
         plan.points.iter().map(|&point| Particle {
-            position: placement.place(point, placement.scale),
+            origin,
+            offset: placement.place(point, placement.scale, origin),
             velocity: Vec2::ZERO,
             inv_mass: 1.0 / plan.params.particle_mass,
             radius: 0.5 * plan.params.spacing,
@@ -346,11 +285,7 @@ fn plan_particles(
                 friction: 0.0,
                 restitution: 0.0,
             },
-            role: if plan.is_enclosed {
-                Role::Cytoplasm
-            } else {
-                Role::Fluid
-            } as u8,
+            role: if plan.is_enclosed { Role::Cytoplasm } else { Role::Fluid } as u8,
             self_collides: false,
             owner,
             fluid: 0,
@@ -418,8 +353,8 @@ impl Bounds {
             high: Vec2::splat(f32::NEG_INFINITY),
         };
         discs.iter().fold(empty, |b, disc| Self {
-            low: b.low.min(disc.position - disc.radius),
-            high: b.high.max(disc.position + disc.radius),
+            low: b.low.min(disc.position() - disc.radius),
+            high: b.high.max(disc.position() + disc.radius),
         })
     }
 

@@ -28,10 +28,7 @@ impl Touching {
     ) {
         self.now.clear();
         for contact in contacts.iter().filter(|contact| contact.touched) {
-            let (a, b) = (
-                particles.owner[contact.i as usize],
-                particles.owner[contact.j as usize],
-            );
+            let (a, b) = (particles.owner[contact.i as usize], particles.owner[contact.j as usize]);
             if a != b {
                 let ids = (organisms.id_at(a.min(b)), organisms.id_at(a.max(b)));
                 self.now.extend(ids.0.zip(ids.1));

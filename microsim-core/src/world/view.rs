@@ -50,11 +50,7 @@ impl<'a> View<'a> {
         world
             .organisms
             .iter()
-            .map(move |(id, organism)| OrganismView {
-                world,
-                organism,
-                id,
-            })
+            .map(move |(id, organism)| OrganismView { world, organism, id })
     }
 
     /// One organism; `None` for a stale handle.
@@ -112,23 +108,17 @@ impl<'a> OrganismView<'a> {
     pub fn surface(self) -> Vec<Vec2> {
         let outline: Vec<Vec2> = self.outline().collect();
         let count = outline.len();
-        let pushed = self
-            .organism
-            .outline_particles()
-            .zip(0..count)
-            .map(|(i, k)| {
-                let along = outline[(k + 1) % count] - outline[(k + count - 1) % count];
-                outline[k]
-                    - along.perp().normalize_or_zero() * self.world.particles.radius[i as usize]
-            });
+        let pushed = self.organism.outline_particles().zip(0..count).map(|(i, k)| {
+            let along = outline[(k + 1) % count] - outline[(k + count - 1) % count];
+            outline[k] - along.perp().normalize_or_zero() * self.world.particles.radius[i as usize]
+        });
         pushed.collect()
     }
 
     /// Its heavy centre, if it has one.
     #[must_use]
     pub fn nucleus(self) -> Option<ParticleView> {
-        self.particles()
-            .find(|particle| particle.role == Role::Nucleus)
+        self.particles().find(|particle| particle.role == Role::Nucleus)
     }
 
     /// Its front body (soft bodies), or the centre of its front while it crawls.
