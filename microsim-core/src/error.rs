@@ -53,28 +53,15 @@ pub enum ErrorKind {
 
 impl Error {
     pub(crate) fn new(kind: ErrorKind, field: impl Into<String>) -> Self {
-        Self {
-            kind,
-            field: field.into(),
-        }
+        Self { kind, field: field.into() }
     }
 
     pub(crate) fn reference(field: impl Into<String>, accepted: impl Into<String>) -> Self {
-        Self::new(
-            ErrorKind::BadReference {
-                accepted: accepted.into(),
-            },
-            field,
-        )
+        Self::new(ErrorKind::BadReference { accepted: accepted.into() }, field)
     }
 
     pub(crate) fn unsupported(field: impl Into<String>, accepted: impl Into<String>) -> Self {
-        Self::new(
-            ErrorKind::Unsupported {
-                accepted: accepted.into(),
-            },
-            field,
-        )
+        Self::new(ErrorKind::Unsupported { accepted: accepted.into() }, field)
     }
 
     /// Why the value was refused.
@@ -92,11 +79,7 @@ impl Error {
     /// The same error with `prefix.` in front of the field's path.
     #[must_use]
     pub fn within(mut self, prefix: &str) -> Self {
-        self.field = if self.field.is_empty() {
-            prefix.to_owned()
-        } else {
-            format!("{prefix}.{}", self.field)
-        };
+        self.field = if self.field.is_empty() { prefix.to_owned() } else { format!("{prefix}.{}", self.field) };
         self
     }
 }
@@ -118,10 +101,7 @@ impl fmt::Display for Error {
                 write!(f, "`{field}` overlaps {with}, accepted: a place where nothing overlaps")
             }
             ErrorKind::TooMany { asked, limit } => {
-                write!(
-                    f,
-                    "`{field}` asks for {asked} particles, accepted: at most {limit} in one world"
-                )
+                write!(f, "`{field}` asks for {asked} particles, accepted: at most {limit} in one world")
             }
             ErrorKind::Stale => write!(f, "`{field}` no longer exists"),
             ErrorKind::Unsupported { accepted } => {
@@ -136,9 +116,7 @@ impl std::error::Error for Error {}
 /// Checks that `value` is finite and within `low..=high`.
 pub(crate) fn in_range(field: &str, value: f32, low: f32, high: f32) -> Result<(), Error> {
     let is_inside = value.is_finite() && value >= low && value <= high;
-    is_inside
-        .then_some(())
-        .ok_or_else(|| out_of_range(field, f64::from(value), format!("{low} to {high}")))
+    is_inside.then_some(()).ok_or_else(|| out_of_range(field, f64::from(value), format!("{low} to {high}")))
 }
 
 /// Checks that `value` is within `low..=high`.

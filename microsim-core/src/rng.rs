@@ -14,10 +14,7 @@ impl Rng {
     /// The generator of stream `stream` under `seed`; streams are independent.
     #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {
-        let mut rng = Self {
-            state: 0,
-            increment: (stream << 1) | 1,
-        };
+        let mut rng = Self { state: 0, increment: (stream << 1) | 1 };
         rng.next_u32();
         rng.state = rng.state.wrapping_add(seed);
         rng.next_u32();
@@ -52,17 +49,7 @@ mod tests {
         // First outputs of pcg32_srandom(42, 54), as printed by the reference implementation's demo.
         let mut rng = Rng::new(42, 54);
         let first: Vec<u32> = (0..6).map(|_| rng.next_u32()).collect();
-        assert_eq!(
-            first,
-            [
-                0xa15c_02b7,
-                0x7b47_f409,
-                0xba1d_3330,
-                0x83d2_f293,
-                0xbfa4_784b,
-                0xcbed_606e
-            ]
-        );
+        assert_eq!(first, [0xa15c_02b7, 0x7b47_f409, 0xba1d_3330, 0x83d2_f293, 0xbfa4_784b, 0xcbed_606e]);
     }
 
     #[test]

@@ -3,10 +3,10 @@
 use crate::behavior::{controller, steer_organisms};
 use crate::collision::broad_phase::Surroundings;
 use crate::inputs::Inputs;
-use crate::organism::Body;
-use crate::solver::lanes::Span;
+use crate::solver::membrane::Membrane;
 use crate::solver::{contact, drive, integrate, obstacle};
 use crate::world::World;
+use crate::world::organisms::Organisms;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -85,47 +85,22 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
-    let World {
-        config,
-        particles,
-        organisms,
-        events,
-        scratch,
-        ..
-    } = world;
-    let surroundings = controller::Surroundings {
-        size: config.size,
-        dt: config.dt,
-    };
+    let World { config, particles, organisms, fluids, events, scratch, .. } = world;
+    let surroundings = controller::Surroundings { size: config.size, dt: config.dt };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
+    for (_, organism) in organisms.iter_mut() {
+        organism.relax_membrane(particles, fluids, config.dt);
+    }
 }
 
 fn find_pairs(world: &mut World) {
-    let World {
-        config,
-        particles,
-        obstacles,
-        exemptions,
-        scratch,
-        ..
-    } = world;
+    let World { config, particles, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
-    scratch.broad_phase.find_pairs(Surroundings {
-        particles,
-        obstacles,
-        exemptions,
-        size,
-        reach,
-    });
+    scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, size, reach });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
-    let World {
-        config,
-        particles,
-        scratch,
-        ..
-    } = world;
+    let World { config, particles, scratch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
     integrate::predict_positions(particles, config.gravity, config.max_speed, h);
 }
@@ -137,62 +112,39 @@ fn project_fluids(world: &mut World) {
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World {
-        particles,
-        templates,
-        blocks,
-        organisms,
-        ..
-    } = world;
+    let World { particles, templates, blocks, organisms, .. } = world;
     for block in blocks.iter().filter(|block| !block.is_empty()) {
         block.project(templates[block.template as usize].constraints(), particles, h);
     }
-    for (_, organism) in organisms.iter() {
-        if let Body::Loose { constraints, .. } = &organism.body {
-            constraints.project(Span::LOOSE, particles, h);
-        }
+    for (membrane, ring) in membranes(organisms) {
+        membrane.project(ring, particles, h);
     }
 }
 
+/// All membranes with their rings.
+fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
+    organisms.iter().filter_map(|(_, organism)| Some((organism.body.membrane()?, organism.outline.as_slice())))
+}
+
 fn project_contacts(world: &mut World) {
-    let World {
-        particles,
-        obstacles,
-        scratch,
-        ..
-    } = world;
+    let World { particles, obstacles, organisms, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     contact::project(&mut broad_phase.contacts, particles, &mut scratch.impacts);
-    obstacle::project(
-        &broad_phase.obstacle_contacts,
-        obstacles,
-        particles,
-        &mut scratch.impacts,
-    );
+    for (membrane, ring) in membranes(organisms) {
+        membrane.limit_strain(ring, particles);
+    }
+    obstacle::project(&broad_phase.obstacle_contacts, obstacles, particles, &mut scratch.impacts);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World {
-        config,
-        particles,
-        fluids,
-        scratch,
-        ..
-    } = world;
+    let World { config, particles, fluids, scratch, .. } = world;
     integrate::update_velocities(particles, config.damping, config.max_speed, h);
     contact::apply_restitution(&mut scratch.impacts, particles);
     fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles));
 }
 
 fn conclude(world: &mut World) {
-    let World {
-        particles,
-        organisms,
-        touching,
-        events,
-        scratch,
-        ..
-    } = world;
+    let World { particles, organisms, touching, events, scratch, .. } = world;
     touching.update(&scratch.broad_phase.contacts, particles, organisms, events);
     world.quarantine();
     world.rebase();

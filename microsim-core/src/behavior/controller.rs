@@ -49,33 +49,19 @@ impl Controller {
     /// Random movement that decides anew after a time drawn from `interval`, s.
     #[must_use]
     pub fn wander(interval: [f32; 2], rest: f32) -> Self {
-        Self::Wander {
-            interval,
-            rest,
-            goal: None,
-            remaining: 0.0,
-        }
+        Self::Wander { interval, rest, goal: None, remaining: 0.0 }
     }
 
     /// Movement through these points, once or for ever.
     #[must_use]
     pub fn patrol(through: Vec<Vec2>, repeats: bool) -> Self {
-        Self::Patrol {
-            through,
-            repeats,
-            next: 0,
-        }
+        Self::Patrol { through, repeats, next: 0 }
     }
 
     pub(crate) fn validate(&self) -> Result<(), Error> {
         match self {
             Self::Still => Ok(()),
-            Self::Wander {
-                interval,
-                rest,
-                goal,
-                remaining,
-            } => {
+            Self::Wander { interval, rest, goal, remaining } => {
                 in_range("interval[0]", interval[0], 0.05, 600.0)?;
                 in_range("interval[1]", interval[1], interval[0], 600.0)?;
                 in_range("rest", *rest, 0.0, 1.0)?;
@@ -86,10 +72,7 @@ impl Controller {
                 if through.is_empty() || through.len() > 1000 || *next as usize >= through.len() {
                     return Err(Error::reference("through", "1 to 1000 points, `next` one of them"));
                 }
-                through
-                    .iter()
-                    .enumerate()
-                    .try_for_each(|(k, &p)| check_point(&format!("through[{k}]"), p))
+                through.iter().enumerate().try_for_each(|(k, &p)| check_point(&format!("through[{k}]"), p))
             }
         }
     }
@@ -98,12 +81,7 @@ impl Controller {
     pub(crate) fn advance(&mut self, at: Vec2, rng: &mut Rng, around: &Surroundings) -> Option<Vec2> {
         match self {
             Self::Still => None,
-            Self::Wander {
-                interval,
-                rest,
-                goal,
-                remaining,
-            } => {
+            Self::Wander { interval, rest, goal, remaining } => {
                 *remaining -= around.dt;
                 if *remaining <= 0.0 {
                     *remaining = rng.range(interval[0], interval[1]);
@@ -137,28 +115,18 @@ fn check_point(field: &str, point: Vec2) -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    const ROOM: Surroundings = Surroundings {
-        size: Vec2::new(30.0, 20.0),
-        dt: 0.1,
-    };
+    const ROOM: Surroundings = Surroundings { size: Vec2::new(30.0, 20.0), dt: 0.1 };
 
     #[test]
     fn wandering_changes_its_goal_within_its_interval_and_stays_in_the_room() {
         let mut controller = Controller::wander([0.5, 1.0], 0.3);
         let mut rng = Rng::new(1, 1);
-        let goals: Vec<_> = (0..1000)
-            .map(|_| controller.advance(Vec2::ZERO, &mut rng, &ROOM))
-            .collect();
+        let goals: Vec<_> = (0..1000).map(|_| controller.advance(Vec2::ZERO, &mut rng, &ROOM)).collect();
         let changes = goals.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let rests = goals.iter().filter(|goal| goal.is_none()).count();
         assert!((80..200).contains(&changes), "{changes} changes in 100 s");
         assert!((100..600).contains(&rests), "{rests} rests");
-        assert!(
-            goals
-                .iter()
-                .flatten()
-                .all(|g| g.cmpge(Vec2::ZERO).all() && g.cmple(ROOM.size).all())
-        );
+        assert!(goals.iter().flatten().all(|g| g.cmpge(Vec2::ZERO).all() && g.cmple(ROOM.size).all()));
     }
 
     #[test]
@@ -180,9 +148,6 @@ mod tests {
         assert_eq!(field(Controller::wander([1.0, 0.5], 0.0)), "interval[1]");
         assert_eq!(field(Controller::wander([1.0, 2.0], f32::NAN)), "rest");
         assert_eq!(field(Controller::patrol(vec![], true)), "through");
-        assert_eq!(
-            field(Controller::patrol(vec![Vec2::ZERO, Vec2::NAN], true)),
-            "through[1].x"
-        );
+        assert_eq!(field(Controller::patrol(vec![Vec2::ZERO, Vec2::NAN], true)), "through[1].x");
     }
 }

@@ -41,10 +41,7 @@ pub(crate) fn region(k: u32, front_centre: u32, count: u32) -> MembraneRegion {
 
 /// Drives front and rear; returns the node of the outline that is the centre of the front, the nearest one to the goal.
 pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, drives: &mut Vec<Drive>) -> Option<u32> {
-    let nodes: Vec<Vec2> = organism
-        .outline_particles()
-        .map(|i| particles.position(i as usize))
-        .collect();
+    let nodes: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
     let front_centre = crate::geometry::ring::nearest_index(&nodes, goal)? as u32;
     let count = nodes.len() as u32;
     let centroid = crate::geometry::polygon::centroid(&nodes)?;
@@ -55,11 +52,7 @@ pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, driv
             MembraneRegion::LeftWing | MembraneRegion::RightWing => continue,
         };
         let velocity = heading(target - at) * organism.speed;
-        drives.push(Drive {
-            particle,
-            velocity,
-            max_acceleration: f32::INFINITY,
-        });
+        drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
     }
     Some(front_centre)
 }
@@ -76,14 +69,8 @@ mod tests {
                 let size = |wanted| regions.iter().filter(|&&r| r == wanted).count();
                 assert_eq!(regions[front as usize], MembraneRegion::Front);
                 assert_eq!(regions[((front + count / 2) % count) as usize], MembraneRegion::Rear);
-                assert_eq!(
-                    regions[((front + count / 4) % count) as usize],
-                    MembraneRegion::LeftWing
-                );
-                assert_eq!(
-                    regions[((front + count - count / 4) % count) as usize],
-                    MembraneRegion::RightWing
-                );
+                assert_eq!(regions[((front + count / 4) % count) as usize], MembraneRegion::LeftWing);
+                assert_eq!(regions[((front + count - count / 4) % count) as usize], MembraneRegion::RightWing);
                 assert_eq!(size(MembraneRegion::Front) % 2, 1, "symmetric neighbours both ways");
                 let wings = size(MembraneRegion::LeftWing).abs_diff(size(MembraneRegion::RightWing));
                 assert!(wings <= 1 && size(MembraneRegion::LeftWing) > 0);

@@ -19,16 +19,8 @@ pub(crate) fn drive(
     let particle = |k: u32| organism.body.particle(organism.outline[(k % count) as usize]);
     let way = |k: u32| goal - particles.position(particle(k) as usize);
     let opposite = (front + count / 2) % count;
-    let front = if way(opposite).length_squared() < way(front).length_squared() {
-        opposite
-    } else {
-        front
-    };
+    let front = if way(opposite).length_squared() < way(front).length_squared() { opposite } else { front };
     let velocity = heading(way(front)) * organism.speed;
-    drives.push(Drive {
-        particle: particle(front),
-        velocity,
-        max_acceleration: f32::INFINITY,
-    });
+    drives.push(Drive { particle: particle(front), velocity, max_acceleration: f32::INFINITY });
     front
 }

@@ -73,11 +73,7 @@ fn move_towards(
             let particle = organism.body.particle(0);
             let way = goal.map_or(Vec2::ZERO, |goal| goal - particles.position(particle as usize));
             let velocity = heading(way) * organism.speed;
-            drives.push(Drive {
-                particle,
-                velocity,
-                max_acceleration,
-            });
+            drives.push(Drive { particle, velocity, max_acceleration });
         }
     }
 }
@@ -91,14 +87,7 @@ pub(crate) fn heading(way: Vec2) -> Vec2 {
 fn place(organism: &Organism, particles: &Particles) -> Vec2 {
     let count = organism.outline.len();
     if count == 0 {
-        return organism
-            .particles()
-            .next()
-            .map_or(organism.home, |i| particles.position(i as usize));
+        return organism.particles().next().map_or(organism.home, |i| particles.position(i as usize));
     }
-    organism
-        .outline_particles()
-        .map(|i| particles.position(i as usize))
-        .sum::<Vec2>()
-        / count as f32
+    organism.outline_particles().map(|i| particles.position(i as usize)).sum::<Vec2>() / count as f32
 }

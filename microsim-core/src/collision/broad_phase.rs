@@ -6,7 +6,7 @@
 
 use super::filter::Exemptions;
 use super::grid::Grid;
-use crate::particle::Particles;
+use crate::particle::{NO_OWNER, Particles};
 use crate::solver::contact::{Contact, combine};
 use crate::solver::obstacle::{Obstacle, ObstacleContact};
 use glam::Vec2;
@@ -102,10 +102,7 @@ impl BroadPhase {
                     && near.contains_local_point(around.particles.position(i))
                     && around.particles.groups[i].meets(obstacle.groups)
                 {
-                    self.obstacle_contacts.push(ObstacleContact {
-                        particle,
-                        obstacle: k as u32,
-                    });
+                    self.obstacle_contacts.push(ObstacleContact { particle, obstacle: k as u32 });
                 }
             }
         }
@@ -135,13 +132,7 @@ fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mu
     let reach = p.radius[a] + p.radius[b] + margin;
     if p.between(a, b).length_squared() < reach * reach && may_collide(p, a, b, around.exemptions) {
         let (friction, restitution) = combine(p.material[a], p.material[b]);
-        contacts.push(Contact {
-            i,
-            j,
-            friction,
-            restitution,
-            touched: false,
-        });
+        contacts.push(Contact { i, j, friction, restitution, touched: false });
     }
 }
 
@@ -151,8 +142,9 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
         return false;
     }
     if p.owner[a] == p.owner[b] {
-        // Within one owner a membrane holds its cytoplasm, and only what says so collides with its like.
-        return (fluid_a == 0) != (fluid_b == 0) || (p.self_collides[a] && p.self_collides[b]);
+        // Within one owner a membrane holds its cytoplasm and does not pass through itself; nothing else collides.
+        let in_membrane = p.next_in_ring[a] != NO_OWNER && p.next_in_ring[b] != NO_OWNER;
+        return (fluid_a == 0) != (fluid_b == 0) || (in_membrane && !p.are_ring_neighbours(a, b));
     }
     !exemptions.contains(p.owner[a], p.owner[b])
 }
@@ -170,11 +162,7 @@ mod tests {
         for owner in 0..count {
             let position = Vec2::new(rng.range(0.0, 40.0), rng.range(0.0, 30.0));
             let mut particle = disc(position, 1.0);
-            particle.radius = if owner % 13 == 0 {
-                rng.range(2.0, 4.0)
-            } else {
-                rng.range(0.2, 0.5)
-            };
+            particle.radius = if owner % 13 == 0 { rng.range(2.0, 4.0) } else { rng.range(0.2, 0.5) };
             particle.owner = owner / 3;
             particle.fluid = u32::from(owner % 5 == 0);
             particles.insert(&particle);
@@ -185,13 +173,7 @@ mod tests {
     fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
         let mut broad = BroadPhase::default();
         let size = Vec2::new(40.0, 30.0);
-        broad.find_pairs(Surroundings {
-            particles,
-            obstacles: &[],
-            exemptions,
-            size,
-            reach: 0.1,
-        });
+        broad.find_pairs(Surroundings { particles, obstacles: &[], exemptions, size, reach: 0.1 });
         let mut pairs: Vec<_> = broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect();
         pairs.sort_unstable();
         pairs
@@ -222,28 +204,16 @@ mod tests {
     fn owners_groups_and_exemptions_keep_pairs_apart() {
         let mut particles = Particles::default();
         for owner in [0, 0, 1] {
-            particles.insert(&crate::particle::Particle {
-                owner,
-                ..disc(Vec2::new(5.0, 5.0), 1.0)
-            });
+            particles.insert(&crate::particle::Particle { owner, ..disc(Vec2::new(5.0, 5.0), 1.0) });
         }
         let none = Exemptions::default();
         assert_eq!(found(&particles, &none), [(0, 2), (1, 2)]);
         let mut exempt = Exemptions::default();
         exempt.set(0, 1, true);
         assert_eq!(found(&particles, &exempt), []);
-        particles.groups[2] = CollisionGroups {
-            memberships: 2,
-            filter: 1,
-        };
-        particles.groups[0] = CollisionGroups {
-            memberships: 1,
-            filter: 2,
-        };
-        particles.groups[1] = CollisionGroups {
-            memberships: 4,
-            filter: 2,
-        };
+        particles.groups[2] = CollisionGroups { memberships: 2, filter: 1 };
+        particles.groups[0] = CollisionGroups { memberships: 1, filter: 2 };
+        particles.groups[1] = CollisionGroups { memberships: 4, filter: 2 };
         assert_eq!(found(&particles, &none), [(0, 2)]);
     }
 }

@@ -52,9 +52,7 @@ impl Grid {
         let longest = if extent.x > extent.y { extent.x } else { extent.y };
         let budget = (4 * count + 1024) as f32;
         let bounds = [cell, longest / MAX_CELLS, (extent.x * extent.y / budget).sqrt()];
-        let cell = bounds
-            .into_iter()
-            .fold(0.0, |largest, bound| if bound > largest { bound } else { largest });
+        let cell = bounds.into_iter().fold(0.0, |largest, bound| if bound > largest { bound } else { largest });
         self.origin = low;
         self.inverse_cell = if cell > 0.0 { 1.0 / cell } else { 0.0 };
         self.columns = (extent.x * self.inverse_cell) as usize + 1;
@@ -77,10 +75,7 @@ impl Grid {
     /// Column and row of the cell that holds `point`; a float-to-integer cast saturates, so any point has one.
     pub(crate) fn cell_of(&self, point: Vec2) -> (usize, usize) {
         let local = (point - self.origin) * self.inverse_cell;
-        (
-            (local.x as usize).min(self.columns - 1),
-            (local.y as usize).min(self.rows - 1),
-        )
+        ((local.x as usize).min(self.columns - 1), (local.y as usize).min(self.rows - 1))
     }
 
     fn cell_index(&self, point: Vec2) -> usize {
@@ -113,9 +108,7 @@ mod tests {
     #[test]
     fn every_entry_is_in_its_cell_and_boxes_find_all() {
         let mut rng = Rng::new(3, 0);
-        let points: Vec<Vec2> = (0..500)
-            .map(|_| Vec2::new(rng.range(-2.0, 22.0), rng.range(-2.0, 12.0)))
-            .collect();
+        let points: Vec<Vec2> = (0..500).map(|_| Vec2::new(rng.range(-2.0, 22.0), rng.range(-2.0, 12.0))).collect();
         let entries: Vec<u32> = (0..500).collect();
         let mut grid = Grid::default();
         for _ in 0..2 {

@@ -212,14 +212,7 @@ mod tests {
 
     /// Counter-clockwise; the notch is the upper right quarter of a square with side 2.
     fn notched_square() -> Vec<Vec2> {
-        vec![
-            vec2(0.0, 0.0),
-            vec2(2.0, 0.0),
-            vec2(2.0, 1.0),
-            vec2(1.0, 1.0),
-            vec2(1.0, 2.0),
-            vec2(0.0, 2.0),
-        ]
+        vec![vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(2.0, 1.0), vec2(1.0, 1.0), vec2(1.0, 2.0), vec2(0.0, 2.0)]
     }
 
     fn bow_tie() -> Vec<Vec2> {
@@ -233,10 +226,7 @@ mod tests {
     fn distance_to_boundary(polygon: &[Vec2], point: Vec2) -> f32 {
         edges(polygon)
             .map(|(a, b)| nearest_on_segment(a, b, point).distance(point))
-            .fold(
-                f32::INFINITY,
-                |best, distance| if distance < best { distance } else { best },
-            )
+            .fold(f32::INFINITY, |best, distance| if distance < best { distance } else { best })
     }
 
     #[test]
@@ -321,13 +311,7 @@ mod tests {
         assert!(is_simple(&notched_square()));
         assert!(is_simple(&unit_square()[..3]));
         assert!(!is_simple(&bow_tie()));
-        let pinched = [
-            vec2(0.0, 0.0),
-            vec2(2.0, 0.0),
-            vec2(2.0, 2.0),
-            vec2(1.0, 0.0),
-            vec2(0.0, 2.0),
-        ];
+        let pinched = [vec2(0.0, 0.0), vec2(2.0, 0.0), vec2(2.0, 2.0), vec2(1.0, 0.0), vec2(0.0, 2.0)];
         assert!(!is_simple(&pinched));
         let flat_vertex = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(2.0, 0.0), vec2(1.0, 1.0)];
         assert!(is_simple(&flat_vertex));

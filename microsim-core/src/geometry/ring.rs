@@ -56,10 +56,7 @@ pub fn nearest_index(points: &[Vec2], target: Vec2) -> Option<usize> {
 ///
 /// This is the product of complex numbers; a `direction` of another length scales the result.
 pub fn rotate(v: Vec2, direction: Vec2) -> Vec2 {
-    Vec2::new(
-        v.x * direction.x - v.y * direction.y,
-        v.x * direction.y + v.y * direction.x,
-    )
+    Vec2::new(v.x * direction.x - v.y * direction.y, v.x * direction.y + v.y * direction.x)
 }
 
 /// The unit vector along `v`, or `fallback` if `v` is zero or not finite.
@@ -129,11 +126,7 @@ fn turn_at(lengths: &[f64], fraction: f64) -> f64 {
 /// A point of the first quadrant moved to `quadrant` 0..4 by reflection in the axes.
 fn mirrored(point: Vec2, quadrant: usize) -> Vec2 {
     // `0.0 - x` rather than `-x`: it makes no negative zeros.
-    let x = if quadrant == 1 || quadrant == 2 {
-        0.0 - point.x
-    } else {
-        point.x
-    };
+    let x = if quadrant == 1 || quadrant == 2 { 0.0 - point.x } else { point.x };
     let y = if quadrant >= 2 { 0.0 - point.y } else { point.y };
     Vec2::new(x, y)
 }

@@ -33,18 +33,12 @@ pub fn triangulate(polygon: &[Vec2]) -> Vec<[u32; 3]> {
 
 fn counter_clockwise_indices(polygon: &[Vec2]) -> Vec<u32> {
     let indices = 0..polygon.len() as u32;
-    if signed_area(polygon) < 0.0 {
-        indices.rev().collect()
-    } else {
-        indices.collect()
-    }
+    if signed_area(polygon) < 0.0 { indices.rev().collect() } else { indices.collect() }
 }
 
 /// The position in `ring` of the tip of the first ear at or after `start`, going round.
 fn find_ear(polygon: &[Vec2], ring: &[u32], start: usize) -> Option<usize> {
-    (0..ring.len())
-        .map(|step| (start + step) % ring.len())
-        .find(|&tip| is_ear(polygon, ring, tip))
+    (0..ring.len()).map(|step| (start + step) % ring.len()).find(|&tip| is_ear(polygon, ring, tip))
 }
 
 /// Whether the triangle at `tip` turns left and no other vertex lies in it or on its boundary.
@@ -168,13 +162,7 @@ mod tests {
         assert_eq!(triangulate(&[Vec2::ONE; 6]).len(), 4);
         assert_eq!(triangulate(&[Vec2::NAN; 6]).len(), 4);
         assert_eq!(triangulate(&[Vec2::INFINITY; 6]).len(), 4);
-        let mixed = [
-            Vec2::ZERO,
-            Vec2::NAN,
-            Vec2::ONE,
-            Vec2::MAX,
-            vec2(-1.0, f32::NEG_INFINITY),
-        ];
+        let mixed = [Vec2::ZERO, Vec2::NAN, Vec2::ONE, Vec2::MAX, vec2(-1.0, f32::NEG_INFINITY)];
         assert_eq!(triangulate(&mixed).len(), 3);
     }
 

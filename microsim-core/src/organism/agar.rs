@@ -17,10 +17,7 @@ pub struct AgarSpec {
 
 impl Default for AgarSpec {
     fn default() -> Self {
-        Self {
-            radius: 1.0,
-            density: 1.0,
-        }
+        Self { radius: 1.0, density: 1.0 }
     }
 }
 
@@ -41,7 +38,7 @@ impl AgarSpec {
             kind: Kind::Agar,
             template: Some(builder.build()?),
             scale: self.radius,
-            is_loose: false,
+            has_membrane: false,
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
@@ -55,23 +52,9 @@ mod tests {
 
     #[test]
     fn agar_is_one_small_disc() {
-        let blueprint = AgarSpec {
-            radius: 0.8,
-            density: 1.0,
-        }
-        .blueprint()
-        .unwrap();
+        let blueprint = AgarSpec { radius: 0.8, density: 1.0 }.blueprint().unwrap();
         assert_eq!(blueprint.particle_count(), 1);
         assert!((blueprint.extent() - 0.8).abs() < 1e-6);
-        assert_eq!(
-            AgarSpec {
-                radius: -1.0,
-                ..AgarSpec::default()
-            }
-            .blueprint()
-            .unwrap_err()
-            .field(),
-            "radius"
-        );
+        assert_eq!(AgarSpec { radius: -1.0, ..AgarSpec::default() }.blueprint().unwrap_err().field(), "radius");
     }
 }

@@ -14,16 +14,9 @@ use crate::geometry::polygon::{contains_point, perimeter};
 use crate::geometry::ring::ellipse;
 use crate::particle::Material;
 use crate::solver::fluid::{FluidMode, FluidParams};
-use crate::solver::{Distance, MinDistance, Rope};
-use crate::template::{Node, Role, Template, TemplateBuilder};
+use crate::template::{Node, Role, Template};
 use glam::Vec2;
 
-/// Inverse stiffness of a link of the chain.
-const LINK_COMPLIANCE: f32 = 1e-5;
-/// A link never gets longer than this many rest lengths (seed, 4.2.2: a joint with a maximum length).
-pub(crate) const STRAIN_LIMIT: f32 = 1.25;
-/// Nodes `i` and `i + 2` stay this many rest lengths apart, so that the membrane does not fold.
-const FOLD_LIMIT: f32 = 1.3;
 /// Most nodes of a membrane.
 const MAX_NODES: f32 = 4096.0;
 
@@ -45,13 +38,7 @@ pub struct AmoeboidCellSpec {
 
 impl Default for AmoeboidCellSpec {
     fn default() -> Self {
-        Self {
-            radii: Vec2::new(11.0, 11.0),
-            node_radius: 0.78,
-            cytoplasm_spacing: 1.65,
-            viscosity: 0.02,
-            speed: 8.0,
-        }
+        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 0.02, speed: 8.0 }
     }
 }
 
@@ -75,7 +62,7 @@ impl AmoeboidCellSpec {
             fluid: Some(self.cytoplasm(&chain)),
             template: Some(self.membrane(&chain)?),
             scale: 1.0,
-            is_loose: true,
+            has_membrane: true,
             locomotion: Locomotion::Crawl { front_centre: None },
             speed: self.speed,
         })
@@ -94,20 +81,11 @@ impl AmoeboidCellSpec {
     }
 
     fn membrane(&self, chain: &[Vec2]) -> Result<Template, Error> {
-        let material = Material {
-            friction: 0.05,
-            restitution: 0.0,
-        };
+        let material = Material { friction: 0.05, restitution: 0.0 };
         let mut builder = Template::builder();
-        let disc = |position| Node {
-            role: Role::Membrane,
-            material,
-            ..Node::disc(position, 1.0, self.node_radius)
-        };
+        let disc = |position| Node { role: Role::Membrane, material, ..Node::disc(position, 1.0, self.node_radius) };
         let ring: Vec<u32> = chain.iter().map(|&position| builder.node(disc(position))).collect();
-        let rest_length = perimeter(chain) / chain.len() as f32;
         builder.outline(&ring);
-        (0..ring.len()).for_each(|k| link(&mut builder, &ring, k, rest_length));
         builder.build()
     }
 
@@ -116,49 +94,16 @@ impl AmoeboidCellSpec {
         let inset = Vec2::splat(self.node_radius + 0.5 * spacing);
         let radii = self.radii - Vec2::splat(self.node_radius) - inset;
         let room = ellipse(radii, chain.len());
-        let points = hexagonal_fill(self.radii * 2.0, spacing)
-            .into_iter()
-            .filter(|&p| contains_point(&room, p));
-        let params = FluidParams {
-            spacing,
-            particle_mass: 1.0,
-            viscosity: self.viscosity,
-            mode: FluidMode::Density,
-        };
-        FluidPlan {
-            params,
-            points: points.collect(),
-            is_enclosed: true,
-        }
+        let points = hexagonal_fill(self.radii * 2.0, spacing).into_iter().filter(|&p| contains_point(&room, p));
+        let params = FluidParams { spacing, particle_mass: 1.0, viscosity: self.viscosity, mode: FluidMode::Density };
+        FluidPlan { params, points: points.collect(), is_enclosed: true }
     }
-}
-
-/// Links node `k` to the next one, and keeps it off the one after that.
-fn link(builder: &mut TemplateBuilder, ring: &[u32], k: usize, rest_length: f32) {
-    let after = |steps: usize| ring[(k + steps) % ring.len()];
-    let (a, b) = (ring[k], after(1));
-    builder.distance(Distance {
-        a,
-        b,
-        rest_length,
-        compliance: LINK_COMPLIANCE,
-        damping: 0.0,
-    });
-    builder.rope(Rope {
-        a,
-        b,
-        max_length: STRAIN_LIMIT * rest_length,
-    });
-    builder.min_distance(MinDistance {
-        a,
-        b: after(2),
-        min_length: FOLD_LIMIT * rest_length,
-    });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::membrane::STRAIN_LIMIT;
 
     fn blueprint(spec: &AmoeboidCellSpec) -> (Template, FluidPlan) {
         let blueprint = spec.blueprint().unwrap();
@@ -168,25 +113,14 @@ mod tests {
     #[test]
     fn t15_t16_chain_of_touching_equal_discs_of_the_same_radius_at_any_size() {
         for radii in [Vec2::new(6.0, 5.0), Vec2::new(15.0, 11.0), Vec2::new(40.0, 40.0)] {
-            let (template, _) = blueprint(&AmoeboidCellSpec {
-                radii,
-                ..AmoeboidCellSpec::default()
-            });
+            let (template, _) = blueprint(&AmoeboidCellSpec { radii, ..AmoeboidCellSpec::default() });
             let count = template.outline().len();
             let position = |k: usize| template.nodes()[k % count].position;
-            assert!(
-                template
-                    .nodes()
-                    .iter()
-                    .all(|node| node.radius == 0.78 && node.mass.is_finite())
-            );
+            assert!(template.nodes().iter().all(|node| node.radius == 0.78 && node.mass.is_finite()));
             for k in 0..count {
                 let gap = (position(k + 1) - position(k)).length() - 2.0 * 0.78;
                 assert!(gap.abs() < 0.1 * 0.78, "gap {gap} in a chain of {count}");
             }
-            let distances = &template.constraints().distances;
-            assert_eq!(distances.len(), count, "neighbours joined, ring closed");
-            assert!(distances.iter().all(|c| c.rest_length == distances[0].rest_length));
         }
     }
 
@@ -195,7 +129,8 @@ mod tests {
         let spec = AmoeboidCellSpec::default();
         let (template, fluid) = blueprint(&spec);
         let radius = 0.5 * fluid.params.spacing;
-        let widest = STRAIN_LIMIT * template.constraints().distances[0].rest_length - 2.0 * spec.node_radius;
+        let rest_length = (template.nodes()[1].position - template.nodes()[0].position).length();
+        let widest = STRAIN_LIMIT * rest_length - 2.0 * spec.node_radius;
         assert!(radius > 0.5 * widest, "radius {radius}, widest gap {widest}");
         let cell = std::f32::consts::PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
         let share = fluid.points.len() as f32 * 0.866 * fluid.params.spacing.powi(2) / cell;
@@ -204,43 +139,12 @@ mod tests {
     }
 
     #[test]
-    fn t25_links_have_a_maximum_length() {
-        let (template, _) = blueprint(&AmoeboidCellSpec::default());
-        assert_eq!(template.constraints().ropes.len(), template.outline().len());
-    }
-
-    #[test]
     fn bad_numbers_are_refused_by_name() {
         let refuse = |spec: AmoeboidCellSpec, field: &str| assert_eq!(spec.blueprint().unwrap_err().field(), field);
         let spec = AmoeboidCellSpec::default;
-        refuse(
-            AmoeboidCellSpec {
-                radii: Vec2::new(1.0, 10.0),
-                ..spec()
-            },
-            "radii.x",
-        );
-        refuse(
-            AmoeboidCellSpec {
-                node_radius: f32::INFINITY,
-                ..spec()
-            },
-            "node_radius",
-        );
-        refuse(
-            AmoeboidCellSpec {
-                radii: Vec2::splat(500.0),
-                node_radius: 0.1,
-                ..spec()
-            },
-            "radii",
-        );
-        refuse(
-            AmoeboidCellSpec {
-                cytoplasm_spacing: 0.1,
-                ..spec()
-            },
-            "cytoplasm_spacing",
-        );
+        refuse(AmoeboidCellSpec { radii: Vec2::new(1.0, 10.0), ..spec() }, "radii.x");
+        refuse(AmoeboidCellSpec { node_radius: f32::INFINITY, ..spec() }, "node_radius");
+        refuse(AmoeboidCellSpec { radii: Vec2::splat(500.0), node_radius: 0.1, ..spec() }, "radii");
+        refuse(AmoeboidCellSpec { cytoplasm_spacing: 0.1, ..spec() }, "cytoplasm_spacing");
     }
 }

@@ -17,10 +17,7 @@ pub struct FluidBlockSpec {
 
 impl Default for FluidBlockSpec {
     fn default() -> Self {
-        Self {
-            size: Vec2::splat(20.0),
-            fluid: FluidParams::default(),
-        }
+        Self { size: Vec2::splat(20.0), fluid: FluidParams::default() }
     }
 }
 
@@ -63,7 +60,7 @@ impl FluidBlockSpec {
             kind: Kind::FluidBlock,
             template: None,
             scale: 1.0,
-            is_loose: true,
+            has_membrane: false,
             fluid: Some(FluidPlan {
                 params: self.fluid,
                 points: hexagonal_fill(self.size, self.fluid.spacing),
@@ -91,15 +88,9 @@ mod tests {
 
     #[test]
     fn absurd_sizes_are_refused() {
-        let spec = FluidBlockSpec {
-            size: Vec2::splat(19_000.0),
-            ..FluidBlockSpec::default()
-        };
+        let spec = FluidBlockSpec { size: Vec2::splat(19_000.0), ..FluidBlockSpec::default() };
         assert_eq!(spec.blueprint().unwrap_err().field(), "size");
-        let spec = FluidBlockSpec {
-            size: Vec2::splat(0.5),
-            ..FluidBlockSpec::default()
-        };
+        let spec = FluidBlockSpec { size: Vec2::splat(0.5), ..FluidBlockSpec::default() };
         assert_eq!(spec.blueprint().unwrap_err().field(), "size.x");
     }
 }

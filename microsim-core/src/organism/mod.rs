@@ -12,10 +12,11 @@ use crate::behavior::Locomotion;
 use crate::behavior::controller::Controller;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
+use crate::particle::Particles;
 use crate::rng::Rng;
-use crate::solver::ConstraintSet;
-use crate::solver::fluid::FluidParams;
+use crate::solver::fluid::{self, Fluid, FluidParams};
 use crate::solver::lanes::LANES;
+use crate::solver::membrane::{Content, Membrane};
 use crate::template::Template;
 use glam::Vec2;
 
@@ -121,12 +122,7 @@ impl Placement {
     /// At this place, unturned, in its own size, steered by inputs only.
     #[must_use]
     pub fn at(x: f32, y: f32) -> Self {
-        Self {
-            at: Vec2::new(x, y),
-            angle: 0.0,
-            scale: 1.0,
-            controller: Controller::Still,
-        }
+        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller: Controller::Still }
     }
 
     /// The same with another controller.
@@ -172,8 +168,8 @@ pub(crate) struct Blueprint {
     pub template: Option<Template>,
     /// Size of the organism relative to the template: templates of equal shape are shared by all sizes.
     pub scale: f32,
-    /// Whether its topology may change while it lives, so that it cannot lie in a block.
-    pub is_loose: bool,
+    /// Its outline is a membrane, which may grow, rather than a ring that the template's constraints hold together.
+    pub has_membrane: bool,
     pub fluid: Option<FluidPlan>,
     pub locomotion: Locomotion,
     /// Speed when it moves, units/s.
@@ -197,10 +193,7 @@ impl Blueprint {
     }
 
     fn extent(&self) -> f32 {
-        let body = self
-            .template
-            .as_ref()
-            .map_or(0.0, |template| template.extent() * self.scale);
+        let body = self.template.as_ref().map_or(0.0, |template| template.extent() * self.scale);
         self.fluid
             .iter()
             .flat_map(|fluid| fluid.points.iter().map(|p| p.length() + 0.5 * fluid.params.spacing))
@@ -213,11 +206,8 @@ impl Blueprint {
 pub(crate) enum Body {
     /// In one lane of a block. `first` is the particle of slot 0.
     Lane { block: u32, first: u32 },
-    /// At indices of their own; the constraints are over particle indices.
-    Loose {
-        particles: Vec<u32>,
-        constraints: ConstraintSet,
-    },
+    /// At indices of their own: a membrane, or nothing but fluid.
+    Loose { particles: Vec<u32>, membrane: Option<Membrane> },
 }
 
 impl Body {
@@ -226,6 +216,13 @@ impl Body {
         match self {
             Self::Lane { first, .. } => first + node * LANES as u32,
             Self::Loose { .. } => node,
+        }
+    }
+
+    pub(crate) fn membrane(&self) -> Option<&Membrane> {
+        match self {
+            Self::Lane { .. } => None,
+            Self::Loose { membrane, .. } => membrane.as_ref(),
         }
     }
 }
@@ -268,6 +265,15 @@ impl Organism {
         }
     }
 
+    /// Finds this step's tension of its membrane, if it has one.
+    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
+        let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
+        let spacing = fluids[fluid as usize].params.spacing;
+        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing), spacing };
+        let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
+        membrane.relax(&self.outline, particles, content, is_driven, dt);
+    }
+
     /// All its particles: those of the body by node, then the fluid.
     pub(crate) fn particles(&self) -> impl Iterator<Item = u32> + '_ {
         let loose: &[u32] = match &self.body {
@@ -275,8 +281,6 @@ impl Organism {
             Body::Loose { particles, .. } => particles,
         };
         let in_lane = (0..self.slots).map(|slot| self.body.particle(slot));
-        in_lane
-            .chain(loose.iter().copied())
-            .chain(self.fluid_particles.iter().copied())
+        in_lane.chain(loose.iter().copied()).chain(self.fluid_particles.iter().copied())
     }
 }

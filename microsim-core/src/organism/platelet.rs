@@ -68,7 +68,7 @@ impl PlateletSpec {
             kind: Kind::Platelet,
             template: Some(self.template()?),
             scale: self.radius,
-            is_loose: false,
+            has_membrane: false,
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
@@ -82,33 +82,16 @@ impl PlateletSpec {
         let ring_radius = 1.0 / (1.0 + half_angle_sine);
         let satellite_radius = ring_radius * half_angle_sine;
         let mut builder = Template::builder();
-        let core = Core::add(
-            &mut builder,
-            self.core_mass,
-            ring_radius - (1.0 + INTERLAYER_GAP) * satellite_radius,
-        );
-        let satellite = |position| Node {
-            role: Role::Membrane,
-            ..Node::disc(position, 1.0, satellite_radius)
-        };
+        let core = Core::add(&mut builder, self.core_mass, ring_radius - (1.0 + INTERLAYER_GAP) * satellite_radius);
+        let satellite = |position| Node { role: Role::Membrane, ..Node::disc(position, 1.0, satellite_radius) };
         let points = ellipse(Vec2::splat(ring_radius), self.satellites as usize);
         let ring: Vec<u32> = points.into_iter().map(|at| builder.node(satellite(at))).collect();
         builder.ring(&ring, 0.0).outline(&ring);
         let held_out = ring_radius - INTERLAYER_GAP * satellite_radius;
         for &a in &ring {
             let compliance = self.spoke_compliance;
-            builder.distance(Distance {
-                a,
-                b: core.nucleus,
-                rest_length: ring_radius,
-                compliance,
-                damping: 0.0,
-            });
-            builder.min_distance(MinDistance {
-                a,
-                b: core.interlayer,
-                min_length: held_out,
-            });
+            builder.distance(Distance { a, b: core.nucleus, rest_length: ring_radius, compliance, damping: 0.0 });
+            builder.min_distance(MinDistance { a, b: core.interlayer, min_length: held_out });
         }
         builder.anchor(Anchor {
             node: core.nucleus,
@@ -130,23 +113,13 @@ struct Core {
 
 impl Core {
     fn add(builder: &mut TemplateBuilder, mass: f32, interlayer_radius: f32) -> Self {
-        let inside = |radius, role| Node {
-            role,
-            ..Node::disc(Vec2::ZERO, mass, radius)
-        };
-        let nucleus = Node {
-            groups: CollisionGroups::NONE,
-            ..inside(0.4, Role::Nucleus)
-        };
+        let inside = |radius, role| Node { role, ..Node::disc(Vec2::ZERO, mass, radius) };
+        let nucleus = Node { groups: CollisionGroups::NONE, ..inside(0.4, Role::Nucleus) };
         let nucleus = builder.node(nucleus);
         let interlayer = builder.node(inside(interlayer_radius, Role::Interlayer));
         let anchor = builder.node(Node::fixed(Vec2::ZERO));
         builder.link(nucleus, interlayer, 0.0);
-        Self {
-            nucleus,
-            interlayer,
-            anchor,
-        }
+        Self { nucleus, interlayer, anchor }
     }
 }
 
@@ -161,10 +134,7 @@ mod tests {
     #[test]
     fn t48_has_twenty_to_thirty_dynamic_bodies() {
         for satellites in [18, 28] {
-            let spec = PlateletSpec {
-                satellites,
-                ..PlateletSpec::default()
-            };
+            let spec = PlateletSpec { satellites, ..PlateletSpec::default() };
             let template = spec.blueprint().unwrap().template.unwrap();
             let dynamic = template.nodes().iter().filter(|node| node.mass.is_finite()).count();
             assert!((20..=30).contains(&dynamic), "{dynamic} bodies");
@@ -174,26 +144,14 @@ mod tests {
     #[test]
     fn t45_ring_nucleus_and_interlayer() {
         let template = template();
-        let with = |role| {
-            template
-                .nodes()
-                .iter()
-                .filter(move |node| node.role == role)
-                .collect::<Vec<_>>()
-        };
+        let with = |role| template.nodes().iter().filter(move |node| node.role == role).collect::<Vec<_>>();
         let (satellites, nucleus, interlayer) = (with(Role::Membrane), with(Role::Nucleus), with(Role::Interlayer));
         assert_eq!((satellites.len(), nucleus.len(), interlayer.len()), (28, 1, 1));
         assert_eq!(nucleus[0].position, interlayer[0].position, "concentric");
-        assert!(
-            !nucleus[0].groups.meets(interlayer[0].groups),
-            "no collision with the nucleus"
-        );
+        assert!(!nucleus[0].groups.meets(interlayer[0].groups), "no collision with the nucleus");
         let ring_radius = satellites[0].position.length();
         let gap = ring_radius - satellites[0].radius - interlayer[0].radius;
-        assert!(
-            gap > 0.0 && gap < 0.2 * satellites[0].radius,
-            "almost reaches the satellites, gap {gap}"
-        );
+        assert!(gap > 0.0 && gap < 0.2 * satellites[0].radius, "almost reaches the satellites, gap {gap}");
         assert_eq!(template.constraints().min_distances.len(), 28);
         assert!((template.extent() - 1.0).abs() < 1e-5);
     }

@@ -21,12 +21,7 @@ pub struct ProbeSpec {
 
 impl Default for ProbeSpec {
     fn default() -> Self {
-        Self {
-            radius: 4.0,
-            mass: 240.0,
-            speed: 5.0,
-            max_acceleration: 400.0,
-        }
+        Self { radius: 4.0, mass: 240.0, speed: 5.0, max_acceleration: 400.0 }
     }
 }
 
@@ -48,11 +43,9 @@ impl ProbeSpec {
             kind: Kind::Probe,
             template: Some(builder.build()?),
             scale: self.radius,
-            is_loose: false,
+            has_membrane: false,
             fluid: None,
-            locomotion: Locomotion::Tow {
-                max_acceleration: self.max_acceleration,
-            },
+            locomotion: Locomotion::Tow { max_acceleration: self.max_acceleration },
             speed: self.speed,
         })
     }

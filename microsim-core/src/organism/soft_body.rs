@@ -76,7 +76,7 @@ impl RigidCellSpec {
             kind: Kind::RigidCell,
             template: Some(self.template()?),
             scale: self.radii.x,
-            is_loose: false,
+            has_membrane: false,
             fluid: None,
             locomotion: Locomotion::FrontPull { front: 0 },
             speed: self.speed,
@@ -103,19 +103,12 @@ impl RigidCellSpec {
         let satellites = (self.satellites * self.layers) as f32;
         let room = smaller(layer.radii.x, layer.radii.y);
         let radius = 0.45 * room;
-        let nucleus = Node {
-            role: Role::Nucleus,
-            ..Node::disc(Vec2::ZERO, NUCLEUS_SHARE * satellites, radius)
-        };
+        let nucleus = Node { role: Role::Nucleus, ..Node::disc(Vec2::ZERO, NUCLEUS_SHARE * satellites, radius) };
         let nucleus = builder.node(nucleus);
         let min_length = smaller(radius + layer.satellite_radius, 0.9 * room);
         for &a in innermost {
             builder.spring(a, nucleus, self.spring_compliance, self.spring_damping);
-            builder.min_distance(MinDistance {
-                a,
-                b: nucleus,
-                min_length,
-            });
+            builder.min_distance(MinDistance { a, b: nucleus, min_length });
         }
     }
 }
@@ -133,11 +126,7 @@ impl Layer {
     fn new(radii: Vec2, count: usize) -> Self {
         let points = ellipse(radii, count);
         let half_distance = 0.5 * (points[1] - points[0]).length();
-        Self {
-            radii,
-            satellite_radius: smaller(half_distance, 0.3 * smaller(radii.x, radii.y)),
-            count,
-        }
+        Self { radii, satellite_radius: smaller(half_distance, 0.3 * smaller(radii.x, radii.y)), count }
     }
 
     /// The ring whose discs reach out to an ellipse.
@@ -147,23 +136,15 @@ impl Layer {
 
     /// The ring one layer further in.
     fn inner(&self) -> Self {
-        let thickness = smaller(
-            LAYER_DISTANCE * self.satellite_radius,
-            0.4 * smaller(self.radii.x, self.radii.y),
-        );
+        let thickness = smaller(LAYER_DISTANCE * self.satellite_radius, 0.4 * smaller(self.radii.x, self.radii.y));
         Self::new(self.radii - Vec2::splat(thickness), self.count)
     }
 
     /// Adds its satellites and the rigid links between neighbours.
     fn add(&self, builder: &mut TemplateBuilder, role: Role) -> Vec<u32> {
-        let satellite = |position| Node {
-            role,
-            ..Node::disc(position, 1.0, self.satellite_radius)
-        };
-        let ring: Vec<u32> = ellipse(self.radii, self.count)
-            .into_iter()
-            .map(|position| builder.node(satellite(position)))
-            .collect();
+        let satellite = |position| Node { role, ..Node::disc(position, 1.0, self.satellite_radius) };
+        let ring: Vec<u32> =
+            ellipse(self.radii, self.count).into_iter().map(|position| builder.node(satellite(position))).collect();
         builder.ring(&ring, 0.0);
         ring
     }
@@ -190,30 +171,16 @@ mod tests {
     use crate::geometry::polygon::signed_area;
 
     fn template(layers: u32) -> Template {
-        RigidCellSpec {
-            layers,
-            ..RigidCellSpec::default()
-        }
-        .blueprint()
-        .unwrap()
-        .template
-        .unwrap()
+        RigidCellSpec { layers, ..RigidCellSpec::default() }.blueprint().unwrap().template.unwrap()
     }
 
     fn slots(template: &Template, role: Role) -> Vec<u32> {
         let nodes = template.nodes().iter().enumerate();
-        nodes
-            .filter(|(_, node)| node.role == role)
-            .map(|(slot, _)| slot as u32)
-            .collect()
+        nodes.filter(|(_, node)| node.role == role).map(|(slot, _)| slot as u32).collect()
     }
 
     fn has_link(template: &Template, a: u32, b: u32) -> bool {
-        template
-            .constraints()
-            .distances
-            .iter()
-            .any(|c| (c.a, c.b) == (a, b) || (c.b, c.a) == (a, b))
+        template.constraints().distances.iter().any(|c| (c.a, c.b) == (a, b) || (c.b, c.a) == (a, b))
     }
 
     #[test]
@@ -229,37 +196,21 @@ mod tests {
     #[test]
     fn t06_satellites_are_alike_and_evenly_spaced_on_the_ellipse() {
         let template = template(1);
-        let ring: Vec<Vec2> = template
-            .outline()
-            .iter()
-            .map(|&s| template.nodes()[s as usize].position)
-            .collect();
+        let ring: Vec<Vec2> = template.outline().iter().map(|&s| template.nodes()[s as usize].position).collect();
         let radii = ring.iter().fold(Vec2::ZERO, |far, p| far.max(p.abs()));
-        let gaps: Vec<f32> = (0..ring.len())
-            .map(|k| (ring[(k + 1) % ring.len()] - ring[k]).length())
-            .collect();
+        let gaps: Vec<f32> = (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).length()).collect();
         let mean = gaps.iter().sum::<f32>() / gaps.len() as f32;
         assert!(gaps.iter().all(|gap| (gap / mean - 1.0).abs() < 0.03), "{gaps:?}");
         assert!(ring.iter().all(|p| ((*p / radii).length() - 1.0).abs() < 0.02) && signed_area(&ring) > 0.0);
         let radius = template.nodes()[0].radius;
-        assert!(
-            template
-                .outline()
-                .iter()
-                .all(|&s| template.nodes()[s as usize].radius == radius)
-        );
+        assert!(template.outline().iter().all(|&s| template.nodes()[s as usize].radius == radius));
     }
 
     #[test]
     fn t07_nucleus_links_are_damped_springs() {
         let template = template(1);
         let nucleus = slots(&template, Role::Nucleus)[0];
-        let springs: Vec<_> = template
-            .constraints()
-            .distances
-            .iter()
-            .filter(|c| c.b == nucleus)
-            .collect();
+        let springs: Vec<_> = template.constraints().distances.iter().filter(|c| c.b == nucleus).collect();
         assert_eq!(springs.len(), 28);
         assert!(springs.iter().all(|c| c.compliance > 0.0 && c.damping > 0.0));
     }
@@ -269,9 +220,7 @@ mod tests {
         let template = template(2);
         for ring in [slots(&template, Role::Membrane), slots(&template, Role::InnerRing)] {
             let links = template.constraints().distances.iter();
-            let within = links
-                .filter(|c| ring.contains(&c.a) && ring.contains(&c.b))
-                .collect::<Vec<_>>();
+            let within = links.filter(|c| ring.contains(&c.a) && ring.contains(&c.b)).collect::<Vec<_>>();
             assert_eq!(within.len(), ring.len(), "as many links as satellites");
             assert!(within.iter().all(|c| c.compliance == 0.0));
             assert!((0..ring.len()).all(|k| has_link(&template, ring[k], ring[(k + 1) % ring.len()])));
@@ -294,36 +243,14 @@ mod tests {
     fn odd_shapes_and_bad_numbers_are_refused_by_name() {
         let refuse = |spec: RigidCellSpec, field: &str| assert_eq!(spec.blueprint().unwrap_err().field(), field);
         let spec = RigidCellSpec::default;
-        refuse(
-            RigidCellSpec {
-                radii: Vec2::new(f32::NAN, 1.0),
-                ..spec()
-            },
-            "radii.x",
-        );
-        refuse(
-            RigidCellSpec {
-                radii: Vec2::new(50.0, 1.0),
-                ..spec()
-            },
-            "radii.y",
-        );
-        refuse(
-            RigidCellSpec {
-                satellites: 9,
-                ..spec()
-            },
-            "satellites",
-        );
+        refuse(RigidCellSpec { radii: Vec2::new(f32::NAN, 1.0), ..spec() }, "radii.x");
+        refuse(RigidCellSpec { radii: Vec2::new(50.0, 1.0), ..spec() }, "radii.y");
+        refuse(RigidCellSpec { satellites: 9, ..spec() }, "satellites");
         refuse(RigidCellSpec { layers: 3, ..spec() }, "layers");
         for satellites in [8, 128] {
             for ratio in [0.15, 1.0, 7.0] {
                 let radii = Vec2::new(10.0, 10.0 * ratio);
-                let spec = RigidCellSpec {
-                    radii,
-                    satellites,
-                    ..spec()
-                };
+                let spec = RigidCellSpec { radii, satellites, ..spec() };
                 let error = spec.blueprint().err();
                 assert_eq!(error, None, "{satellites} satellites, ratio {ratio}");
             }

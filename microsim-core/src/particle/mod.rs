@@ -32,15 +32,9 @@ pub struct CollisionGroups {
 
 impl CollisionGroups {
     /// In every group, colliding with every group.
-    pub const ALL: Self = Self {
-        memberships: u32::MAX,
-        filter: u32::MAX,
-    };
+    pub const ALL: Self = Self { memberships: u32::MAX, filter: u32::MAX };
     /// Colliding with nothing.
-    pub const NONE: Self = Self {
-        memberships: 0,
-        filter: 0,
-    };
+    pub const NONE: Self = Self { memberships: 0, filter: 0 };
 
     /// Whether particles of these two groups collide.
     #[must_use]
@@ -60,10 +54,7 @@ pub struct Material {
 
 impl Default for Material {
     fn default() -> Self {
-        Self {
-            friction: 0.2,
-            restitution: 0.0,
-        }
+        Self { friction: 0.2, restitution: 0.0 }
     }
 }
 
@@ -81,8 +72,6 @@ pub(crate) struct Particle {
     pub material: Material,
     /// What the particle is to its owner; the solver does not read it.
     pub role: u8,
-    /// Collides with particles of its own owner too.
-    pub self_collides: bool,
     pub owner: u32,
     /// 0, or one plus the index of the fluid that it belongs to.
     pub fluid: u32,
@@ -116,7 +105,8 @@ pub(crate) struct Particles {
     pub groups: Vec<CollisionGroups>,
     pub material: Vec<Material>,
     pub role: Vec<u8>,
-    pub self_collides: Vec<bool>,
+    /// The following node of the membrane that it is in, or [`NO_OWNER`]. Membranes collide with themselves.
+    pub next_in_ring: Vec<u32>,
     pub owner: Vec<u32>,
     pub fluid: Vec<u32>,
     /// Freed loose indices, the last freed first.
@@ -201,7 +191,7 @@ impl Particles {
         self.groups.resize(len, CollisionGroups::NONE);
         self.material.resize(len, Material::default());
         self.role.resize(len, 0);
-        self.self_collides.resize(len, false);
+        self.next_in_ring.resize(len, NO_OWNER);
         self.owner.resize(len, NO_OWNER);
         self.fluid.resize(len, 0);
         u32::try_from(first).unwrap_or(NO_OWNER)
@@ -222,9 +212,25 @@ impl Particles {
         self.groups[i] = particle.groups;
         self.material[i] = particle.material;
         self.role[i] = particle.role;
-        self.self_collides[i] = particle.self_collides;
+        self.next_in_ring[i] = NO_OWNER;
         self.owner[i] = particle.owner;
         self.fluid[i] = particle.fluid;
+    }
+
+    /// Notes which nodes follow each other in a membrane.
+    pub(crate) fn link_ring(&mut self, ring: &[u32]) {
+        for (k, &node) in ring.iter().enumerate() {
+            self.next_in_ring[node as usize] = ring[(k + 1) % ring.len()];
+        }
+    }
+
+    /// Whether two nodes of a membrane are one or two links apart.
+    pub(crate) fn are_ring_neighbours(&self, a: usize, b: usize) -> bool {
+        let follows = |first: usize, second: usize| {
+            let next = self.next_in_ring[first] as usize;
+            next == second || self.next_in_ring.get(next).is_some_and(|&after| after as usize == second)
+        };
+        follows(a, b) || follows(b, a)
     }
 
     /// Makes entry `i` dead without freeing its index (a lane of a block).
@@ -234,6 +240,7 @@ impl Particles {
         self.inv_mass[i] = 0.0;
         self.groups[i] = CollisionGroups::NONE;
         self.owner[i] = NO_OWNER;
+        self.next_in_ring[i] = NO_OWNER;
         self.fluid[i] = 0;
     }
 

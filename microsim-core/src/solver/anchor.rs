@@ -47,13 +47,7 @@ mod tests {
     use super::super::testing::line;
     use super::*;
 
-    const ANCHOR: Anchor = Anchor {
-        node: 1,
-        anchor: 0,
-        rest_length: 0.0,
-        max_length: 2.0,
-        compliance: 1e-4,
-    };
+    const ANCHOR: Anchor = Anchor { node: 1, anchor: 0, rest_length: 0.0, max_length: 2.0, compliance: 1e-4 };
 
     #[test]
     fn pulls_home_softly_and_stops_hard() {

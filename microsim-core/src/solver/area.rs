@@ -5,6 +5,7 @@
 
 use super::lanes::{Span, ratio};
 use crate::particle::Particles;
+use glam::Vec2;
 
 /// A ring of nodes around a given area.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,46 +29,61 @@ pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &
 }
 
 fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Particles, h: f32) {
-    let count = c.ring.len();
-    let node = |k: usize| at(c.ring[k % count]);
-    let (origin_x, origin_y) = (particles.x[node(0)], particles.y[node(0)]);
-    let mut twice_area = 0.0;
-    let mut weight = 0.0;
-    for k in 0..count {
-        let (i, next) = (node(k), node(k + 1));
-        twice_area += (particles.x[i] - origin_x) * (particles.y[next] - origin_y)
-            - (particles.x[next] - origin_x) * (particles.y[i] - origin_y);
-        let (gx, gy) = gradient(particles, node(k + count - 1), next);
-        weight += particles.inv_mass[i] * (gx * gx + gy * gy);
-    }
-    let error = 0.5 * twice_area - c.rest_area * scale * scale;
-    if c.is_upper_bound && error <= 0.0 {
-        return;
-    }
-    let multiplier = ratio(-error, weight + c.compliance / (h * h));
-    // The gradients are those of the start, not of the nodes already moved.
-    let first = (particles.x[node(0)], particles.y[node(0)]);
-    let mut before = (particles.x[node(count - 1)], particles.y[node(count - 1)]);
-    for k in 0..count {
-        let i = node(k);
-        let here = (particles.x[i], particles.y[i]);
-        let after = if k + 1 == count {
-            first
-        } else {
-            (particles.x[node(k + 1)], particles.y[node(k + 1)])
-        };
-        let step = multiplier * particles.inv_mass[i];
-        particles.x[i] += step * 0.5 * (after.1 - before.1);
-        particles.y[i] += step * 0.5 * (before.0 - after.0);
-        before = here;
+    let ring: Vec<u32> = c.ring.iter().map(|&slot| at(slot) as u32).collect();
+    let polygon = Polygon::measure(&ring, particles);
+    let error = polygon.area - c.rest_area * scale * scale;
+    if !c.is_upper_bound || error > 0.0 {
+        enforce(&polygon, &ring, error, c.compliance / (h * h), particles);
     }
 }
 
-fn gradient(particles: &Particles, previous: usize, next: usize) -> (f32, f32) {
-    (
-        0.5 * (particles.y[next] - particles.y[previous]),
-        0.5 * (particles.x[previous] - particles.x[next]),
-    )
+/// A ring of particles as it is now.
+pub(crate) struct Polygon {
+    /// Enclosed area, positive for a counter-clockwise ring.
+    pub area: f32,
+    /// Sum of inverse mass times squared gradient over the nodes.
+    weight: f32,
+}
+
+impl Polygon {
+    pub(crate) fn measure(ring: &[u32], particles: &Particles) -> Self {
+        let count = ring.len();
+        let node = |k: usize| ring[k % count] as usize;
+        let (mut twice_area, mut weight) = (0.0, 0.0);
+        for k in 0..count {
+            twice_area += particles.between(node(0), node(k)).perp_dot(particles.between(node(0), node(k + 1)));
+            let gradient = gradient(particles.between(node(k + count - 1), node(k + 1)));
+            weight += particles.inv_mass[node(k)] * gradient.length_squared();
+        }
+        Self { area: 0.5 * twice_area, weight }
+    }
+}
+
+/// Corrects an area error: moves every node along its gradient, as the ring was when it was measured.
+pub(crate) fn enforce(polygon: &Polygon, ring: &[u32], error: f32, alpha: f32, particles: &mut Particles) {
+    let count = ring.len();
+    let offset = |particles: &Particles, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
+    let multiplier = ratio(-error, polygon.weight + alpha);
+    // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
+    let mut before = offset(particles, count - 1);
+    let mut here = Vec2::ZERO;
+    let mut moved_first = Vec2::ZERO;
+    for k in 0..count {
+        let after = if k + 1 == count { Vec2::ZERO } else { offset(particles, k + 1) + moved_first };
+        let i = ring[k] as usize;
+        let by = gradient(after - before) * (multiplier * particles.inv_mass[i]);
+        particles.x[i] += by.x;
+        particles.y[i] += by.y;
+        if k == 0 {
+            moved_first = by;
+        }
+        (before, here) = (here, after);
+    }
+}
+
+/// Gradient of the area with respect to a node, from the way between its neighbours.
+fn gradient(across: Vec2) -> Vec2 {
+    Vec2::new(0.5 * across.y, -0.5 * across.x)
 }
 
 #[cfg(test)]
@@ -81,12 +97,7 @@ mod tests {
     }
 
     fn constraint(count: u32, rest_area: f32, is_upper_bound: bool) -> Area {
-        Area {
-            ring: (0..count).collect(),
-            rest_area,
-            compliance: 0.0,
-            is_upper_bound,
-        }
+        Area { ring: (0..count).collect(), rest_area, compliance: 0.0, is_upper_bound }
     }
 
     #[test]

@@ -21,12 +21,7 @@ impl Block {
     /// A block with eight empty lanes, its `slots * 8` particles appended to the store.
     pub(crate) fn new(template: u32, slots: usize, particles: &mut Particles) -> Self {
         let base = particles.extend(slots * LANES);
-        Self {
-            template,
-            base,
-            owner: [NO_OWNER; LANES],
-            scale: [1.0; LANES],
-        }
+        Self { template, base, owner: [NO_OWNER; LANES], scale: [1.0; LANES] }
     }
 
     /// Particle of a slot in a lane.
@@ -45,14 +40,7 @@ impl Block {
 
     /// Projects the template's constraints in all eight lanes.
     pub(crate) fn project(&self, constraints: &ConstraintSet, particles: &mut Particles, h: f32) {
-        constraints.project(
-            Span {
-                base: self.base as usize,
-                scale: self.scale,
-            },
-            particles,
-            h,
-        );
+        constraints.project(Span { base: self.base as usize, scale: self.scale }, particles, h);
     }
 }
 
@@ -64,24 +52,12 @@ mod tests {
     use glam::Vec2;
 
     fn spring_chain(nodes: u32) -> ConstraintSet {
-        let link = |a| Distance {
-            a,
-            b: a + 1,
-            rest_length: 1.0,
-            compliance: 1e-4,
-            damping: 0.01,
-        };
-        ConstraintSet {
-            distances: (0..nodes - 1).map(link).collect(),
-            ..ConstraintSet::default()
-        }
+        let link = |a| Distance { a, b: a + 1, rest_length: 1.0, compliance: 1e-4, damping: 0.01 };
+        ConstraintSet { distances: (0..nodes - 1).map(link).collect(), ..ConstraintSet::default() }
     }
 
     fn wobbly(slot: u32, lane: usize) -> Vec2 {
-        Vec2::new(
-            slot as f32 * 1.3 + lane as f32 * 0.01,
-            (slot as f32 * 0.7 + lane as f32) * 0.1,
-        )
+        Vec2::new(slot as f32 * 1.3 + lane as f32 * 0.01, (slot as f32 * 0.7 + lane as f32) * 0.1)
     }
 
     #[test]
@@ -104,11 +80,7 @@ mod tests {
         for lane in 0..LANES {
             for slot in 0..5 {
                 let i = block.particle(slot, lane) as usize;
-                assert_eq!(
-                    in_lanes.position(i),
-                    loose[lane].position(slot as usize),
-                    "slot {slot} lane {lane}"
-                );
+                assert_eq!(in_lanes.position(i), loose[lane].position(slot as usize), "slot {slot} lane {lane}");
             }
         }
     }

@@ -33,11 +33,7 @@ pub(crate) struct Impact {
 
 /// Friction and restitution of two surfaces on each other.
 pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
-    let restitution = if a.restitution > b.restitution {
-        a.restitution
-    } else {
-        b.restitution
-    };
+    let restitution = if a.restitution > b.restitution { a.restitution } else { b.restitution };
     ((a.friction * b.friction).sqrt(), restitution)
 }
 
@@ -64,12 +60,7 @@ fn separate(c: &Contact, between: Vec2, squared: f32, reach: f32, p: &mut Partic
     if c.restitution > 0.0 {
         let approach = (p.velocity(j) - p.velocity(i)).dot(normal);
         if approach < 0.0 {
-            impacts.push(Impact {
-                i: c.i,
-                j: Some(c.j),
-                normal,
-                rebound: -c.restitution * approach,
-            });
+            impacts.push(Impact { i: c.i, j: Some(c.j), normal, rebound: -c.restitution * approach });
         }
     }
     let push = normal * ratio(depth, wi + wj);
@@ -102,12 +93,7 @@ impl Impact {
     pub(crate) fn on_static(p: &Particles, i: u32, normal: Vec2, restitution: f32) -> Option<Self> {
         let approach = -p.velocity(i as usize).dot(normal);
         let bounces = restitution > 0.0 && approach < 0.0;
-        bounces.then_some(Self {
-            i,
-            j: None,
-            normal,
-            rebound: -restitution * approach,
-        })
+        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach })
     }
 }
 
@@ -115,9 +101,7 @@ impl Impact {
 pub(crate) fn apply_restitution(impacts: &mut Vec<Impact>, p: &mut Particles) {
     for impact in impacts.drain(..) {
         let i = impact.i as usize;
-        let (other, wj) = impact
-            .j
-            .map_or((Vec2::ZERO, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
+        let (other, wj) = impact.j.map_or((Vec2::ZERO, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
         let lacking = impact.rebound - (other - p.velocity(i)).dot(impact.normal);
         if lacking > 0.0 {
             let impulse = impact.normal * ratio(lacking, p.inv_mass[i] + wj);
@@ -137,13 +121,7 @@ mod tests {
     use super::*;
 
     fn touching(friction: f32, restitution: f32) -> Contact {
-        Contact {
-            i: 0,
-            j: 1,
-            friction,
-            restitution,
-            touched: false,
-        }
+        Contact { i: 0, j: 1, friction, restitution, touched: false }
     }
 
     #[test]
@@ -181,11 +159,7 @@ mod tests {
         project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts);
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
-        assert!(
-            (p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6,
-            "separation {}",
-            p.vx[1] - p.vx[0]
-        );
+        assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
         assert!(impacts.is_empty() && momentum(&p).is_finite());
     }
 }

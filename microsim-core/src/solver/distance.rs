@@ -29,11 +29,7 @@ pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particle
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
         let gamma = c.damping / h;
-        let resisted = if c.damping > 0.0 {
-            pair.opening(particles)
-        } else {
-            [0.0; L]
-        };
+        let resisted = if c.damping > 0.0 { pair.opening(particles) } else { [0.0; L] };
         let alpha = c.compliance / (h * h);
         let mut multiplier = [0.0; L];
         for l in 0..L {
@@ -50,21 +46,13 @@ mod tests {
     use super::*;
 
     fn constraint(compliance: f32) -> Distance {
-        Distance {
-            a: 0,
-            b: 1,
-            rest_length: 1.0,
-            compliance,
-            damping: 0.0,
-        }
+        Distance { a: 0, b: 1, rest_length: 1.0, compliance, damping: 0.0 }
     }
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         for compliance in [0.0, 1e-3] {
-            assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
-                project(&[constraint(compliance)], Span::LOOSE, p, 0.01)
-            });
+            assert_pair_laws(&[0.5, 1.7], 1.0, |p| project(&[constraint(compliance)], Span::LOOSE, p, 0.01));
         }
     }
 
@@ -73,11 +61,7 @@ mod tests {
         let mut p = line(2.0, [1.0, 0.5]);
         project(&[constraint(0.0)], Span::LOOSE, &mut p, 0.01);
         assert!((p.x[1] - p.x[0] - 1.0).abs() < 1e-6);
-        assert!(
-            (p.x[0] - 2.0 / 3.0).abs() < 1e-6,
-            "the light one moves twice as far, got {}",
-            p.x[0]
-        );
+        assert!((p.x[0] - 2.0 / 3.0).abs() < 1e-6, "the light one moves twice as far, got {}", p.x[0]);
     }
 
     #[test]
@@ -85,11 +69,7 @@ mod tests {
         let mut p = line(2.0, [1.0, 1.0]);
         project(&[constraint(1e-4)], Span::LOOSE, &mut p, 0.01);
         // alpha / h^2 = 1, so a third of the error stays.
-        assert!(
-            (p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6,
-            "length {}",
-            p.x[1] - p.x[0]
-        );
+        assert!((p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6, "length {}", p.x[1] - p.x[0]);
     }
 
     #[test]
@@ -97,10 +77,7 @@ mod tests {
         let mut free = line(2.0, [1.0, 1.0]);
         free.prev_x[1] = 1.9;
         let mut damped = free.clone();
-        let soft = Distance {
-            rest_length: 2.0,
-            ..constraint(1e-4)
-        };
+        let soft = Distance { rest_length: 2.0, ..constraint(1e-4) };
         project(&[soft], Span::LOOSE, &mut free, 0.01);
         project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped, 0.01);
         assert_eq!(free.x[1], 2.0);

@@ -31,22 +31,10 @@ mod tests {
     #[test]
     fn unlimited_drive_sets_and_limited_drive_approaches() {
         let mut p = line(1.0, [1.0, 1.0]);
-        let drive = Drive {
-            particle: 0,
-            velocity: Vec2::new(3.0, 4.0),
-            max_acceleration: f32::INFINITY,
-        };
+        let drive = Drive { particle: 0, velocity: Vec2::new(3.0, 4.0), max_acceleration: f32::INFINITY };
         apply(&[drive], &mut p, 0.01);
         assert_eq!(p.velocity(0), Vec2::new(3.0, 4.0));
-        apply(
-            &[Drive {
-                particle: 1,
-                max_acceleration: 100.0,
-                ..drive
-            }],
-            &mut p,
-            0.01,
-        );
+        apply(&[Drive { particle: 1, max_acceleration: 100.0, ..drive }], &mut p, 0.01);
         assert!((p.velocity(1).length() - 1.0).abs() < 1e-6);
     }
 }

@@ -48,12 +48,7 @@ pub struct FluidParams {
 
 impl Default for FluidParams {
     fn default() -> Self {
-        Self {
-            spacing: 1.0,
-            particle_mass: 1.0,
-            viscosity: 0.05,
-            mode: FluidMode::Density,
-        }
+        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 0.05, mode: FluidMode::Density }
     }
 }
 
@@ -93,12 +88,7 @@ struct Sorted {
 impl Fluid {
     pub(crate) fn new(params: FluidParams) -> Self {
         let rest_density = lattice_density();
-        Self {
-            params,
-            particles: Vec::new(),
-            rest_density,
-            sorted: Sorted::default(),
-        }
+        Self { params, particles: Vec::new(), rest_density, sorted: Sorted::default() }
     }
 
     fn support(&self) -> f32 {
@@ -134,14 +124,7 @@ impl Fluid {
             return;
         }
         let inverse_support = 1.0 / self.support();
-        let Sorted {
-            grid,
-            x,
-            y,
-            shift,
-            velocity,
-            ..
-        } = &mut self.sorted;
+        let Sorted { grid, x, y, shift, velocity, .. } = &mut self.sorted;
         velocity.clear();
         velocity.extend(grid.entries().iter().map(|&i| particles.velocity(i as usize)));
         for_each_neighbourhood(grid, x, y, |k, (xk, yk), ranges| {
@@ -166,14 +149,7 @@ impl Fluid {
             low = low.min(particles.position(i as usize));
             high = high.max(particles.position(i as usize));
         }
-        let Sorted {
-            grid,
-            x,
-            y,
-            multiplier,
-            shift,
-            ..
-        } = &mut self.sorted;
+        let Sorted { grid, x, y, multiplier, shift, .. } = &mut self.sorted;
         grid.fill(low, high, support, &self.particles, |i| particles.position(i as usize));
         x.clear();
         x.extend(grid.entries().iter().map(|&i| particles.position(i as usize).x));
@@ -186,9 +162,7 @@ impl Fluid {
     fn find_multipliers(&mut self) {
         let (inverse_support, inverse_density) = (1.0 / self.support(), 1.0 / self.rest_density);
         let slope = 3.0 * inverse_support * inverse_density;
-        let Sorted {
-            grid, x, y, multiplier, ..
-        } = &mut self.sorted;
+        let Sorted { grid, x, y, multiplier, .. } = &mut self.sorted;
         for_each_neighbourhood(grid, x, y, |k, at, ranges| {
             let (mut density, mut gradient, mut squared) = (1.0, Vec2::ZERO, 0.0);
             for_each_neighbour(k, at, x, y, ranges, inverse_support, |_, normal, _, q| {
@@ -199,11 +173,7 @@ impl Fluid {
             });
             let error = density * inverse_density - 1.0;
             let softening = RELAXATION * inverse_support * inverse_support;
-            multiplier[k] = if error > 0.0 {
-                error / (squared + gradient.length_squared() + softening)
-            } else {
-                0.0
-            };
+            multiplier[k] = if error > 0.0 { error / (squared + gradient.length_squared() + softening) } else { 0.0 };
         });
     }
 
@@ -211,14 +181,7 @@ impl Fluid {
         let inverse_support = 1.0 / self.support();
         let slope = UNDER_RELAXATION * 3.0 * inverse_support / self.rest_density;
         let nearest = MIN_SPACING * self.params.spacing;
-        let Sorted {
-            grid,
-            x,
-            y,
-            multiplier,
-            shift,
-            ..
-        } = &mut self.sorted;
+        let Sorted { grid, x, y, multiplier, shift, .. } = &mut self.sorted;
         for_each_neighbourhood(grid, x, y, |k, at, ranges| {
             let mut sum = Vec2::ZERO;
             for_each_neighbour(k, at, x, y, ranges, inverse_support, |j, normal, distance, q| {
@@ -269,6 +232,11 @@ impl Fluid {
     }
 }
 
+/// Area that a number of particles take up at rest: each has its share of a hexagonal lattice.
+pub(crate) fn rest_area(count: usize, spacing: f32) -> f32 {
+    count as f32 * spacing * spacing * 0.75f32.sqrt()
+}
+
 /// Kernel sum at a point of a hexagonal lattice of unit spacing.
 fn lattice_density() -> f32 {
     let mut density = 0.0;
@@ -277,11 +245,7 @@ fn lattice_density() -> f32 {
             let x = column as f32 + 0.5 * (row & 1) as f32;
             let y = row as f32 * 0.75f32.sqrt();
             let q = (x * x + y * y).sqrt() / SUPPORT;
-            density += if q < 1.0 {
-                (1.0 - q) * (1.0 - q) * (1.0 - q)
-            } else {
-                0.0
-            };
+            density += if q < 1.0 { (1.0 - q) * (1.0 - q) * (1.0 - q) } else { 0.0 };
         }
     }
     density
@@ -297,16 +261,8 @@ fn for_each_neighbourhood(
     for row in 0..grid.rows() {
         for column in 0..grid.columns() {
             let columns = column.saturating_sub(1)..column + 2;
-            let below = if row > 0 {
-                grid.row_range(row - 1, columns.clone())
-            } else {
-                0..0
-            };
-            let ranges = [
-                below,
-                grid.row_range(row, columns.clone()),
-                grid.row_range(row + 1, columns),
-            ];
+            let below = if row > 0 { grid.row_range(row - 1, columns.clone()) } else { 0..0 };
+            let ranges = [below, grid.row_range(row, columns.clone()), grid.row_range(row + 1, columns)];
             for k in grid.row_range(row, column..column + 1) {
                 visit(k, (x[k], y[k]), &ranges);
             }
@@ -331,11 +287,7 @@ fn for_each_neighbour(
             let distance = away.length();
             let q = distance * inverse_support;
             if q < 1.0 && j != k {
-                let normal = if distance > 1e-6 {
-                    away / distance
-                } else {
-                    fallback(k, j)
-                };
+                let normal = if distance > 1e-6 { away / distance } else { fallback(k, j) };
                 visit(j, normal, distance, q);
             }
         }
@@ -354,10 +306,7 @@ mod tests {
     use crate::solver::testing::disc;
 
     fn block(mode: FluidMode, spacing: f32) -> (Fluid, Particles) {
-        let mut fluid = Fluid::new(FluidParams {
-            mode,
-            ..FluidParams::default()
-        });
+        let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() });
         let mut particles = Particles::default();
         let mut rng = Rng::new(1, 1);
         for k in 0..200 {
@@ -431,9 +380,7 @@ mod tests {
         for _ in 0..20 {
             fluid.project(&mut particles);
         }
-        let spread = (0..4)
-            .map(|i| (particles.position(i) - Vec2::ONE).length())
-            .sum::<f32>();
+        let spread = (0..4).map(|i| (particles.position(i) - Vec2::ONE).length()).sum::<f32>();
         assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
     }
 }

@@ -6,22 +6,8 @@ use glam::Vec2;
 
 /// `v += h g`, limited to the speed limit; `x += h v`, for everything that can move.
 pub(crate) fn predict_positions(particles: &mut Particles, gravity: Vec2, max_speed: f32, h: f32) {
-    let Particles {
-        x,
-        y,
-        prev_x,
-        prev_y,
-        vx,
-        vy,
-        inv_mass,
-        ..
-    } = particles;
-    let columns = x
-        .iter_mut()
-        .zip(y)
-        .zip(prev_x.iter_mut().zip(prev_y))
-        .zip(vx.iter_mut().zip(vy))
-        .zip(inv_mass);
+    let Particles { x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = particles;
+    let columns = x.iter_mut().zip(y).zip(prev_x.iter_mut().zip(prev_y)).zip(vx.iter_mut().zip(vy)).zip(inv_mass);
     for ((((x, y), (prev_x, prev_y)), (vx, vy)), inv_mass) in columns {
         let moves = if *inv_mass > 0.0 { h } else { 0.0 };
         *vx += moves * gravity.x;
@@ -41,20 +27,8 @@ pub(crate) fn predict_positions(particles: &mut Particles, gravity: Vec2, max_sp
 pub(crate) fn update_velocities(particles: &mut Particles, damping: f32, max_speed: f32, h: f32) {
     let keep = 1.0 / (1.0 + damping * h);
     let (longest, inverse) = (max_speed * h, 1.0 / h);
-    let Particles {
-        x,
-        y,
-        prev_x,
-        prev_y,
-        vx,
-        vy,
-        ..
-    } = particles;
-    let columns = x
-        .iter_mut()
-        .zip(y)
-        .zip(prev_x.iter().zip(prev_y))
-        .zip(vx.iter_mut().zip(vy));
+    let Particles { x, y, prev_x, prev_y, vx, vy, .. } = particles;
+    let columns = x.iter_mut().zip(y).zip(prev_x.iter().zip(prev_y)).zip(vx.iter_mut().zip(vy));
     for (((x, y), (prev_x, prev_y)), (vx, vy)) in columns {
         let (dx, dy) = (*x - *prev_x, *y - *prev_y);
         let limit = ratio_limit(dx * dx + dy * dy, longest);

@@ -101,10 +101,7 @@ impl<const L: usize> Pair<L> {
             let (ap, bp) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
             std::array::from_fn::<f32, L, _>(|l| (bt[l] - bp[l]) - (at[l] - ap[l]))
         };
-        let (dx, dy) = (
-            moved(&particles.x, &particles.prev_x),
-            moved(&particles.y, &particles.prev_y),
-        );
+        let (dx, dy) = (moved(&particles.x, &particles.prev_x), moved(&particles.y, &particles.prev_y));
         std::array::from_fn(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
     }
 
@@ -129,9 +126,5 @@ impl<const L: usize> Pair<L> {
 /// `numerator / denominator`, or 0 where nothing can move.
 #[inline(always)]
 pub(crate) fn ratio(numerator: f32, denominator: f32) -> f32 {
-    if denominator > 0.0 {
-        numerator / denominator
-    } else {
-        0.0
-    }
+    if denominator > 0.0 { numerator / denominator } else { 0.0 }
 }

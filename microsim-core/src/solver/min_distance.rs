@@ -36,11 +36,7 @@ mod tests {
     use super::super::testing::{assert_pair_laws, line};
     use super::*;
 
-    const STANDOFF: MinDistance = MinDistance {
-        a: 0,
-        b: 1,
-        min_length: 1.0,
-    };
+    const STANDOFF: MinDistance = MinDistance { a: 0, b: 1, min_length: 1.0 };
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {

@@ -12,6 +12,7 @@ pub(crate) mod drive;
 pub(crate) mod fluid;
 pub(crate) mod integrate;
 pub(crate) mod lanes;
+pub(crate) mod membrane;
 pub(crate) mod min_distance;
 pub(crate) mod obstacle;
 pub(crate) mod rope;
@@ -49,13 +50,7 @@ impl ConstraintSet {
     /// Number of constraints of all kinds.
     #[must_use]
     pub fn len(&self) -> usize {
-        let Self {
-            distances,
-            min_distances,
-            areas,
-            anchors,
-            ropes,
-        } = self;
+        let Self { distances, min_distances, areas, anchors, ropes } = self;
         distances.len() + min_distances.len() + areas.len() + anchors.len() + ropes.len()
     }
 
@@ -67,13 +62,7 @@ impl ConstraintSet {
 
     /// Projects every constraint once. Limits come last, because the last projection wins.
     pub(crate) fn project<const L: usize>(&self, span: Span<L>, particles: &mut Particles, h: f32) {
-        let Self {
-            distances,
-            min_distances,
-            areas,
-            anchors,
-            ropes,
-        } = self;
+        let Self { distances, min_distances, areas, anchors, ropes } = self;
         distance::project(distances, span, particles, h);
         area::project(areas, span, particles, h);
         anchor::project(anchors, span, particles, h);
@@ -83,13 +72,7 @@ impl ConstraintSet {
 
     /// Checks every reference against the number of nodes and every number against its range.
     pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
-        let Self {
-            distances,
-            min_distances,
-            areas,
-            anchors,
-            ropes,
-        } = self;
+        let Self { distances, min_distances, areas, anchors, ropes } = self;
         for (k, c) in distances.iter().enumerate() {
             let field = |name: &str| format!("distances[{k}].{name}");
             check_pair(c.a, c.b, nodes, &field("a"))?;
@@ -109,12 +92,7 @@ impl ConstraintSet {
         for (k, c) in anchors.iter().enumerate() {
             check_pair(c.node, c.anchor, nodes, &format!("anchors[{k}].node"))?;
             in_range(&format!("anchors[{k}].rest_length"), c.rest_length, 0.0, MAX_LENGTH)?;
-            in_range(
-                &format!("anchors[{k}].max_length"),
-                c.max_length,
-                c.rest_length,
-                MAX_LENGTH,
-            )?;
+            in_range(&format!("anchors[{k}].max_length"), c.max_length, c.rest_length, MAX_LENGTH)?;
             in_range(&format!("anchors[{k}].compliance"), c.compliance, 0.0, MAX_LENGTH)?;
         }
         for (k, c) in ropes.iter().enumerate() {
@@ -127,9 +105,7 @@ impl ConstraintSet {
 
 fn check_pair(a: u32, b: u32, nodes: usize, field: &str) -> Result<(), Error> {
     let is_known = (a as usize) < nodes && (b as usize) < nodes && a != b;
-    is_known
-        .then_some(())
-        .ok_or_else(|| Error::reference(field, format!("two different nodes below {nodes}")))
+    is_known.then_some(()).ok_or_else(|| Error::reference(field, format!("two different nodes below {nodes}")))
 }
 
 /// Checks that a ring has at least three nodes, all different and known.
@@ -146,9 +122,5 @@ pub(crate) fn check_ring(ring: &[u32], nodes: usize, field: &str) -> Result<(), 
 /// The factor that brings a vector of this squared length down to `longest`; 1 if it is not longer.
 #[inline(always)]
 pub(crate) fn ratio_limit(length_squared: f32, longest: f32) -> f32 {
-    if length_squared > longest * longest {
-        longest / length_squared.sqrt()
-    } else {
-        1.0
-    }
+    if length_squared > longest * longest { longest / length_squared.sqrt() } else { 1.0 }
 }

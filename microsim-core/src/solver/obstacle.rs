@@ -34,12 +34,7 @@ impl Obstacle {
     /// An obstacle of this shape at this pose, with the default surface, colliding with everything.
     #[must_use]
     pub fn new(shape: SharedShape, pose: Pose) -> Self {
-        Self {
-            shape,
-            pose,
-            material: Material::default(),
-            groups: CollisionGroups::ALL,
-        }
+        Self { shape, pose, material: Material::default(), groups: CollisionGroups::ALL }
     }
 
     /// Axis-aligned box around it in the world.
@@ -101,10 +96,7 @@ mod tests {
         let obstacle = Obstacle::new(shape, Pose::translation(10.0, 5.0));
         let mut p = line(100.0, [1.0, 1.0]);
         (p.x[0], p.y[0]) = (start.x, start.y);
-        let contact = ObstacleContact {
-            particle: 0,
-            obstacle: 0,
-        };
+        let contact = ObstacleContact { particle: 0, obstacle: 0 };
         project(&[contact], std::slice::from_ref(&obstacle), &mut p, &mut Vec::new());
         let (surface, is_inside) = obstacle.nearest(p.position(0));
         let distance = (p.position(0) - surface).length();

@@ -13,12 +13,8 @@ pub(crate) fn disc(position: Vec2, inv_mass: f32) -> Particle {
         inv_mass,
         radius: 0.5,
         groups: CollisionGroups::ALL,
-        material: Material {
-            friction: 0.0,
-            restitution: 0.0,
-        },
+        material: Material { friction: 0.0, restitution: 0.0 },
         role: 0,
-        self_collides: false,
         owner: 0,
         fluid: 0,
     }
@@ -56,10 +52,7 @@ pub(crate) fn assert_pair_laws(violated: &[f32], target: f32, project: impl Fn(&
         let before = momentum(&p);
         project(&mut p);
         let after = (p.position(1) - p.position(0)).length();
-        assert!(
-            (after - target).abs() < (length - target).abs(),
-            "{length} -> {after}, wanted {target}"
-        );
+        assert!((after - target).abs() < (length - target).abs(), "{length} -> {after}, wanted {target}");
         assert!((momentum(&p) - before).length() < 1e-5, "momentum");
         let mut pinned = line(length, [0.0, 0.0]);
         project(&mut pinned);
@@ -70,8 +63,5 @@ pub(crate) fn assert_pair_laws(violated: &[f32], target: f32, project: impl Fn(&
     assert_eq!((rest.x[0], rest.x[1]), (0.0, target), "the target is a fixed point");
     let mut coincident = line(0.0, [1.0, 1.0]);
     project(&mut coincident);
-    assert!(
-        coincident.position(0).is_finite() && coincident.position(1).is_finite(),
-        "coincident particles"
-    );
+    assert!(coincident.position(0).is_finite() && coincident.position(1).is_finite(), "coincident particles");
 }

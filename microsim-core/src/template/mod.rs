@@ -70,28 +70,14 @@ impl Node {
     #[must_use]
     pub fn disc(position: Vec2, mass: f32, radius: f32) -> Self {
         let (groups, material) = (CollisionGroups::ALL, Material::default());
-        Self {
-            position,
-            mass,
-            radius,
-            groups,
-            material,
-            role: Role::Plain,
-        }
+        Self { position, mass, radius, groups, material, role: Role::Plain }
     }
 
     /// A point that nothing moves or touches.
     #[must_use]
     pub fn fixed(position: Vec2) -> Self {
         let (groups, material) = (CollisionGroups::NONE, Material::default());
-        Self {
-            position,
-            mass: f32::INFINITY,
-            radius: 0.0,
-            groups,
-            material,
-            role: Role::Anchor,
-        }
+        Self { position, mass: f32::INFINITY, radius: 0.0, groups, material, role: Role::Anchor }
     }
 
     fn validate(&self, k: usize) -> Result<(), Error> {
@@ -185,13 +171,7 @@ impl TemplateBuilder {
     /// Links two slots at their present distance, with this compliance and damping time.
     pub fn spring(&mut self, a: u32, b: u32, compliance: f32, damping: f32) -> &mut Self {
         let rest_length = self.distance_between(a, b);
-        self.distance(Distance {
-            a,
-            b,
-            rest_length,
-            compliance,
-            damping,
-        })
+        self.distance(Distance { a, b, rest_length, compliance, damping })
     }
 
     /// Links the slots of a ring each to the next, at their present distances. Even links come before odd ones: links
@@ -246,11 +226,7 @@ impl TemplateBuilder {
     /// # Errors
     /// Names the node or constraint that is out of range or refers to a slot that does not exist.
     pub fn build(self) -> Result<Template, Error> {
-        let Self {
-            nodes,
-            constraints,
-            outline,
-        } = self;
+        let Self { nodes, constraints, outline } = self;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
@@ -259,11 +235,7 @@ impl TemplateBuilder {
         if !outline.is_empty() {
             check_ring(&outline, nodes.len(), "outline")?;
         }
-        Ok(Template {
-            nodes,
-            constraints,
-            outline,
-        })
+        Ok(Template { nodes, constraints, outline })
     }
 
     fn distance_between(&self, a: u32, b: u32) -> f32 {
@@ -302,54 +274,19 @@ mod tests {
             change(&mut builder);
             assert_eq!(builder.build().unwrap_err().field(), field);
         };
-        refuse(
-            &|b| drop(b.node(Node::disc(Vec2::NAN, 1.0, 0.5))),
-            "nodes[2].position.x",
-        );
+        refuse(&|b| drop(b.node(Node::disc(Vec2::NAN, 1.0, 0.5))), "nodes[2].position.x");
         refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 0.0, 0.5))), "nodes[2].mass");
         refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 1.0, -0.5))), "nodes[2].radius");
         refuse(&|b| drop(b.link(0, 7, 0.0)), "distances[0].a");
         refuse(&|b| drop(b.link(1, 1, 0.0)), "distances[0].a");
         refuse(&|b| drop(b.link(0, 1, f32::NAN)), "distances[0].compliance");
-        refuse(
-            &|b| {
-                drop(b.rope(Rope {
-                    a: 0,
-                    b: 1,
-                    max_length: -1.0,
-                }))
-            },
-            "ropes[0].max_length",
-        );
-        refuse(
-            &|b| {
-                drop(b.min_distance(MinDistance {
-                    a: 0,
-                    b: 9,
-                    min_length: 1.0,
-                }))
-            },
-            "min_distances[0].a",
-        );
-        let anchor = Anchor {
-            node: 0,
-            anchor: 1,
-            rest_length: 2.0,
-            max_length: 1.0,
-            compliance: 0.0,
-        };
+        refuse(&|b| drop(b.rope(Rope { a: 0, b: 1, max_length: -1.0 })), "ropes[0].max_length");
+        refuse(&|b| drop(b.min_distance(MinDistance { a: 0, b: 9, min_length: 1.0 })), "min_distances[0].a");
+        let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
         refuse(&|b| drop(b.anchor(anchor)), "anchors[0].max_length");
         refuse(&|b| drop(b.outline(&[0, 1])), "outline");
-        let area = Area {
-            ring: vec![0, 1, 1],
-            rest_area: 1.0,
-            compliance: 0.0,
-            is_upper_bound: false,
-        };
+        let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
         refuse(&|b| drop(b.area(area.clone())), "areas[0].ring");
-        assert!(matches!(
-            Template::builder().build().unwrap_err().kind(),
-            ErrorKind::BadReference { .. }
-        ));
+        assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));
     }
 }

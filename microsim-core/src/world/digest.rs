@@ -8,8 +8,7 @@
 use super::World;
 use crate::behavior::Locomotion;
 use crate::behavior::controller::Controller;
-use crate::organism::{Body, Organism};
-use crate::solver::ConstraintSet;
+use crate::organism::Organism;
 use glam::Vec2;
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo).
@@ -32,11 +31,7 @@ impl Digest {
 
     fn float(&mut self, value: f32) {
         let canonical = if value == 0.0 { 0.0 } else { value };
-        self.word(if value.is_nan() {
-            f32::NAN.to_bits() & 0x7fff_ffff
-        } else {
-            canonical.to_bits()
-        });
+        self.word(if value.is_nan() { f32::NAN.to_bits() & 0x7fff_ffff } else { canonical.to_bits() });
     }
 
     fn vector(&mut self, v: Vec2) {
@@ -84,16 +79,9 @@ impl World {
         for i in 0..p.len() {
             digest.word(p.owner[i]);
             if p.is_live(i) {
-                for value in [
-                    p.origin_x[i],
-                    p.origin_y[i],
-                    p.x[i],
-                    p.y[i],
-                    p.vx[i],
-                    p.vy[i],
-                    p.inv_mass[i],
-                    p.radius[i],
-                ] {
+                for value in
+                    [p.origin_x[i], p.origin_y[i], p.x[i], p.y[i], p.vx[i], p.vy[i], p.inv_mass[i], p.radius[i]]
+                {
                     digest.float(value);
                 }
                 digest.word(u32::from(p.role[i]));
@@ -110,8 +98,8 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     digest.word(organism.kind as u32);
     digest.words(organism.particles());
     digest.words(organism.outline.iter().copied());
-    if let Body::Loose { constraints, .. } = &organism.body {
-        digest_constraints(constraints, digest);
+    if let Some(membrane) = organism.body.membrane() {
+        membrane.state().into_iter().for_each(|value| digest.float(value));
     }
     match organism.locomotion {
         Locomotion::None => digest.word(0),
@@ -126,55 +114,12 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     digest.word(u32::from(organism.is_quarantined));
 }
 
-fn digest_constraints(set: &ConstraintSet, digest: &mut Digest) {
-    let ConstraintSet {
-        distances,
-        min_distances,
-        areas,
-        anchors,
-        ropes,
-    } = set;
-    for c in distances {
-        digest.words([c.a, c.b]);
-        [c.rest_length, c.compliance, c.damping]
-            .into_iter()
-            .for_each(|value| digest.float(value));
-    }
-    for c in min_distances {
-        digest.words([c.a, c.b]);
-        digest.float(c.min_length);
-    }
-    for c in areas {
-        digest.words(c.ring.iter().copied());
-        [c.rest_area, c.compliance]
-            .into_iter()
-            .for_each(|value| digest.float(value));
-    }
-    for c in anchors {
-        digest.words([c.node, c.anchor]);
-        [c.rest_length, c.max_length, c.compliance]
-            .into_iter()
-            .for_each(|value| digest.float(value));
-    }
-    for c in ropes {
-        digest.words([c.a, c.b]);
-        digest.float(c.max_length);
-    }
-}
-
 fn digest_controller(controller: &Controller, digest: &mut Digest) {
     match controller {
         Controller::Still => digest.word(0),
-        Controller::Wander {
-            interval,
-            rest,
-            goal,
-            remaining,
-        } => {
+        Controller::Wander { interval, rest, goal, remaining } => {
             digest.word(1);
-            [interval[0], interval[1], *rest, *remaining]
-                .into_iter()
-                .for_each(|value| digest.float(value));
+            [interval[0], interval[1], *rest, *remaining].into_iter().for_each(|value| digest.float(value));
             digest.vector(goal.unwrap_or(Vec2::NAN));
         }
         Controller::Patrol { through, repeats, next } => {

@@ -3,6 +3,7 @@
 use super::World;
 use crate::geometry::polygon::contains_point;
 use crate::organism::{Body, Kind, Organism};
+use crate::solver::membrane::links;
 use crate::solver::{ConstraintSet, Distance};
 use crate::template::Role;
 use glam::Vec2;
@@ -29,13 +30,13 @@ pub struct Census {
 /// How well the constraints hold at the end of a step. All are 0 when nothing is violated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quality {
-    /// Mean relative error of the lengths of outline links.
+    /// Mean relative error of the lengths of the rigid links of soft bodies' outlines.
     pub ring_error_mean: f32,
-    /// Largest relative error of the length of an outline link.
+    /// Largest relative error of one of these links.
     pub ring_error_max: f32,
     /// Deepest overlap of two discs of different organisms, as a share of the smaller radius.
     pub penetration_max: f32,
-    /// Largest relative excess of an outline link over its rest length.
+    /// Largest relative excess of a link of any outline, membranes included, over its rest length.
     pub edge_stretch_max: f32,
     /// Largest distance of a platelet's nucleus from its anchor, as a share of the platelet's outer radius.
     pub anchor_offset_max: f32,
@@ -49,11 +50,11 @@ impl World {
     pub fn census(&self) -> Census {
         let p = &self.particles;
         let is_body = |&i: &usize| p.inv_mass[i] > 0.0 && p.fluid[i] == 0;
-        let constraints = self
-            .organisms
-            .iter()
-            .map(|(_, organism)| self.constraints_of(organism).len())
-            .sum();
+        let of_body = |organism: &Organism| match organism.body.membrane() {
+            Some(_) => organism.outline.len(),
+            None => self.constraints_of(organism).map_or(0, ConstraintSet::len),
+        };
+        let constraints = self.organisms.iter().map(|(_, organism)| of_body(organism)).sum();
         Census {
             organisms: self.organisms.len(),
             bodies: p.live().filter(is_body).count(),
@@ -61,22 +62,15 @@ impl World {
             constraints,
             leaks: self.organisms.iter().map(|(_, organism)| self.leaks_of(organism)).sum(),
             improper_absorptions: self.improper_absorptions(),
-            quarantined: self
-                .organisms
-                .iter()
-                .filter(|(_, organism)| organism.is_quarantined)
-                .count(),
+            quarantined: self.organisms.iter().filter(|(_, organism)| organism.is_quarantined).count(),
         }
     }
 
     /// Measures how well the constraints hold.
     #[must_use]
     pub fn quality(&self) -> Quality {
-        let mut quality = Quality {
-            penetration_max: self.deepest_overlap(),
-            ..Quality::default()
-        };
-        let mut links = 0.0;
+        let mut quality = Quality { penetration_max: self.deepest_overlap(), ..Quality::default() };
+        let mut count = 0.0;
         for (_, organism) in self.organisms.iter() {
             let offset = self.anchor_offset(organism);
             quality.anchor_offset_max = larger(quality.anchor_offset_max, offset);
@@ -84,18 +78,24 @@ impl World {
                 quality.ring_error_mean += error.abs();
                 quality.ring_error_max = larger(quality.ring_error_max, error.abs());
                 quality.edge_stretch_max = larger(quality.edge_stretch_max, error);
-                links += 1.0;
+                count += 1.0;
+            }
+            for stretch in self.membrane_stretches(organism) {
+                quality.edge_stretch_max = larger(quality.edge_stretch_max, stretch);
             }
         }
-        quality.ring_error_mean /= if links > 0.0 { links } else { 1.0 };
+        quality.ring_error_mean /= if count > 0.0 { count } else { 1.0 };
         quality.fluid_compression_mean = self.mean_compression();
         quality
     }
 
-    fn constraints_of<'a>(&'a self, organism: &'a Organism) -> &'a ConstraintSet {
-        match &organism.body {
-            Body::Lane { block, .. } => self.templates[self.blocks[*block as usize].template as usize].constraints(),
-            Body::Loose { constraints, .. } => constraints,
+    /// The constraints that hold a templated organism together.
+    fn constraints_of(&self, organism: &Organism) -> Option<&ConstraintSet> {
+        match organism.body {
+            Body::Lane { block, .. } => {
+                Some(self.templates[self.blocks[block as usize].template as usize].constraints())
+            }
+            Body::Loose { .. } => None,
         }
     }
 
@@ -120,52 +120,45 @@ impl World {
     }
 
     fn improper_absorptions(&self) -> usize {
-        let cells = self
-            .organisms
-            .iter()
-            .filter(|(_, organism)| organism.kind == Kind::AmoeboidCell);
+        let cells = self.organisms.iter().filter(|(_, organism)| organism.kind == Kind::AmoeboidCell);
         let outlines: Vec<Vec<Vec2>> = cells.map(|(_, cell)| self.outline_of(cell)).collect();
-        let rigid = self
-            .organisms
-            .iter()
-            .filter(|(_, organism)| organism.kind == Kind::RigidCell);
+        let rigid = self.organisms.iter().filter(|(_, organism)| organism.kind == Kind::RigidCell);
         let nuclei = rigid.filter_map(|(_, cell)| {
-            cell.particles()
-                .map(|i| i as usize)
-                .find(|&i| self.particles.role[i] == Role::Nucleus as u8)
+            cell.particles().map(|i| i as usize).find(|&i| self.particles.role[i] == Role::Nucleus as u8)
         });
         let is_inside = |i: &usize| outlines.iter().any(|o| contains_point(o, self.particles.position(*i)));
         nuclei.filter(is_inside).count()
     }
 
     fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
-        organism
-            .outline_particles()
-            .map(|i| self.particles.position(i as usize))
-            .collect()
+        organism.outline_particles().map(|i| self.particles.position(i as usize)).collect()
     }
 
-    /// Relative error of each rigid link between neighbours of the outline, positive when stretched.
+    /// Relative error of each rigid link between neighbours of a templated outline, positive when stretched.
     fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
-        let set = self.constraints_of(organism);
         let scale = self.scale_of(organism);
-        let is_membrane =
-            |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
-        let links = set
-            .distances
-            .iter()
-            .filter(move |c| is_membrane(c.a) && is_membrane(c.b) && c.rest_length > 0.0);
+        let is_outline = |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
+        let links = self.constraints_of(organism).into_iter().flat_map(|set| &set.distances);
+        let links = links.filter(move |c| is_outline(c.a) && is_outline(c.b) && c.rest_length > 0.0);
         links.map(move |c: &Distance| {
-            let at = |node| self.particles.position(organism.body.particle(node) as usize);
-            (at(c.b) - at(c.a)).length() / (c.rest_length * scale) - 1.0
+            let (a, b) = (organism.body.particle(c.a) as usize, organism.body.particle(c.b) as usize);
+            self.particles.between(a, b).length() / (c.rest_length * scale) - 1.0
+        })
+    }
+
+    /// Relative excess of each link of a membrane over its rest length.
+    fn membrane_stretches<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
+        organism.body.membrane().into_iter().flat_map(move |membrane| {
+            let length = |(a, b): (u32, u32)| self.particles.between(a as usize, b as usize).length();
+            links(&organism.outline).map(move |link| length(link) / membrane.rest_length - 1.0)
         })
     }
 
     fn anchor_offset(&self, organism: &Organism) -> f32 {
-        let at = |node| self.particles.position(organism.body.particle(node) as usize);
-        let anchors = self.constraints_of(organism).anchors.iter();
+        let anchors = self.constraints_of(organism).into_iter().flat_map(|set| &set.anchors);
         anchors.fold(0.0, |far, c| {
-            larger(far, (at(c.node) - at(c.anchor)).length() / self.scale_of(organism))
+            let (node, anchor) = (organism.body.particle(c.node) as usize, organism.body.particle(c.anchor) as usize);
+            larger(far, self.particles.between(anchor, node).length() / self.scale_of(organism))
         })
     }
 
@@ -176,12 +169,8 @@ impl World {
             if p.owner[i] == p.owner[j] || !p.is_live(i) || !p.is_live(j) {
                 return deepest;
             }
-            let smaller = if p.radius[i] < p.radius[j] {
-                p.radius[i]
-            } else {
-                p.radius[j]
-            };
-            let depth = p.radius[i] + p.radius[j] - (p.position(i) - p.position(j)).length();
+            let smaller = if p.radius[i] < p.radius[j] { p.radius[i] } else { p.radius[j] };
+            let depth = p.radius[i] + p.radius[j] - p.between(i, j).length();
             larger(deepest, if smaller > 0.0 { depth / smaller } else { 0.0 })
         })
     }
@@ -190,10 +179,7 @@ impl World {
         let fluids = self.fluids.iter().filter(|fluid| !fluid.particles.is_empty());
         let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
             let share = fluid.particles.len() as f32;
-            (
-                sum + fluid.clone().mean_compression(&self.particles) * share,
-                count + share,
-            )
+            (sum + fluid.clone().mean_compression(&self.particles) * share, count + share)
         });
         if count > 0.0 { sum / count } else { 0.0 }
     }

@@ -187,17 +187,14 @@ impl World {
 
     fn mean_position(&self, id: OrganismId) -> Option<Vec2> {
         let organism = self.organisms.get(id)?;
-        let (sum, count) = organism.particles().fold((Vec2::ZERO, 0.0), |(sum, count), i| {
-            (sum + self.particles.position(i as usize), count + 1.0)
-        });
+        let (sum, count) = organism
+            .particles()
+            .fold((Vec2::ZERO, 0.0), |(sum, count), i| (sum + self.particles.position(i as usize), count + 1.0));
         Some(sum / count)
     }
 
     pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {
-        self.organisms
-            .get(id)
-            .map(drop)
-            .ok_or_else(|| Error::new(ErrorKind::Stale, field))
+        self.organisms.get(id).map(drop).ok_or_else(|| Error::new(ErrorKind::Stale, field))
     }
 }
 
@@ -206,15 +203,10 @@ fn walls(size: Vec2) -> Vec<Obstacle> {
     let thickness = 0.5 * (size.x + size.y);
     let half = size * 0.5;
     let slab = |half_extents: Vec2, centre: Vec2| {
-        Obstacle::new(
-            SharedShape::cuboid(half_extents.x, half_extents.y),
-            Pose::translation(centre.x, centre.y),
-        )
+        Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))
     };
-    let (across, along) = (
-        Vec2::new(half.x + thickness, 0.5 * thickness),
-        Vec2::new(0.5 * thickness, half.y + thickness),
-    );
+    let (across, along) =
+        (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
     vec![
         slab(across, Vec2::new(half.x, -0.5 * thickness)),
         slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),

@@ -21,10 +21,7 @@ impl Organisms {
     /// The handle that the next organism gets.
     pub(crate) fn next_id(&self) -> OrganismId {
         let index = self.free.last().copied().unwrap_or(self.slots.len() as u32);
-        OrganismId {
-            index,
-            generation: self.slots.get(index as usize).map_or(0, |slot| slot.generation),
-        }
+        OrganismId { index, generation: self.slots.get(index as usize).map_or(0, |slot| slot.generation) }
     }
 
     /// Puts an organism under [`Organisms::next_id`].
@@ -53,29 +50,20 @@ impl Organisms {
     /// The handle of the organism that lives at an index.
     pub(crate) fn id_at(&self, index: u32) -> Option<OrganismId> {
         let slot = self.slots.get(index as usize)?;
-        slot.organism.as_ref().map(|_| OrganismId {
-            index,
-            generation: slot.generation,
-        })
+        slot.organism.as_ref().map(|_| OrganismId { index, generation: slot.generation })
     }
 
     /// All organisms, by index.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
         self.slots.iter().zip(0u32..).filter_map(|(slot, index)| {
-            let id = OrganismId {
-                index,
-                generation: slot.generation,
-            };
+            let id = OrganismId { index, generation: slot.generation };
             slot.organism.as_ref().map(|organism| (id, organism))
         })
     }
 
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
         self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
-            let id = OrganismId {
-                index,
-                generation: slot.generation,
-            };
+            let id = OrganismId { index, generation: slot.generation };
             slot.organism.as_mut().map(|organism| (id, organism))
         })
     }
@@ -86,9 +74,6 @@ impl Organisms {
 
     /// Generations of all slots, free ones included, and the order in which free ones are handed out.
     pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
-        self.slots
-            .iter()
-            .map(|slot| slot.generation)
-            .chain(self.free.iter().copied())
+        self.slots.iter().map(|slot| slot.generation).chain(self.free.iter().copied())
     }
 }

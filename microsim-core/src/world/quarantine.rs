@@ -7,14 +7,7 @@ use glam::Vec2;
 impl World {
     /// Freezes every organism with a particle that is not finite or has left the room by more than the room's size.
     pub(crate) fn quarantine(&mut self) {
-        let Self {
-            particles,
-            organisms,
-            events,
-            config,
-            fluids,
-            ..
-        } = self;
+        let Self { particles, organisms, events, config, fluids, .. } = self;
         let is_sane = |i: u32| {
             let Vec2 { x, y } = particles.position(i as usize);
             let velocity = particles.vx[i as usize] + particles.vy[i as usize];
@@ -31,14 +24,7 @@ impl World {
         }
         for (i, home) in lost {
             let last = particles.last_position(i as usize);
-            particles.freeze(
-                i as usize,
-                if last.is_finite() {
-                    last.clamp(Vec2::ZERO, config.size)
-                } else {
-                    home
-                },
-            );
+            particles.freeze(i as usize, if last.is_finite() { last.clamp(Vec2::ZERO, config.size) } else { home });
             fluids.iter_mut().for_each(|fluid| fluid.particles.retain(|&j| j != i));
         }
     }
@@ -51,12 +37,8 @@ mod tests {
     #[test]
     fn a_broken_organism_is_frozen_and_the_others_go_on() {
         let mut world = World::new(WorldConfig::default()).unwrap();
-        let broken = world
-            .spawn(&PlateletSpec::default().into(), Placement::at(20.0, 20.0))
-            .unwrap();
-        let sound = world
-            .spawn(&AgarSpec::default().into(), Placement::at(40.0, 20.0))
-            .unwrap();
+        let broken = world.spawn(&PlateletSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        let sound = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 20.0)).unwrap();
         let first = world.organisms.get(broken).unwrap().particles().next().unwrap() as usize;
         world.particles.x[first] = f32::NAN;
         world.step(&Inputs::new());
@@ -67,17 +49,7 @@ mod tests {
             assert!(world.events().is_empty(), "reported once");
         }
         let view = world.view();
-        assert!(
-            view.organism(broken)
-                .unwrap()
-                .particles()
-                .all(|p| p.position.is_finite())
-        );
-        assert!(
-            view.organism(sound)
-                .unwrap()
-                .particles()
-                .all(|p| p.position.is_finite())
-        );
+        assert!(view.organism(broken).unwrap().particles().all(|p| p.position.is_finite()));
+        assert!(view.organism(sound).unwrap().particles().all(|p| p.position.is_finite()));
     }
 }

@@ -31,20 +31,14 @@ impl World {
 
     /// Organisms with a disc that reaches into the box from `low` to `high`.
     pub fn organisms_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = OrganismId> + '_ {
-        self.find(
-            move |disc, r| (disc - disc.clamp(low, high.max(low))).length() <= r,
-            None,
-        )
+        self.find(move |disc, r| (disc - disc.clamp(low, high.max(low))).length() <= r, None)
     }
 
     /// The first disc along a ray of at most `length` units. `None` also for a direction of no length.
     #[must_use]
     pub fn cast_ray(&self, origin: Vec2, direction: Vec2, length: f32) -> Option<RayHit> {
         let direction = direction.try_normalize()?;
-        let hits = self
-            .organisms
-            .iter()
-            .flat_map(|(id, organism)| organism.particles().map(move |i| (id, i as usize)));
+        let hits = self.organisms.iter().flat_map(|(id, organism)| organism.particles().map(move |i| (id, i as usize)));
         let mut nearest: Option<(OrganismId, f32, Vec2)> = None;
         for (id, i) in hits.filter(|&(_, i)| self.particles.groups[i].memberships != 0) {
             let centre = self.particles.position(i);
@@ -56,17 +50,8 @@ impl World {
         }
         nearest.map(|(organism, distance, centre)| {
             let point = origin + direction * distance;
-            let normal = if distance > 0.0 {
-                (point - centre).normalize_or_zero()
-            } else {
-                Vec2::ZERO
-            };
-            RayHit {
-                organism,
-                distance,
-                point,
-                normal,
-            }
+            let normal = if distance > 0.0 { (point - centre).normalize_or_zero() } else { Vec2::ZERO };
+            RayHit { organism, distance, point, normal }
         })
     }
 
@@ -80,9 +65,7 @@ impl World {
             let mut solid = discs.filter(|&i| self.particles.groups[i].memberships != 0);
             solid.any(|i| meets(self.particles.position(i), self.particles.radius[i]))
                 || inside.is_some_and(|point| {
-                    let outline = organism
-                        .outline_particles()
-                        .map(|i| self.particles.position(i as usize));
+                    let outline = organism.outline_particles().map(|i| self.particles.position(i as usize));
                     contains_point(&outline.collect::<Vec<_>>(), point)
                 })
         });

@@ -9,9 +9,7 @@ const FARTHEST: f32 = 16.0;
 impl World {
     /// Moves the origins of organisms that have wandered off. Free fluid keeps its origin: it has no rigid parts.
     pub(crate) fn rebase(&mut self) {
-        let Self {
-            particles, organisms, ..
-        } = self;
+        let Self { particles, organisms, .. } = self;
         for (_, organism) in organisms.iter() {
             let Some(first) = organism.first_node().map(|i| i as usize) else {
                 continue;
@@ -19,9 +17,7 @@ impl World {
             let offset = Vec2::new(particles.x[first], particles.y[first]);
             if offset.abs().max_element() > FARTHEST && !organism.is_quarantined {
                 let by = offset.round();
-                organism
-                    .particles()
-                    .for_each(|i| particles.shift_origin(i as usize, by));
+                organism.particles().for_each(|i| particles.shift_origin(i as usize, by));
             }
         }
     }
@@ -35,13 +31,8 @@ mod tests {
     fn an_organism_that_travels_takes_its_origin_along_without_a_jump() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let way = Controller::patrol(vec![Vec2::new(140.0, 45.0)], false);
-        let spec = ProbeSpec {
-            speed: 15.0,
-            ..ProbeSpec::default()
-        };
-        let probe = world
-            .spawn(&spec.into(), Placement::at(10.0, 45.0).steered_by(way))
-            .unwrap();
+        let spec = ProbeSpec { speed: 15.0, ..ProbeSpec::default() };
+        let probe = world.spawn(&spec.into(), Placement::at(10.0, 45.0).steered_by(way)).unwrap();
         let mut last = world.centroid(probe).unwrap();
         for _ in 0..600 {
             world.step(&Inputs::new());

@@ -9,7 +9,7 @@ use crate::rng::Rng;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::solver::lanes::LANES;
-use crate::solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
+use crate::solver::membrane::Membrane;
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
 
@@ -41,16 +41,11 @@ impl World {
     /// # Errors
     /// When the handle is stale.
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
-        let organism = self
-            .organisms
-            .remove(id)
-            .ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        let organism = self.organisms.remove(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
             let fluid = &mut self.fluids[fluid as usize];
-            fluid
-                .particles
-                .retain(|i| self.particles.owner[*i as usize] != id.index);
+            fluid.particles.retain(|i| self.particles.owner[*i as usize] != id.index);
         }
         match organism.body {
             Body::Lane { block, first } => {
@@ -60,10 +55,7 @@ impl World {
             }
             Body::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
-        organism
-            .fluid_particles
-            .into_iter()
-            .for_each(|i| self.particles.remove(i));
+        organism.fluid_particles.into_iter().for_each(|i| self.particles.remove(i));
         Ok(())
     }
 
@@ -81,18 +73,13 @@ impl World {
 
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
-        let outline = blueprint
-            .template
-            .as_ref()
-            .map_or(Vec::new(), |template| template.outline().to_vec());
         let (body, outline, slots) = match blueprint.template {
-            Some(template) if !blueprint.is_loose => (
-                self.add_to_block(template, id.index, scale, body_plan),
-                outline,
-                nodes as u32,
-            ),
-            template => {
-                let (body, outline) = self.add_loose(template, scale, body_plan, &outline);
+            Some(template) if !blueprint.has_membrane => {
+                let outline = template.outline().to_vec();
+                (self.add_to_block(template, id.index, scale, body_plan), outline, nodes as u32)
+            }
+            _ => {
+                let (body, outline) = self.add_loose(body_plan);
                 (body, outline, 0)
             }
         };
@@ -112,10 +99,7 @@ impl World {
             home: placement.at,
             is_quarantined: false,
         };
-        let outline: Vec<Vec2> = organism
-            .outline_particles()
-            .map(|i| self.particles.position(i as usize))
-            .collect();
+        let outline: Vec<Vec2> = organism.outline_particles().map(|i| self.particles.position(i as usize)).collect();
         organism.spawn_area = crate::geometry::polygon::signed_area(&outline);
         Ok(self.organisms.insert(organism))
     }
@@ -146,31 +130,20 @@ impl World {
             let gap = (disc.position() - surface).length();
             disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
         };
-        if obstacles
-            .into_iter()
-            .any(|obstacle| discs.iter().any(|disc| blocked(obstacle, disc)))
-        {
+        if obstacles.into_iter().any(|obstacle| discs.iter().any(|disc| blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = Bounds::around(discs);
         let p = &self.particles;
-        let hit = p
-            .live()
-            .filter(|&i| bounds.touches(p.position(i), p.radius[i]))
-            .find(|&i| {
-                discs.iter().any(|disc| {
-                    let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
-                    disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
-                })
-            })?;
+        let hit = p.live().filter(|&i| bounds.touches(p.position(i), p.radius[i])).find(|&i| {
+            discs.iter().any(|disc| {
+                let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
+                disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
+            })
+        })?;
         let organism = self.organisms.id_at(p.owner[hit])?;
         let centre = self.centroid(organism)?;
-        Some(format!(
-            "the {} at [{:.1}, {:.1}]",
-            self.kind(organism)?.name(),
-            centre.x,
-            centre.y
-        ))
+        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(organism)?.name(), centre.x, centre.y))
     }
 
     /// Puts a body into a lane of a block of its template.
@@ -189,25 +162,19 @@ impl World {
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
         }
-        Body::Lane {
-            block: index as u32,
-            first: block.particle(0, lane),
-        }
+        Body::Lane { block: index as u32, first: block.particle(0, lane) }
     }
 
-    /// Puts a body at indices of its own; returns it with its outline.
-    fn add_loose(
-        &mut self,
-        template: Option<Template>,
-        scale: f32,
-        planned: &[Particle],
-        outline: &[u32],
-    ) -> (Body, Vec<u32>) {
+    /// Puts the nodes of a membrane (or none) at indices of their own; the nodes are its outline.
+    fn add_loose(&mut self, planned: &[Particle]) -> (Body, Vec<u32>) {
         let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
-        let index = |node: u32| particles[node as usize];
-        let constraints = template.map_or_else(ConstraintSet::default, |t| rebase(t.constraints(), scale, index));
-        let outline = outline.iter().map(|&node| index(node)).collect();
-        (Body::Loose { particles, constraints }, outline)
+        let membrane = planned.first().map(|node| {
+            let count = planned.len();
+            let length = |k: usize| (planned[(k + 1) % count].offset - planned[k].offset).length();
+            Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, count)
+        });
+        self.particles.link_ring(&particles);
+        (Body::Loose { particles: particles.clone(), membrane }, particles)
     }
 
     /// Adds an organism's fluid to the fluid that it mixes with, or to one of its own.
@@ -216,10 +183,7 @@ impl World {
             return (None, Vec::new());
         };
         let is_enclosed = |fluid: &Fluid| {
-            fluid
-                .particles
-                .first()
-                .is_some_and(|&i| self.particles.role[i as usize] == Role::Cytoplasm as u8)
+            fluid.particles.first().is_some_and(|&i| self.particles.role[i as usize] == Role::Cytoplasm as u8)
         };
         let mixes = |fluid: &Fluid| {
             let is_same = !plan.is_enclosed && fluid.params == plan.params && !is_enclosed(fluid);
@@ -231,10 +195,7 @@ impl World {
         } else if self.fluids[index].particles.is_empty() {
             self.fluids[index] = Fluid::new(plan.params);
         }
-        let in_fluid = |particle: &Particle| Particle {
-            fluid: index as u32 + 1,
-            ..*particle
-        };
+        let in_fluid = |particle: &Particle| Particle { fluid: index as u32 + 1, ..*particle };
         let particles: Vec<u32> = planned.iter().map(|p| self.particles.insert(&in_fluid(p))).collect();
         self.fluids[index].particles.extend(&particles);
         (Some(index as u32), particles)
@@ -247,7 +208,7 @@ impl Blueprint {
             kind: Kind::Custom,
             template: Some(template),
             scale: 1.0,
-            is_loose: false,
+            has_membrane: false,
             fluid: None,
             locomotion: crate::behavior::Locomotion::None,
             speed: 0.0,
@@ -258,7 +219,6 @@ impl Blueprint {
 /// The particles of a blueprint in the world: nodes first, then fluid.
 fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owner: u32) -> Vec<Particle> {
     let nodes = blueprint.template.iter().flat_map(Template::nodes);
-    let self_collides = blueprint.is_loose;
     let origin = placement.at.round();
     let body = nodes.map(|node: &Node| Particle {
         origin,
@@ -269,7 +229,6 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
         groups: node.groups,
         material: node.material,
         role: node.role as u8,
-        self_collides,
         owner,
         fluid: 0,
     });
@@ -281,63 +240,13 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
             inv_mass: 1.0 / plan.params.particle_mass,
             radius: 0.5 * plan.params.spacing,
             groups: CollisionGroups::ALL,
-            material: Material {
-                friction: 0.0,
-                restitution: 0.0,
-            },
+            material: Material { friction: 0.0, restitution: 0.0 },
             role: if plan.is_enclosed { Role::Cytoplasm } else { Role::Fluid } as u8,
-            self_collides: false,
             owner,
             fluid: 0,
         })
     });
     body.chain(fluid).collect()
-}
-
-/// A template's constraints over particle indices instead of slots, in the size of the instance.
-fn rebase(set: &ConstraintSet, scale: f32, index: impl Fn(u32) -> u32) -> ConstraintSet {
-    let ConstraintSet {
-        distances,
-        min_distances,
-        areas,
-        anchors,
-        ropes,
-    } = set;
-    let distance = |c: &Distance| Distance {
-        a: index(c.a),
-        b: index(c.b),
-        rest_length: c.rest_length * scale,
-        ..*c
-    };
-    let min_distance = |c: &MinDistance| MinDistance {
-        a: index(c.a),
-        b: index(c.b),
-        min_length: c.min_length * scale,
-    };
-    let area = |c: &Area| Area {
-        ring: c.ring.iter().map(|&node| index(node)).collect(),
-        rest_area: c.rest_area * scale * scale,
-        ..c.clone()
-    };
-    let anchor = |c: &Anchor| Anchor {
-        node: index(c.node),
-        anchor: index(c.anchor),
-        rest_length: c.rest_length * scale,
-        max_length: c.max_length * scale,
-        ..*c
-    };
-    let rope = |c: &Rope| Rope {
-        a: index(c.a),
-        b: index(c.b),
-        max_length: c.max_length * scale,
-    };
-    ConstraintSet {
-        distances: distances.iter().map(distance).collect(),
-        min_distances: min_distances.iter().map(min_distance).collect(),
-        areas: areas.iter().map(area).collect(),
-        anchors: anchors.iter().map(anchor).collect(),
-        ropes: ropes.iter().map(rope).collect(),
-    }
 }
 
 /// Axis-aligned box around discs.
@@ -348,10 +257,7 @@ struct Bounds {
 
 impl Bounds {
     fn around(discs: &[Particle]) -> Self {
-        let empty = Self {
-            low: Vec2::splat(f32::INFINITY),
-            high: Vec2::splat(f32::NEG_INFINITY),
-        };
+        let empty = Self { low: Vec2::splat(f32::INFINITY), high: Vec2::splat(f32::NEG_INFINITY) };
         discs.iter().fold(empty, |b, disc| Self {
             low: b.low.min(disc.position() - disc.radius),
             high: b.high.max(disc.position() + disc.radius),

@@ -40,16 +40,8 @@ impl Touching {
             let missing = |pair: &&_| other.binary_search(*pair).is_err();
             from.iter().filter(missing).copied().collect::<Vec<_>>()
         };
-        events.extend(
-            only(&self.pairs, &self.now)
-                .into_iter()
-                .map(|(a, b)| Event::ContactEnded { a, b }),
-        );
-        events.extend(
-            only(&self.now, &self.pairs)
-                .into_iter()
-                .map(|(a, b)| Event::ContactBegan { a, b }),
-        );
+        events.extend(only(&self.pairs, &self.now).into_iter().map(|(a, b)| Event::ContactEnded { a, b }));
+        events.extend(only(&self.now, &self.pairs).into_iter().map(|(a, b)| Event::ContactBegan { a, b }));
         std::mem::swap(&mut self.pairs, &mut self.now);
     }
 }

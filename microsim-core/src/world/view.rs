@@ -47,21 +47,14 @@ impl<'a> View<'a> {
     /// All organisms, in a stable order.
     pub fn organisms(self) -> impl Iterator<Item = OrganismView<'a>> {
         let world = self.world;
-        world
-            .organisms
-            .iter()
-            .map(move |(id, organism)| OrganismView { world, organism, id })
+        world.organisms.iter().map(move |(id, organism)| OrganismView { world, organism, id })
     }
 
     /// One organism; `None` for a stale handle.
     #[must_use]
     pub fn organism(self, id: OrganismId) -> Option<OrganismView<'a>> {
         let organism = self.world.organisms.get(id)?;
-        Some(OrganismView {
-            world: self.world,
-            organism,
-            id,
-        })
+        Some(OrganismView { world: self.world, organism, id })
     }
 }
 
@@ -97,9 +90,7 @@ impl<'a> OrganismView<'a> {
 
     /// Centres of its outline, counter-clockwise; empty if it has none.
     pub fn outline(self) -> impl ExactSizeIterator<Item = Vec2> + 'a {
-        self.organism
-            .outline_particles()
-            .map(move |i| self.world.particles.position(i as usize))
+        self.organism.outline_particles().map(move |i| self.world.particles.position(i as usize))
     }
 
     /// Its outline pushed out by the discs' radius, away from the centre of the outline (seed, 3.2.1): nothing that
@@ -124,11 +115,8 @@ impl<'a> OrganismView<'a> {
     /// Its front body (soft bodies), or the centre of its front while it crawls.
     #[must_use]
     pub fn front(self) -> Option<Vec2> {
-        self.front_index().map(|k| {
-            self.world
-                .particles
-                .position(self.organism.body.particle(self.organism.outline[k]) as usize)
-        })
+        self.front_index()
+            .map(|k| self.world.particles.position(self.organism.body.particle(self.organism.outline[k]) as usize))
     }
 
     /// Position in the outline of its front, see [`OrganismView::front`].
@@ -144,10 +132,7 @@ impl<'a> OrganismView<'a> {
     /// The region of each node of the outline while it crawls; `None` when it does not.
     #[must_use]
     pub fn membrane_regions(self) -> Option<Vec<MembraneRegion>> {
-        let Locomotion::Crawl {
-            front_centre: Some(front),
-        } = self.organism.locomotion
-        else {
+        let Locomotion::Crawl { front_centre: Some(front) } = self.organism.locomotion else {
             return None;
         };
         let count = self.organism.outline.len() as u32;

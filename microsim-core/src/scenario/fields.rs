@@ -1,0 +1,290 @@
+//! Reading tables: every field is asked for by name and type, and what nobody asked for is refused.
+//!
+//! Reading goes on after an error with a value that makes sense, so that one pass finds all that is wrong.
+
+use super::diagnostic::{Diagnostic, in_words};
+use super::source::{NAME, Source, Value, is_name, join, unknown};
+use crate::error::Error;
+use glam::Vec2;
+use std::cell::RefCell;
+use toml::de::{DeTable, DeValue};
+
+/// What was found to be wrong so far. Shared by all readers of one file, hence the cell.
+#[derive(Debug)]
+pub(super) struct Report<'s> {
+    pub source: &'s Source,
+    pub found: RefCell<Vec<Diagnostic>>,
+}
+
+impl<'s> Report<'s> {
+    pub(super) fn new(source: &'s Source) -> Self {
+        let found = RefCell::default();
+        Self { source, found }
+    }
+
+    /// Refuses the value at a path.
+    pub(super) fn refuse(&self, path: &str, message: impl Into<String>, accepted: impl Into<String>) {
+        let diagnostic = self.source.diagnostic(path, message, Some(accepted.into()));
+        self.found.borrow_mut().push(diagnostic);
+    }
+
+    /// Refuses the key at a path.
+    pub(super) fn refuse_key(&self, path: &str, message: String, accepted: String) {
+        let diagnostic = self.source.key_diagnostic(path, message, accepted);
+        self.found.borrow_mut().push(diagnostic);
+    }
+
+    /// Passes on what the library says of a value in the table at `path`.
+    pub(super) fn check<T>(&self, path: &str, result: Result<T, Error>) -> Option<T> {
+        let error = match result {
+            Ok(value) => return Some(value),
+            Err(error) => error,
+        };
+        let (message, accepted) = in_words(&error);
+        // The parameters of a fluid are fields of its table.
+        let field = error.field().strip_prefix("fluid.").unwrap_or(error.field());
+        let diagnostic = self.source.diagnostic(&join(path, field), message, accepted);
+        self.found.borrow_mut().push(diagnostic);
+        None
+    }
+}
+
+/// A type that fields have.
+pub(super) trait Read: Sized {
+    /// What is accepted, in words.
+    fn accepted() -> String;
+
+    /// Reads the value at `path`; reports what is wrong with it.
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self>;
+}
+
+/// Says that the value is not of this type.
+pub(super) fn mismatch<T: Read>(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<T> {
+    let found = match value.get_ref() {
+        DeValue::String(text) => format!("is the string \"{}\"", text.chars().take(40).collect::<String>()),
+        DeValue::Integer(number) => format!("is {number}"),
+        DeValue::Float(number) => format!("is {number}"),
+        DeValue::Array(array) => format!("is an array of {}", array.len()),
+        other => format!("is a {}", other.type_str()),
+    };
+    report.refuse(path, found, T::accepted());
+    None
+}
+
+impl Read for f32 {
+    fn accepted() -> String {
+        "a number".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        let number = match value.get_ref() {
+            DeValue::Float(number) => number.as_str().parse::<f64>().ok(),
+            DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).ok().map(|whole| whole as f64),
+            _ => None,
+        };
+        number.map(|number| number as Self).or_else(|| mismatch(value, path, report))
+    }
+}
+
+impl Read for u64 {
+    fn accepted() -> String {
+        format!("a whole number, 0 to {}", i64::MAX)
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        let whole = value.get_ref().as_integer();
+        let whole = whole.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
+        whole.and_then(|whole| whole.try_into().ok()).or_else(|| mismatch(value, path, report))
+    }
+}
+
+impl Read for u32 {
+    fn accepted() -> String {
+        format!("a whole number, 0 to {}", Self::MAX)
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        let whole = value.get_ref().as_integer();
+        let whole = whole.and_then(|number| Self::from_str_radix(number.as_str(), number.radix()).ok());
+        whole.or_else(|| mismatch(value, path, report))
+    }
+}
+
+impl Read for bool {
+    fn accepted() -> String {
+        "true or false".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        value.get_ref().as_bool().or_else(|| mismatch(value, path, report))
+    }
+}
+
+impl Read for String {
+    fn accepted() -> String {
+        "a string in quotes".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        value.get_ref().as_str().map(str::to_owned).or_else(|| mismatch(value, path, report))
+    }
+}
+
+impl<T: Read> Read for Vec<T> {
+    fn accepted() -> String {
+        format!("an array, of each: {}", T::accepted())
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        let Some(array) = value.get_ref().as_array() else {
+            return mismatch(value, path, report);
+        };
+        let elements = array.iter().enumerate();
+        elements.map(|(index, element)| T::read(element, &join(path, &index.to_string()), report)).collect()
+    }
+}
+
+impl<T: Read> Read for [T; 2] {
+    fn accepted() -> String {
+        format!("[a, b], of each: {}", T::accepted())
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_array().map(|array| array.len()) {
+            Some(2) => Vec::read(value, path, report)?.try_into().ok(),
+            _ => mismatch(value, path, report),
+        }
+    }
+}
+
+impl Read for Vec2 {
+    fn accepted() -> String {
+        "[x, y], two numbers".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_array().map(|array| array.len()) {
+            Some(2) => <[f32; 2]>::read(value, path, report).map(Self::from),
+            _ => mismatch(value, path, report),
+        }
+    }
+}
+
+/// One table that is being read.
+#[derive(Debug)]
+pub(super) struct Fields<'a> {
+    table: Option<&'a DeTable<'a>>,
+    pub path: String,
+    asked: Vec<&'static str>,
+    pub report: &'a Report<'a>,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn root(table: &'a DeTable<'a>, report: &'a Report<'a>) -> Self {
+        Self { table: Some(table), path: String::new(), asked: Vec::new(), report }
+    }
+
+    fn of(value: &'a Value<'a>, path: String, report: &'a Report<'a>) -> Self {
+        let table = value.get_ref().as_table();
+        if table.is_none() {
+            report.refuse(&path, format!("is a {}", value.get_ref().type_str()), "a table");
+        }
+        Self { table, path, asked: Vec::new(), report }
+    }
+
+    /// Path of a field.
+    pub(super) fn at(&self, field: &str) -> String {
+        join(&self.path, field)
+    }
+
+    fn ask(&mut self, field: &'static str) -> Option<&'a Value<'a>> {
+        self.asked.push(field);
+        self.table.and_then(|table| table.get(field))
+    }
+
+    /// Whether the field is there.
+    pub(super) fn has(&self, field: &str) -> bool {
+        self.table.is_some_and(|table| table.contains_key(field))
+    }
+
+    /// The field, if it is there.
+    pub(super) fn get<T: Read>(&mut self, field: &'static str) -> Option<T> {
+        let value = self.ask(field)?;
+        T::read(value, &self.at(field), self.report)
+    }
+
+    /// The field, or a default.
+    pub(super) fn or<T: Read>(&mut self, field: &'static str, default: T) -> T {
+        self.get(field).unwrap_or(default)
+    }
+
+    /// The field. Where it is missing, that is reported.
+    pub(super) fn required<T: Read>(&mut self, field: &'static str) -> Option<T> {
+        if self.table.is_some() && !self.has(field) {
+            self.report.refuse(&self.at(field), format!("missing field `{field}`"), T::accepted());
+        }
+        self.get(field)
+    }
+
+    /// A number within a range, or a default within it.
+    pub(super) fn number(&mut self, field: &'static str, default: f32, range: [f32; 2]) -> f32 {
+        let value = self.or(field, default);
+        self.is_within(field, value, range).then_some(value).unwrap_or(default)
+    }
+
+    /// Whether the field's value is within a range; reports it if it is not.
+    pub(super) fn is_within(&self, field: &str, value: f32, [low, high]: [f32; 2]) -> bool {
+        let is_within = (low..=high).contains(&value);
+        if !is_within {
+            let message = format!("{value} is out of range");
+            self.report.refuse(&self.at(field), message, format!("{low} to {high}"));
+        }
+        is_within
+    }
+
+    /// A table of this table; an empty one where it is missing.
+    pub(super) fn table(&mut self, field: &'static str) -> Self {
+        let path = self.at(field);
+        match self.ask(field) {
+            Some(value) => Self::of(value, path, self.report),
+            None => Self { table: None, path, asked: Vec::new(), report: self.report },
+        }
+    }
+
+    /// The tables `[field.NAME]`, each with its name.
+    pub(super) fn named(&mut self, field: &'static str) -> Vec<(String, Self)> {
+        let tables = self.table(field);
+        let mut named = Vec::new();
+        for (key, value) in tables.table.into_iter().flatten() {
+            let path = tables.at(key.get_ref());
+            if !is_name(key.get_ref()) {
+                self.report.refuse_key(&path, "not a usable name".to_owned(), NAME.to_owned());
+            }
+            named.push((key.get_ref().to_string(), Self::of(value, path, self.report)));
+        }
+        named
+    }
+
+    /// The tables `[[field]]`.
+    pub(super) fn list(&mut self, field: &'static str) -> Vec<Self> {
+        let path = self.at(field);
+        let Some(value) = self.ask(field) else {
+            return Vec::new();
+        };
+        let Some(array) = value.get_ref().as_array() else {
+            self.report.refuse(&path, format!("is a {}", value.get_ref().type_str()), format!("[[{field}]] tables"));
+            return Vec::new();
+        };
+        let entry = |(index, value)| Self::of(value, join(&path, &format!("{index}")), self.report);
+        array.iter().enumerate().map(entry).collect()
+    }
+
+    /// Refuses what was not asked for.
+    pub(super) fn finish(self) {
+        let keys = self.table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref().as_ref());
+        for key in keys.filter(|key| !self.asked.contains(key)) {
+            let (message, accepted) = unknown("field", key, &self.asked);
+            self.report.refuse_key(&self.at(key), message, accepted);
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
+
+use super::fields::{Fields, Read, Report};
+use super::source::Value;
+use crate::error::Error;
+use crate::organism::OrganismSpec;
+use crate::solver::fluid::{FluidMode, FluidParams};
+use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, PlateletSpec, ProbeSpec, RigidCellSpec};
+use std::collections::BTreeMap;
+
+/// An organism that can be spawned by name.
+#[derive(Clone, Debug)]
+pub(super) struct Prototype {
+    pub name: String,
+    spec: OrganismSpec,
+    /// Farthest that it reaches from its centre, units.
+    extent: f32,
+}
+
+/// Prototypes by name; `None` where its table is wrong, which is reported once, there.
+pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
+
+type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
+
+/// Tables of prototypes and how they are read.
+const KINDS: [(&str, ReadSpec); 6] = [
+    ("rigid_cell", rigid_cell),
+    ("amoeboid_cell", amoeboid_cell),
+    ("platelet", platelet),
+    ("agar", agar),
+    ("probe", probe),
+    ("fluid", fluid),
+];
+
+/// Reads all prototypes of a file.
+pub(super) fn read(root: &mut Fields<'_>) -> Prototypes {
+    let mut prototypes = Prototypes::new();
+    for (kind, read) in KINDS {
+        for (name, mut fields) in root.named(kind) {
+            let spec = read(&mut fields);
+            let (path, report) = (fields.path.clone(), fields.report);
+            fields.finish();
+            if prototypes.contains_key(&name) {
+                let accepted = "a name that no other prototype has";
+                report.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
+            }
+            let prototype = report.check(&path, Prototype::new(name.clone(), spec));
+            prototypes.insert(name, prototype);
+        }
+    }
+    prototypes
+}
+
+impl Prototype {
+    fn new(name: String, spec: OrganismSpec) -> Result<Self, Error> {
+        let extent = spec.extent()?;
+        Ok(Self { name, spec, extent })
+    }
+
+    /// Whether anything can steer it.
+    pub(super) fn can_move(&self) -> bool {
+        use OrganismSpec::{AmoeboidCell, Probe, RigidCell};
+        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_))
+    }
+
+    /// Farthest that it reaches from its centre when scaled, units.
+    pub(super) fn extent(&self, scale: f32) -> f32 {
+        self.extent * scale
+    }
+
+    /// Particles that one of it takes.
+    pub(super) fn particles(&self, scale: f32) -> Result<u64, Error> {
+        let (spec, _) = self.scaled(scale);
+        spec.blueprint().map(|blueprint| blueprint.particle_count() as u64)
+    }
+
+    /// Its spec in another size, and what is left for [`crate::Placement::scale`] to do. Where fluid is part of it the
+    /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (seed, 3.1.2).
+    pub(super) fn scaled(&self, scale: f32) -> (OrganismSpec, f32) {
+        match self.spec.clone() {
+            OrganismSpec::AmoeboidCell(spec) => {
+                let radii = spec.radii * scale;
+                (AmoeboidCellSpec { radii, ..spec }.into(), 1.0)
+            }
+            OrganismSpec::FluidBlock(spec) => {
+                let size = spec.size * scale;
+                (FluidBlockSpec { size, ..spec }.into(), 1.0)
+            }
+            other => (other, scale),
+        }
+    }
+}
+
+fn rigid_cell(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = RigidCellSpec::default();
+    OrganismSpec::from(RigidCellSpec {
+        radii: fields.required("radii").unwrap_or(default.radii),
+        satellites: fields.or("satellites", default.satellites),
+        layers: fields.or("layers", default.layers),
+        spring_compliance: fields.or("spring_compliance", default.spring_compliance),
+        spring_damping: fields.or("spring_damping", default.spring_damping),
+        speed: fields.or("speed", default.speed),
+    })
+}
+
+fn amoeboid_cell(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = AmoeboidCellSpec::default();
+    OrganismSpec::from(AmoeboidCellSpec {
+        radii: fields.required("radii").unwrap_or(default.radii),
+        node_radius: fields.or("node_radius", default.node_radius),
+        cytoplasm_spacing: fields.or("cytoplasm_spacing", default.cytoplasm_spacing),
+        viscosity: fields.or("viscosity", default.viscosity),
+        speed: fields.or("speed", default.speed),
+    })
+}
+
+fn platelet(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = PlateletSpec::default();
+    OrganismSpec::from(PlateletSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        satellites: fields.or("satellites", default.satellites),
+        core_mass: fields.or("core_mass", default.core_mass),
+        spoke_compliance: fields.or("spoke_compliance", default.spoke_compliance),
+        anchor_compliance: fields.or("anchor_compliance", default.anchor_compliance),
+        rope_length: fields.or("rope_length", default.rope_length),
+    })
+}
+
+fn agar(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = AgarSpec::default();
+    OrganismSpec::from(AgarSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        density: fields.or("density", default.density),
+    })
+}
+
+fn probe(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = ProbeSpec::default();
+    OrganismSpec::from(ProbeSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        mass: fields.or("mass", default.mass),
+        speed: fields.or("speed", default.speed),
+        max_acceleration: fields.or("max_acceleration", default.max_acceleration),
+    })
+}
+
+fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = FluidBlockSpec::default();
+    OrganismSpec::from(FluidBlockSpec {
+        size: fields.required("size").unwrap_or(default.size),
+        fluid: FluidParams {
+            spacing: fields.or("spacing", default.fluid.spacing),
+            particle_mass: fields.or("particle_mass", default.fluid.particle_mass),
+            viscosity: fields.or("viscosity", default.fluid.viscosity),
+            mode: fields.or("mode", default.fluid.mode),
+        },
+    })
+}
+
+impl Read for FluidMode {
+    fn accepted() -> String {
+        "\"density\" or \"granular\"".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_str() {
+            Some("density") => Some(Self::Density),
+            Some("granular") => Some(Self::Granular),
+            _ => super::fields::mismatch(value, path, report),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Controllers: the tables `[wander.NAME]` and `[patrol.NAME]`.
+
+use super::fields::{Fields, Read, Report, mismatch};
+use super::source::Value;
+use crate::behavior::controller::Controller;
+use glam::Vec2;
+use std::collections::BTreeMap;
+
+/// Controllers by name.
+pub(super) type Controllers = BTreeMap<String, Controller>;
+
+/// Reads all controllers of a file for a room of this size.
+pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Controllers {
+    let mut controllers = Controllers::new();
+    let wanders = root.named("wander").into_iter().map(|(name, fields)| (name, fields, None));
+    let patrols = root.named("patrol");
+    let patrols = patrols.into_iter().map(|(name, fields)| (name, fields, Some(size)));
+    for (name, mut fields, patrolled) in wanders.chain(patrols).collect::<Vec<_>>() {
+        let controller = match patrolled {
+            None => wander(&mut fields),
+            Some(size) => patrol(&mut fields, size),
+        };
+        let (path, report) = (fields.path.clone(), fields.report);
+        fields.finish();
+        if controllers.contains_key(&name) {
+            let accepted = "a name that no other controller has".to_owned();
+            report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
+        }
+        let controller = controller.unwrap_or_default();
+        report.check(&path, controller.validate());
+        controllers.insert(name, controller);
+    }
+    controllers
+}
+
+fn wander(fields: &mut Fields<'_>) -> Option<Controller> {
+    let interval = fields.required("interval");
+    let rest = fields.or("rest", 0.0);
+    Some(Controller::wander(interval?, rest))
+}
+
+fn patrol(fields: &mut Fields<'_>, size: Vec2) -> Option<Controller> {
+    let through: Option<Vec<Vec2>> = fields.required("through");
+    let repeats = fields.or("repeats", false);
+    let unit = fields.or("in", Unit::Micrometres);
+    let mut through = through?;
+    if unit == Unit::Rooms {
+        for (index, point) in through.iter_mut().enumerate() {
+            let is_inside = point.cmpge(Vec2::ZERO).all() && point.cmple(Vec2::ONE).all();
+            if !is_inside {
+                let field = fields.at(&format!("through.{index}"));
+                fields.report.refuse(&field, "lies outside the room", "fractions of the room, 0 to 1 each");
+            }
+            *point *= size;
+        }
+    }
+    Some(Controller::patrol(through, repeats))
+}
+
+/// What the numbers of a patrol's points count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unit {
+    Micrometres,
+    Rooms,
+}
+
+impl Read for Unit {
+    fn accepted() -> String {
+        "\"units\" or \"room\"".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_str() {
+            Some("units") => Some(Self::Micrometres),
+            Some("room") => Some(Self::Rooms),
+            _ => mismatch(value, path, report),
+        }
+    }
+}

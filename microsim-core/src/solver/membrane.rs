@@ -1,0 +1,243 @@
+//! Membrane: a closed ring of linked particles under tension, which may grow.
+//!
+//! Edge `i` links ring nodes `i` and `i + 1`. Three things together make it hug its content without wrinkles (no single
+//! one does): a perimeter that contracts towards that of a circle around the content, a one-sided area limit, and
+//! bending towards the circle's curvature. Once per step [`Membrane::relax`] finds the targets; per substep
+//! [`Membrane::project`] applies
+//!
+//! - tension: `C = |x_b - x_a| - l` with a compliance when stretched; when slack, a small share of it only, so that the
+//!   ring does not buckle under its own compression;
+//! - bending: `C = x_i - (x_{i-s} + x_{i+s}) / 2 - n h_s`, `h_s = R (1 - cos(2 pi s / M))` the sagitta of the circle, for
+//!   strides `s = 2` and `1` (Mueller et al. 2007, section 4, a stretch of the midpoint);
+//! - area: `C = A - A_t <= 0`, see [`super::area`], limited in speed;
+//!
+//! and [`Membrane::limit_strain`], last in the substep, keeps every link below [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance
+//! joint that will respect a maximum length limit").
+
+use super::area::{Polygon, enforce};
+use super::lanes::{Pair, ratio};
+use super::{Rope, rope};
+use crate::geometry::ring::unit_vector;
+use crate::particle::Particles;
+use crate::solver::lanes::Span;
+use std::f32::consts::{PI, TAU};
+
+/// No link gets longer than this many rest lengths.
+pub(crate) const STRAIN_LIMIT: f32 = 1.25;
+/// Inverse stiffness of a stretched link (length/force).
+const TENSION_COMPLIANCE: f32 = 1e-5;
+/// Share of the tension correction that a slack link gets ...
+const SLACK_SHARE: f32 = 0.05;
+/// ... and the share of its present length below which it is rigid.
+const SHORTEST: f32 = 0.5;
+/// Bending: stride and share corrected per substep.
+const BENDING: [(usize, f32); 2] = [(2, 0.05), (1, 0.1)];
+/// Inverse stiffness of the area limit.
+const AREA_COMPLIANCE: f32 = 1e-4;
+/// Resting perimeter relative to the circle around the content, and what is added while driven.
+const PERIMETER_AT_REST: f32 = 0.98;
+const PERIMETER_DRIVEN: f32 = 0.22;
+/// Share of a driven membrane's excess perimeter that it accepts, up to this multiple of the circle.
+const EXCESS_ACCEPTED: f32 = 0.7;
+const EXCESS_LIMIT: f32 = 1.25;
+/// Time constants, s: how fast activity follows the drive, and the perimeter grows and shrinks.
+const ACTIVITY_TIME: f32 = 0.5;
+const STRETCH_TIME: f32 = 0.25;
+const SHRINK_TIME: f32 = 0.6;
+/// Share of the fluid's spacing by which the membrane lies outside the content's equivalent circle, beyond its own radius.
+const CLEARANCE: f32 = 0.1;
+
+/// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
+#[derive(Clone, Debug)]
+pub(crate) struct Membrane {
+    /// Length of every link when the membrane was made; a new node adds one more of it.
+    pub rest_length: f32,
+    /// Radius of a node.
+    pub node_radius: f32,
+    /// 0 at rest, 1 after being driven for a while.
+    activity: f32,
+    /// Present total rest length of the links.
+    rest_perimeter: f32,
+    target_area: f32,
+}
+
+/// What a membrane holds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Content {
+    /// Area at rest, square units.
+    pub area: f32,
+    /// Rest spacing of the fluid.
+    pub spacing: f32,
+}
+
+impl Membrane {
+    pub(crate) fn new(rest_length: f32, node_radius: f32, nodes: usize) -> Self {
+        let rest_perimeter = rest_length * nodes as f32;
+        Self { rest_length, node_radius, activity: 0.0, rest_perimeter, target_area: f32::INFINITY }
+    }
+
+    /// State for the digest.
+    pub(crate) fn state(&self) -> [f32; 4] {
+        [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
+    }
+
+    /// Finds this step's targets from what the membrane holds and whether it is being driven.
+    pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
+        let drive = if is_driven { 1.0 } else { 0.0 };
+        self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
+        let radius = (content.area / PI).sqrt() + self.node_radius + CLEARANCE * content.spacing;
+        self.target_area = PI * radius * radius;
+        let circle = TAU * radius;
+        let mut target = (PERIMETER_AT_REST + PERIMETER_DRIVEN * self.activity) * circle;
+        let perimeter = perimeter(ring, particles);
+        if perimeter > target {
+            let accepted = if perimeter < EXCESS_LIMIT * circle { perimeter } else { EXCESS_LIMIT * circle };
+            let excess = if accepted > target { accepted - target } else { 0.0 };
+            target += EXCESS_ACCEPTED * self.activity * excess;
+        }
+        let time = if target > self.rest_perimeter { STRETCH_TIME } else { SHRINK_TIME };
+        self.rest_perimeter += (target - self.rest_perimeter) * share(dt, time);
+    }
+
+    /// One substep's tension, bending and area limit.
+    pub(crate) fn project(&self, ring: &[u32], particles: &mut Particles, h: f32) {
+        let length = self.rest_perimeter / ring.len() as f32;
+        tighten(ring, length, particles, h);
+        let step = unit_vector(PI / ring.len() as f32);
+        let radius = 0.5 * length / step.y;
+        for (stride, share) in BENDING {
+            let cosine = unit_vector(TAU * stride as f32 / ring.len() as f32).x;
+            bend(ring, stride, radius * (1.0 - cosine), share, particles);
+        }
+        let polygon = Polygon::measure(ring, particles);
+        let excess = polygon.area - self.target_area;
+        if excess > 0.0 {
+            let fastest = self.rest_perimeter * h * self.rest_length;
+            let error = if excess < fastest { excess } else { fastest };
+            enforce(&polygon, ring, error, AREA_COMPLIANCE / (h * h), particles);
+        }
+    }
+
+    /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows; two sweeps, the second one backwards.
+    pub(crate) fn limit_strain(&self, ring: &[u32], particles: &mut Particles) {
+        let max_length = STRAIN_LIMIT * self.rest_length;
+        let link = |(a, b)| Rope { a, b, max_length };
+        for (a, b) in links(ring) {
+            rope::project(&[link((a, b))], Span::LOOSE, particles);
+        }
+        for k in (0..ring.len()).rev() {
+            rope::project(&[link((ring[k], ring[(k + 1) % ring.len()]))], Span::LOOSE, particles);
+        }
+    }
+}
+
+/// Neighbouring nodes, in the order of the ring.
+pub(crate) fn links(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
+    ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
+}
+
+fn perimeter(ring: &[u32], particles: &Particles) -> f32 {
+    links(ring).map(|(a, b)| particles.between(a as usize, b as usize).length()).sum()
+}
+
+/// First-order approach to a target within `time`, for steps short against it.
+fn share(dt: f32, time: f32) -> f32 {
+    dt / (dt + time)
+}
+
+fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
+    let alpha = TENSION_COMPLIANCE / (h * h);
+    for (a, b) in links(ring) {
+        let pair = Pair::<1>::load(particles, a as usize, b as usize);
+        let error = pair.length[0] - length;
+        let weight = pair.weight(0);
+        let multiplier = if error > 0.0 {
+            ratio(-error, weight + alpha)
+        } else if pair.length[0] < SHORTEST * length {
+            ratio(SHORTEST * length - pair.length[0], weight)
+        } else {
+            SLACK_SHARE * ratio(-error, weight + alpha)
+        };
+        pair.push(particles, [multiplier]);
+    }
+}
+
+/// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it.
+fn bend(ring: &[u32], stride: usize, rise: f32, share: f32, p: &mut Particles) {
+    let count = ring.len();
+    for k in 0..count {
+        let node = ring[k] as usize;
+        let (before, after) = (ring[(k + count - stride) % count] as usize, ring[(k + stride) % count] as usize);
+        let chord = p.between(before, after);
+        // Counter-clockwise, so outwards is to the right of the chord.
+        let outwards = -chord.perp().normalize_or_zero();
+        let error = p.between(before, node) - chord * 0.5 - outwards * rise;
+        // Gradient 1 for the node and -1/2 for each neighbour: the squares add up to 1.5.
+        let correction = error * (share / 1.5);
+        super::contact::shift(p, node, -correction);
+        super::contact::shift(p, before, correction * 0.5);
+        super::contact::shift(p, after, correction * 0.5);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{momentum, ring};
+    use super::*;
+    use crate::geometry::polygon::signed_area;
+
+    fn positions(p: &Particles) -> Vec<glam::Vec2> {
+        p.live().map(|i| p.position(i)).collect()
+    }
+
+    fn relaxed(p: &mut Particles, content: Content, steps: usize) -> Membrane {
+        let indices: Vec<u32> = (0..p.len() as u32).collect();
+        let mut membrane = Membrane::new(1.0, 0.5, indices.len());
+        for _ in 0..steps {
+            membrane.relax(&indices, p, content, false, 1.0 / 60.0);
+            for _ in 0..8 {
+                membrane.project(&indices, p, 1.0 / 480.0);
+                membrane.limit_strain(&indices, p);
+            }
+        }
+        membrane
+    }
+
+    #[test]
+    fn a_dented_ring_becomes_round_again_and_keeps_its_momentum() {
+        let mut p = ring(40, 6.4);
+        for i in 0..10 {
+            p.x[i] *= 0.7;
+        }
+        let before = momentum(&p);
+        relaxed(&mut p, Content { area: 90.0, spacing: 0.8 }, 600);
+        let points = positions(&p);
+        let centre = points.iter().sum::<glam::Vec2>() / 40.0;
+        let radii: Vec<f32> = points.iter().map(|&at| (at - centre).length()).collect();
+        let spread = radii.iter().fold(0.0f32, |far, r| far.max((r - radii[0]).abs()));
+        assert!(spread < 0.25, "radii {radii:?}");
+        assert!((momentum(&p) - before).length() < 1e-2);
+    }
+
+    #[test]
+    fn perimeter_and_area_approach_the_circle_around_the_content() {
+        let mut p = ring(40, 6.4);
+        relaxed(&mut p, Content { area: 80.0, spacing: 0.8 }, 600);
+        let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
+        let area = signed_area(&positions(&p));
+        assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");
+    }
+
+    #[test]
+    fn no_link_stays_longer_than_the_strain_limit() {
+        let mut p = ring(40, 6.4);
+        p.x[0] += 2.0;
+        let indices: Vec<u32> = (0..40).collect();
+        let membrane = Membrane::new(1.0, 0.5, 40);
+        for _ in 0..40 {
+            membrane.limit_strain(&indices, &mut p);
+        }
+        let longest = links(&indices).map(|(a, b)| p.between(a as usize, b as usize).length()).fold(0.0, f32::max);
+        assert!(longest < 1.26, "longest {longest}");
+    }
+}
