@@ -62,6 +62,30 @@ mod tests {
     use super::*;
 
     #[test]
+    fn t20_front_bodies_head_for_the_goal_and_rear_bodies_for_the_centroid() {
+        use crate::{AmoeboidCellSpec, Placement, World, WorldConfig};
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let (goal, centroid) = (Vec2::new(120.0, 60.0), world.centroid(id).unwrap());
+        let organism = world.organisms.get(id).unwrap();
+        let mut drives = Vec::new();
+        let front = drive(organism, goal, &world.particles, &mut drives).unwrap();
+        let ring: Vec<u32> = organism.outline_particles().collect();
+        let count = ring.len() as u32;
+        for (k, node) in (0..count).zip(&ring) {
+            let given = drives.iter().find(|d| d.particle == *node).map(|d| d.velocity);
+            let at = world.particles.position(*node as usize);
+            let expected = match region(k, front, count) {
+                MembraneRegion::Front => Some((goal - at).normalize() * 8.0),
+                MembraneRegion::Rear => Some((centroid - at).normalize() * 8.0),
+                MembraneRegion::LeftWing | MembraneRegion::RightWing => None,
+            };
+            assert_eq!(given.is_some(), expected.is_some(), "only front and rear drive");
+            assert!(given.zip(expected).is_none_or(|(g, e)| (g - e).length() < 1e-3), "{given:?} {expected:?}");
+        }
+    }
+
+    #[test]
     fn t18_t19_regions_are_symmetric_about_the_front_and_cover_the_ring() {
         for count in [12u32, 40, 65] {
             for front in [0, 5, count - 1] {

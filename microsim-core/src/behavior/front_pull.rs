@@ -24,3 +24,42 @@ pub(crate) fn drive(
     drives.push(Drive { particle: particle(front), velocity, max_acceleration: f32::INFINITY });
     front
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Placement, RigidCellSpec, World, WorldConfig};
+
+    fn drives_to(goal: Vec2) -> (World, Vec<Drive>, u32) {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let mut drives = Vec::new();
+        let organism = world.organisms.get(cell).unwrap();
+        let front = drive(organism, 0, goal, &world.particles, &mut drives);
+        (world.clone(), drives, front)
+    }
+
+    #[test]
+    fn t13_only_the_front_body_gets_the_normalised_direction_times_the_speed() {
+        let goal = Vec2::new(120.0, 70.0);
+        let (world, drives, front) = drives_to(goal);
+        assert_eq!((drives.len(), front), (1, 0));
+        let at = world.particles.position(drives[0].particle as usize);
+        assert!((drives[0].velocity - (goal - at).normalize() * 8.0).length() < 1e-4);
+        assert!(drives[0].max_acceleration.is_infinite(), "set, not approached");
+    }
+
+    #[test]
+    fn t14_front_switches_only_when_the_goal_is_nearer_to_the_opposite_body() {
+        assert_eq!(drives_to(Vec2::new(80.5, 200.0)).2, 0);
+        assert_eq!(drives_to(Vec2::new(79.5, 200.0)).2, 14);
+        assert_eq!(drives_to(Vec2::new(0.0, 45.0)).2, 14);
+    }
+
+    #[test]
+    fn a_front_at_its_goal_is_not_driven_anywhere() {
+        let (world, drives, _) = drives_to(Vec2::new(200.0, 45.0));
+        let at = world.particles.position(drives[0].particle as usize);
+        assert_eq!(drives_to(at).1[0].velocity, Vec2::ZERO);
+    }
+}

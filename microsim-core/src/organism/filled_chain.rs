@@ -38,7 +38,7 @@ pub struct AmoeboidCellSpec {
 
 impl Default for AmoeboidCellSpec {
     fn default() -> Self {
-        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 0.02, speed: 8.0 }
+        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 0.05, speed: 8.0 }
     }
 }
 

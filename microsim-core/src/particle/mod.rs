@@ -197,6 +197,22 @@ impl Particles {
         u32::try_from(first).unwrap_or(NO_OWNER)
     }
 
+    /// Entry `i` as a whole.
+    pub(crate) fn get(&self, i: usize) -> Particle {
+        Particle {
+            origin: self.origin(i),
+            offset: Vec2::new(self.x[i], self.y[i]),
+            velocity: self.velocity(i),
+            inv_mass: self.inv_mass[i],
+            radius: self.radius[i],
+            groups: self.groups[i],
+            material: self.material[i],
+            role: self.role[i],
+            owner: self.owner[i],
+            fluid: self.fluid[i],
+        }
+    }
+
     /// Overwrites entry `i`.
     pub(crate) fn set(&mut self, i: usize, particle: &Particle) {
         self.origin_x[i] = particle.origin.x;

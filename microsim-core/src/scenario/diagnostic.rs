@@ -122,10 +122,7 @@ pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text.as_bytes()[..offset];
     let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
     let start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
-    let column = text
-        .get(start..offset)
-        .map_or(offset - start, |part| part.chars().count())
-        + 1;
+    let column = text.get(start..offset).map_or(offset - start, |part| part.chars().count()) + 1;
     (line, column)
 }
 
@@ -137,9 +134,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         4..=7 => 2,
         _ => 3,
     };
-    let distances = candidates
-        .into_iter()
-        .map(|candidate| (edit_distance(word, candidate), candidate));
+    let distances = candidates.into_iter().map(|candidate| (edit_distance(word, candidate), candidate));
     let (distance, candidate) = distances.min_by_key(|(distance, _)| *distance)?;
     (distance <= allowed).then_some(candidate)
 }
@@ -196,10 +191,7 @@ mod tests {
             line: Some(2),
             column: Some(3),
         };
-        assert_eq!(
-            diagnostic.to_string(),
-            "line 2, column 3: agar.a.radius: -1 is out of range (accepted: 0.1 to 20)"
-        );
+        assert_eq!(diagnostic.to_string(), "line 2, column 3: agar.a.radius: -1 is out of range (accepted: 0.1 to 20)");
         (diagnostic.line, diagnostic.accepted) = (None, None);
         assert_eq!(diagnostic.to_string(), "agar.a.radius: -1 is out of range");
     }

@@ -36,16 +36,16 @@ impl<'s> Report<'s> {
 
     /// Passes on what the library says of a value in the table at `path`.
     pub(super) fn check<T>(&self, path: &str, result: Result<T, Error>) -> Option<T> {
-        let error = match result {
-            Ok(value) => return Some(value),
-            Err(error) => error,
-        };
-        let (message, accepted) = in_words(&error);
+        let refuse = |error: Error| self.found.borrow_mut().push(self.diagnostic(path, &error));
+        result.map_err(refuse).ok()
+    }
+
+    /// What the library says of a value in the table at `path`.
+    pub(super) fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
+        let (message, accepted) = in_words(error);
         // The parameters of a fluid are fields of its table.
         let field = error.field().strip_prefix("fluid.").unwrap_or(error.field());
-        let diagnostic = self.source.diagnostic(&join(path, field), message, accepted);
-        self.found.borrow_mut().push(diagnostic);
-        None
+        self.source.diagnostic(&join(path, field), message, accepted)
     }
 }
 
@@ -79,7 +79,9 @@ impl Read for f32 {
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         let number = match value.get_ref() {
             DeValue::Float(number) => number.as_str().parse::<f64>().ok(),
-            DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).ok().map(|whole| whole as f64),
+            DeValue::Integer(number) => {
+                i64::from_str_radix(number.as_str(), number.radix()).ok().map(|whole| whole as f64)
+            }
             _ => None,
         };
         number.map(|number| number as Self).or_else(|| mismatch(value, path, report))

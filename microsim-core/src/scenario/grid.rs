@@ -56,9 +56,7 @@ impl GridPlan {
         let inner = room - 2.0 * self.margin;
         let most = (inner.x / self.pitch * (1.0 + 1e-5)) as u32;
         let columns = [ASPECT, inner.x / inner.y].map(|aspect| self.columns(aspect));
-        let fits = |columns: &u32| {
-            *columns > 0 && self.size(*columns).cmple(inner * (1.0 + 1e-5)).all()
-        };
+        let fits = |columns: &u32| *columns > 0 && self.size(*columns).cmple(inner * (1.0 + 1e-5)).all();
         let columns = columns.into_iter().chain([most]).find(fits)?;
         let low = (room - self.size(columns)) * 0.5;
         Some(Grid { plan: self, columns, low })

@@ -1,1 +1,220 @@
-//! Scenario files.
+//! Scenarios: worlds described in TOML files.
+//!
+//! ```
+//! use microsim_core::{Inputs, scenario::Scenario};
+//!
+//! let text = r#"
+//!     schema = 1
+//!     name = "two pellets"
+//!     [parameters]
+//!     count = 2
+//!     [world]
+//!     size = [40.0, 20.0]
+//!     [agar.pellet]
+//!     radius = 1.0
+//!     [[spawn]]
+//!     of = "pellet"
+//!     count = "$count"
+//! "#;
+//! let scenario = Scenario::parse(text, &[("count".into(), "5".into())])?;
+//! let mut world = scenario.build()?.world;
+//! world.step(&Inputs::new());
+//! assert_eq!(world.organisms().count(), 5);
+//!
+//! let wrong = text.replace("radius = 1.0", "radius = -1.0");
+//! let diagnostics = Scenario::parse(&wrong, &[]).unwrap_err();
+//! assert!(diagnostics.to_string().ends_with("agar.pellet.radius: -1 is out of range (accepted: 0.1 to 20)"));
+//! # Ok::<(), microsim_core::scenario::Diagnostics>(())
+//! ```
+//!
+//! # Format
+//!
+//! Lengths are in micrometres, times in seconds, angles in degrees. Each kind of thing has a table of its own, and a
+//! field that is not known is an error, as is anything else that cannot be meant: nothing is guessed. A field without a
+//! default below is required. The fields of prototypes are those of the specs, with their ranges and defaults.
+//!
+//! | table | fields |
+//! |---|---|
+//! | top level | `schema = 1`, `name = ""`, `description = ""`, `seed = 0`, `duration = 10.0` |
+//! | `[parameters]` | any names with a number, string or boolean each. Elsewhere the string `"$name"` stands for the value |
+//! | `[step]` | `dt`, `substeps` of [`WorldConfig`] |
+//! | `[world]` | `size` (may be left out when a `[[field]]` sizes the room), `gravity`, `damping`, `max_speed`, `max_particles` of [`WorldConfig`] |
+//! | `[rigid_cell.NAME]` | [`RigidCellSpec`](crate::RigidCellSpec); `radii` is required |
+//! | `[amoeboid_cell.NAME]` | [`AmoeboidCellSpec`](crate::AmoeboidCellSpec); `radii` is required |
+//! | `[platelet.NAME]` | [`PlateletSpec`](crate::PlateletSpec); `radius` is required |
+//! | `[agar.NAME]` | [`AgarSpec`](crate::AgarSpec); `radius` is required |
+//! | `[probe.NAME]` | [`ProbeSpec`](crate::ProbeSpec); `radius` is required |
+//! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
+//! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
+//! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
+//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false` |
+//! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
+//! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
+//! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
+//! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
+//! | `[[polygon]]` | `points`, `friction = 0.2` |
+//!
+//! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
+
+mod builtin;
+mod diagnostic;
+mod fields;
+mod file;
+mod grid;
+mod group;
+mod obstacle;
+mod overrides;
+mod placing;
+mod prototype;
+mod source;
+mod steering;
+
+pub use builtin::{Builtin, builtin, builtins};
+pub use diagnostic::{Diagnostic, Diagnostics};
+
+use crate::config::WorldConfig;
+use crate::error::Error;
+use crate::id::OrganismId;
+use crate::world::World;
+use diagnostic::in_words;
+use fields::Report;
+use file::File;
+use group::{Group, Place};
+use placing::Placed;
+use source::Source;
+
+/// Errors after which building gives up: the rest would be more of the same.
+const MAX_ERRORS: usize = 20;
+
+/// A scenario, read and checked.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    file: File,
+    source: Source,
+}
+
+/// A world made from a scenario.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Built {
+    /// The world, at time 0.
+    pub world: World,
+    /// The first organism marked `player = true`.
+    pub player: Option<OrganismId>,
+    /// Organisms that have a `name`, in the order in which they were spawned.
+    pub named: Vec<(String, OrganismId)>,
+}
+
+impl Scenario {
+    /// Reads a scenario from the text of a file.
+    ///
+    /// `overrides` are `key=value` pairs that are applied first. A key is the name of a parameter, one of the fields
+    /// `name`, `description`, `seed` and `duration`, or a dotted path to a value such as `world.damping` or
+    /// `spawn.0.count`. A value is TOML text; bare words become strings.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text and the overrides, each with its place. What depends on the seed, and
+    /// whether organisms overlap, shows only in [`Scenario::build`].
+    pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
+        let (table, source) = Source::read(text, overrides)?;
+        let file = file::read(&table, &source)?;
+        Ok(Self { file, source })
+    }
+
+    /// Its name; empty if the file has none.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    /// What it shows; empty if the file does not say.
+    #[must_use]
+    pub fn description(&self) -> &str {
+        &self.file.description
+    }
+
+    /// Seed of all its random numbers.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.file.config.seed
+    }
+
+    /// Changes the seed.
+    pub fn set_seed(&mut self, seed: u64) {
+        self.file.config.seed = seed;
+    }
+
+    /// Simulated time that it is meant to run, s.
+    #[must_use]
+    pub fn duration(&self) -> f32 {
+        self.file.duration
+    }
+
+    /// Settings of its world.
+    #[must_use]
+    pub fn config(&self) -> &WorldConfig {
+        &self.file.config
+    }
+
+    /// Makes the world. Equal text, overrides and seed give equal worlds.
+    ///
+    /// # Errors
+    /// Where organisms overlap, lie outside the walls or find no free place.
+    pub fn build(&self) -> Result<Built, Diagnostics> {
+        let report = Report::new(&self.source);
+        let world = World::new(self.file.config.clone());
+        let mut built = Built {
+            world: world.map_err(|error| report.diagnostic("world", &error))?,
+            player: None,
+            named: Vec::new(),
+        };
+        self.fill(&mut built, &report);
+        Diagnostics::check(report.found.into_inner())?;
+        Ok(built)
+    }
+
+    fn fill(&self, built: &mut Built, report: &Report<'_>) {
+        let File { config, obstacles, groups, .. } = &self.file;
+        for obstacle in obstacles {
+            report.check("", built.world.add_obstacle(obstacle.clone()));
+        }
+        let placed = placing::place_all(groups, obstacles, config.seed, report);
+        for (group, placed) in groups.iter().zip(placed) {
+            for Placed { spec, placement } in placed {
+                if report.found.borrow().len() >= MAX_ERRORS {
+                    return;
+                }
+                match built.world.spawn(&spec, placement) {
+                    Ok(id) => built.note(group, id),
+                    Err(error) => report.spawn_error(group, &error),
+                }
+            }
+        }
+    }
+}
+
+impl Built {
+    fn note(&mut self, group: &Group, id: OrganismId) {
+        if group.is_player && self.player.is_none() {
+            self.player = Some(id);
+        }
+        self.named.extend(group.name.iter().map(|name| (name.clone(), id)));
+    }
+}
+
+impl Report<'_> {
+    /// Passes on why an organism of a group was not spawned.
+    fn spawn_error(&self, group: &Group, error: &Error) {
+        let (message, accepted) = in_words(error);
+        let is_given = matches!(group.place, Place::At(_));
+        let path = match error.field() {
+            "scale" => format!("{}.scale", group.path),
+            at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
+            _ => group.count_path(self),
+        };
+        self.refuse(&path, format!("`{}` {message}", group.prototype.name), accepted.unwrap_or_default());
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -15,12 +15,7 @@ const OPTIONAL: [&str; 2] = ["world", "step"];
 type Refusal = (String, String);
 
 /// Sets one value by the name of a parameter or by its path. What is set stands at `span`.
-pub(super) fn apply<'a>(
-    root: &mut Value<'a>,
-    key: &'a str,
-    text: &'a str,
-    span: Range<usize>,
-) -> Result<(), Refusal> {
+pub(super) fn apply<'a>(root: &mut Value<'a>, key: &'a str, text: &'a str, span: Range<usize>) -> Result<(), Refusal> {
     let path = path_of(root, key)?;
     let value = parse(text, &span)?;
     set(root, &path, value)
@@ -29,7 +24,8 @@ pub(super) fn apply<'a>(
 /// The path that a key means: a bare name is a parameter's before it is a field's.
 fn path_of<'a>(root: &Value<'_>, key: &'a str) -> Result<Vec<&'a str>, Refusal> {
     let parameters = root.get_ref().get("parameters").and_then(|table| table.get_ref().as_table());
-    let names: Vec<&str> = parameters.into_iter().flat_map(|table| table.keys()).map(|key| key.get_ref().as_ref()).collect();
+    let names: Vec<&str> =
+        parameters.into_iter().flat_map(|table| table.keys()).map(|key| key.get_ref().as_ref()).collect();
     let name = key.strip_prefix("parameters.").unwrap_or(key);
     if names.contains(&name) {
         return Ok(vec!["parameters", name]);

@@ -142,15 +142,12 @@ impl Source {
     }
 
     fn record(&mut self, path: &str, key: Range<usize>, value: &Value<'_>) {
-        let place = Place {
-            key,
-            value: value.span(),
-        };
+        let place = Place { key, value: value.span() };
         self.places.insert(path.to_owned(), place);
         match value.get_ref() {
-            DeValue::Table(table) => table
-                .iter()
-                .for_each(|(key, child)| self.record(&join(path, key.get_ref()), key.span(), child)),
+            DeValue::Table(table) => {
+                table.iter().for_each(|(key, child)| self.record(&join(path, key.get_ref()), key.span(), child))
+            }
             DeValue::Array(array) => array
                 .iter()
                 .enumerate()

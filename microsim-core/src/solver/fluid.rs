@@ -68,6 +68,8 @@ impl FluidParams {
 #[derive(Clone, Debug)]
 pub(crate) struct Fluid {
     pub params: FluidParams,
+    /// Whether a membrane of its own holds it.
+    pub is_enclosed: bool,
     /// Indices into the particle store, in the order in which they were added.
     pub particles: Vec<u32>,
     rest_density: f32,
@@ -86,9 +88,9 @@ struct Sorted {
 }
 
 impl Fluid {
-    pub(crate) fn new(params: FluidParams) -> Self {
+    pub(crate) fn new(params: FluidParams, is_enclosed: bool) -> Self {
         let rest_density = lattice_density();
-        Self { params, particles: Vec::new(), rest_density, sorted: Sorted::default() }
+        Self { params, is_enclosed, particles: Vec::new(), rest_density, sorted: Sorted::default() }
     }
 
     fn support(&self) -> f32 {
@@ -306,7 +308,7 @@ mod tests {
     use crate::solver::testing::disc;
 
     fn block(mode: FluidMode, spacing: f32) -> (Fluid, Particles) {
-        let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() });
+        let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() }, false);
         let mut particles = Particles::default();
         let mut rng = Rng::new(1, 1);
         for k in 0..200 {
@@ -372,7 +374,7 @@ mod tests {
 
     #[test]
     fn particles_in_one_place_come_apart() {
-        let mut fluid = Fluid::new(FluidParams::default());
+        let mut fluid = Fluid::new(FluidParams::default(), false);
         let mut particles = Particles::default();
         for _ in 0..4 {
             fluid.particles.push(particles.insert(&disc(Vec2::ONE, 1.0)));

@@ -27,12 +27,14 @@ pub enum Role {
     Anchor,
     /// Fluid inside a membrane.
     Cytoplasm,
+    /// Fluid inside a membrane that was not there when its organism was spawned.
+    GrownCytoplasm,
     /// Fluid on its own.
     Fluid,
 }
 
 impl Role {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Plain,
         Self::Membrane,
         Self::InnerRing,
@@ -40,6 +42,7 @@ impl Role {
         Self::Interlayer,
         Self::Anchor,
         Self::Cytoplasm,
+        Self::GrownCytoplasm,
         Self::Fluid,
     ];
 

@@ -47,6 +47,11 @@ impl Organisms {
         slot.organism.as_ref().filter(|_| slot.generation == id.generation)
     }
 
+    pub(crate) fn get_mut(&mut self, id: OrganismId) -> Option<&mut Organism> {
+        let slot = self.slots.get_mut(id.index as usize)?;
+        slot.organism.as_mut().filter(|_| slot.generation == id.generation)
+    }
+
     /// The handle of the organism that lives at an index.
     pub(crate) fn id_at(&self, index: u32) -> Option<OrganismId> {
         let slot = self.slots.get(index as usize)?;

@@ -182,18 +182,15 @@ impl World {
         let Some(plan) = plan else {
             return (None, Vec::new());
         };
-        let is_enclosed = |fluid: &Fluid| {
-            fluid.particles.first().is_some_and(|&i| self.particles.role[i as usize] == Role::Cytoplasm as u8)
-        };
         let mixes = |fluid: &Fluid| {
-            let is_same = !plan.is_enclosed && fluid.params == plan.params && !is_enclosed(fluid);
+            let is_same = !plan.is_enclosed && fluid.params == plan.params && !fluid.is_enclosed;
             is_same || fluid.particles.is_empty()
         };
         let index = self.fluids.iter().position(mixes).unwrap_or(self.fluids.len());
         if index == self.fluids.len() {
-            self.fluids.push(Fluid::new(plan.params));
+            self.fluids.push(Fluid::new(plan.params, plan.is_enclosed));
         } else if self.fluids[index].particles.is_empty() {
-            self.fluids[index] = Fluid::new(plan.params);
+            self.fluids[index] = Fluid::new(plan.params, plan.is_enclosed);
         }
         let in_fluid = |particle: &Particle| Particle { fluid: index as u32 + 1, ..*particle };
         let particles: Vec<u32> = planned.iter().map(|p| self.particles.insert(&in_fluid(p))).collect();

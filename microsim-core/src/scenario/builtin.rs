@@ -1,0 +1,47 @@
+//! The scenarios that come with the library.
+
+/// A scenario that comes with the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Builtin {
+    /// Its name.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub summary: &'static str,
+    /// The file.
+    pub text: &'static str,
+}
+
+const BUILTINS: [Builtin; 4] = [
+    Builtin {
+        name: "demo",
+        summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
+        text: include_str!("../../scenarios/demo.toml"),
+    },
+    Builtin {
+        name: "platelets",
+        summary: "a probe sweeps through a dense field of platelets, any number of them (thesis, Table 4.1)",
+        text: include_str!("../../scenarios/platelets.toml"),
+    },
+    Builtin {
+        name: "dam-break",
+        summary: "a column of fluid collapses under gravity",
+        text: include_str!("../../scenarios/dam-break.toml"),
+    },
+    Builtin {
+        name: "empty",
+        summary: "an empty room, to start from",
+        text: include_str!("../../scenarios/empty.toml"),
+    },
+];
+
+/// All scenarios that come with the library.
+#[must_use]
+pub fn builtins() -> &'static [Builtin] {
+    &BUILTINS
+}
+
+/// The scenario of this name, if there is one.
+#[must_use]
+pub fn builtin(name: &str) -> Option<&'static Builtin> {
+    BUILTINS.iter().find(|builtin| builtin.name == name)
+}

@@ -1,0 +1,124 @@
+//! The whole file: from a tree of values to what a scenario is made of.
+
+use super::fields::{Fields, Report};
+use super::group::{self, Group, Surroundings};
+use super::prototype::{self, Prototype};
+use super::source::Source;
+use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
+use crate::config::{MAX_EXTENT, WorldConfig};
+use crate::solver::obstacle::Obstacle;
+use glam::Vec2;
+use toml::de::DeTable;
+
+/// Version of the format.
+const SCHEMA: u32 = 1;
+/// Simulated time of a scenario that does not say, s.
+const DURATION: f32 = 10.0;
+
+/// What a file says, checked.
+#[derive(Clone, Debug)]
+pub(super) struct File {
+    pub name: String,
+    pub description: String,
+    pub duration: f32,
+    pub config: WorldConfig,
+    pub obstacles: Vec<Obstacle>,
+    pub groups: Vec<Group>,
+}
+
+/// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
+pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnostics> {
+    let report = Report::new(source);
+    let mut root = Fields::root(table, &report);
+    read_schema(&mut root);
+    root.table("parameters");
+    let (name, description) = (root.or("name", String::new()), root.or("description", String::new()));
+    let duration = root.number("duration", DURATION, [0.0, 1e6]);
+    let (config, size) = read_config(&mut root);
+    let prototypes = prototype::read(&mut root);
+    let plans = group::read_fields(&mut root, &prototypes);
+    let size = size.or_else(|| room_for(&plans, &report)).unwrap_or(config.size);
+    let config = WorldConfig { size, ..config };
+    let obstacles = obstacle::read(&mut root);
+    let controllers = steering::read(&mut root, size);
+    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, size };
+    let mut groups = group::read_spawns(&mut root, &around);
+    groups.extend(lay_out(plans, size, &report));
+    root.finish();
+    group::check_size(&groups, config.max_particles, &report);
+    Diagnostics::check(report.found.into_inner())?;
+    Ok(File { name, description, duration, config, obstacles, groups })
+}
+
+fn read_schema(root: &mut Fields<'_>) {
+    if let Some(schema) = root.required::<u32>("schema").filter(|schema| *schema != SCHEMA) {
+        let message = format!("version {schema} of the format is not known");
+        root.report.refuse("schema", message, SCHEMA.to_string());
+    }
+}
+
+/// The settings of the world but for its size, and the size if the file has it. What is wrong falls back to the default.
+fn read_config(root: &mut Fields<'_>) -> (WorldConfig, Option<Vec2>) {
+    let default = WorldConfig::default();
+    let seed = root.or("seed", default.seed);
+    let mut step = root.table("step");
+    let (dt, substeps) = (step.or("dt", default.dt), step.or("substeps", default.substeps));
+    step.finish();
+    let mut world = root.table("world");
+    let is_sized_by_field = root.has("field") && !world.has("size");
+    let size = if is_sized_by_field { None } else { world.required::<Vec2>("size").or(Some(default.size)) };
+    let config = WorldConfig {
+        size: size.unwrap_or(default.size),
+        dt,
+        substeps,
+        gravity: world.or("gravity", default.gravity),
+        damping: world.or("damping", default.damping),
+        max_speed: world.or("max_speed", default.max_speed),
+        seed,
+        max_particles: world.or("max_particles", default.max_particles),
+    };
+    world.finish();
+    check_config(config, size, root.report)
+}
+
+fn check_config(config: WorldConfig, size: Option<Vec2>, report: &Report<'_>) -> (WorldConfig, Option<Vec2>) {
+    let Err(error) = config.validate() else {
+        return (config, size);
+    };
+    let is_step = matches!(error.field(), "dt" | "substeps");
+    report.check::<()>(if is_step { "step" } else { "world" }, Err(error));
+    let default = WorldConfig::default();
+    let size = size.map(|_| default.size);
+    (default, size)
+}
+
+/// Size of the room that holds every field.
+fn room_for(plans: &[(String, Prototype, GridPlan)], report: &Report<'_>) -> Option<Vec2> {
+    let mut room = Vec2::ONE;
+    for (path, _, plan) in plans {
+        let wanted = plan.room();
+        if wanted.cmpgt(Vec2::splat(MAX_EXTENT)).any() {
+            let message = format!("needs a room of {:.0} by {:.0}", wanted.x, wanted.y);
+            report.refuse(&format!("{path}.count"), message, format!("at most {MAX_EXTENT} by {MAX_EXTENT}"));
+            return None;
+        }
+        room = Vec2::select(wanted.cmpgt(room), wanted, room);
+    }
+    Some(room)
+}
+
+fn lay_out(plans: Vec<(String, Prototype, GridPlan)>, size: Vec2, report: &Report<'_>) -> Vec<Group> {
+    let mut groups = Vec::new();
+    for (path, prototype, plan) in plans {
+        let wanted = plan.room();
+        match plan.fit(size) {
+            Some(grid) => groups.push(Group::on_grid(path, prototype, grid)),
+            None => {
+                let message = format!("does not fit into the room of {} by {}", size.x, size.y);
+                let accepted = format!("a room of about {:.1} by {:.1}, or fewer", wanted.x, wanted.y);
+                report.refuse(&format!("{path}.count"), message, accepted);
+            }
+        }
+    }
+    groups
+}

@@ -1,0 +1,130 @@
+//! Finding a place for every organism, from the seed alone.
+
+use super::fields::Report;
+use super::group::{Angle, Group, Place};
+use crate::organism::{OrganismSpec, Placement};
+use crate::rng::Rng;
+use crate::solver::obstacle::Obstacle;
+use glam::Vec2;
+use std::collections::BTreeMap;
+use std::f32::consts::TAU;
+
+/// Random places that are tried for one organism.
+const TRIES: u32 = 2000;
+/// Streams of random numbers from here on are for placing; those of the world's organisms lie below.
+const STREAM: u64 = 1 << 62;
+
+/// One organism that is ready to be spawned.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub spec: OrganismSpec,
+    pub placement: Placement,
+}
+
+/// Finds places for all organisms, group by group. Fixed places count before random ones do, wherever they stand in the
+/// file, so that random placement never takes a place that is asked for.
+pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, report: &Report<'_>) -> Vec<Vec<Placed>> {
+    let reach = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
+    let mut taken = Taken::new(reach.fold(0.0, |far, reach| if reach > far { reach } else { far }), obstacles);
+    let rng = |index: usize| Rng::new(seed, STREAM + index as u64);
+    let mut placed: Vec<Vec<Placed>> =
+        groups.iter().enumerate().map(|(index, group)| fixed(group, rng(index), &mut taken)).collect();
+    for (index, group) in groups.iter().enumerate() {
+        if let Place::Random { count, within, gap } = group.place {
+            placed[index] = random(group, within, gap, rng(index), &mut taken);
+            let found = placed[index].len();
+            if found < count as usize {
+                let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
+                let accepted =
+                    format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
+                report.refuse(&group.count_path(report), message, accepted);
+            }
+        }
+    }
+    placed
+}
+
+/// Those of a group whose places are given.
+fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
+    let places: Vec<Vec2> = match &group.place {
+        Place::At(at) => vec![*at],
+        Place::Grid(grid) => grid.places(&mut rng).collect(),
+        Place::Random { .. } => Vec::new(),
+    };
+    let put = |at| {
+        let (scale, angle) = draw(group, &mut rng);
+        taken.add(at, group.prototype.extent(scale));
+        place(group, at, scale, angle)
+    };
+    places.into_iter().map(put).collect()
+}
+
+/// As many of a group as find a free place, by rejection.
+fn random(group: &Group, [low, high]: [Vec2; 2], gap: f32, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
+    let mut placed = Vec::new();
+    for _ in 0..group.place.count() {
+        let (scale, angle) = draw(group, &mut rng);
+        let radius = group.prototype.extent(scale);
+        let (low, high) = (low + radius, high - radius);
+        if !low.cmple(high).all() {
+            return placed;
+        }
+        let mut tries = (0..TRIES).map(|_| Vec2::new(rng.range(low.x, high.x), rng.range(low.y, high.y)));
+        let Some(at) = tries.find(|&at| taken.is_free(at, radius + gap)) else {
+            return placed;
+        };
+        taken.add(at, radius);
+        placed.push(place(group, at, scale, angle));
+    }
+    placed
+}
+
+/// Scale and angle of the next organism.
+fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
+    let [smallest, largest] = group.scale;
+    let scale = if smallest < largest { rng.range(smallest, largest) } else { smallest };
+    let angle = match group.angle {
+        Angle::Radians(angle) => angle,
+        Angle::Random => rng.range(0.0, TAU),
+    };
+    (scale, angle)
+}
+
+fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
+    let (spec, scale) = group.prototype.scaled(scale);
+    let placement = Placement { at, angle, scale, controller: group.controller.clone() };
+    Placed { spec, placement }
+}
+
+/// Circles that are taken, in cells of a square grid so that few are looked at.
+struct Taken<'a> {
+    cell: f32,
+    /// Largest radius.
+    reach: f32,
+    circles: BTreeMap<[i32; 2], Vec<(Vec2, f32)>>,
+    obstacles: &'a [Obstacle],
+}
+
+impl<'a> Taken<'a> {
+    fn new(reach: f32, obstacles: &'a [Obstacle]) -> Self {
+        Self { cell: 2.0 * reach + 0.1, reach, circles: BTreeMap::new(), obstacles }
+    }
+
+    fn cell_of(&self, at: Vec2) -> [i32; 2] {
+        (at / self.cell).floor().as_ivec2().to_array()
+    }
+
+    fn add(&mut self, at: Vec2, radius: f32) {
+        self.circles.entry(self.cell_of(at)).or_default().push((at, radius));
+    }
+
+    fn is_free(&self, at: Vec2, radius: f32) -> bool {
+        let blocked = |obstacle: &Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
+        let [left, bottom] = self.cell_of(at - (radius + self.reach));
+        let [right, top] = self.cell_of(at + (radius + self.reach));
+        let cells = (left..=right).flat_map(|i| (bottom..=top).map(move |j| [i, j]));
+        let mut circles = cells.filter_map(|cell| self.circles.get(&cell)).flatten();
+        let is_apart = |&(other, reach): &(Vec2, f32)| (other - at).length() >= reach + radius;
+        circles.all(is_apart) && !self.obstacles.iter().any(blocked)
+    }
+}

@@ -1,0 +1,218 @@
+//! Amoeboid cells (seed, 3.1.2): movement, growth and what keeps the cytoplasm in. The structure's tests are beside
+//! `filled_chain.rs`, those of the drive beside `crawl.rs`.
+
+mod common;
+
+use common::run;
+use microsim_core::geometry::polygon::{contains_point, signed_area};
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AmoeboidCellSpec, ErrorKind, Inputs, Intent, MembraneRegion, OrganismId, Placement, PlateletSpec, Rng, Role, World,
+    WorldConfig,
+};
+
+fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let cell = world.spawn(&spec.into(), Placement::at(80.0, 45.0)).unwrap();
+    (world, cell)
+}
+
+fn toward(cell: OrganismId, x: f32, y: f32) -> Inputs {
+    let mut inputs = Inputs::new();
+    inputs.set(cell, Intent::toward(Vec2::new(x, y)).unwrap());
+    inputs
+}
+
+fn outline(world: &World, cell: OrganismId) -> Vec<Vec2> {
+    world.view().organism(cell).unwrap().outline().collect()
+}
+
+fn links(world: &World, cell: OrganismId) -> Vec<f32> {
+    let ring = outline(world, cell);
+    (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).length()).collect()
+}
+
+fn fastest(world: &World, cell: OrganismId) -> f32 {
+    let view = world.view().organism(cell).unwrap();
+    view.particles().map(|p| p.velocity.length()).fold(0.0, f32::max)
+}
+
+#[test]
+fn t15_neighbours_stay_joined_at_their_distance() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &Inputs::new(), 120);
+    let lengths = links(&world, cell);
+    assert_eq!(world.census().constraints, lengths.len(), "one link for each node, ring closed");
+    let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
+    assert!(lengths.iter().all(|l| (l / mean - 1.0).abs() < 0.05), "{lengths:?}");
+    assert!(mean > 0.9 * 1.56 && mean < 1.1 * 1.56, "mean {mean}");
+}
+
+#[test]
+fn t16_no_gap_opens_that_a_node_radius_would_not_cover() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    for x in [150.0, 10.0, 150.0] {
+        for _ in 0..90 {
+            run(&mut world, &toward(cell, x, 45.0), 1);
+            let widest = links(&world, cell).into_iter().fold(0.0, f32::max) - 2.0 * 0.78;
+            assert!(widest < 0.78, "gap {widest}");
+        }
+    }
+}
+
+#[test]
+fn t17_cytoplasm_stays_at_rest_density() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &Inputs::new(), 240);
+    assert!(world.quality().fluid_compression_mean < 0.02, "{:?}", world.quality());
+    assert!(fastest(&world, cell) < 0.5, "at rest, fastest {}", fastest(&world, cell));
+}
+
+#[test]
+fn t18_regions_are_assigned_anew_on_every_step() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let regions = |world: &World| world.view().organism(cell).unwrap().membrane_regions();
+    assert_eq!(regions(&world), None, "no regions without a goal");
+    run(&mut world, &toward(cell, 150.0, 45.0), 1);
+    let right = regions(&world).unwrap();
+    run(&mut world, &toward(cell, 10.0, 45.0), 1);
+    let left = regions(&world).unwrap();
+    let swapped = |(before, after): &(&MembraneRegion, &MembraneRegion)| {
+        (**before == MembraneRegion::Front) == (**after == MembraneRegion::Rear)
+    };
+    let same = right.iter().zip(&left).filter(swapped).count();
+    assert!(same + 2 >= right.len(), "front and rear change places, but for the ends of an odd ring: {same}");
+    run(&mut world, &Inputs::new(), 1);
+    assert_eq!(regions(&world), None);
+}
+
+#[test]
+fn t19_the_node_nearest_to_the_goal_is_the_centre_of_the_front() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let mut rng = Rng::new(4, 4);
+    for _ in 0..60 {
+        let goal = Vec2::new(rng.range(0.0, 160.0), rng.range(0.0, 90.0));
+        let before = outline(&world, cell);
+        run(&mut world, &toward(cell, goal.x, goal.y), 1);
+        let front = world.view().organism(cell).unwrap().front_index().unwrap();
+        let nearest = before.iter().map(|at| (*at - goal).length()).fold(f32::INFINITY, f32::min);
+        assert!((before[front] - goal).length() <= nearest + 1e-3);
+    }
+}
+
+#[test]
+fn t21_movement_is_smooth_unidirectional_and_reacts_at_once() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &toward(cell, 150.0, 45.0), 120);
+    let view = world.view().organism(cell).unwrap();
+    let forwards = view.particles().filter(|p| p.velocity.x > 0.0).count();
+    assert!(forwards * 100 >= 97 * view.particles().count(), "all parts move one way, {forwards}");
+    let at = world.centroid(cell).unwrap();
+    let goal = Vec2::new(at.x, 200.0);
+    run(&mut world, &toward(cell, goal.x, goal.y), 18);
+    let before = world.centroid(cell).unwrap();
+    run(&mut world, &toward(cell, goal.x, goal.y), 1);
+    let heading = (world.centroid(cell).unwrap() - before).normalize();
+    let angle = heading.dot((goal - before).normalize()).clamp(-1.0, 1.0).acos().to_degrees();
+    assert!(angle < 45.0, "0.3 s after the command the heading is off by {angle} degrees");
+}
+
+#[test]
+fn t22_growth_of_the_chain_adds_a_body_and_a_link_of_the_same_length() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &Inputs::new(), 60);
+    let (before, ring) = (world.census(), outline(&world, cell));
+    world.grow(cell, 1, 0).unwrap();
+    let (after, grown) = (world.census(), outline(&world, cell));
+    assert_eq!((after.bodies, after.constraints), (before.bodies + 1, before.constraints + 1));
+    let new: Vec<usize> = (0..grown.len()).filter(|&k| !ring.contains(&grown[k])).collect();
+    assert_eq!(new.len(), 1);
+    let (left, right) = (grown[new[0] - 1], grown[(new[0] + 1) % grown.len()]);
+    assert!(ring.contains(&left) && ring.contains(&right), "between two neighbours");
+    assert!((grown[new[0]] - (left + right) / 2.0).length() < 1e-4);
+    let radii: Vec<f32> = {
+        let nodes = world.view().organism(cell).unwrap();
+        nodes.particles().filter(|p| p.role == Role::Membrane).map(|p| p.radius).collect()
+    };
+    assert!(radii.iter().all(|r| *r == radii[0]), "identical bodies");
+    run(&mut world, &Inputs::new(), 120);
+    let lengths = links(&world, cell);
+    let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
+    assert!(lengths.iter().all(|l| (l / mean - 1.0).abs() < 0.05), "the new links are like the others");
+}
+
+#[test]
+fn t23_growth_of_the_interior_inflates_the_cell_from_its_centroid_without_an_explosion() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &Inputs::new(), 60);
+    let (before, area) = (world.census(), signed_area(&outline(&world, cell)));
+    let centroid = world.centroid(cell).unwrap();
+    world.grow(cell, 6, 40).unwrap();
+    assert_eq!(world.census().particles, before.particles + 46);
+    let view = world.view().organism(cell).unwrap();
+    let new: Vec<Vec2> = view.particles().filter(|p| p.role == Role::GrownCytoplasm).map(|p| p.position).collect();
+    assert_eq!(new.len(), 40);
+    assert!(new.iter().all(|at| (*at - centroid).length() < 4.0), "at the centroid");
+    for _ in 0..300 {
+        run(&mut world, &Inputs::new(), 1);
+        assert_eq!(world.census().leaks, 0);
+        assert!(fastest(&world, cell) <= world.config().max_speed * 1.001);
+    }
+    let grown = signed_area(&outline(&world, cell)) / area;
+    assert!(grown > 1.1 && grown < 1.4, "area grew by {grown}");
+    assert!(fastest(&world, cell) < 1.0, "calm again, fastest {}", fastest(&world, cell));
+}
+
+#[test]
+fn t24_t25_no_body_or_particle_exceeds_the_speed_limit_and_no_link_its_length() {
+    let mut world = World::new(WorldConfig { max_speed: 15.0, ..WorldConfig::default() }).unwrap();
+    let spec = AmoeboidCellSpec { speed: 1000.0, ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(80.0, 45.0)).unwrap();
+    let rest = links(&world, cell)[0];
+    let mut rng = Rng::new(7, 7);
+    for _ in 0..40 {
+        let inputs = toward(cell, rng.range(0.0, 160.0), rng.range(0.0, 90.0));
+        for _ in 0..15 {
+            run(&mut world, &inputs, 1);
+            assert!(fastest(&world, cell) <= 15.0 * 1.001, "fastest {}", fastest(&world, cell));
+            let longest = links(&world, cell).into_iter().fold(0.0, f32::max);
+            assert!(longest < 1.5 * rest, "longest {longest}");
+            assert_eq!(world.census().leaks, 0);
+        }
+    }
+}
+
+#[test]
+fn cytoplasm_stays_inside_while_the_cell_pushes_through_platelets_and_grows() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+    for k in 0..60 {
+        let at = Placement::at(60.0 + 6.0 * (k / 10) as f32, 12.0 + 7.0 * (k % 10) as f32);
+        world.spawn(&PlateletSpec::default().into(), at).unwrap();
+    }
+    let mut rng = Rng::new(2, 2);
+    for k in 0..40 {
+        let inputs = toward(cell, rng.range(40.0, 110.0), rng.range(10.0, 80.0));
+        for _ in 0..15 {
+            run(&mut world, &inputs, 1);
+            assert_eq!(world.census().leaks, 0, "goal {k}");
+        }
+        world.grow(cell, u32::from(k % 3 == 0), 2).unwrap();
+    }
+    let ring = outline(&world, cell);
+    let view = world.view().organism(cell).unwrap();
+    assert!(view.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&ring, p.position)));
+}
+
+#[test]
+fn growth_refuses_what_cannot_grow_and_what_would_not_fit() {
+    let mut world = World::new(WorldConfig { max_particles: 300, ..WorldConfig::default() }).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+    let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(20.0, 45.0)).unwrap();
+    let before = world.digest();
+    assert!(matches!(world.grow(platelet, 1, 1).unwrap_err().kind(), ErrorKind::Unsupported { .. }));
+    assert!(matches!(world.grow(cell, 1, 1_000_000).unwrap_err().kind(), ErrorKind::TooMany { .. }));
+    assert_eq!(world.digest(), before, "nothing changed");
+    world.remove(cell).unwrap();
+    assert_eq!(world.grow(cell, 1, 1).unwrap_err().kind(), &ErrorKind::Stale);
+}
