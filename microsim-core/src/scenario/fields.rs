@@ -175,7 +175,10 @@ impl Read for Vec2 {
 /// One table that is being read.
 #[derive(Debug)]
 pub(super) struct Fields<'a> {
+    /// Not there if the file has no such table, or something else in its place.
     table: Option<&'a DeTable<'a>>,
+    /// Something else is in its place, which is reported already.
+    is_broken: bool,
     pub path: String,
     asked: Vec<&'static str>,
     pub report: &'a Report<'a>,
@@ -183,7 +186,7 @@ pub(super) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     pub(super) fn root(table: &'a DeTable<'a>, report: &'a Report<'a>) -> Self {
-        Self { table: Some(table), path: String::new(), asked: Vec::new(), report }
+        Self::new(Some(table), false, String::new(), report)
     }
 
     fn of(value: &'a Value<'a>, path: String, report: &'a Report<'a>) -> Self {
@@ -191,7 +194,12 @@ impl<'a> Fields<'a> {
         if table.is_none() {
             report.refuse(&path, format!("is a {}", value.get_ref().type_str()), "a table");
         }
-        Self { table, path, asked: Vec::new(), report }
+        Self::new(table, table.is_none(), path, report)
+    }
+
+    fn new(table: Option<&'a DeTable<'a>>, is_broken: bool, path: String, report: &'a Report<'a>) -> Self {
+        let asked = Vec::new();
+        Self { table, is_broken, path, asked, report }
     }
 
     /// Path of a field.
@@ -222,7 +230,7 @@ impl<'a> Fields<'a> {
 
     /// The field. Where it is missing, that is reported.
     pub(super) fn required<T: Read>(&mut self, field: &'static str) -> Option<T> {
-        if self.table.is_some() && !self.has(field) {
+        if !self.is_broken && !self.has(field) {
             self.report.refuse(&self.at(field), format!("missing field `{field}`"), T::accepted());
         }
         self.get(field)
@@ -231,7 +239,7 @@ impl<'a> Fields<'a> {
     /// A number within a range, or a default within it.
     pub(super) fn number(&mut self, field: &'static str, default: f32, range: [f32; 2]) -> f32 {
         let value = self.or(field, default);
-        self.is_within(field, value, range).then_some(value).unwrap_or(default)
+        if self.is_within(field, value, range) { value } else { default }
     }
 
     /// Whether the field's value is within a range; reports it if it is not.
@@ -244,12 +252,12 @@ impl<'a> Fields<'a> {
         is_within
     }
 
-    /// A table of this table; an empty one where it is missing.
+    /// A table of this table; where it is missing, one without fields.
     pub(super) fn table(&mut self, field: &'static str) -> Self {
         let path = self.at(field);
         match self.ask(field) {
             Some(value) => Self::of(value, path, self.report),
-            None => Self { table: None, path, asked: Vec::new(), report: self.report },
+            None => Self::new(None, false, path, self.report),
         }
     }
 

@@ -81,9 +81,10 @@ impl Read for Scale {
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        let range = match value.get_ref().is_array() {
-            true => <[f32; 2]>::read(value, path, report)?,
-            false => [f32::read(value, path, report)?; 2],
+        let range = if value.get_ref().is_array() {
+            <[f32; 2]>::read(value, path, report)?
+        } else {
+            [f32::read(value, path, report)?; 2]
         };
         let is_sound = 0.01 <= range[0] && range[0] <= range[1] && range[1] <= 100.0;
         if is_sound { Some(Self(range)) } else { mismatch(value, path, report) }
@@ -123,8 +124,23 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
         let message = format!("`{}` cannot move", prototype.name);
         fields.report.refuse(&fields.at(field), message, "an amoeboid_cell, a rigid_cell or a probe");
     }
-    let path = fields.path.clone();
-    Some(Group { path, prototype, place: place?, angle, scale, controller, name, is_player })
+    let (path, place) = (fields.path.clone(), place?);
+    check_box(fields, &place, prototype.extent(scale[1]));
+    Some(Group { path, prototype, place, angle, scale, controller, name, is_player })
+}
+
+/// Checks that an organism of this reach fits into the box that it is to be put into.
+fn check_box(fields: &Fields<'_>, place: &Place, reach: f32) {
+    let Place::Random { within: [low, high], .. } = place else {
+        return;
+    };
+    let inner = *high - *low - 2.0 * reach;
+    if inner.cmplt(Vec2::ZERO).any() {
+        let named = ["within", "scale"].into_iter().find(|field| fields.has(field));
+        let message = format!("with a reach of {reach} it does not fit into its box");
+        let accepted = format!("a box of at least {0} by {0}, or a smaller organism", 2.0 * reach);
+        fields.report.refuse(&fields.at(named.unwrap_or("of")), message, accepted);
+    }
 }
 
 fn read_prototype(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Option<Prototype> {

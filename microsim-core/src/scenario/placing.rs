@@ -66,9 +66,6 @@ fn random(group: &Group, [low, high]: [Vec2; 2], gap: f32, mut rng: Rng, taken: 
         let (scale, angle) = draw(group, &mut rng);
         let radius = group.prototype.extent(scale);
         let (low, high) = (low + radius, high - radius);
-        if !low.cmple(high).all() {
-            return placed;
-        }
         let mut tries = (0..TRIES).map(|_| Vec2::new(rng.range(low.x, high.x), rng.range(low.y, high.y)));
         let Some(at) = tries.find(|&at| taken.is_free(at, radius + gap)) else {
             return placed;

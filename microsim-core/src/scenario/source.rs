@@ -146,12 +146,15 @@ impl Source {
         self.places.insert(path.to_owned(), place);
         match value.get_ref() {
             DeValue::Table(table) => {
-                table.iter().for_each(|(key, child)| self.record(&join(path, key.get_ref()), key.span(), child))
+                for (key, child) in table {
+                    self.record(&join(path, key.get_ref()), key.span(), child);
+                }
             }
-            DeValue::Array(array) => array
-                .iter()
-                .enumerate()
-                .for_each(|(index, child)| self.record(&join(path, &index.to_string()), child.span(), child)),
+            DeValue::Array(array) => {
+                for (index, child) in array.iter().enumerate() {
+                    self.record(&join(path, &index.to_string()), child.span(), child);
+                }
+            }
             _ => {}
         }
     }

@@ -1,1 +1,145 @@
+//! What parts of a scenario do together; whole files are tested in `tests/scenario.rs`.
 
+use super::*;
+use glam::Vec2;
+
+const ROOM: &str = "schema = 1\n[world]\nsize = [60.0, 40.0]\n[agar.a]\nradius = 1.0\n";
+
+fn parse(text: &str) -> Scenario {
+    Scenario::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn with(extra: &str) -> Scenario {
+    parse(&format!("{ROOM}{extra}"))
+}
+
+/// Centres and radii of all organisms, each of one disc.
+fn discs(world: &World) -> Vec<(Vec2, f32)> {
+    let discs = world.view().organisms().flat_map(|organism| organism.particles());
+    discs.map(|particle| (particle.position, particle.radius)).collect()
+}
+
+#[test]
+fn random_places_are_apart_and_in_their_box_and_off_the_obstacles() {
+    let extra = "[[spawn]]\nof = 'a'\ncount = 60\nwithin = [[10, 5], [50, 35]]\nscale = [0.5, 1.5]\ngap = 0.5\n\
+                 [[disc]]\nat = [30, 20]\nradius = 6\n[[spawn]]\nof = 'a'\nat = [20, 20]\nscale = 4.0\n";
+    let scenario = with(extra);
+    for seed in 0..20 {
+        let mut scenario = scenario.clone();
+        scenario.set_seed(seed);
+        let discs = discs(&scenario.build().unwrap().world);
+        assert_eq!(discs.len(), 61);
+        for (k, &(a, radius)) in discs.iter().enumerate().take(60) {
+            assert!(a.x - radius >= 10.0 && a.x + radius <= 50.0 && a.y - radius >= 5.0 && a.y + radius <= 35.0);
+            assert!((a - Vec2::new(30.0, 20.0)).length() >= 6.0 + radius + 0.49);
+            let is_apart = |&(b, other): &(Vec2, f32)| (a - b).length() >= radius + other + 0.49;
+            assert!(discs[..k].iter().chain(&discs[60..]).all(is_apart), "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn places_follow_from_the_seed() {
+    let scenario = with("[[spawn]]\nof = 'a'\ncount = 10\nangle = 'random'\n");
+    let digest = |seed| {
+        let mut scenario = scenario.clone();
+        scenario.set_seed(seed);
+        scenario.build().unwrap().world.digest()
+    };
+    assert_eq!(digest(3), digest(3));
+    assert_ne!(digest(3), digest(4));
+    assert_eq!(parse("schema = 1\nseed = 9223372036854775807\n[world]\nsize = [9, 9]").seed(), i64::MAX as u64);
+}
+
+#[test]
+fn parameters_and_overrides_are_typed_like_the_file() {
+    let text = format!("{ROOM}[[spawn]]\nof = '$kind'\ncount = '$n'\n[parameters]\nkind = 'a'\nn = 3\n");
+    let count = |overrides: &[(&str, &str)]| {
+        let owned: Vec<_> = overrides.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+        Scenario::parse(&text, &owned).map(|scenario| scenario.build().unwrap().world.organisms().count())
+    };
+    assert_eq!(count(&[]), Ok(3));
+    assert_eq!(count(&[("n", "5")]), Ok(5));
+    assert_eq!(count(&[("parameters.n", "0x10")]), Ok(16));
+    assert_eq!(count(&[("n", "5"), ("spawn.0.count", "7")]), Ok(7), "a path reaches what a parameter had set");
+    assert_eq!(count(&[("kind", "a"), ("world.damping", "1"), ("step.dt", "0.01"), ("seed", "4")]), Ok(3));
+    for (key, value, field, message) in [
+        ("n", "many", "spawn.0.count", "is the string \"many\", as set by `n=many`"),
+        ("n", "2.5", "spawn.0.count", "is 2.5, as set by `n=2.5`"),
+        ("agar.a.radius", "-2", "agar.a.radius", "-2 is out of range, as set by `agar.a.radius=-2`"),
+        ("m", "1", "m", "unknown parameter `m`, as set by `m=1`"),
+        ("agar.b.radius", "1", "agar.b.radius", "unknown part `b`, as set by `agar.b.radius=1`"),
+        ("spawn.4.of", "a", "spawn.4.of", "there is no entry `4`, as set by `spawn.4.of=a`"),
+        ("seed.x", "1", "seed.x", "unknown part `seed`, as set by `seed.x=1`"),
+        (
+            "world.dampin",
+            "1",
+            "world.dampin",
+            "unknown field `dampin`, did you mean `damping`?, as set by `world.dampin=1`",
+        ),
+        ("n", "[1", "n", "unclosed array, expected `]`, as set by `n=[1`"),
+    ] {
+        let errors = count(&[(key, value)]).unwrap_err();
+        let error = errors.iter().next().unwrap();
+        assert_eq!((error.field.as_str(), error.message.as_str()), (field, message));
+        assert_eq!((error.line, error.span.clone()), (None, None), "{key}={value} is not in the text");
+        assert!(error.accepted.is_some());
+    }
+}
+
+#[test]
+fn values_from_parameters_stand_where_the_parameter_does() {
+    let text = "schema = 1\n[parameters]\nr = -1\n[world]\nsize = [9, 9]\n[agar.a]\nradius = '$r'\n";
+    let errors = Scenario::parse(text, &[]).unwrap_err();
+    let error = errors.iter().next().unwrap();
+    assert_eq!((error.field.as_str(), error.line, error.column), ("agar.a.radius", Some(3), Some(5)));
+    assert_eq!(text.get(error.span.clone().unwrap()), Some("-1"));
+}
+
+#[test]
+fn named_organisms_and_the_player_are_found() {
+    let extra = "[probe.p]\nradius = 2\n[[spawn]]\nof = 'a'\nname = 'bait'\nat = [5, 5]\n\
+                 [[spawn]]\nof = 'p'\nplayer = true\ncount = 2\n[[spawn]]\nof = 'p'\nplayer = true\n";
+    let built = with(extra).build().unwrap();
+    let ids: Vec<_> = built.world.organisms().collect();
+    assert_eq!(built.player, Some(ids[1]));
+    assert_eq!(built.named, [("bait".to_owned(), ids[0])]);
+}
+
+#[test]
+fn scaled_cells_and_fluids_have_more_particles_not_larger_ones() {
+    let text = "schema = 1\n[world]\nsize = [99, 99]\n[amoeboid_cell.c]\nradii = [8, 8]\n\
+                [[spawn]]\nof = 'c'\nat = [20, 20]\n[[spawn]]\nof = 'c'\nat = [60, 60]\nscale = 2\n";
+    let world = parse(text).build().unwrap().world;
+    let counts: Vec<_> = world.view().organisms().map(|cell| cell.particles().count()).collect();
+    assert!(counts[1] > 3 * counts[0], "{counts:?}");
+    let radius = world.view().organisms().flat_map(|cell| cell.particles()).map(|p| p.radius);
+    assert!(radius.into_iter().all(|radius| radius < 0.79));
+}
+
+#[test]
+fn obstacles_of_every_kind_stop_what_moves() {
+    let extra = "[[wall]]\nfrom = [10, 0]\nto = [10, 40]\nthickness = 2\nfriction = 0.5\n\
+                 [[block]]\nat = [30, 20]\nsize = [4, 38]\nangle = 3\n\
+                 [[polygon]]\npoints = [[44, 40], [50, 20], [44, 0], [56, 0], [53, 20], [56, 40]]\n\
+                 [[disc]]\nat = [20, 20]\nradius = 3\n";
+    let world = with(extra).build().unwrap().world;
+    assert_eq!(world.obstacles().count(), 4);
+    for (x, inside) in [(10.5, true), (20.0, true), (30.0, true), (51.5, true), (46.0, false), (25.0, false)] {
+        let text = format!("{extra}[[spawn]]\nof = 'a'\nat = [{x}, 20.0]\n");
+        assert_eq!(with(&text).build().is_err(), inside, "x = {x}");
+    }
+}
+
+#[test]
+fn controllers_reach_their_organisms() {
+    let extra = "[probe.p]\nradius = 1\nspeed = 10\n[patrol.right]\nin = 'room'\nthrough = [[0.75, 0.5]]\n\
+                 [[spawn]]\nof = 'p'\nat = [10, 20]\ncontroller = 'right'\n";
+    let mut built = with(extra).build().unwrap();
+    for _ in 0..400 {
+        built.world.step(&crate::Inputs::new());
+    }
+    let probe = built.world.organisms().next().unwrap();
+    let end = built.world.centroid(probe).unwrap();
+    assert!((end - Vec2::new(45.0, 20.0)).length() < 0.5, "{end}");
+}

@@ -1,0 +1,158 @@
+//! `bench`: how long steps and their phases take, and how well the constraints hold meanwhile.
+
+use crate::args::BenchArgs;
+use crate::console::{Console, stdout};
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::report::{RunReport, Table, mean, median};
+use crate::simulate::{Tally, simulate};
+use crate::source::prepare;
+use indicatif::ProgressBar;
+use microsim_core::{Inputs, Phase, Quality, World};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+/// What a benchmark reports beyond a run.
+#[derive(Debug, Serialize)]
+struct BenchReport {
+    #[serde(flatten)]
+    run: RunReport,
+    warmup: u64,
+    substeps: u32,
+    /// Median time per step, ms.
+    phases: BTreeMap<&'static str, f64>,
+    quality: QualityReport,
+}
+
+/// The worst over the measured steps, but for the means and the anchors.
+#[derive(Debug, Serialize)]
+struct QualityReport {
+    ring_error_mean: f64,
+    ring_error_max: f32,
+    penetration_max: f32,
+    edge_stretch_max: f32,
+    /// At the end.
+    anchor_offset_max: f32,
+    fluid_compression_mean: f64,
+}
+
+/// Measures a scenario.
+pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> {
+    let prepared = prepare(&args.scenario)?;
+    interrupt::listen();
+    let mut world = prepared.built.world.clone();
+    let bar = console.progress(args.warmup + args.steps);
+    let mut stopwatch = Stopwatch::default();
+    let warmup = measure(&mut world, args.warmup, &bar, &mut stopwatch, |_| {})?;
+    stopwatch = Stopwatch::default();
+    let mut qualities = Vec::new();
+    let see = |world: &World| qualities.push(world.quality());
+    let mut tally = measure(&mut world, args.steps, &bar, &mut stopwatch, see)?;
+    bar.finish_and_clear();
+    tally.leaks = tally.leaks.max(warmup.leaks);
+    tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
+    let report = BenchReport {
+        run: RunReport::new(&prepared, &world, tally),
+        warmup: warmup.steps(),
+        substeps: world.config().substeps,
+        phases: stopwatch.medians(),
+        quality: QualityReport::of(&qualities),
+    };
+    report.print(args.json)?;
+    if report.run.interrupted {
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
+}
+
+fn measure(
+    world: &mut World,
+    steps: u64,
+    bar: &ProgressBar,
+    stopwatch: &mut Stopwatch,
+    mut see: impl FnMut(&World),
+) -> Result<Tally, Failure> {
+    let inputs = Inputs::new();
+    let step = |world: &mut World| stopwatch.step(world, &inputs);
+    simulate(world, steps, step, |world, _| {
+        bar.set_position(world.step_index());
+        see(world);
+        Ok(())
+    })
+}
+
+/// Times of every phase of every step, ms.
+#[derive(Debug, Default)]
+struct Stopwatch {
+    phases: [Vec<f64>; Phase::ALL.len()],
+}
+
+impl Stopwatch {
+    fn step(&mut self, world: &mut World, inputs: &Inputs) -> Duration {
+        let mut spent = [Duration::ZERO; Phase::ALL.len()];
+        let start = Instant::now();
+        let mut last = start;
+        world.step_observed(inputs, |phase| {
+            let now = Instant::now();
+            spent[phase as usize] += now - last;
+            last = now;
+        });
+        let took = start.elapsed();
+        for (times, spent) in self.phases.iter_mut().zip(spent) {
+            times.push(spent.as_secs_f64() * 1e3);
+        }
+        took
+    }
+
+    fn medians(&self) -> BTreeMap<&'static str, f64> {
+        let named = Phase::ALL.iter().zip(&self.phases);
+        named.map(|(phase, times)| (phase.name(), median(times))).collect()
+    }
+}
+
+impl QualityReport {
+    fn of(steps: &[Quality]) -> Self {
+        let worst = |value: fn(&Quality) -> f32| steps.iter().map(value).fold(0.0, f32::max);
+        let average = |value: fn(&Quality) -> f32| mean(&steps.iter().map(|q| f64::from(value(q))).collect::<Vec<_>>());
+        Self {
+            ring_error_mean: average(|q| q.ring_error_mean),
+            ring_error_max: worst(|q| q.ring_error_max),
+            penetration_max: worst(|q| q.penetration_max),
+            edge_stretch_max: worst(|q| q.edge_stretch_max),
+            anchor_offset_max: steps.last().map_or(0.0, |q| q.anchor_offset_max),
+            fluid_compression_mean: average(|q| q.fluid_compression_mean),
+        }
+    }
+}
+
+impl BenchReport {
+    fn print(&self, is_json: bool) -> Result<(), Failure> {
+        let mut out = stdout();
+        if is_json {
+            serde_json::to_writer(&mut out, self).map_err(std::io::Error::from)?;
+            writeln!(out)?;
+            return Ok(out.flush()?);
+        }
+        Ok(self.table().print(out)?)
+    }
+
+    fn table(&self) -> Table {
+        let mut table = self.run.table();
+        table.row("substeps", self.substeps);
+        for phase in Phase::ALL {
+            let time = self.phases.get(phase.name()).copied().unwrap_or_default();
+            table.row(&format!("  {}", phase.name()), format!("{time:8.3} ms"));
+        }
+        let quality = &self.quality;
+        let mut percent = |name: &str, share: f64| table.row(name, format!("{:8.3} %", share * 100.0));
+        percent("ring error, mean", quality.ring_error_mean);
+        percent("ring error, max", quality.ring_error_max.into());
+        percent("penetration, max", quality.penetration_max.into());
+        percent("edge stretch, max", quality.edge_stretch_max.into());
+        percent("anchor offset at the end", quality.anchor_offset_max.into());
+        percent("fluid compression, mean", quality.fluid_compression_mean);
+        table
+    }
+}

@@ -1,0 +1,57 @@
+//! What goes to the terminal beside the results: notes, progress, and whether to use colour.
+
+use clap::ColorChoice;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
+
+/// How to talk to the user on stderr.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Console {
+    is_coloured: bool,
+    is_quiet: bool,
+}
+
+impl Console {
+    pub(crate) fn new(color: ColorChoice, is_quiet: bool) -> Self {
+        let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        let is_coloured = match color {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            ColorChoice::Auto => !refused && io::stderr().is_terminal(),
+        };
+        Self { is_coloured, is_quiet }
+    }
+
+    pub(crate) fn is_coloured(self) -> bool {
+        self.is_coloured
+    }
+
+    /// One line for the user. That stderr is closed is no reason to fail.
+    pub(crate) fn note(self, text: &str) {
+        if !self.is_quiet {
+            let _ = writeln!(io::stderr(), "{text}");
+        }
+    }
+
+    /// One line or report about what went wrong; also when quiet.
+    pub(crate) fn complain(self, text: &str) {
+        let _ = writeln!(io::stderr(), "{}", text.trim_end());
+    }
+
+    /// A bar on stderr, hidden unless that is a terminal.
+    pub(crate) fn progress(self, steps: u64) -> ProgressBar {
+        let is_shown = !self.is_quiet && io::stderr().is_terminal();
+        let target = if is_shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(steps), target);
+        let template = "{elapsed:>4} [{bar:40}] step {pos}/{len}, {per_sec}, {eta} left";
+        match ProgressStyle::with_template(template) {
+            Ok(style) => bar.with_style(style.progress_chars("=> ")),
+            Err(_) => bar,
+        }
+    }
+}
+
+/// Locked and buffered stdout: the only way to it, so that a closed pipe is an error and no panic.
+pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
+    BufWriter::new(io::stdout().lock())
+}

@@ -1,0 +1,81 @@
+//! Shows what is wrong with a scenario, with the lines that it is about.
+
+use crate::source::Source;
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use microsim_core::scenario::{Diagnostic, Diagnostics};
+use std::ops::Range;
+
+/// All problems of one scenario, as a text for a terminal.
+pub(crate) fn render(source: &Source, problems: &Diagnostics, is_coloured: bool) -> String {
+    let renderer = if is_coloured { Renderer::styled() } else { Renderer::plain() };
+    let renderer = renderer.decor_style(DecorStyle::Ascii);
+    let shown = problems.iter().map(|problem| {
+        let group = group(source, problem);
+        renderer.render(&[group])
+    });
+    let mut text = shown.collect::<Vec<_>>().join("\n\n");
+    let count = problems.iter().count();
+    let plural = if count == 1 { "" } else { "s" };
+    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", source.origin()));
+    text
+}
+
+fn group<'a>(source: &'a Source, problem: &'a Diagnostic) -> Group<'a> {
+    let title = Level::ERROR.primary_title(title(problem));
+    let group = match &problem.span {
+        Some(span) => title.element(snippet(source, span)),
+        None => title.element(origin(source, problem)),
+    };
+    match &problem.accepted {
+        Some(accepted) => group.element(Level::HELP.message(format!("accepted: {accepted}"))),
+        None => group,
+    }
+}
+
+fn title(problem: &Diagnostic) -> String {
+    let Diagnostic { field, message, .. } = problem;
+    if field.is_empty() || message.contains(&format!("`{field}`")) {
+        message.clone()
+    } else {
+        format!("`{field}`: {message}")
+    }
+}
+
+fn snippet<'a>(source: &'a Source, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+    let annotation = AnnotationKind::Primary.span(within(source.text(), span));
+    Snippet::source(source.text()).path(source.origin()).annotation(annotation)
+}
+
+fn origin<'a>(source: &'a Source, problem: &Diagnostic) -> Origin<'a> {
+    let origin = Origin::path(source.origin());
+    match (problem.line, problem.column) {
+        (Some(line), Some(column)) => origin.line(line).char_column(column),
+        (Some(line), None) => origin.line(line),
+        _ => origin,
+    }
+}
+
+/// The span, cut to the text and to whole characters: whatever it is, showing it must not panic.
+fn within(text: &str, span: &Range<usize>) -> Range<usize> {
+    let whole = |at: usize| {
+        let mut at = at.min(text.len());
+        while !text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    };
+    let start = whole(span.start);
+    start..whole(span.end).max(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::within;
+
+    #[test]
+    fn a_span_is_cut_to_whole_characters_of_the_text() {
+        assert_eq!(within("aµb", &(2..9)), 1..4);
+        assert_eq!(within("", &(5..9)), 0..0);
+    }
+}

@@ -1,0 +1,103 @@
+//! The strip below the room: a scale bar and the time, in letters made of lines so that no font is needed.
+
+use super::palette::INK;
+use super::shape::{Item, Path, Stroke};
+use microsim_core::glam::Vec2;
+
+/// Height of a digit as a share of the strip.
+const LETTER: f32 = 0.34;
+/// Height of a digit on the grid that letters are drawn on.
+const GRID: f32 = 6.0;
+/// Space between letters on that grid.
+const GAP: f32 = 1.8;
+
+/// Scale bar at the left, time at the right. `margin` is the height of the strip, units.
+pub(crate) fn draw(size: Vec2, margin: f32, time: f64) -> Vec<Item> {
+    let scale = margin * LETTER / GRID;
+    let base = -margin * 0.5 - scale * GRID * 0.5;
+    let pen = Stroke::new(INK, scale * 0.8);
+    let length = bar_length(size.x);
+    let middle = -margin * 0.5;
+    let tick = Vec2::new(0.0, scale * 1.6);
+    let (from, to) = (Vec2::new(0.0, middle), Vec2::new(length, middle));
+    let mut bar = Path::default();
+    bar.add_line(&[from, to]);
+    bar.add_line(&[from - tick, from + tick]);
+    bar.add_line(&[to - tick, to + tick]);
+    let label = format!("{length} µm");
+    let clock = format!("{time:.2} s");
+    let right = size.x - width(&clock) * scale;
+    vec![
+        Item::stroked(bar, pen),
+        Item::stroked(text(&label, Vec2::new(length + scale * 6.0, base), scale), pen),
+        Item::stroked(text(&clock, Vec2::new(right, base), scale), pen),
+    ]
+}
+
+/// The largest of 1, 2, 5, 10, ... that is at most a fifth of the width.
+fn bar_length(width: f32) -> f32 {
+    let steps = (-2..6).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f32.powi(power)));
+    steps.filter(|length| *length <= width * 0.2).fold(0.1, f32::max)
+}
+
+fn text(letters: &str, mut at: Vec2, scale: f32) -> Path {
+    let mut path = Path::default();
+    for letter in letters.chars() {
+        let (advance, lines) = glyph(letter);
+        for line in lines {
+            let points: Vec<Vec2> = line.iter().map(|&[x, y]| at + Vec2::new(x, y) * scale).collect();
+            path.add_line(&points);
+        }
+        at.x += (advance + GAP) * scale;
+    }
+    path
+}
+
+fn width(letters: &str) -> f32 {
+    letters.chars().map(|letter| glyph(letter).0 + GAP).sum::<f32>() - GAP
+}
+
+/// Lines of a letter on the grid, the base line at 0.
+type Lines = &'static [&'static [[f32; 2]]];
+
+/// Width and lines of a letter; nothing for one that captions never use.
+#[rustfmt::skip]
+fn glyph(letter: char) -> (f32, Lines) {
+    match letter {
+        '0' => (4.0, &[&[[1.0, 0.0], [3.0, 0.0], [4.0, 1.2], [4.0, 4.8], [3.0, 6.0], [1.0, 6.0], [0.0, 4.8], [0.0, 1.2], [1.0, 0.0]]]),
+        '1' => (2.4, &[&[[0.4, 4.8], [2.0, 6.0], [2.0, 0.0]]]),
+        '2' => (4.0, &[&[[0.0, 5.0], [1.0, 6.0], [3.0, 6.0], [4.0, 5.0], [4.0, 3.9], [0.0, 0.0], [4.0, 0.0]]]),
+        '3' => (4.0, &[&[[0.0, 5.2], [1.0, 6.0], [3.0, 6.0], [4.0, 5.1], [4.0, 4.0], [3.0, 3.2], [1.6, 3.2]], &[[3.0, 3.2], [4.0, 2.3], [4.0, 1.0], [3.0, 0.0], [1.0, 0.0], [0.0, 0.8]]]),
+        '4' => (4.0, &[&[[3.0, 0.0], [3.0, 6.0], [0.0, 1.8], [4.2, 1.8]]]),
+        '5' => (4.0, &[&[[3.8, 6.0], [0.5, 6.0], [0.3, 3.3], [1.2, 3.8], [3.0, 3.8], [4.0, 2.8], [4.0, 1.0], [3.0, 0.0], [1.0, 0.0], [0.0, 0.8]]]),
+        '6' => (4.0, &[&[[3.4, 6.0], [1.4, 5.0], [0.2, 3.0], [0.0, 1.4], [1.0, 0.0], [3.0, 0.0], [4.0, 1.1], [4.0, 2.4], [3.0, 3.5], [1.2, 3.5], [0.1, 2.4]]]),
+        '7' => (4.0, &[&[[0.0, 6.0], [4.0, 6.0], [1.4, 0.0]]]),
+        '8' => (4.0, &[&[[1.0, 3.2], [0.3, 4.0], [0.3, 5.2], [1.0, 6.0], [3.0, 6.0], [3.7, 5.2], [3.7, 4.0], [3.0, 3.2], [1.0, 3.2], [0.0, 2.2], [0.0, 1.0], [1.0, 0.0], [3.0, 0.0], [4.0, 1.0], [4.0, 2.2], [3.0, 3.2]]]),
+        '9' => (4.0, &[&[[0.6, 0.0], [2.6, 1.0], [3.8, 3.0], [4.0, 4.6], [3.0, 6.0], [1.0, 6.0], [0.0, 4.9], [0.0, 3.6], [1.0, 2.5], [2.8, 2.5], [3.9, 3.6]]]),
+        '.' => (0.2, &[&[[0.1, 0.0], [0.1, 0.2]]]),
+        'µ' => (4.0, &[&[[0.0, 4.2], [0.0, -1.8]], &[[0.0, 1.0], [0.9, 0.0], [2.4, 0.0], [3.4, 1.0]], &[[3.4, 4.2], [3.4, 0.6], [4.0, 0.0]]]),
+        'm' => (5.2, &[&[[0.0, 0.0], [0.0, 4.2]], &[[0.0, 3.2], [0.9, 4.2], [1.9, 4.2], [2.6, 3.4], [2.6, 0.0]], &[[2.6, 3.2], [3.5, 4.2], [4.5, 4.2], [5.2, 3.4], [5.2, 0.0]]]),
+        's' => (3.2, &[&[[3.1, 3.5], [2.4, 4.2], [0.8, 4.2], [0.1, 3.5], [0.5, 2.6], [2.7, 1.7], [3.2, 0.9], [2.5, 0.0], [0.8, 0.0], [0.0, 0.7]]]),
+        _ => (2.0, &[]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_has_a_round_length() {
+        assert_eq!(bar_length(160.0), 20.0);
+        assert_eq!(bar_length(20_000.0), 2000.0);
+        assert_eq!(bar_length(1.0), 0.2);
+    }
+
+    #[test]
+    fn every_letter_of_a_caption_has_a_shape() {
+        for letter in "0123456789.µms".chars() {
+            assert!(!glyph(letter).1.is_empty(), "{letter}");
+        }
+        assert!((width("1") - 2.4).abs() < 1e-6);
+    }
+}

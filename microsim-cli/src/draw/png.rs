@@ -1,0 +1,182 @@
+//! Painting on the processor, and PNG files.
+
+use super::shape::{Colour, Item, Paint, Path, Segment, Stroke};
+use super::{Drawing, Frame};
+use crate::failure::Failure;
+use tiny_skia::{
+    Color, FillRule, GradientStop, LineCap, LineJoin, PathBuilder, Pixmap, Point, RadialGradient, Shader, SpreadMode,
+    Transform,
+};
+
+/// An opaque picture, three bytes per pixel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Picture {
+    width: usize,
+    height: usize,
+    bytes: Vec<u8>,
+}
+
+impl Picture {
+    /// Paints a drawing so that its longer side has `longest` pixels.
+    pub(crate) fn of(drawing: &Drawing, longest: u32) -> Self {
+        let frame = drawing.frame(longest);
+        // Only a side of zero has no pixels, and a frame has none such.
+        let Some(mut pixmap) = Pixmap::new(frame.width, frame.height) else {
+            return Self::default();
+        };
+        pixmap.fill(color(drawing.background));
+        for item in &drawing.items {
+            paint(&mut pixmap, item, &frame);
+        }
+        // The background is opaque, so that premultiplied bytes are the plain ones.
+        let pixels = pixmap.pixels().iter();
+        Self {
+            width: frame.width as usize,
+            height: frame.height as usize,
+            bytes: pixels.flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect(),
+        }
+    }
+
+    /// Pictures of equal size side by side, in rows of such a length that the sheet is not too slim.
+    pub(crate) fn sheet(pictures: &[Self]) -> Self {
+        let Some(first) = pictures.first() else {
+            return Self::default();
+        };
+        let columns = columns(first, pictures.len());
+        let rows = pictures.len().div_ceil(columns);
+        let (width, height) = (first.width * columns, first.height * rows);
+        let corner = first.bytes.get(..3).unwrap_or(&[0; 3]);
+        let mut bytes = corner.repeat(width * height);
+        for (k, picture) in pictures.iter().enumerate() {
+            let (left, top) = ((k % columns) * first.width, (k / columns) * first.height);
+            let lines = picture.bytes.chunks_exact(picture.width * 3);
+            for (y, line) in lines.enumerate() {
+                let start = ((top + y) * width + left) * 3;
+                bytes[start..start + line.len()].copy_from_slice(line);
+            }
+        }
+        Self { width, height, bytes }
+    }
+
+    /// As a PNG file; fast rather than small.
+    pub(crate) fn encoded(&self) -> Result<Vec<u8>, Failure> {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        let written = encoder.write_header().and_then(|mut writer| {
+            writer.write_image_data(&self.bytes)?;
+            writer.finish()
+        });
+        written.map_err(|error| Failure::Message(format!("cannot encode a picture: {error}")))?;
+        Ok(file)
+    }
+}
+
+fn columns(tile: &Picture, count: usize) -> usize {
+    let wanted = if tile.width > tile.height * 2 {
+        2
+    } else if tile.width * 2 < tile.height {
+        6
+    } else {
+        3
+    };
+    wanted.min(count)
+}
+
+fn paint(pixmap: &mut Pixmap, item: &Item, frame: &Frame) {
+    let Some(path) = path(&item.path, frame) else {
+        return;
+    };
+    let identity = Transform::identity();
+    if let Some(shader) = item.fill.and_then(|fill| shader(fill, frame)) {
+        pixmap.fill_path(&path, &paint_with(shader), FillRule::Winding, identity, None);
+    }
+    if let Some(Stroke { colour, width }) = item.stroke {
+        let stroke = tiny_skia::Stroke {
+            width: width * frame.scale,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..tiny_skia::Stroke::default()
+        };
+        let shader = Shader::SolidColor(color(colour));
+        pixmap.stroke_path(&path, &paint_with(shader), &stroke, identity, None);
+    }
+}
+
+fn paint_with(shader: Shader<'_>) -> tiny_skia::Paint<'_> {
+    tiny_skia::Paint { shader, anti_alias: true, ..tiny_skia::Paint::default() }
+}
+
+fn shader(paint: Paint, frame: &Frame) -> Option<Shader<'static>> {
+    match paint {
+        Paint::Flat(colour) => Some(Shader::SolidColor(color(colour))),
+        Paint::Radial { centre, radius, inner, outer } => {
+            let at = frame.place(centre);
+            let at = Point::from_xy(at.x, at.y);
+            let stops = vec![GradientStop::new(0.0, color(inner)), GradientStop::new(1.0, color(outer))];
+            let radius = radius * frame.scale;
+            let identity = Transform::identity();
+            RadialGradient::new(at, 0.0, at, radius, stops, SpreadMode::Pad, identity)
+        }
+    }
+}
+
+fn path(path: &Path, frame: &Frame) -> Option<tiny_skia::Path> {
+    let mut builder = PathBuilder::new();
+    for segment in &path.segments {
+        match *segment {
+            Segment::Move(p) => {
+                let p = frame.place(p);
+                builder.move_to(p.x, p.y);
+            }
+            Segment::Line(p) => {
+                let p = frame.place(p);
+                builder.line_to(p.x, p.y);
+            }
+            Segment::Cubic(a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|p| frame.place(p));
+                builder.cubic_to(a.x, a.y, b.x, b.y, c.x, c.y);
+            }
+            Segment::Circle(centre, radius) => {
+                let centre = frame.place(centre);
+                builder.push_circle(centre.x, centre.y, radius * frame.scale);
+            }
+            Segment::Close => builder.close(),
+        }
+    }
+    builder.finish()
+}
+
+fn color(colour: Colour) -> Color {
+    let Colour { red, green, blue, alpha } = colour;
+    Color::from_rgba8(red, green, blue, (alpha * 255.0).round() as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tile(width: usize, height: usize) -> Picture {
+        Picture { width, height, bytes: vec![7; width * height * 3] }
+    }
+
+    #[test]
+    fn a_sheet_holds_all_its_pictures() {
+        let sheet = Picture::sheet(&vec![tile(4, 3); 5]);
+        assert_eq!((sheet.width, sheet.height), (12, 6));
+        assert_eq!(sheet.bytes.len(), 12 * 6 * 3);
+        assert_eq!(Picture::sheet(&vec![tile(9, 2); 6]).width, 18);
+    }
+
+    #[test]
+    fn a_picture_survives_its_file() {
+        let file = tile(4, 3).encoded().unwrap();
+        let decoder = png::Decoder::new(std::io::Cursor::new(file));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        assert_eq!(bytes, tile(4, 3).bytes);
+    }
+}

@@ -1,0 +1,59 @@
+//! Why the process ends without having done what was asked, and with which exit code.
+
+use crate::console::Console;
+use crate::diagnostics;
+use crate::source::Source;
+use microsim_core::scenario::Diagnostics;
+use std::io::ErrorKind;
+use std::path::Path;
+use std::process::ExitCode;
+
+const REFUSED: u8 = 2;
+const INTERRUPTED: u8 = 130;
+
+/// A reason to stop.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// In words.
+    Message(String),
+    /// The scenario is refused.
+    Scenario(Source, Diagnostics),
+    /// Whoever reads stdout has enough.
+    PipeClosed,
+    /// Ctrl-C; what there was has been written.
+    Interrupted,
+}
+
+impl Failure {
+    /// A file or folder that cannot be read or written.
+    pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
+        Self::Message(format!("cannot {verb} {}: {error}", path.display()))
+    }
+
+    /// Tells the user, and says which code to exit with.
+    pub(crate) fn report(self, console: &Console) -> ExitCode {
+        match self {
+            Self::Message(text) => console.complain(&format!("error: {text}")),
+            Self::Scenario(source, problems) => {
+                console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
+            }
+            Self::PipeClosed => return ExitCode::SUCCESS,
+            Self::Interrupted => {
+                console.note("interrupted");
+                return ExitCode::from(INTERRUPTED);
+            }
+        }
+        ExitCode::from(REFUSED)
+    }
+}
+
+/// Errors of stdout; those of files go through [`Failure::file`].
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        if error.kind() == ErrorKind::BrokenPipe {
+            Self::PipeClosed
+        } else {
+            Self::Message(format!("cannot write to stdout: {error}"))
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! `microsim`: runs, measures and pictures scenarios without a window.
+//!
+//! Results go to stdout, everything else to stderr. Exit codes: 0 done, 2 wrong usage, a scenario that is refused or an
+//! output that cannot be written, 130 interrupted. 1 is kept for checks that say no.
+
+mod args;
+mod bench;
+mod console;
+mod diagnostics;
+mod draw;
+mod failure;
+mod inspect;
+mod interrupt;
+mod moments;
+mod output;
+mod report;
+mod run;
+mod simulate;
+mod source;
+
+use args::{Args, Verb};
+use console::Console;
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = Args::from_command_line();
+    let console = Console::new(args.color, args.quiet);
+    match perform(&args.verb, &console) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(&console),
+    }
+}
+
+fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
+    match verb {
+        Verb::List => inspect::list(),
+        Verb::Check(args) => inspect::check(args),
+        Verb::Run(args) => run::run(args, console),
+        Verb::Bench(args) => bench::bench(args, console),
+    }
+}

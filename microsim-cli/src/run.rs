@@ -1,0 +1,141 @@
+//! `run`: a whole scenario, with its files.
+
+use crate::args::RunArgs;
+use crate::console::{Console, stdout};
+use crate::draw::png::Picture;
+use crate::draw::{self, svg};
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::moments::Moments;
+use crate::output::Outputs;
+use crate::report::{EventFile, MeasureFile, RunReport};
+use crate::simulate::{Tally, simulate};
+use crate::source::{Prepared, prepare};
+use indicatif::ProgressBar;
+use microsim_core::{Census, Inputs, World};
+use serde::Serialize;
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+/// Longer side of the picture of the last frame, pixels.
+const FRAME: u32 = 1600;
+
+/// Runs a scenario, writes its files and says what came of it.
+pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
+    let prepared = prepare(&args.scenario)?;
+    interrupt::listen();
+    let outputs = args.out.as_deref();
+    let outputs = outputs.map(|folder| Outputs::open(folder, args.force)).transpose()?;
+    let steps = steps(args, &prepared);
+    let mut world = prepared.built.world.clone();
+    let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &world, steps)).transpose()?;
+    let bar = console.progress(steps);
+    let tally = advance(&mut world, steps, &bar, record.as_mut())?;
+    bar.finish_and_clear();
+    let report = RunReport::new(&prepared, &world, tally);
+    if let (Some(record), Some(outputs)) = (record, &outputs) {
+        record.finish(outputs, &world)?;
+        write_description(outputs, &prepared, args, &report)?;
+        console.note(&format!("wrote {}", outputs.folder().display()));
+    }
+    print(&report, args.json)?;
+    if report.interrupted {
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
+}
+
+fn steps(args: &RunArgs, prepared: &Prepared) -> u64 {
+    let scenario = &prepared.scenario;
+    let seconds = args.seconds.unwrap_or(f64::from(scenario.duration()));
+    let in_time = (seconds / f64::from(scenario.config().dt)).round() as u64;
+    args.steps.unwrap_or(in_time)
+}
+
+fn advance(
+    world: &mut World,
+    steps: u64,
+    bar: &ProgressBar,
+    mut record: Option<&mut Record>,
+) -> Result<Tally, Failure> {
+    let inputs = Inputs::new();
+    let step = |world: &mut World| -> Duration {
+        let start = Instant::now();
+        world.step(&inputs);
+        start.elapsed()
+    };
+    simulate(world, steps, step, |world, census| {
+        bar.set_position(world.step_index());
+        record.as_mut().map_or(Ok(()), |record| record.add(world, census))
+    })
+}
+
+/// What `--out` collects while the run goes on.
+#[derive(Debug)]
+struct Record {
+    measures: MeasureFile,
+    events: EventFile,
+    moments: Moments,
+}
+
+impl Record {
+    fn start(outputs: &Outputs, world: &World, steps: u64) -> Result<Self, Failure> {
+        let mut moments = Moments::new(steps);
+        moments.look_at(world);
+        Ok(Self { measures: MeasureFile::create(outputs)?, events: EventFile::create(outputs)?, moments })
+    }
+
+    fn add(&mut self, world: &World, census: &Census) -> Result<(), Failure> {
+        self.moments.look_at(world);
+        self.events.add(world)?;
+        self.measures.add(world, census)
+    }
+
+    fn finish(self, outputs: &Outputs, world: &World) -> Result<(), Failure> {
+        self.measures.finish()?;
+        self.events.finish()?;
+        let drawing = draw::draw(world);
+        outputs.write("frame.svg", svg::write(&drawing, FRAME).as_bytes())?;
+        outputs.write("frame.png", &Picture::of(&drawing, FRAME).encoded()?)?;
+        outputs.write("frames.png", &self.moments.sheet().encoded()?)
+    }
+}
+
+/// `run.json`: the report, and what is needed to run it again.
+#[derive(Serialize)]
+struct Description<'a> {
+    #[serde(flatten)]
+    report: &'a RunReport,
+    target: String,
+    source: &'a str,
+    overrides: &'a [(String, String)],
+    scenario_text: &'a str,
+}
+
+fn write_description(
+    outputs: &Outputs,
+    prepared: &Prepared,
+    args: &RunArgs,
+    report: &RunReport,
+) -> Result<(), Failure> {
+    let description = Description {
+        report,
+        target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
+        source: prepared.source.origin(),
+        overrides: &args.scenario.set,
+        scenario_text: prepared.source.text(),
+    };
+    let mut text = serde_json::to_string_pretty(&description).map_err(std::io::Error::from)?;
+    text.push('\n');
+    outputs.write("run.json", text.as_bytes())
+}
+
+fn print(report: &RunReport, is_json: bool) -> Result<(), Failure> {
+    let mut out = stdout();
+    if is_json {
+        serde_json::to_writer(&mut out, report).map_err(std::io::Error::from)?;
+        writeln!(out)?;
+        return Ok(out.flush()?);
+    }
+    Ok(report.table().print(out)?)
+}

@@ -1,0 +1,64 @@
+//! The loop that both `run` and `bench` are made of: step, take the census, count.
+
+use crate::failure::Failure;
+use crate::interrupt;
+use microsim_core::{Census, World};
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// What was seen over some steps.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    /// Time of each step, ms.
+    pub step_ms: Vec<f64>,
+    /// Most leaks seen at the end of a step.
+    pub leaks: usize,
+    /// Most improper absorptions seen at the end of a step.
+    pub improper_absorptions: usize,
+    /// Events by the name of their kind.
+    pub events: BTreeMap<&'static str, u64>,
+    /// Time of everything, measures included.
+    pub wall: Duration,
+    /// Whether the user stopped it.
+    pub is_interrupted: bool,
+}
+
+impl Tally {
+    /// Number of steps taken.
+    pub(crate) fn steps(&self) -> u64 {
+        self.step_ms.len() as u64
+    }
+
+    fn add(&mut self, world: &World, census: &Census, took: Duration) {
+        self.step_ms.push(took.as_secs_f64() * 1e3);
+        self.leaks = self.leaks.max(census.leaks);
+        self.improper_absorptions = self.improper_absorptions.max(census.improper_absorptions);
+        for event in world.events() {
+            *self.events.entry(event.name()).or_default() += 1;
+        }
+    }
+}
+
+/// Takes `steps` steps with `step`, which says how long one took; `after` is shown each result. The census is taken after
+/// every step and belongs to no step's time.
+pub(crate) fn simulate(
+    world: &mut World,
+    steps: u64,
+    mut step: impl FnMut(&mut World) -> Duration,
+    mut after: impl FnMut(&World, &Census) -> Result<(), Failure>,
+) -> Result<Tally, Failure> {
+    let start = Instant::now();
+    let mut tally = Tally::default();
+    for _ in 0..steps {
+        if interrupt::is_asked() {
+            tally.is_interrupted = true;
+            break;
+        }
+        let took = step(world);
+        let census = world.census();
+        tally.add(world, &census, took);
+        after(world, &census)?;
+    }
+    tally.wall = start.elapsed();
+    Ok(tally)
+}

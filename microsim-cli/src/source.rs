@@ -1,0 +1,131 @@
+//! Where a scenario comes from: a built-in one, a file or stdin.
+
+use crate::args::ScenarioArgs;
+use crate::failure::Failure;
+use microsim_core::scenario::{Built, Diagnostics, Scenario, builtin, builtins};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Longest scenario that is read, bytes; also keeps endless devices from filling the memory.
+const LONGEST: u64 = 16 << 20;
+
+/// The text of a scenario and where it is from.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    origin: String,
+    text: String,
+}
+
+impl Source {
+    /// Name of the file, for messages.
+    pub(crate) fn origin(&self) -> &str {
+        &self.origin
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// A scenario that was parsed, with what was said about it on the command line.
+#[derive(Debug)]
+pub(crate) struct Prepared {
+    pub source: Source,
+    pub scenario: Scenario,
+    pub built: Built,
+}
+
+/// Reads, parses and builds: whatever is wrong with a scenario is found here, before anything is written.
+pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
+    let source = load(&args.scenario)?;
+    match build(&source.text, args) {
+        Ok((scenario, built)) => Ok(Prepared { source, scenario, built }),
+        Err(problems) => Err(Failure::Scenario(source, problems)),
+    }
+}
+
+fn build(text: &str, args: &ScenarioArgs) -> Result<(Scenario, Built), Diagnostics> {
+    let mut scenario = Scenario::parse(text, &args.set)?;
+    if let Some(seed) = args.seed {
+        scenario.set_seed(seed);
+    }
+    let built = scenario.build()?;
+    Ok((scenario, built))
+}
+
+fn load(name: &str) -> Result<Source, Failure> {
+    if name == "-" {
+        return read("<stdin>", Path::new("stdin"), io::stdin().lock());
+    }
+    if let Some(found) = builtin(name) {
+        return Ok(Source { origin: format!("<built-in {name}>"), text: found.text.to_owned() });
+    }
+    let path = Path::new(name);
+    if !(is_path(name) || path.exists()) {
+        return Err(unknown(name));
+    }
+    if path.is_dir() {
+        return Err(Failure::Message(format!("{name} is a directory, accepted: a scenario file")));
+    }
+    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
+    read(name, path, file)
+}
+
+fn is_path(name: &str) -> bool {
+    name.ends_with(".toml") || name.contains(std::path::is_separator)
+}
+
+fn read(origin: &str, path: &Path, from: impl Read) -> Result<Source, Failure> {
+    let mut bytes = Vec::new();
+    from.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Failure::file("read", path, &error))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Failure::Message(format!("{origin} is longer than {LONGEST} bytes, accepted: a scenario in TOML")));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| not_text(origin, &error))?;
+    Ok(Source { origin: origin.to_owned(), text })
+}
+
+fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Failure {
+    let at = error.utf8_error().valid_up_to();
+    let before = &error.as_bytes()[..at];
+    let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+    Failure::Message(format!(
+        "{origin}:{line}: byte {at} is not UTF-8 text, accepted: a scenario in TOML, which is UTF-8"
+    ))
+}
+
+fn unknown(name: &str) -> Failure {
+    let names: Vec<&str> = builtins().iter().map(|known| known.name).collect();
+    let hint = nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    Failure::Message(format!(
+        "there is no scenario {name:?}{hint}\nbuilt-in scenarios: {}\na file needs a name that ends in .toml or contains a separator",
+        names.join(", ")
+    ))
+}
+
+/// The name that was probably meant.
+fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
+    let distance = |other: &str| strsim::damerau_levenshtein(&name.to_lowercase(), other);
+    let best = names.iter().min_by_key(|other| distance(other))?;
+    let tolerated = 1 + best.len() / 4;
+    (distance(best) <= tolerated).then_some(*best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_finger_is_recognised() {
+        let names = ["empty", "platelets", "crowd"];
+        assert_eq!(nearest("Emtpy", &names), Some("empty"));
+        assert_eq!(nearest("platelet", &names), Some("platelets"));
+        assert_eq!(nearest("zebra", &names), None);
+    }
+
+    #[test]
+    fn paths_are_told_from_names() {
+        assert!(is_path("a.toml") && is_path("./a") && !is_path("crowd"));
+    }
+}
