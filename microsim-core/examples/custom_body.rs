@@ -40,13 +40,13 @@ fn main() -> Result<(), Error> {
         world.step(&Inputs::new());
     }
 
-    // Ten seconds later the pile has come down: everything lies below where the fourth one started, nothing has left the
-    // room, and each jelly still has its area to within 3 %.
+    // Ten seconds later the pile has come down: each jelly lies on the floor or on another one, none has left the room,
+    // and each still has its area to within 1 %.
     let after = areas(&world, &pile);
     for (jelly, (before, after)) in pile.iter().zip(before.iter().zip(&after)) {
         let centre = world.centroid(*jelly).unwrap_or(Vec2::NAN);
-        assert!(centre.y > 0.0 && centre.y < 33.0, "at {centre}");
-        assert!((after / before - 1.0).abs() < 0.03, "area {before} -> {after}");
+        assert!(centre.y > 2.0 && centre.y < 12.0, "at {centre}");
+        assert!((after / before - 1.0).abs() < 0.01, "area {before} -> {after}");
         println!("jelly at {centre:.1}, area {before:.1} -> {after:.1}");
     }
     let quality = world.quality();
@@ -82,7 +82,8 @@ fn jelly() -> Result<Template, Error> {
         }
     }
     let ring = outline();
-    let rest_area = (PITCH * (SIDE - 1) as f32).powi(2);
+    let width = PITCH * (SIDE - 1) as f32;
+    let rest_area = width * width;
     builder.area(Area { ring: ring.clone(), rest_area, compliance: 0.0, is_upper_bound: false });
     builder.outline(&ring);
     builder.build()

@@ -13,7 +13,7 @@ use crate::world::organisms::Organisms;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found.
+    /// Pairs that may touch before the next step are found, and neighbours in fluid.
     FindPairs,
     /// Velocities are applied and limited, positions predicted.
     PredictPositions,
@@ -23,9 +23,9 @@ pub enum Phase {
     ProjectConstraints,
     /// Discs and obstacles push each other apart.
     ProjectContacts,
-    /// What has moved gets the velocity of its move; restitution and viscosity.
+    /// What has moved gets the velocity of its move; restitution.
     UpdateVelocities,
-    /// Contacts become events, and what is no longer finite is frozen.
+    /// Viscosity; contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
@@ -94,8 +94,9 @@ fn steer(world: &mut World, inputs: &Inputs) {
 }
 
 fn find_pairs(world: &mut World) {
-    let World { config, particles, obstacles, exemptions, scratch, .. } = world;
+    let World { config, particles, fluids, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
+    fluids.iter_mut().for_each(|fluid| fluid.find_neighbours(particles));
     scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, size, reach });
 }
 
@@ -137,14 +138,14 @@ fn project_contacts(world: &mut World) {
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, fluids, scratch, .. } = world;
+    let World { config, particles, scratch, .. } = world;
     integrate::update_velocities(particles, config.damping, config.max_speed, h);
     contact::apply_restitution(&mut scratch.impacts, particles);
-    fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles));
 }
 
 fn conclude(world: &mut World) {
-    let World { particles, organisms, touching, events, scratch, .. } = world;
+    let World { config, particles, fluids, organisms, touching, events, scratch, .. } = world;
+    fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles, config.dt));
     touching.update(&scratch.broad_phase.contacts, particles, organisms, events);
     world.quarantine();
     world.rebase();

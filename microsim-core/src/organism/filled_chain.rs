@@ -30,7 +30,7 @@ pub struct AmoeboidCellSpec {
     /// Rest spacing of the cytoplasm in node radii, 1.2 to 3: particles are wider than half a gap (T17) and narrower than
     /// would keep the cell from deforming.
     pub cytoplasm_spacing: f32,
-    /// Viscosity of the cytoplasm, 0 to 1, see [`FluidParams::viscosity`].
+    /// Viscosity of the cytoplasm, 1/s, 0 to 1000, see [`FluidParams::viscosity`].
     pub viscosity: f32,
     /// Speed of its front and rear when it moves, units/s, 0 to 1000.
     pub speed: f32,
@@ -38,7 +38,7 @@ pub struct AmoeboidCellSpec {
 
 impl Default for AmoeboidCellSpec {
     fn default() -> Self {
-        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 0.05, speed: 8.0 }
+        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 25.0, speed: 8.0 }
     }
 }
 
@@ -54,7 +54,7 @@ impl AmoeboidCellSpec {
         in_range("radii.x", self.radii.x, 3.0 * self.node_radius, 500.0)?;
         in_range("radii.y", self.radii.y, 3.0 * self.node_radius, 500.0)?;
         in_range("cytoplasm_spacing", self.cytoplasm_spacing, 1.2, 3.0)?;
-        in_range("viscosity", self.viscosity, 0.0, 1.0)?;
+        in_range("viscosity", self.viscosity, 0.0, 1000.0)?;
         in_range("speed", self.speed, 0.0, 1000.0)?;
         let chain = self.chain()?;
         Ok(Blueprint {
@@ -135,7 +135,7 @@ mod tests {
         let cell = std::f32::consts::PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
         let share = fluid.points.len() as f32 * 0.866 * fluid.params.spacing.powi(2) / cell;
         assert!((0.75..1.0).contains(&share), "fills {share} of the room");
-        assert!(fluid.params.viscosity > 0.0 && fluid.params.viscosity < 0.2);
+        assert!(fluid.params.viscosity > 1.0 && fluid.params.viscosity < 100.0);
     }
 
     #[test]

@@ -19,6 +19,7 @@ use crate::solver::lanes::LANES;
 use crate::solver::membrane::{Content, Membrane};
 use crate::template::Template;
 use glam::Vec2;
+use parry2d::bounding_volume::Aabb;
 
 /// What an organism is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -248,6 +249,8 @@ pub(crate) struct Organism {
     pub spawn_area: f32,
     /// Where it was spawned.
     pub home: Vec2,
+    /// The step in which it was spawned, and the box around it then.
+    pub spawned: (u64, Aabb),
     pub is_quarantined: bool,
 }
 

@@ -111,12 +111,18 @@ pub(crate) struct Particles {
     pub fluid: Vec<u32>,
     /// Freed loose indices, the last freed first.
     free: Vec<u32>,
+    live_count: usize,
 }
 
 impl Particles {
     /// Number of entries, dead ones included.
     pub(crate) fn len(&self) -> usize {
         self.x.len()
+    }
+
+    /// Number of live particles.
+    pub(crate) fn live_count(&self) -> usize {
+        self.live_count
     }
 
     /// Whether entry `i` holds a live particle.
@@ -228,6 +234,7 @@ impl Particles {
         self.groups[i] = particle.groups;
         self.material[i] = particle.material;
         self.role[i] = particle.role;
+        self.live_count += usize::from(!self.is_live(i));
         self.next_in_ring[i] = NO_OWNER;
         self.owner[i] = particle.owner;
         self.fluid[i] = particle.fluid;
@@ -251,6 +258,7 @@ impl Particles {
 
     /// Makes entry `i` dead without freeing its index (a lane of a block).
     pub(crate) fn kill(&mut self, i: usize) {
+        self.live_count -= usize::from(self.is_live(i));
         self.vx[i] = 0.0;
         self.vy[i] = 0.0;
         self.inv_mass[i] = 0.0;

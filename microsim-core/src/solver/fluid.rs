@@ -5,18 +5,20 @@
 //! cohesion), `dx_i = s sum_j (lambda_i + lambda_j) grad W_ij / rho_0` (eq. 12). One kernel for density and gradient keeps
 //! the projection exact; its slope at `q = 0` keeps particles from clustering. Viscosity is XSPH (eq. 17).
 //!
-//! Particles are sorted by cell every substep and each gathers from its neighbours, so no order of writing matters.
+//! Once per step, and again when something has moved too far since, particles are sorted by cell and each one's possible
+//! neighbours are listed; in the substeps each gathers from its list, so no order of writing matters.
 
 use crate::collision::grid::Grid;
 use crate::error::{Error, in_range};
 use crate::particle::Particles;
 use glam::Vec2;
-use std::ops::Range;
 
 /// Kernel radius in units of the rest spacing.
 const SUPPORT: f32 = 2.0;
 /// Softens the multiplier where a particle has few neighbours; dimensionless (times 1 / H^2).
 const RELAXATION: f32 = 0.5;
+/// Neighbours are listed this much beyond the support, in units of the rest spacing.
+const MARGIN: f32 = 0.4;
 /// Share of the correction that is applied: neighbours correct the same error at once.
 const UNDER_RELAXATION: f32 = 0.7;
 /// Particles never get nearer than this share of the rest spacing ...
@@ -40,7 +42,7 @@ pub struct FluidParams {
     pub spacing: f32,
     /// Mass of a particle, 0.001 to 1000.
     pub particle_mass: f32,
-    /// Share of the velocity difference to the neighbours that is lost per substep, 0 to 1.
+    /// Rate at which velocity differences between neighbours decay, 1/s, 0 to 1000.
     pub viscosity: f32,
     /// How particles keep apart.
     pub mode: FluidMode,
@@ -48,7 +50,7 @@ pub struct FluidParams {
 
 impl Default for FluidParams {
     fn default() -> Self {
-        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 0.05, mode: FluidMode::Density }
+        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 10.0, mode: FluidMode::Density }
     }
 }
 
@@ -60,7 +62,7 @@ impl FluidParams {
     pub fn validate(&self) -> Result<(), Error> {
         in_range("spacing", self.spacing, 0.05, 100.0)?;
         in_range("particle_mass", self.particle_mass, 0.001, 1000.0)?;
-        in_range("viscosity", self.viscosity, 0.0, 1.0)
+        in_range("viscosity", self.viscosity, 0.0, 1000.0)
     }
 }
 
@@ -80,6 +82,11 @@ pub(crate) struct Fluid {
 #[derive(Clone, Debug, Default)]
 struct Sorted {
     grid: Grid,
+    /// First of each entry's possible neighbours in `neighbours`, and one past the last one's.
+    starts: Vec<u32>,
+    neighbours: Vec<u32>,
+    /// Where the entries were when neighbours were listed.
+    listed_at: Vec<Vec2>,
     x: Vec<f32>,
     y: Vec<f32>,
     multiplier: Vec<f32>,
@@ -97,12 +104,37 @@ impl Fluid {
         SUPPORT * self.params.spacing
     }
 
+    /// Sorts the particles and lists those within the support of each other, with a margin for their motion.
+    pub(crate) fn find_neighbours(&mut self, particles: &Particles) {
+        if self.particles.is_empty() {
+            return;
+        }
+        let (mut low, mut high) = (Vec2::splat(f32::INFINITY), Vec2::splat(f32::NEG_INFINITY));
+        for &i in &self.particles {
+            low = low.min(particles.position(i as usize));
+            high = high.max(particles.position(i as usize));
+        }
+        let cutoff = self.support() + MARGIN * self.params.spacing;
+        self.sorted.grid.fill(low, high, cutoff, &self.particles, |i| particles.position(i as usize));
+        self.sorted.gather(particles);
+        self.sorted.list_neighbours(cutoff);
+    }
+
+    /// Takes over the particles' positions; lists neighbours anew if one has used up its half of the margin.
+    fn refresh(&mut self, particles: &Particles) {
+        self.sorted.gather(particles);
+        let half = 0.5 * MARGIN * self.params.spacing;
+        if self.sorted.farthest_squared() > half * half {
+            self.find_neighbours(particles);
+        }
+    }
+
     /// One iteration of the density constraint (or of the grains' contacts).
     pub(crate) fn project(&mut self, particles: &mut Particles) {
         if self.particles.is_empty() {
             return;
         }
-        self.sort(particles);
+        self.refresh(particles);
         match self.params.mode {
             FluidMode::Density => {
                 self.find_multipliers();
@@ -110,127 +142,165 @@ impl Fluid {
             }
             FluidMode::Granular => self.find_granular_shifts(),
         }
-        let Sorted { grid, x, y, shift, .. } = &mut self.sorted;
-        for (k, &i) in grid.entries().iter().enumerate() {
-            x[k] += shift[k].x;
-            y[k] += shift[k].y;
-            particles.x[i as usize] += shift[k].x;
-            particles.y[i as usize] += shift[k].y;
+        for (&i, shift) in self.sorted.grid.entries().iter().zip(&self.sorted.shift) {
+            particles.x[i as usize] += shift.x;
+            particles.y[i as usize] += shift.y;
         }
     }
 
-    /// Draws the velocity of each particle towards its neighbours' mean.
-    pub(crate) fn apply_viscosity(&mut self, particles: &mut Particles) {
-        let viscosity = self.params.viscosity;
-        if viscosity <= 0.0 || self.particles.is_empty() {
+    /// Draws the velocity of each particle towards its neighbours' mean, for a whole step of `dt`.
+    pub(crate) fn apply_viscosity(&mut self, particles: &mut Particles, dt: f32) {
+        let share = self.params.viscosity * dt / (1.0 + self.params.viscosity * dt);
+        if share <= 0.0 || self.particles.is_empty() {
             return;
         }
-        let inverse_support = 1.0 / self.support();
-        let Sorted { grid, x, y, shift, velocity, .. } = &mut self.sorted;
+        let support = self.support();
+        self.refresh(particles);
+        let Sorted { grid, velocity, .. } = &mut self.sorted;
         velocity.clear();
         velocity.extend(grid.entries().iter().map(|&i| particles.velocity(i as usize)));
-        for_each_neighbourhood(grid, x, y, |k, (xk, yk), ranges| {
+        let sorted = &self.sorted;
+        for (k, &i) in sorted.grid.entries().iter().enumerate() {
             let (mut pull, mut weight) = (Vec2::ZERO, 1.0);
-            for_each_neighbour(k, (xk, yk), x, y, ranges, inverse_support, |j, _, _, q| {
+            sorted.for_each_neighbour(k, support, |j, _, _, q| {
                 let kernel = (1.0 - q) * (1.0 - q) * (1.0 - q);
-                pull += (velocity[j] - velocity[k]) * kernel;
+                pull += (sorted.velocity[j] - sorted.velocity[k]) * kernel;
                 weight += kernel;
             });
-            shift[k] = pull * (viscosity / weight);
-        });
-        for (k, &i) in grid.entries().iter().enumerate() {
-            particles.vx[i as usize] += shift[k].x;
-            particles.vy[i as usize] += shift[k].y;
+            let change = pull * (share / weight);
+            particles.vx[i as usize] += change.x;
+            particles.vy[i as usize] += change.y;
         }
-    }
-
-    fn sort(&mut self, particles: &Particles) {
-        let support = self.support();
-        let (mut low, mut high) = (Vec2::splat(f32::INFINITY), Vec2::splat(f32::NEG_INFINITY));
-        for &i in &self.particles {
-            low = low.min(particles.position(i as usize));
-            high = high.max(particles.position(i as usize));
-        }
-        let Sorted { grid, x, y, multiplier, shift, .. } = &mut self.sorted;
-        grid.fill(low, high, support, &self.particles, |i| particles.position(i as usize));
-        x.clear();
-        x.extend(grid.entries().iter().map(|&i| particles.position(i as usize).x));
-        y.clear();
-        y.extend(grid.entries().iter().map(|&i| particles.position(i as usize).y));
-        multiplier.resize(self.particles.len(), 0.0);
-        shift.resize(self.particles.len(), Vec2::ZERO);
     }
 
     fn find_multipliers(&mut self) {
-        let (inverse_support, inverse_density) = (1.0 / self.support(), 1.0 / self.rest_density);
-        let slope = 3.0 * inverse_support * inverse_density;
-        let Sorted { grid, x, y, multiplier, .. } = &mut self.sorted;
-        for_each_neighbourhood(grid, x, y, |k, at, ranges| {
+        let (support, inverse_density) = (self.support(), 1.0 / self.rest_density);
+        let slope = 3.0 * inverse_density / support;
+        let softening = RELAXATION / (support * support);
+        let mut multiplier = std::mem::take(&mut self.sorted.multiplier);
+        for (k, multiplier) in multiplier.iter_mut().enumerate() {
             let (mut density, mut gradient, mut squared) = (1.0, Vec2::ZERO, 0.0);
-            for_each_neighbour(k, at, x, y, ranges, inverse_support, |_, normal, _, q| {
+            self.sorted.for_each_neighbour(k, support, |_, normal, _, q| {
                 let rise = (1.0 - q) * (1.0 - q);
                 density += rise * (1.0 - q);
                 gradient += normal * (rise * slope);
                 squared += rise * slope * (rise * slope);
             });
             let error = density * inverse_density - 1.0;
-            let softening = RELAXATION * inverse_support * inverse_support;
-            multiplier[k] = if error > 0.0 { error / (squared + gradient.length_squared() + softening) } else { 0.0 };
-        });
+            *multiplier = if error > 0.0 { error / (squared + gradient.length_squared() + softening) } else { 0.0 };
+        }
+        self.sorted.multiplier = multiplier;
     }
 
     fn find_density_shifts(&mut self) {
-        let inverse_support = 1.0 / self.support();
-        let slope = UNDER_RELAXATION * 3.0 * inverse_support / self.rest_density;
+        let support = self.support();
+        let slope = UNDER_RELAXATION * 3.0 / (support * self.rest_density);
         let nearest = MIN_SPACING * self.params.spacing;
-        let Sorted { grid, x, y, multiplier, shift, .. } = &mut self.sorted;
-        for_each_neighbourhood(grid, x, y, |k, at, ranges| {
+        let mut shift = std::mem::take(&mut self.sorted.shift);
+        let sorted = &self.sorted;
+        for (k, shift) in shift.iter_mut().enumerate() {
             let mut sum = Vec2::ZERO;
-            for_each_neighbour(k, at, x, y, ranges, inverse_support, |j, normal, distance, q| {
-                let mut along = (multiplier[k] + multiplier[j]) * (1.0 - q) * (1.0 - q) * slope;
+            sorted.for_each_neighbour(k, support, |j, normal, distance, q| {
+                let mut along = (sorted.multiplier[k] + sorted.multiplier[j]) * (1.0 - q) * (1.0 - q) * slope;
                 if distance < nearest {
                     along += MIN_SPACING_SHARE * (nearest - distance);
                 }
                 sum += normal * along;
             });
-            shift[k] = sum;
-        });
+            *shift = sum;
+        }
+        self.sorted.shift = shift;
     }
 
     fn find_granular_shifts(&mut self) {
-        let (inverse_support, spacing) = (1.0 / self.support(), self.params.spacing);
-        let Sorted { grid, x, y, shift, .. } = &mut self.sorted;
-        for_each_neighbourhood(grid, x, y, |k, at, ranges| {
+        let spacing = self.params.spacing;
+        let mut shift = std::mem::take(&mut self.sorted.shift);
+        for (k, shift) in shift.iter_mut().enumerate() {
             let (mut sum, mut touching) = (Vec2::ZERO, 0.0);
-            for_each_neighbour(k, at, x, y, ranges, inverse_support, |_, normal, distance, _| {
-                if distance < spacing {
-                    sum += normal * (0.5 * (spacing - distance));
-                    touching += 1.0;
-                }
+            self.sorted.for_each_neighbour(k, spacing, |_, normal, distance, _| {
+                sum += normal * (0.5 * (spacing - distance));
+                touching += 1.0;
             });
             // Averaged over the contacts and over-relaxed (Macklin et al. 2014, section 4.1).
-            shift[k] = if touching > 1.0 { sum * (1.5 / touching) } else { sum };
-        });
+            *shift = if touching > 1.0 { sum * (1.5 / touching) } else { sum };
+        }
+        self.sorted.shift = shift;
     }
 
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&mut self, particles: &Particles) -> f32 {
-        if self.particles.is_empty() {
-            return 0.0;
-        }
-        self.sort(particles);
-        let (inverse_support, inverse_density) = (1.0 / self.support(), 1.0 / self.rest_density);
-        let Sorted { grid, x, y, .. } = &self.sorted;
+        self.find_neighbours(particles);
+        let (support, inverse_density) = (self.support(), 1.0 / self.rest_density);
         let mut sum = 0.0;
-        for_each_neighbourhood(grid, x, y, |k, at, ranges| {
+        for k in 0..self.particles.len() {
             let mut density = 1.0;
-            for_each_neighbour(k, at, x, y, ranges, inverse_support, |_, _, _, q| {
-                density += (1.0 - q) * (1.0 - q) * (1.0 - q);
-            });
+            self.sorted.for_each_neighbour(k, support, |_, _, _, q| density += (1.0 - q) * (1.0 - q) * (1.0 - q));
             let error = density * inverse_density - 1.0;
             sum += if error > 0.0 { error } else { 0.0 };
-        });
-        sum / self.particles.len() as f32
+        }
+        if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
+    }
+}
+
+impl Sorted {
+    /// Takes over the particles' present positions.
+    fn gather(&mut self, particles: &Particles) {
+        let entries = self.grid.entries();
+        self.x.clear();
+        self.x.extend(entries.iter().map(|&i| particles.position(i as usize).x));
+        self.y.clear();
+        self.y.extend(entries.iter().map(|&i| particles.position(i as usize).y));
+        self.multiplier.resize(entries.len(), 0.0);
+        self.shift.resize(entries.len(), Vec2::ZERO);
+    }
+
+    /// Squared distance that the fastest has moved since neighbours were listed.
+    fn farthest_squared(&self) -> f32 {
+        let now = self.x.iter().zip(&self.y);
+        let moved = now.zip(&self.listed_at).map(|((&x, &y), at)| (Vec2::new(x, y) - at).length_squared());
+        moved.fold(0.0, |far, squared| if squared > far { squared } else { far })
+    }
+
+    fn list_neighbours(&mut self, cutoff: f32) {
+        let Self { grid, starts, neighbours, listed_at, x, y, .. } = self;
+        listed_at.clear();
+        listed_at.extend(x.iter().zip(y.iter()).map(|(&x, &y)| Vec2::new(x, y)));
+        starts.clear();
+        neighbours.clear();
+        starts.push(0);
+        for row in 0..grid.rows() {
+            for column in 0..grid.columns() {
+                let columns = column.saturating_sub(1)..column + 2;
+                let below = if row > 0 { grid.row_range(row - 1, columns.clone()) } else { 0..0 };
+                let ranges = [below, grid.row_range(row, columns.clone()), grid.row_range(row + 1, columns)];
+                for k in grid.row_range(row, column..column + 1) {
+                    for j in ranges.iter().cloned().flatten() {
+                        let (dx, dy) = (x[j] - x[k], y[j] - y[k]);
+                        if dx * dx + dy * dy < cutoff * cutoff && j != k {
+                            neighbours.push(j as u32);
+                        }
+                    }
+                    starts.push(neighbours.len() as u32);
+                }
+            }
+        }
+    }
+
+    /// Calls `visit(j, n, r, q)` for each entry nearer to entry `k` than `support`: `n` is the unit vector from it to
+    /// `k`, `r` the distance and `q` its share of the support.
+    #[inline(always)]
+    fn for_each_neighbour(&self, k: usize, support: f32, mut visit: impl FnMut(usize, Vec2, f32, f32)) {
+        let (xk, yk, inverse) = (self.x[k], self.y[k], 1.0 / support);
+        for &j in &self.neighbours[self.starts[k] as usize..self.starts[k + 1] as usize] {
+            let j = j as usize;
+            let away = Vec2::new(xk - self.x[j], yk - self.y[j]);
+            let squared = away.length_squared();
+            if squared < support * support {
+                let distance = squared.sqrt();
+                let normal = if distance > 1e-6 { away / distance } else { fallback(k, j) };
+                visit(j, normal, distance, distance * inverse);
+            }
+        }
     }
 }
 
@@ -251,49 +321,6 @@ fn lattice_density() -> f32 {
         }
     }
     density
-}
-
-/// Calls `visit(k, (x_k, y_k), candidates)` for each sorted entry, with the three rows of cells around it.
-fn for_each_neighbourhood(
-    grid: &Grid,
-    x: &[f32],
-    y: &[f32],
-    mut visit: impl FnMut(usize, (f32, f32), &[Range<usize>; 3]),
-) {
-    for row in 0..grid.rows() {
-        for column in 0..grid.columns() {
-            let columns = column.saturating_sub(1)..column + 2;
-            let below = if row > 0 { grid.row_range(row - 1, columns.clone()) } else { 0..0 };
-            let ranges = [below, grid.row_range(row, columns.clone()), grid.row_range(row + 1, columns)];
-            for k in grid.row_range(row, column..column + 1) {
-                visit(k, (x[k], y[k]), &ranges);
-            }
-        }
-    }
-}
-
-/// Calls `visit(j, n, r, q)` for each entry nearer than the support, `n` the unit vector from it.
-#[inline(always)]
-fn for_each_neighbour(
-    k: usize,
-    (xk, yk): (f32, f32),
-    x: &[f32],
-    y: &[f32],
-    ranges: &[Range<usize>; 3],
-    inverse_support: f32,
-    mut visit: impl FnMut(usize, Vec2, f32, f32),
-) {
-    for range in ranges {
-        for j in range.clone() {
-            let away = Vec2::new(xk - x[j], yk - y[j]);
-            let distance = away.length();
-            let q = distance * inverse_support;
-            if q < 1.0 && j != k {
-                let normal = if distance > 1e-6 { away / distance } else { fallback(k, j) };
-                visit(j, normal, distance, q);
-            }
-        }
-    }
 }
 
 /// Opposite directions for two particles in the same place.
@@ -328,6 +355,7 @@ mod tests {
         let (mut fluid, mut particles) = block(FluidMode::Density, 0.7);
         let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
         for _ in 0..60 {
+            fluid.find_neighbours(&particles);
             fluid.project(&mut particles);
         }
         let after = fluid.mean_compression(&particles);
@@ -339,6 +367,7 @@ mod tests {
     fn fluid_at_rest_density_or_below_stays() {
         let (mut fluid, mut particles) = block(FluidMode::Density, 1.3);
         let before = particles.clone();
+        fluid.find_neighbours(&particles);
         fluid.project(&mut particles);
         assert!((0..200).all(|i| (particles.position(i) - before.position(i)).length() < 1e-6));
     }
@@ -347,6 +376,7 @@ mod tests {
     fn grains_separate_to_their_spacing() {
         let (mut fluid, mut particles) = block(FluidMode::Granular, 0.8);
         for _ in 0..200 {
+            fluid.find_neighbours(&particles);
             fluid.project(&mut particles);
         }
         for i in 0..200 {
@@ -365,10 +395,11 @@ mod tests {
             particles.vx[i] = rng.range(-1.0, 1.0);
         }
         let spread = |p: &Particles| p.vx.iter().map(|v| v * v).sum::<f32>();
-        fluid.params.viscosity = 0.5;
+        fluid.params.viscosity = 60.0;
         let before = spread(&particles);
+        fluid.find_neighbours(&particles);
         fluid.project(&mut particles);
-        (0..10).for_each(|_| fluid.apply_viscosity(&mut particles));
+        (0..10).for_each(|_| fluid.apply_viscosity(&mut particles, 1.0 / 60.0));
         assert!(spread(&particles) < 0.1 * before);
     }
 
@@ -380,6 +411,7 @@ mod tests {
             fluid.particles.push(particles.insert(&disc(Vec2::ONE, 1.0)));
         }
         for _ in 0..20 {
+            fluid.find_neighbours(&particles);
             fluid.project(&mut particles);
         }
         let spread = (0..4).map(|i| (particles.position(i) - Vec2::ONE).length()).sum::<f32>();

@@ -277,19 +277,19 @@ mod tests {
             change(&mut builder);
             assert_eq!(builder.build().unwrap_err().field(), field);
         };
-        refuse(&|b| drop(b.node(Node::disc(Vec2::NAN, 1.0, 0.5))), "nodes[2].position.x");
-        refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 0.0, 0.5))), "nodes[2].mass");
-        refuse(&|b| drop(b.node(Node::disc(Vec2::ZERO, 1.0, -0.5))), "nodes[2].radius");
-        refuse(&|b| drop(b.link(0, 7, 0.0)), "distances[0].a");
-        refuse(&|b| drop(b.link(1, 1, 0.0)), "distances[0].a");
-        refuse(&|b| drop(b.link(0, 1, f32::NAN)), "distances[0].compliance");
-        refuse(&|b| drop(b.rope(Rope { a: 0, b: 1, max_length: -1.0 })), "ropes[0].max_length");
-        refuse(&|b| drop(b.min_distance(MinDistance { a: 0, b: 9, min_length: 1.0 })), "min_distances[0].a");
+        refuse(&|b| _ = b.node(Node::disc(Vec2::NAN, 1.0, 0.5)), "nodes[2].position.x");
+        refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 0.0, 0.5)), "nodes[2].mass");
+        refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -0.5)), "nodes[2].radius");
+        refuse(&|b| _ = b.link(0, 7, 0.0), "distances[0].a");
+        refuse(&|b| _ = b.link(1, 1, 0.0), "distances[0].a");
+        refuse(&|b| _ = b.link(0, 1, f32::NAN), "distances[0].compliance");
+        refuse(&|b| _ = b.rope(Rope { a: 0, b: 1, max_length: -1.0 }), "ropes[0].max_length");
+        refuse(&|b| _ = b.min_distance(MinDistance { a: 0, b: 9, min_length: 1.0 }), "min_distances[0].a");
         let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
-        refuse(&|b| drop(b.anchor(anchor)), "anchors[0].max_length");
-        refuse(&|b| drop(b.outline(&[0, 1])), "outline");
+        refuse(&|b| _ = b.anchor(anchor), "anchors[0].max_length");
+        refuse(&|b| _ = b.outline(&[0, 1]), "outline");
         let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
-        refuse(&|b| drop(b.area(area.clone())), "areas[0].ring");
+        refuse(&|b| _ = b.area(area.clone()), "areas[0].ring");
         assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));
     }
 }

@@ -25,7 +25,7 @@ impl World {
     /// When the handle is stale, the organism has no membrane or the world would hold too many particles. Nothing is
     /// changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
-        let asked = self.particles.live().count() as u64 + u64::from(nodes) + u64::from(particles);
+        let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
             return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));

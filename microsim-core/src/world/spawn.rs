@@ -12,6 +12,7 @@ use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
+use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
 /// Discs may overlap by this share of the sum of their radii when they are spawned: neighbours may touch.
 const OVERLAP_TOLERANCE: f32 = 0.02;
@@ -61,7 +62,7 @@ impl World {
 
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
-        let asked = self.particles.live().count() as u64 + blueprint.particle_count() as u64;
+        let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
             return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
@@ -97,6 +98,7 @@ impl World {
             rng: Rng::new(self.config.seed, (u64::from(id.generation) << 32) | u64::from(id.index)),
             spawn_area: 0.0,
             home: placement.at,
+            spawned: (self.step_index, bounds_of(&planned)),
             is_quarantined: false,
         };
         let outline: Vec<Vec2> = organism.outline_particles().map(|i| self.particles.position(i as usize)).collect();
@@ -133,17 +135,28 @@ impl World {
         if obstacles.into_iter().any(|obstacle| discs.iter().any(|disc| blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
-        let bounds = Bounds::around(discs);
+        let bounds = bounds_of(discs);
+        let (hit, _) = self.organisms.iter().find(|(_, organism)| self.overlaps(organism, discs, &bounds))?;
+        let centre = self.centroid(hit)?;
+        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(hit)?.name(), centre.x, centre.y))
+    }
+
+    /// Whether an organism overlaps discs within these bounds.
+    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
+        // Where it was spawned it still is, if there was no step since: that makes filling a world linear in its particles.
+        let (step, spawn_bounds) = &organism.spawned;
+        if *step == self.step_index && !spawn_bounds.intersects(bounds) {
+            return false;
+        }
         let p = &self.particles;
-        let hit = p.live().filter(|&i| bounds.touches(p.position(i), p.radius[i])).find(|&i| {
-            discs.iter().any(|disc| {
-                let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
-                disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
-            })
-        })?;
-        let organism = self.organisms.id_at(p.owner[hit])?;
-        let centre = self.centroid(organism)?;
-        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(organism)?.name(), centre.x, centre.y))
+        organism.particles().map(|i| i as usize).any(|i| {
+            let near = bounds.loosened(p.radius[i]);
+            near.contains_local_point(p.position(i))
+                && discs.iter().any(|disc| {
+                    let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
+                    disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
+                })
+        })
     }
 
     /// Puts a body into a lane of a block of its template.
@@ -247,21 +260,11 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
 }
 
 /// Axis-aligned box around discs.
-struct Bounds {
-    low: Vec2,
-    high: Vec2,
-}
-
-impl Bounds {
-    fn around(discs: &[Particle]) -> Self {
-        let empty = Self { low: Vec2::splat(f32::INFINITY), high: Vec2::splat(f32::NEG_INFINITY) };
-        discs.iter().fold(empty, |b, disc| Self {
-            low: b.low.min(disc.position() - disc.radius),
-            high: b.high.max(disc.position() + disc.radius),
-        })
+fn bounds_of(discs: &[Particle]) -> Aabb {
+    let mut bounds = Aabb::new_invalid();
+    for disc in discs {
+        bounds.take_point(disc.position() - disc.radius);
+        bounds.take_point(disc.position() + disc.radius);
     }
-
-    fn touches(&self, centre: Vec2, radius: f32) -> bool {
-        centre.cmpge(self.low - radius).all() && centre.cmple(self.high + radius).all()
-    }
+    bounds
 }

@@ -5,14 +5,14 @@ use microsim_core::glam::Vec2;
 use microsim_core::{Controller, Inputs, OrganismId, OrganismSpec, Placement, ProbeSpec, World, WorldConfig};
 
 /// Takes `steps` steps.
-pub fn run(world: &mut World, inputs: &Inputs, steps: u32) {
+pub(crate) fn run(world: &mut World, inputs: &Inputs, steps: u32) {
     for _ in 0..steps {
         world.step(inputs);
     }
 }
 
 /// An organism in the middle of the room with a probe on each side that presses towards it.
-pub fn squeeze(spec: &OrganismSpec) -> (World, OrganismId) {
+pub(crate) fn squeeze(spec: &OrganismSpec) -> (World, OrganismId) {
     let mut world = World::new(WorldConfig::default()).unwrap();
     let organism = world.spawn(spec, Placement::at(80.0, 45.0)).unwrap();
     for side in [-1.0, 1.0] {
@@ -25,18 +25,18 @@ pub fn squeeze(spec: &OrganismSpec) -> (World, OrganismId) {
 }
 
 /// Distance of each body of the outline from the outline's centre.
-pub fn distances_from_centre(world: &World, organism: OrganismId) -> Vec<f32> {
+pub(crate) fn distances_from_centre(world: &World, organism: OrganismId) -> Vec<f32> {
     let centre = world.centroid(organism).unwrap();
     world.view().organism(organism).unwrap().outline().map(|at| (at - centre).length()).collect()
 }
 
 /// Largest relative change between two lists.
-pub fn largest_change(before: &[f32], after: &[f32]) -> f32 {
+pub(crate) fn largest_change(before: &[f32], after: &[f32]) -> f32 {
     before.iter().zip(after).map(|(b, a)| (a / b - 1.0).abs()).fold(0.0, f32::max)
 }
 
 /// Whether every disc of every organism is within the walls, with `tolerance`.
-pub fn everything_is_inside(world: &World, tolerance: f32) -> bool {
+pub(crate) fn everything_is_inside(world: &World, tolerance: f32) -> bool {
     let size = world.config().size;
     world.view().organisms().flat_map(|organism| organism.particles()).all(|p| {
         let margin = Vec2::splat(p.radius - tolerance);

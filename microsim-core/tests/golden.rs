@@ -1,0 +1,86 @@
+//! Golden digests: every built-in scenario ends in the state that is written down, on every platform and in every build.
+//!
+//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features scenario --test golden` writes them anew; a changed digest is
+//! explained in CHANGELOG.md.
+#![cfg(feature = "scenario")]
+
+use microsim_core::scenario::{Scenario, builtin, builtins};
+use microsim_core::{Inputs, World};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+const STEPS: [u32; 3] = [1, 60, 300];
+
+fn build(name: &str, seed: Option<u64>) -> World {
+    let mut scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+    seed.into_iter().for_each(|seed| scenario.set_seed(seed));
+    scenario.build().unwrap().world
+}
+
+fn golden_file(name: &str) -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR"), "tests", "golden", &format!("{name}.txt")].iter().collect()
+}
+
+/// Digests and counts after some numbers of steps, a line each.
+fn history(name: &str) -> String {
+    let mut world = build(name, None);
+    let mut lines = String::new();
+    for steps in STEPS {
+        while world.step_index() < u64::from(steps) {
+            world.step(&Inputs::new());
+        }
+        let census = world.census();
+        writeln!(lines, "step {steps} particles {} digest {:016x}", census.particles, world.digest()).unwrap();
+    }
+    lines
+}
+
+#[test]
+fn built_in_scenarios_end_in_their_golden_digests() {
+    for scenario in builtins() {
+        let file = golden_file(scenario.name);
+        let now = history(scenario.name);
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
+            std::fs::write(&file, &now).unwrap();
+        }
+        let golden = std::fs::read_to_string(&file).unwrap_or_default();
+        assert_eq!(now, golden, "{} differs: if that is meant, write it anew with UPDATE_GOLDEN=1", file.display());
+    }
+}
+
+#[test]
+fn equal_seeds_give_equal_worlds_and_other_seeds_other_ones() {
+    let run = |seed: u64| {
+        let mut world = build("demo", Some(seed));
+        (0..120).for_each(|_| world.step(&Inputs::new()));
+        world.digest()
+    };
+    assert_eq!(run(5), run(5));
+    assert_ne!(run(5), run(6));
+}
+
+#[test]
+fn a_clone_has_the_same_future() {
+    let mut world = build("demo", None);
+    (0..60).for_each(|_| world.step(&Inputs::new()));
+    let mut clone = world.clone();
+    assert_eq!(world.digest(), clone.digest());
+    for step in 0..60 {
+        world.step(&Inputs::new());
+        clone.step(&Inputs::new());
+        assert_eq!(world.digest(), clone.digest(), "step {step}");
+        assert_eq!(world.events(), clone.events(), "step {step}");
+    }
+}
+
+#[test]
+fn nothing_leaks_or_is_lost_in_the_demonstration() {
+    let mut world = build("demo", None);
+    let before = world.census();
+    for step in 0..900 {
+        world.step(&Inputs::new());
+        let census = world.census();
+        assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0), "step {step}");
+        assert_eq!((census.bodies, census.particles), (before.bodies, before.particles), "step {step}");
+    }
+}
