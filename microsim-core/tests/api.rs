@@ -1,4 +1,5 @@
 //! What an embedder relies on: handles, checked input, queries, events, exemptions.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Platelets, agar and walls (seed, 3.1.4 and 3.3.1). The structure's tests are beside `platelet.rs` and `agar.rs`.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 

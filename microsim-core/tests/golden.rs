@@ -2,6 +2,7 @@
 //!
 //! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features scenario --test golden` writes them anew; a changed digest is
 //! explained in CHANGELOG.md.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 #![cfg(feature = "scenario")]
 
 use microsim_core::scenario::{Scenario, builtin, builtins};

@@ -33,12 +33,11 @@ pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles:
 #[inline(always)]
 fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Particles) {
     let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
-    let mut multiplier = [0.0; L];
-    for l in 0..L {
+    let multiplier = std::array::from_fn(|l| {
         let excess = pair.length[l] - length * span.scale[l];
         let active = if excess > 0.0 { excess } else { 0.0 };
-        multiplier[l] = ratio(-active, pair.weight(l) + alpha);
-    }
+        ratio(-active, pair.weight(l) + alpha)
+    });
     pair.push(particles, multiplier);
 }
 

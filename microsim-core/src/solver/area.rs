@@ -68,9 +68,9 @@ pub(crate) fn enforce(polygon: &Polygon, ring: &[u32], error: f32, alpha: f32, p
     let mut before = offset(particles, count - 1);
     let mut here = Vec2::ZERO;
     let mut moved_first = Vec2::ZERO;
-    for k in 0..count {
+    for (k, &node) in ring.iter().enumerate() {
         let after = if k + 1 == count { Vec2::ZERO } else { offset(particles, k + 1) + moved_first };
-        let i = ring[k] as usize;
+        let i = node as usize;
         let by = gradient(after - before) * (multiplier * particles.inv_mass[i]);
         particles.x[i] += by.x;
         particles.y[i] += by.y;

@@ -67,20 +67,20 @@ mod tests {
         let mut block = Block::new(0, 5, &mut in_lanes);
         block.owner = [0; LANES];
         let mut loose = vec![Particles::default(); LANES];
-        for lane in 0..LANES {
+        for (lane, loose) in loose.iter_mut().enumerate() {
             for slot in 0..5 {
                 in_lanes.set(block.particle(slot, lane) as usize, &disc(wobbly(slot, lane), 1.0));
-                loose[lane].insert(&disc(wobbly(slot, lane), 1.0));
+                loose.insert(&disc(wobbly(slot, lane), 1.0));
             }
         }
         for _ in 0..10 {
             block.project(&constraints, &mut in_lanes, 0.01);
             loose.iter_mut().for_each(|p| constraints.project(Span::LOOSE, p, 0.01));
         }
-        for lane in 0..LANES {
+        for (lane, loose) in loose.iter().enumerate() {
             for slot in 0..5 {
                 let i = block.particle(slot, lane) as usize;
-                assert_eq!(in_lanes.position(i), loose[lane].position(slot as usize), "slot {slot} lane {lane}");
+                assert_eq!(in_lanes.position(i), loose.position(slot as usize), "slot {slot} lane {lane}");
             }
         }
     }

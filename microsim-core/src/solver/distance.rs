@@ -31,11 +31,10 @@ pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particle
         let gamma = c.damping / h;
         let resisted = if c.damping > 0.0 { pair.opening(particles) } else { [0.0; L] };
         let alpha = c.compliance / (h * h);
-        let mut multiplier = [0.0; L];
-        for l in 0..L {
+        let multiplier = std::array::from_fn(|l| {
             let error = pair.length[l] - c.rest_length * span.scale[l];
-            multiplier[l] = ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha);
-        }
+            ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha)
+        });
         pair.push(particles, multiplier);
     }
 }

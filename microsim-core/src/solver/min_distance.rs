@@ -21,12 +21,11 @@ pub struct MinDistance {
 pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Particles) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let mut multiplier = [0.0; L];
-        for l in 0..L {
+        let multiplier = std::array::from_fn(|l| {
             let deficit = c.min_length * span.scale[l] - pair.length[l];
             let active = if deficit > 0.0 { deficit } else { 0.0 };
-            multiplier[l] = ratio(active, pair.weight(l));
-        }
+            ratio(active, pair.weight(l))
+        });
         pair.push(particles, multiplier);
     }
 }

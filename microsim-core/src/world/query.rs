@@ -42,10 +42,10 @@ impl World {
         let mut nearest: Option<(OrganismId, f32, Vec2)> = None;
         for (id, i) in hits.filter(|&(_, i)| self.particles.groups[i].memberships != 0) {
             let centre = self.particles.position(i);
-            if let Some(distance) = ray_to_circle(origin, direction, centre, self.particles.radius[i]) {
-                if distance <= length && nearest.is_none_or(|(_, best, _)| distance < best) {
-                    nearest = Some((id, distance, centre));
-                }
+            let distance = ray_to_circle(origin, direction, centre, self.particles.radius[i]);
+            let is_first = |&d: &f32| d <= length && nearest.is_none_or(|(_, best, _)| d < best);
+            if let Some(distance) = distance.filter(is_first) {
+                nearest = Some((id, distance, centre));
             }
         }
         nearest.map(|(organism, distance, centre)| {
