@@ -1,0 +1,71 @@
+//! Scenes and clocks that the benchmarks share.
+
+use microsim_core::scenario::{self, Scenario};
+use microsim_core::{Inputs, Phase, World};
+use std::time::{Duration, Instant};
+
+/// Steps before measuring starts: things have met by then.
+const WARM_UP: usize = 240;
+/// Steps after which a measurement starts over from the same state, so that its length does not change what is measured.
+const STRETCH: u64 = 120;
+
+/// A built-in scenario in full swing.
+///
+/// # Panics
+/// When there is no such scenario, or it cannot be built.
+#[must_use]
+pub fn scene(name: &str, overrides: &[(&str, &str)]) -> World {
+    let found = scenario::builtin(name).expect("the scenario is built in");
+    let pairs: Vec<_> = overrides.iter().map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
+    let scenario = Scenario::parse(found.text, &pairs).expect("the scenario is valid");
+    warmed_up(scenario.build().expect("the scenario can be built").world)
+}
+
+/// `platelets` with this many of them.
+#[must_use]
+pub fn platelets(count: u32) -> World {
+    scene("platelets", &[("count", &count.to_string())])
+}
+
+/// The world some seconds later.
+#[must_use]
+pub fn warmed_up(mut world: World) -> World {
+    (0..WARM_UP).for_each(|_| world.step(&Inputs::new()));
+    world
+}
+
+/// Time of so many steps from this state, a stretch at a time.
+#[must_use]
+pub fn time_of_steps(start: &World, steps: u64) -> Duration {
+    in_stretches(start, steps, |world| {
+        let begin = Instant::now();
+        world.step(&Inputs::new());
+        begin.elapsed()
+    })
+}
+
+/// Time of one phase in so many steps from this state.
+#[must_use]
+pub fn time_of_phase(start: &World, steps: u64, phase: Phase) -> Duration {
+    in_stretches(start, steps, |world| {
+        let (mut spent, mut last) = (Duration::ZERO, Instant::now());
+        world.step_observed(&Inputs::new(), |finished| {
+            let now = Instant::now();
+            if finished == phase {
+                spent += now - last;
+            }
+            last = now;
+        });
+        spent
+    })
+}
+
+fn in_stretches(start: &World, steps: u64, mut timed: impl FnMut(&mut World) -> Duration) -> Duration {
+    let mut world = start.clone();
+    (0..steps).fold(Duration::ZERO, |sum, step| {
+        if step > 0 && step % STRETCH == 0 {
+            world = start.clone();
+        }
+        sum + timed(&mut world)
+    })
+}

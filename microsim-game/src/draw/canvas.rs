@@ -1,0 +1,186 @@
+//! Collects triangles and hands them over in few draw calls: one texture, and never more vertices than a call holds.
+
+use super::atlas::{self, Tile};
+use crate::convert;
+use crate::window;
+use macroquad::color::Color;
+use macroquad::models::{Mesh, draw_mesh};
+use macroquad::texture::Texture2D;
+use microsim_core::glam::Vec2;
+use std::fmt;
+
+/// Points of an outline that share their vertices with the next ones.
+const RUN: usize = 256;
+/// What a mesh may hold: macroquad cuts off one that fills a draw call to the brim.
+const MAX_VERTICES: usize = window::CALL_VERTICES - 1;
+const MAX_INDICES: usize = window::CALL_INDICES - 3;
+
+/// A drawing surface in picture pixels, x right, y down.
+pub(crate) struct Canvas {
+    mesh: Mesh,
+}
+
+impl fmt::Debug for Canvas {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Canvas").field("vertices", &self.mesh.vertices.len()).finish_non_exhaustive()
+    }
+}
+
+/// One line of a band: how far out from the outline, and in what colour.
+pub(crate) type Rim = (f32, Color);
+
+impl Canvas {
+    pub(crate) fn new() -> Self {
+        let texture = Texture2D::from_rgba8(atlas::WIDTH, atlas::HEIGHT, &atlas::pixels());
+        Self {
+            mesh: Mesh {
+                vertices: Vec::with_capacity(MAX_VERTICES),
+                indices: Vec::with_capacity(MAX_INDICES),
+                texture: Some(texture),
+            },
+        }
+    }
+
+    /// Draws what has been collected.
+    pub(crate) fn flush(&mut self) {
+        if !self.mesh.indices.is_empty() {
+            draw_mesh(&self.mesh);
+        }
+        self.mesh.vertices.clear();
+        self.mesh.indices.clear();
+    }
+
+    /// A square with a picture of the atlas on it.
+    pub(crate) fn sprite(&mut self, centre: Vec2, half: f32, tile: Tile, colour: Color) {
+        self.stamp(centre, Vec2::splat(half), tile, colour);
+    }
+
+    /// A rectangle with a picture of the atlas on it.
+    pub(crate) fn stamp(&mut self, centre: Vec2, half: Vec2, tile: Tile, colour: Color) {
+        self.reserve(4, 6);
+        let corners = [Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0), Vec2::ONE, Vec2::new(-1.0, 1.0)];
+        let [a, b, c, d] = corners.map(|corner| self.vertex(centre + corner * half, tile.at(corner), colour));
+        self.triangle(a, b, c);
+        self.triangle(a, c, d);
+    }
+
+    /// A plain rectangle.
+    pub(crate) fn rectangle(&mut self, low: Vec2, high: Vec2, colour: Color) {
+        self.quad([low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)], [colour; 4]);
+    }
+
+    /// A plain quadrangle.
+    pub(crate) fn quad(&mut self, corners: [Vec2; 4], colours: [Color; 4]) {
+        self.reserve(4, 6);
+        let at = |k: usize| self.mesh.vertices.len() as u16 + k as u16;
+        let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
+        corners.iter().zip(colours).for_each(|(&corner, colour)| {
+            self.vertex(corner, atlas::plain(), colour);
+        });
+        self.triangle(a, b, c);
+        self.triangle(a, c, d);
+    }
+
+    /// A polygon that was cut into triangles.
+    pub(crate) fn fill(&mut self, points: &[Vec2], triangles: &[[u32; 3]], colour: Color) {
+        for part in triangles.chunks(MAX_INDICES / 3) {
+            if points.len() <= MAX_VERTICES {
+                self.reserve(points.len(), part.len() * 3);
+                let base = self.mesh.vertices.len() as u32;
+                for &point in points {
+                    self.vertex(point, atlas::plain(), colour);
+                }
+                for triangle in part {
+                    let [a, b, c] = triangle.map(|index| (base + index) as u16);
+                    self.triangle(a, b, c);
+                }
+            } else {
+                for triangle in part {
+                    self.reserve(3, 3);
+                    let [a, b, c] = triangle.map(|index| self.vertex(points[index as usize], atlas::plain(), colour));
+                    self.triangle(a, b, c);
+                }
+            }
+        }
+    }
+
+    /// A closed outline filled from a centre, with the disc that is inscribed in a tile stretched over it: point `k` of
+    /// `n` shows the tile at the angle `k / n` of a turn.
+    pub(crate) fn fan(&mut self, centre: Vec2, outline: &[Vec2], tile: Tile, colour: Color) {
+        let count = outline.len();
+        for start in (0..count).step_by(RUN) {
+            let end = (start + RUN).min(count);
+            self.reserve(end - start + 2, (end - start) * 3);
+            let hub = self.vertex(centre, tile.at(Vec2::ZERO), colour);
+            for k in start..=end {
+                let angle = k as f32 / count as f32 * std::f32::consts::TAU;
+                let on_tile = Vec2::new(angle.cos(), -angle.sin());
+                let tip = self.vertex(outline[k % count], tile.at(on_tile), colour);
+                if k > start {
+                    self.triangle(hub, tip - 1, tip);
+                }
+            }
+        }
+    }
+
+    /// A band along a closed outline, counter-clockwise in the room: colours run from each of `rims` to the next.
+    pub(crate) fn band(&mut self, outline: &[Vec2], rims: &[Rim]) {
+        self.strip(outline, outline.len(), rims);
+    }
+
+    /// A band along an open line; out is to the right when walking along it with y up.
+    pub(crate) fn line(&mut self, points: &[Vec2], rims: &[Rim]) {
+        self.strip(points, points.len().saturating_sub(1), rims);
+    }
+
+    fn strip(&mut self, points: &[Vec2], segments: usize, rims: &[Rim]) {
+        let (count, across) = (points.len(), rims.len() as u16);
+        if count < 2 || across < 2 {
+            return;
+        }
+        for start in (0..segments).step_by(RUN) {
+            let end = (start + RUN).min(segments);
+            self.reserve((end - start + 1) * rims.len(), (end - start) * (rims.len() - 1) * 6);
+            for k in start..=end {
+                let out = outward(points, k, segments < count);
+                let first = self.mesh.vertices.len() as u16;
+                for &(offset, colour) in rims {
+                    self.vertex(points[k % count] + out * offset, atlas::plain(), colour);
+                }
+                if k > start {
+                    for j in first..first + across - 1 {
+                        self.triangle(j, j + 1, j - across);
+                        self.triangle(j + 1, j - across, j + 1 - across);
+                    }
+                }
+            }
+        }
+    }
+
+    fn reserve(&mut self, vertices: usize, indices: usize) {
+        let is_full = self.mesh.vertices.len() + vertices > MAX_VERTICES;
+        if is_full || self.mesh.indices.len() + indices > MAX_INDICES {
+            self.flush();
+        }
+    }
+
+    fn vertex(&mut self, position: Vec2, uv: Vec2, colour: Color) -> u16 {
+        self.mesh.vertices.push(convert::vertex(position, uv, colour));
+        self.mesh.vertices.len() as u16 - 1
+    }
+
+    fn triangle(&mut self, a: u16, b: u16, c: u16) {
+        self.mesh.indices.extend([a, b, c]);
+    }
+}
+
+/// Unit normal at a point of a line, out of a counter-clockwise outline, in picture pixels.
+fn outward(points: &[Vec2], k: usize, is_open: bool) -> Vec2 {
+    let count = points.len();
+    let (before, after) = if is_open {
+        (k.saturating_sub(1), (k + 1).min(count - 1))
+    } else {
+        ((k + count - 1) % count, (k + 1) % count)
+    };
+    (points[after] - points[before]).perp().normalize_or_zero()
+}

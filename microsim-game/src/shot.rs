@@ -1,0 +1,90 @@
+//! Pictures: drawn into a target of their own, because reading the window back gives black pictures on some systems.
+
+use crate::convert;
+use macroquad::camera::{Camera2D, set_camera, set_default_camera};
+use macroquad::texture::{RenderTarget, render_target};
+use microsim_core::glam::Vec2;
+use std::io;
+use std::path::Path;
+
+/// A target to draw a picture into, kept as long as its size is right.
+#[derive(Debug, Default)]
+pub struct Shot {
+    target: Option<((u32, u32), RenderTarget)>,
+}
+
+impl Shot {
+    /// Draws a picture of `size` pixels that shows `view` drawing units, and writes it as a PNG.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn take(&mut self, path: &Path, size: (u32, u32), view: Vec2, draw: impl FnOnce()) -> io::Result<()> {
+        let target = self.target_of(size);
+        set_camera(&camera(target.clone(), view));
+        draw();
+        // Ends the target's pass, so that it can be read.
+        set_default_camera();
+        let image = target.texture.get_texture_data();
+        write_png(path, size, &upright(&image.bytes, size))
+    }
+
+    fn target_of(&mut self, size: (u32, u32)) -> RenderTarget {
+        match &self.target {
+            Some((known, target)) if *known == size => target.clone(),
+            _ => {
+                let target = render_target(size.0, size.1);
+                self.target = Some((size, target.clone()));
+                target
+            }
+        }
+    }
+}
+
+/// Drawing units from the upper left corner of the target, y down, like the window's.
+fn camera(target: RenderTarget, view: Vec2) -> Camera2D {
+    Camera2D {
+        zoom: convert::pair(Vec2::new(2.0, -2.0) / view),
+        target: convert::pair(view * 0.5),
+        render_target: Some(target),
+        ..Camera2D::default()
+    }
+}
+
+/// Rows as they come from the graphics card, lowest first, turned round; no longer transparent.
+fn upright(bytes: &[u8], (width, _): (u32, u32)) -> Vec<u8> {
+    let rows = bytes.chunks_exact(width as usize * 4).rev();
+    let pixels = rows.flat_map(|row| row.chunks_exact(4));
+    pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect()
+}
+
+fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> io::Result<()> {
+    let file = io::BufWriter::new(std::fs::File::create(path)?);
+    let mut encoder = png::Encoder::new(file, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.write_header()?.write_image_data(pixels)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_are_upright_and_opaque() {
+        let bytes = [1, 2, 3, 0, 4, 5, 6, 9];
+        assert_eq!(upright(&bytes, (1, 2)), [4, 5, 6, 255, 1, 2, 3, 255]);
+    }
+
+    #[test]
+    fn a_written_picture_has_its_size() {
+        let path = std::env::temp_dir().join(format!("microsim-shot-{}.png", std::process::id()));
+        write_png(&path, (3, 2), &[7; 24]).unwrap();
+        let decoder = png::Decoder::new(std::fs::File::open(&path).unwrap());
+        let reader = decoder.read_info().unwrap();
+        assert_eq!((reader.info().width, reader.info().height), (3, 2));
+        std::fs::remove_file(path).unwrap();
+        assert!(write_png(Path::new("/nonexistent/a.png"), (1, 1), &[0; 4]).is_err());
+    }
+}
