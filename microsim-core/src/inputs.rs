@@ -8,11 +8,12 @@ use glam::Vec2;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Intent {
     goal: Option<Vec2>,
+    digests: bool,
 }
 
 impl Intent {
     /// To stay: no command at all.
-    pub const REST: Self = Self { goal: None };
+    pub const REST: Self = Self { goal: None, digests: false };
 
     /// To move towards a point. The speed does not depend on how far away it is.
     ///
@@ -21,7 +22,20 @@ impl Intent {
     pub fn toward(goal: Vec2) -> Result<Self, Error> {
         in_range("goal.x", goal.x, -1e6, 1e6)?;
         in_range("goal.y", goal.y, -1e6, 1e6)?;
-        Ok(Self { goal: Some(goal) })
+        Ok(Self { goal: Some(goal), digests: false })
+    }
+
+    /// The same, and to digest what is inside (or not to).
+    #[must_use]
+    pub fn digesting(mut self, digests: bool) -> Self {
+        self.digests = digests;
+        self
+    }
+
+    /// Whether to digest what is inside.
+    #[must_use]
+    pub fn digests(&self) -> bool {
+        self.digests
     }
 
     /// Where to move, if anywhere.

@@ -3,6 +3,7 @@
 pub(crate) mod controller;
 pub(crate) mod crawl;
 pub(crate) mod front_pull;
+pub(crate) mod phagocytosis;
 
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -42,19 +43,21 @@ pub(crate) fn steer_organisms(
         }
         let at = place(organism, particles);
         let own = organism.controller.advance(at, &mut organism.rng, surroundings);
-        let goal = inputs.get(id).map_or(own, |intent| intent.goal());
-        move_towards(id, organism, goal, particles, drives, events);
+        let intent = inputs.get(id);
+        let goal = intent.map_or(own, |intent| intent.goal());
+        organism.goal = goal.filter(|_| !organism.is_held() && organism.obey(intent.is_some_and(|i| i.digests())));
+        move_towards(id, organism, particles, drives, events);
     }
 }
 
 fn move_towards(
     id: OrganismId,
     organism: &mut Organism,
-    goal: Option<Vec2>,
     particles: &Particles,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
+    let goal = organism.goal;
     match organism.locomotion.clone() {
         Locomotion::None => {}
         Locomotion::FrontPull { front } => {

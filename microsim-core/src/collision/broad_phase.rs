@@ -154,7 +154,8 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
         let in_membrane = p.next_in_ring[a] != NO_OWNER && p.next_in_ring[b] != NO_OWNER;
         return (p.fluid[a] == 0) != (p.fluid[b] == 0) || (in_membrane && !p.are_ring_neighbours(a, b));
     }
-    !exemptions.contains(p.owner[a], p.owner[b])
+    let owners = [p.owner[a], p.owner[b]];
+    !exemptions.contains(owners[0], owners[1]) && !exemptions.gate_is_open([a as u32, b as u32], owners)
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Exemptions {
     pairs: Vec<(u32, u32)>,
+    /// Membrane nodes and the owner that each ignores, sorted.
+    gates: Vec<(u32, u32)>,
 }
 
 impl Exemptions {
@@ -23,9 +25,33 @@ impl Exemptions {
         !self.pairs.is_empty() && self.pairs.binary_search(&ordered(a, b)).is_ok()
     }
 
+    /// Lets these membrane nodes ignore an owner's particles.
+    pub(crate) fn open_gate(&mut self, nodes: &[u32], owner: u32) {
+        self.gates.extend(nodes.iter().map(|&node| (node, owner)));
+        self.gates.sort_unstable();
+        self.gates.dedup();
+    }
+
+    /// Lets them collide again.
+    pub(crate) fn close_gate(&mut self, nodes: &[u32], owner: u32) {
+        self.gates.retain(|&(node, other)| other != owner || !nodes.contains(&node));
+    }
+
+    /// Whether one of two particles is a node that ignores the other's owner.
+    pub(crate) fn gate_is_open(&self, particles: [u32; 2], owners: [u32; 2]) -> bool {
+        let is_open = |node: u32, owner: u32| self.gates.binary_search(&(node, owner)).is_ok();
+        !self.gates.is_empty() && (is_open(particles[0], owners[1]) || is_open(particles[1], owners[0]))
+    }
+
+    /// The open gates, ascending.
+    pub(crate) fn gates(&self) -> &[(u32, u32)] {
+        &self.gates
+    }
+
     /// Forgets every pair of an owner that is gone.
     pub(crate) fn forget(&mut self, owner: u32) {
         self.pairs.retain(|&(a, b)| a != owner && b != owner);
+        self.gates.retain(|&(_, other)| other != owner);
     }
 
     /// The pairs, smaller owner first, ascending.

@@ -2,6 +2,7 @@
 
 use super::{Blueprint, Kind, OrganismSpec};
 use crate::behavior::Locomotion;
+use crate::behavior::phagocytosis::PreyClass;
 use crate::error::{Error, in_range};
 use crate::template::{Node, Template};
 use glam::Vec2;
@@ -42,6 +43,9 @@ impl AgarSpec {
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
+            area: std::f32::consts::PI * self.radius * self.radius,
+            engulfer: None,
+            prey: Some(PreyClass::Simple),
         })
     }
 }

@@ -9,6 +9,7 @@
 use super::fluid_block::hexagonal_fill;
 use super::{Blueprint, FluidPlan, Kind, OrganismSpec};
 use crate::behavior::Locomotion;
+use crate::behavior::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, in_range, out_of_range};
 use crate::geometry::polygon::{contains_point, perimeter};
 use crate::geometry::ring::ellipse;
@@ -34,11 +35,20 @@ pub struct AmoeboidCellSpec {
     pub viscosity: f32,
     /// Speed of its front and rear when it moves, units/s, 0 to 1000.
     pub speed: f32,
+    /// How it takes in and digests prey.
+    pub phagocytosis: PhagocytosisParams,
 }
 
 impl Default for AmoeboidCellSpec {
     fn default() -> Self {
-        Self { radii: Vec2::new(11.0, 11.0), node_radius: 0.78, cytoplasm_spacing: 1.65, viscosity: 25.0, speed: 8.0 }
+        Self {
+            radii: Vec2::new(11.0, 11.0),
+            node_radius: 0.78,
+            cytoplasm_spacing: 1.65,
+            viscosity: 25.0,
+            speed: 8.0,
+            phagocytosis: PhagocytosisParams::default(),
+        }
     }
 }
 
@@ -56,6 +66,7 @@ impl AmoeboidCellSpec {
         in_range("cytoplasm_spacing", self.cytoplasm_spacing, 1.2, 3.0)?;
         in_range("viscosity", self.viscosity, 0.0, 1000.0)?;
         in_range("speed", self.speed, 0.0, 1000.0)?;
+        self.phagocytosis.validate().map_err(|error| error.within("phagocytosis"))?;
         let chain = self.chain()?;
         Ok(Blueprint {
             kind: Kind::AmoeboidCell,
@@ -65,6 +76,9 @@ impl AmoeboidCellSpec {
             has_membrane: true,
             locomotion: Locomotion::Crawl { front_centre: None },
             speed: self.speed,
+            area: std::f32::consts::PI * self.radii.x * self.radii.y,
+            engulfer: Some(self.phagocytosis),
+            prey: None,
         })
     }
 

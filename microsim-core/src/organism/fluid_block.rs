@@ -68,6 +68,9 @@ impl FluidBlockSpec {
             }),
             locomotion: Locomotion::None,
             speed: 0.0,
+            area: self.size.x * self.size.y,
+            engulfer: None,
+            prey: None,
         })
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod soft_body;
 
 use crate::behavior::Locomotion;
 use crate::behavior::controller::Controller;
+use crate::behavior::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
 use crate::particle::Particles;
@@ -175,6 +176,10 @@ pub(crate) struct Blueprint {
     pub locomotion: Locomotion,
     /// Speed when it moves, units/s.
     pub speed: f32,
+    /// Area when spawned, square units (seed, 3.3.1: of the initial ellipse).
+    pub area: f32,
+    pub engulfer: Option<PhagocytosisParams>,
+    pub prey: Option<PreyClass>,
 }
 
 /// Fluid that comes with an organism.
@@ -247,6 +252,14 @@ pub(crate) struct Organism {
     pub rng: Rng,
     /// Area that it had when it was spawned, square units; changes only by scaling (seed, 3.3.1).
     pub spawn_area: f32,
+    /// Its size relative to its template when it was spawned.
+    pub spawn_scale: f32,
+    /// The capability to take others in.
+    pub engulfer: Option<Engulfer>,
+    /// The capability to be taken in.
+    pub prey: Option<Prey>,
+    /// Where it wanted to go in the last step.
+    pub goal: Option<Vec2>,
     /// Where it was spawned.
     pub home: Vec2,
     /// The step in which it was spawned, and the box around it then.
@@ -269,12 +282,19 @@ impl Organism {
     }
 
     /// Finds this step's tension of its membrane, if it has one.
-    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
+    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], held_area: f32, dt: f32) {
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
-        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing), spacing };
+        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing };
         let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
         membrane.relax(&self.outline, particles, content, is_driven, dt);
+    }
+
+    /// Nodes that its membrane lacks to go round its cytoplasm once.
+    pub(crate) fn missing_nodes(&self) -> u32 {
+        let Some(membrane) = self.body.membrane() else { return 0 };
+        let wanted = membrane.rest_perimeter() / membrane.rest_length;
+        u32::from(wanted > self.outline.len() as f32 + 0.5)
     }
 
     /// All its particles: those of the body by node, then the fluid.

@@ -72,6 +72,9 @@ impl PlateletSpec {
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
+            area: std::f32::consts::PI * self.radius * self.radius,
+            engulfer: None,
+            prey: None,
         })
     }
 

@@ -47,6 +47,9 @@ impl ProbeSpec {
             fluid: None,
             locomotion: Locomotion::Tow { max_acceleration: self.max_acceleration },
             speed: self.speed,
+            area: std::f32::consts::PI * self.radius * self.radius,
+            engulfer: None,
+            prey: None,
         })
     }
 }

@@ -10,6 +10,7 @@
 
 use super::{Blueprint, Kind, OrganismSpec};
 use crate::behavior::Locomotion;
+use crate::behavior::phagocytosis::PreyClass;
 use crate::error::{Error, count_in_range, in_range};
 use crate::geometry::ring::ellipse;
 use crate::solver::MinDistance;
@@ -80,6 +81,9 @@ impl RigidCellSpec {
             fluid: None,
             locomotion: Locomotion::FrontPull { front: 0 },
             speed: self.speed,
+            area: std::f32::consts::PI * self.radii.x * self.radii.y,
+            engulfer: None,
+            prey: Some(PreyClass::Soft),
         })
     }
 

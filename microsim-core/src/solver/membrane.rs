@@ -76,6 +76,11 @@ impl Membrane {
         Self { rest_length, node_radius, activity: 0.0, rest_perimeter, target_area: f32::INFINITY }
     }
 
+    /// Present total rest length of its links.
+    pub(crate) fn rest_perimeter(&self) -> f32 {
+        self.rest_perimeter
+    }
+
     /// State for the digest.
     pub(crate) fn state(&self) -> [f32; 4] {
         [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]

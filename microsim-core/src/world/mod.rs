@@ -2,6 +2,7 @@
 //! their own.
 
 pub(crate) mod digest;
+mod feeding;
 mod growth;
 pub(crate) mod measure;
 pub(crate) mod organisms;

@@ -1,6 +1,7 @@
 //! Putting organisms into the world and taking them out. Everything is checked before anything changes.
 
 use super::World;
+use crate::behavior::phagocytosis::{Engulfer, Prey};
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
 use crate::organism::{Blueprint, Body, FluidPlan, Kind, Organism, OrganismSpec, Placement};
@@ -85,7 +86,7 @@ impl World {
             }
         };
         let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
-        let mut organism = Organism {
+        let organism = Organism {
             kind: blueprint.kind,
             body,
             slots,
@@ -96,13 +97,15 @@ impl World {
             speed: blueprint.speed,
             controller: placement.controller,
             rng: Rng::new(self.config.seed, (u64::from(id.generation) << 32) | u64::from(id.index)),
-            spawn_area: 0.0,
+            spawn_area: blueprint.area * placement.scale * placement.scale,
+            spawn_scale: scale,
+            engulfer: blueprint.engulfer.map(Engulfer::new),
+            prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
+            goal: None,
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
             is_quarantined: false,
         };
-        let outline: Vec<Vec2> = organism.outline_particles().map(|i| self.particles.position(i as usize)).collect();
-        organism.spawn_area = crate::geometry::polygon::signed_area(&outline);
         Ok(self.organisms.insert(organism))
     }
 
@@ -214,7 +217,11 @@ impl World {
 
 impl Blueprint {
     fn custom(template: Template) -> Self {
+        let outline: Vec<Vec2> = template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         Self {
+            area: crate::geometry::polygon::signed_area(&outline),
+            engulfer: None,
+            prey: None,
             kind: Kind::Custom,
             template: Some(template),
             scale: 1.0,

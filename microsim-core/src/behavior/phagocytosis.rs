@@ -1,0 +1,290 @@
+//! Phagocytosis (seed, 3.1.3): how an engulfer takes prey in, as an explicit state machine over capabilities.
+//!
+//! ```text
+//!             conditions hold            hold time over             all of it inside
+//!   (free) ------------------> Touching ---------------> Ingesting ------------------> Ingested <--> Digesting --> consumed
+//!      ^                          |                        |                                 command
+//!      +--- a condition fails ----+<----- all of it outside, time limit over
+//! ```
+//!
+//! While `Ingesting`, the gate is open: the front nodes of the moment ignore this prey, everything else collides, and the
+//! membrane never opens for cytoplasm. The prey is drawn to the engulfer's centroid, and soft prey shrinks meanwhile.
+//! There are two ends only: all of it inside, or all of it outside.
+
+use crate::error::{Error, count_in_range, in_range};
+use crate::id::OrganismId;
+
+/// What the seed leaves open about phagocytosis, as numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhagocytosisParams {
+    /// Time for which all conditions must hold before ingestion starts, s, 0 to 10. Any failure starts it anew.
+    pub hold_time: f32,
+    /// Largest angle between the way to the goal and the way to the prey, as a cosine, -1 to 1.
+    pub heading_cosine: f32,
+    /// Contacts of soft prey with the front that are needed at once, 1 to 100.
+    pub soft_prey_contacts: u32,
+    /// Area of the engulfer's cytoplasm over the prey's area when spawned that soft prey needs at least, 0.1 to 1000.
+    pub size_ratio: f32,
+    /// Time after which ingestion is decided, s, 0.1 to 60.
+    pub time_limit: f32,
+    /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.
+    pub pull_speed: f32,
+    /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
+    pub soft_prey_scale: f32,
+    /// Time of digestion of simple and of soft prey, s, 0.05 to 60.
+    pub digestion_time: [f32; 2],
+    /// Share of its speed that an engulfer keeps while it digests, 0 to 1.
+    pub digestion_speed: f32,
+    /// Area gained over area digested, 0 to 4.
+    pub growth_yield: f32,
+}
+
+impl Default for PhagocytosisParams {
+    fn default() -> Self {
+        Self {
+            hold_time: 0.35,
+            heading_cosine: 0.6,
+            soft_prey_contacts: 3,
+            size_ratio: 2.0,
+            time_limit: 3.0,
+            pull_speed: 6.0,
+            soft_prey_scale: 0.5,
+            digestion_time: [0.6, 2.0],
+            digestion_speed: 0.35,
+            growth_yield: 1.0,
+        }
+    }
+}
+
+impl PhagocytosisParams {
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        in_range("hold_time", self.hold_time, 0.0, 10.0)?;
+        in_range("heading_cosine", self.heading_cosine, -1.0, 1.0)?;
+        count_in_range("soft_prey_contacts", self.soft_prey_contacts, 1, 100)?;
+        in_range("size_ratio", self.size_ratio, 0.1, 1000.0)?;
+        in_range("time_limit", self.time_limit, 0.1, 60.0)?;
+        in_range("pull_speed", self.pull_speed, 0.1, 100.0)?;
+        in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
+        in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
+        in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
+        in_range("digestion_speed", self.digestion_speed, 0.0, 1.0)?;
+        in_range("growth_yield", self.growth_yield, 0.0, 4.0)
+    }
+}
+
+/// How prey is taken in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PreyClass {
+    /// One disc: any number at a time, always digestible.
+    Simple,
+    /// A soft body: one at a time, of the right size, with the engulfer at rest.
+    Soft,
+}
+
+/// Where an engulfer and its prey stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MealPhase {
+    /// All conditions have held for so long, s.
+    Touching(f32),
+    /// The gate has been open for so long, s.
+    Ingesting(f32),
+    /// Inside.
+    Ingested,
+    /// Inside, and so much of it is digested, 0 to 1. Progress stays when the command is released.
+    Digesting(f32),
+}
+
+impl MealPhase {
+    /// Whether the prey is inside for good.
+    #[must_use]
+    pub fn is_inside(self) -> bool {
+        matches!(self, Self::Ingested | Self::Digesting(_))
+    }
+}
+
+/// One prey of an engulfer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Meal {
+    pub prey: OrganismId,
+    pub class: PreyClass,
+    pub phase: MealPhase,
+    /// Membrane nodes that ignore the prey.
+    pub gate: Vec<u32>,
+}
+
+/// The capability to take others in.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Engulfer {
+    pub params: PhagocytosisParams,
+    /// In the order in which they were first touched.
+    pub meals: Vec<Meal>,
+    /// Whether it is told to digest in this step.
+    pub digests: bool,
+    /// Area that was digested and has not become cytoplasm yet, square units.
+    pub pending_growth: f32,
+}
+
+/// The capability to be taken in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Prey {
+    pub class: PreyClass,
+    /// Who holds it, from the opening of the gate on.
+    pub held_by: Option<OrganismId>,
+}
+
+/// What an engulfer notices of one prey in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Encounter {
+    pub prey: OrganismId,
+    pub class: PreyClass,
+    /// Contacts of the prey with the engulfer's front.
+    pub contacts: u32,
+    /// Cosine between the way to the goal and the way to the prey; `None` if the engulfer does not move.
+    pub heading: Option<f32>,
+    /// Area of the engulfer's cytoplasm over the area of the prey when it was spawned.
+    pub size_ratio: f32,
+}
+
+impl Engulfer {
+    pub(crate) fn new(params: PhagocytosisParams) -> Self {
+        Self { params, meals: Vec::new(), digests: false, pending_growth: 0.0 }
+    }
+
+    /// Whether it must not move: soft prey is going in.
+    pub(crate) fn is_locked(&self) -> bool {
+        let goes_in = |meal: &Meal| meal.class == PreyClass::Soft && matches!(meal.phase, MealPhase::Ingesting(_));
+        self.meals.iter().any(goes_in)
+    }
+
+    /// Whether it digests something in this step.
+    pub(crate) fn is_digesting(&self) -> bool {
+        self.digests && self.meals.iter().any(|meal| meal.phase.is_inside())
+    }
+
+    /// Whether the one place for soft prey is taken.
+    fn slot_is_taken(&self) -> bool {
+        let takes = |meal: &Meal| meal.class == PreyClass::Soft && !matches!(meal.phase, MealPhase::Touching(_));
+        self.meals.iter().any(takes)
+    }
+
+    /// Whether every condition of ingestion holds for an encounter.
+    fn conditions_hold(&self, encounter: &Encounter) -> bool {
+        let heads_for_it = encounter.heading.is_some_and(|cosine| cosine >= self.params.heading_cosine);
+        let is_absorbable = match encounter.class {
+            PreyClass::Simple => encounter.contacts > 0,
+            PreyClass::Soft => {
+                encounter.contacts >= self.params.soft_prey_contacts
+                    && encounter.size_ratio >= self.params.size_ratio
+                    && !self.slot_is_taken()
+            }
+        };
+        heads_for_it && is_absorbable && !self.is_locked()
+    }
+
+    /// Advances the `Touching` meals by `dt`: starts, resets and finds those whose time has come, which begin to be
+    /// ingested. Returns their positions in `meals`.
+    pub(crate) fn touch(&mut self, encounters: &[Encounter], dt: f32) -> Vec<usize> {
+        let holds: Vec<bool> = encounters.iter().map(|encounter| self.conditions_hold(encounter)).collect();
+        let holds_for = |prey| encounters.iter().zip(&holds).any(|(e, &holds)| e.prey == prey && holds);
+        self.meals.retain(|meal| !matches!(meal.phase, MealPhase::Touching(_)) || holds_for(meal.prey));
+        for (encounter, _) in encounters.iter().zip(&holds).filter(|(_, holds)| **holds) {
+            if self.meals.iter().all(|meal| meal.prey != encounter.prey) {
+                let Encounter { prey, class, .. } = *encounter;
+                self.meals.push(Meal { prey, class, phase: MealPhase::Touching(0.0), gate: Vec::new() });
+            }
+        }
+        let mut begun = Vec::new();
+        for k in 0..self.meals.len() {
+            let MealPhase::Touching(held) = self.meals[k].phase else { continue };
+            let is_free = self.meals[k].class == PreyClass::Simple || !self.slot_is_taken();
+            if held + dt >= self.params.hold_time && is_free {
+                self.meals[k].phase = MealPhase::Ingesting(0.0);
+                begun.push(k);
+            } else {
+                self.meals[k].phase = MealPhase::Touching(held + dt);
+            }
+        }
+        begun
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f32 = 0.1;
+
+    fn id(index: u32) -> OrganismId {
+        OrganismId { index, generation: 0 }
+    }
+
+    fn encounter(index: u32, class: PreyClass) -> Encounter {
+        Encounter { prey: id(index), class, contacts: 3, heading: Some(1.0), size_ratio: 5.0 }
+    }
+
+    fn steps_until_ingestion(encounter: Encounter) -> Option<usize> {
+        let mut engulfer = Engulfer::new(PhagocytosisParams::default());
+        (0..100).find(|_| !engulfer.touch(&[encounter], DT).is_empty())
+    }
+
+    #[test]
+    fn t29_conditions_must_hold_for_the_set_time() {
+        assert_eq!(steps_until_ingestion(encounter(1, PreyClass::Simple)), Some(3));
+        let none = |change: &dyn Fn(&mut Encounter), class| {
+            let mut changed = encounter(1, class);
+            change(&mut changed);
+            assert_eq!(steps_until_ingestion(changed), None, "{changed:?}");
+        };
+        none(&|e| e.contacts = 0, PreyClass::Simple);
+        none(&|e| e.heading = None, PreyClass::Simple);
+        none(&|e| e.heading = Some(0.3), PreyClass::Simple);
+    }
+
+    #[test]
+    fn t30_any_failure_starts_the_time_anew() {
+        let mut engulfer = Engulfer::new(PhagocytosisParams::default());
+        let good = encounter(1, PreyClass::Simple);
+        let bad = Encounter { heading: Some(0.0), ..good };
+        for round in 0..10 {
+            for _ in 0..3 {
+                assert!(engulfer.touch(&[good], DT).is_empty(), "round {round}");
+            }
+            assert!(engulfer.touch(&[bad], DT).is_empty() && engulfer.meals.is_empty());
+        }
+    }
+
+    #[test]
+    fn t37_t38_t42_soft_prey_needs_contacts_and_size_and_agar_does_not() {
+        let few = |class| Encounter { contacts: 2, size_ratio: 0.1, ..encounter(1, class) };
+        assert!(steps_until_ingestion(few(PreyClass::Simple)).is_some());
+        assert_eq!(steps_until_ingestion(few(PreyClass::Soft)), None);
+        let only_small = Encounter { size_ratio: 1.99, ..encounter(1, PreyClass::Soft) };
+        assert_eq!(steps_until_ingestion(only_small), None);
+        assert!(steps_until_ingestion(encounter(1, PreyClass::Soft)).is_some());
+    }
+
+    #[test]
+    fn t32_t43_several_agar_at_once_but_one_soft_prey() {
+        let mut engulfer = Engulfer::new(PhagocytosisParams::default());
+        let agar: Vec<Encounter> = (0..5).map(|k| encounter(k, PreyClass::Simple)).collect();
+        let begun = (0..5).map(|_| engulfer.touch(&agar, DT).len()).sum::<usize>();
+        assert_eq!(begun, 5, "each has its own timer");
+        let soft = [encounter(10, PreyClass::Soft), encounter(11, PreyClass::Soft)];
+        let begun = (0..20).map(|_| engulfer.touch(&soft, DT).len()).sum::<usize>();
+        assert_eq!(begun, 1, "one at a time, even if both are ready in the same step");
+        let held = engulfer.meals.iter().position(|meal| meal.class == PreyClass::Soft).unwrap();
+        engulfer.meals[held].phase = MealPhase::Ingested;
+        assert_eq!((0..20).map(|_| engulfer.touch(&soft[1..], DT).len()).sum::<usize>(), 0, "until consumed");
+    }
+
+    #[test]
+    fn t39_the_engulfer_is_locked_while_soft_prey_goes_in() {
+        let mut engulfer = Engulfer::new(PhagocytosisParams { hold_time: 0.0, ..PhagocytosisParams::default() });
+        engulfer.touch(&[encounter(1, PreyClass::Simple)], DT);
+        assert!(!engulfer.is_locked());
+        engulfer.touch(&[encounter(1, PreyClass::Simple), encounter(2, PreyClass::Soft)], DT);
+        assert!(engulfer.is_locked());
+        engulfer.meals.last_mut().unwrap().phase = MealPhase::Ingested;
+        assert!(!engulfer.is_locked());
+    }
+}
