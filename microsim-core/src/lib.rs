@@ -49,6 +49,7 @@ mod world;
 
 pub use behavior::controller::Controller;
 pub use behavior::crawl::MembraneRegion;
+pub use behavior::phagocytosis::{MealPhase, PhagocytosisParams, PreyClass};
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::Event;

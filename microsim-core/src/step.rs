@@ -1,6 +1,6 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{controller, steer_organisms};
+use crate::behavior::{controller, draw_in_prey, steer_organisms};
 use crate::collision::broad_phase::Surroundings;
 use crate::inputs::Inputs;
 use crate::solver::membrane::Membrane;
@@ -25,13 +25,15 @@ pub enum Phase {
     ProjectContacts,
     /// What has moved gets the velocity of its move; restitution.
     UpdateVelocities,
+    /// Prey is touched, taken in and digested; engulfers grow.
+    AdvancePhagocytosis,
     /// Viscosity; contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
 impl Phase {
     /// All phases, in their order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::SteerOrganisms,
         Self::FindPairs,
         Self::PredictPositions,
@@ -39,6 +41,7 @@ impl Phase {
         Self::ProjectConstraints,
         Self::ProjectContacts,
         Self::UpdateVelocities,
+        Self::AdvancePhagocytosis,
         Self::Conclude,
     ];
 
@@ -53,6 +56,7 @@ impl Phase {
             Self::ProjectConstraints => "project_constraints",
             Self::ProjectContacts => "project_contacts",
             Self::UpdateVelocities => "update_velocities",
+            Self::AdvancePhagocytosis => "advance_phagocytosis",
             Self::Conclude => "conclude",
         }
     }
@@ -79,6 +83,8 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
     }
+    world.advance_phagocytosis();
+    finished(Phase::AdvancePhagocytosis);
     conclude(world);
     finished(Phase::Conclude);
     world.step_index += 1;
@@ -88,6 +94,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let World { config, particles, organisms, fluids, events, scratch, .. } = world;
     let surroundings = controller::Surroundings { size: config.size, dt: config.dt };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
+    draw_in_prey(organisms, particles, &mut scratch.drives);
     for (_, organism) in organisms.iter_mut() {
         organism.relax_membrane(particles, fluids, config.dt);
     }

@@ -10,6 +10,11 @@ use glam::Vec2;
 /// Half-width of the front and of the rear, as a share of the membrane.
 const HALF_WIDTH: f32 = 1.0 / 8.0;
 
+/// Goals nearer than this, in radii of the cell, are moved out to it along the same way.
+const FAR: f32 = 2.5;
+/// A goal nearer to the centroid than this, in radii of the cell, is reached.
+const ARRIVED: f32 = 0.3;
+
 /// Part of a moving membrane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MembraneRegion {
@@ -45,16 +50,32 @@ pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, driv
     let front_centre = crate::geometry::ring::nearest_index(&nodes, goal)? as u32;
     let count = nodes.len() as u32;
     let centroid = crate::geometry::polygon::centroid(&nodes)?;
+    let goal = beyond(goal, centroid, &nodes)?;
     for ((k, particle), at) in (0..count).zip(organism.outline_particles()).zip(nodes) {
         let target = match region(k, front_centre, count) {
             MembraneRegion::Front => goal,
             MembraneRegion::Rear => centroid,
             MembraneRegion::LeftWing | MembraneRegion::RightWing => continue,
         };
-        let velocity = heading(target - at) * organism.speed;
+        let velocity = heading(target - at) * organism.present_speed();
         drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
     }
     Some(front_centre)
+}
+
+/// The goal itself, or one farther along the same way: bodies that head for a goal next to them would meet in a point.
+/// `None` if the goal is inside, near the centroid: the cell has arrived.
+fn beyond(goal: Vec2, centroid: Vec2, nodes: &[Vec2]) -> Option<Vec2> {
+    let radius = (crate::geometry::polygon::signed_area(nodes) / std::f32::consts::PI).sqrt();
+    let way = goal - centroid;
+    let distance = way.length();
+    if distance >= FAR * radius {
+        Some(goal)
+    } else if distance >= ARRIVED * radius {
+        Some(centroid + way * (FAR * radius / distance))
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ pub(crate) mod crawl;
 pub(crate) mod front_pull;
 pub(crate) mod phagocytosis;
 
+use crate::behavior::phagocytosis::MealPhase;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::inputs::Inputs;
@@ -45,8 +46,23 @@ pub(crate) fn steer_organisms(
         let own = organism.controller.advance(at, &mut organism.rng, surroundings);
         let intent = inputs.get(id);
         let goal = intent.map_or(own, |intent| intent.goal());
-        organism.goal = goal.filter(|_| !organism.is_held() && organism.obey(intent.is_some_and(|i| i.digests())));
+        let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
+        organism.goal = goal.filter(|_| may_move);
         move_towards(id, organism, particles, drives, events);
+    }
+}
+
+/// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
+pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives: &mut Vec<Drive>) {
+    for (_, organism) in organisms.iter() {
+        let Some(engulfer) = &organism.engulfer else { continue };
+        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
+        for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
+            let way = place(organism, particles) - place(prey, particles);
+            let velocity = heading(way) * engulfer.params.pull_speed;
+            let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
+            drives.extend(prey.particles().map(pull));
+        }
     }
 }
 

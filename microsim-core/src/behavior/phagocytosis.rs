@@ -29,6 +29,8 @@ pub struct PhagocytosisParams {
     pub time_limit: f32,
     /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.
     pub pull_speed: f32,
+    /// Acceleration with which it is drawn, units/s2, 1 to 100 000: times its mass, the force.
+    pub pull_acceleration: f32,
     /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
     pub soft_prey_scale: f32,
     /// Time of digestion of simple and of soft prey, s, 0.05 to 60.
@@ -48,6 +50,7 @@ impl Default for PhagocytosisParams {
             size_ratio: 2.0,
             time_limit: 3.0,
             pull_speed: 6.0,
+            pull_acceleration: 4000.0,
             soft_prey_scale: 0.5,
             digestion_time: [0.6, 2.0],
             digestion_speed: 0.35,
@@ -64,6 +67,7 @@ impl PhagocytosisParams {
         in_range("size_ratio", self.size_ratio, 0.1, 1000.0)?;
         in_range("time_limit", self.time_limit, 0.1, 60.0)?;
         in_range("pull_speed", self.pull_speed, 0.1, 100.0)?;
+        in_range("pull_acceleration", self.pull_acceleration, 1.0, 1e5)?;
         in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
         in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
         in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
@@ -120,6 +124,8 @@ pub(crate) struct Engulfer {
     pub meals: Vec<Meal>,
     /// Whether it is told to digest in this step.
     pub digests: bool,
+    /// Area of what it holds or takes in, square units.
+    pub held_area: f32,
     /// Area that was digested and has not become cytoplasm yet, square units.
     pub pending_growth: f32,
 }
@@ -147,7 +153,7 @@ pub(crate) struct Encounter {
 
 impl Engulfer {
     pub(crate) fn new(params: PhagocytosisParams) -> Self {
-        Self { params, meals: Vec::new(), digests: false, pending_growth: 0.0 }
+        Self { params, meals: Vec::new(), digests: false, held_area: 0.0, pending_growth: 0.0 }
     }
 
     /// Whether it must not move: soft prey is going in.

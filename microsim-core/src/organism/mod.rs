@@ -281,8 +281,28 @@ impl Organism {
         }
     }
 
+    /// Whether somebody has taken it in, or is about to.
+    pub(crate) fn is_held(&self) -> bool {
+        self.prey.is_some_and(|prey| prey.held_by.is_some())
+    }
+
+    /// Takes note of the command to digest; returns whether it may move.
+    pub(crate) fn obey(&mut self, digests: bool) -> bool {
+        self.engulfer.as_mut().is_none_or(|engulfer| {
+            engulfer.digests = digests;
+            !engulfer.is_locked()
+        })
+    }
+
+    /// Speed when it moves, units/s: less while it digests.
+    pub(crate) fn present_speed(&self) -> f32 {
+        let slowed = self.engulfer.as_ref().filter(|engulfer| engulfer.is_digesting());
+        slowed.map_or(self.speed, |engulfer| self.speed * engulfer.params.digestion_speed)
+    }
+
     /// Finds this step's tension of its membrane, if it has one.
-    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], held_area: f32, dt: f32) {
+    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
+        let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
         let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing };

@@ -5,7 +5,7 @@ use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
-use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, PlateletSpec, ProbeSpec, RigidCellSpec};
+use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec, RigidCellSpec};
 use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.
@@ -111,7 +111,26 @@ fn amoeboid_cell(fields: &mut Fields<'_>) -> OrganismSpec {
         cytoplasm_spacing: fields.or("cytoplasm_spacing", default.cytoplasm_spacing),
         viscosity: fields.or("viscosity", default.viscosity),
         speed: fields.or("speed", default.speed),
+        phagocytosis: phagocytosis(fields.table("phagocytosis"), default.phagocytosis),
     })
+}
+
+fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> PhagocytosisParams {
+    let params = PhagocytosisParams {
+        hold_time: fields.or("hold_time", default.hold_time),
+        heading_cosine: fields.or("heading_cosine", default.heading_cosine),
+        soft_prey_contacts: fields.or("soft_prey_contacts", default.soft_prey_contacts),
+        size_ratio: fields.or("size_ratio", default.size_ratio),
+        time_limit: fields.or("time_limit", default.time_limit),
+        pull_speed: fields.or("pull_speed", default.pull_speed),
+        pull_acceleration: fields.or("pull_acceleration", default.pull_acceleration),
+        soft_prey_scale: fields.or("soft_prey_scale", default.soft_prey_scale),
+        digestion_time: fields.or("digestion_time", default.digestion_time),
+        digestion_speed: fields.or("digestion_speed", default.digestion_speed),
+        growth_yield: fields.or("growth_yield", default.growth_yield),
+    };
+    fields.finish();
+    params
 }
 
 fn platelet(fields: &mut Fields<'_>) -> OrganismSpec {

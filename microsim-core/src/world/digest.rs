@@ -8,6 +8,7 @@
 use super::World;
 use crate::behavior::Locomotion;
 use crate::behavior::controller::Controller;
+use crate::behavior::phagocytosis::{Engulfer, MealPhase};
 use crate::organism::Organism;
 use glam::Vec2;
 
@@ -68,6 +69,7 @@ impl World {
         }
         digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, b.index]));
         digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
+        digest.words(self.exemptions.gates().iter().flat_map(|&(a, b)| [a, b]));
         for fluid in &self.fluids {
             digest.words(fluid.particles.iter().copied());
         }
@@ -108,10 +110,27 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
         Locomotion::Tow { max_acceleration } => digest.float(max_acceleration),
     }
     digest.float(organism.speed);
+    organism.engulfer.iter().for_each(|engulfer| digest_engulfer(engulfer, digest));
+    organism.prey.and_then(|prey| prey.held_by).into_iter().for_each(|id| digest.words([id.index, id.generation]));
     digest_controller(&organism.controller, digest);
     digest.long(organism.rng.state);
     digest.long(organism.rng.increment);
     digest.word(u32::from(organism.is_quarantined));
+}
+
+fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
+    digest.float(engulfer.held_area);
+    digest.float(engulfer.pending_growth);
+    for meal in &engulfer.meals {
+        digest.words([meal.prey.index, meal.prey.generation]);
+        match meal.phase {
+            MealPhase::Touching(time) => digest.float(time),
+            MealPhase::Ingesting(time) => digest.float(1000.0 + time),
+            MealPhase::Ingested => digest.float(-1.0),
+            MealPhase::Digesting(progress) => digest.float(-2.0 - progress),
+        }
+        digest.words(meal.gate.iter().copied());
+    }
 }
 
 fn digest_controller(controller: &Controller, digest: &mut Digest) {

@@ -23,8 +23,12 @@ const OVERLAP: f32 = 0.25;
 impl World {
     /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
     pub(crate) fn advance_phagocytosis(&mut self) {
-        let engulfers: Vec<OrganismId> =
-            self.organisms.iter().filter(|(_, o)| o.engulfer.is_some() && !o.is_quarantined).map(|(id, _)| id).collect();
+        let engulfers: Vec<OrganismId> = self
+            .organisms
+            .iter()
+            .filter(|(_, o)| o.engulfer.is_some() && !o.is_quarantined)
+            .map(|(id, _)| id)
+            .collect();
         for id in engulfers {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
             self.drop_lost_meals(&mut engulfer);
@@ -33,6 +37,7 @@ impl World {
             }
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
+            engulfer.held_area = self.held_area(&engulfer);
             if let Some(organism) = self.organisms.get_mut(id) {
                 organism.engulfer = Some(engulfer);
             }
@@ -72,7 +77,14 @@ impl World {
         groups.filter_map(|group| self.encounter(group[0], group.len() as u32, centre, to_goal, area)).collect()
     }
 
-    fn encounter(&self, id: OrganismId, contacts: u32, from: Vec2, to_goal: Option<Vec2>, area: f32) -> Option<Encounter> {
+    fn encounter(
+        &self,
+        id: OrganismId,
+        contacts: u32,
+        from: Vec2,
+        to_goal: Option<Vec2>,
+        area: f32,
+    ) -> Option<Encounter> {
         let organism = self.organisms.get(id)?;
         let prey = organism.prey.filter(|prey| prey.held_by.is_none() && !organism.is_quarantined)?;
         let to_prey = heading(self.centroid(id)? - from);
@@ -108,6 +120,7 @@ impl World {
                 let part = elapsed / (SHRUNK_BY * params.time_limit);
                 self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
             }
+            self.widen_gate(id, meal);
             let place = self.place_of_prey(meal.prey, &outline, node_radius * (1.0 - OVERLAP));
             match place {
                 Place::Inside => {
@@ -122,6 +135,20 @@ impl World {
         }
         let was_released = |meal: &Meal| matches!(meal.phase, MealPhase::Touching(_)) && !meal.gate.is_empty();
         engulfer.meals.retain(|meal| !was_released(meal));
+    }
+
+    /// Opens the gate to the nodes next to the prey: it may have slid along the membrane since the gate was opened.
+    fn widen_gate(&mut self, id: OrganismId, meal: &mut Meal) {
+        let (Some(engulfer), Some(prey)) = (self.organisms.get(id), self.organisms.get(meal.prey)) else { return };
+        let p = &self.particles;
+        let margin = 2.0 * self.config.reach();
+        let discs: Vec<usize> = prey.particles().map(|i| i as usize).filter(|&i| p.inv_mass[i] > 0.0).collect();
+        let is_near =
+            |node: usize| discs.iter().any(|&i| p.between(node, i).length() < p.radius[node] + p.radius[i] + margin);
+        let nodes = engulfer.outline_particles().filter(|node| !meal.gate.contains(node) && is_near(*node as usize));
+        let nodes: Vec<u32> = nodes.collect();
+        self.exemptions.open_gate(&nodes, meal.prey.index);
+        meal.gate.extend(nodes);
     }
 
     /// Closes the gate behind prey that stayed outside.
@@ -160,6 +187,18 @@ impl World {
         engulfer.pending_growth += eaten * params.growth_yield;
     }
 
+    /// Area of everything that an engulfer holds or takes in.
+    fn held_area(&self, engulfer: &Engulfer) -> f32 {
+        let held = engulfer.meals.iter().filter(|meal| !matches!(meal.phase, MealPhase::Touching(_)));
+        held.filter_map(|meal| self.organisms.get(meal.prey)).map(|prey| prey.spawn_area * self.shrinkage(prey)).sum()
+    }
+
+    /// Present area of an organism over its area when spawned.
+    fn shrinkage(&self, organism: &Organism) -> f32 {
+        let factor = self.scale_of(organism) / organism.spawn_scale;
+        factor * factor
+    }
+
     /// Frees digested prey and returns its area.
     fn consume(&mut self, id: OrganismId, prey: OrganismId) -> f32 {
         let Some((kind, area)) = self.organisms.get(prey).map(|organism| (organism.kind, organism.spawn_area)) else {
@@ -176,7 +215,9 @@ impl World {
         let Some(organism) = self.organisms.get_mut(id) else { return };
         let Some(fluid) = organism.fluid else { return };
         let each = rest_area(1, self.fluids[fluid as usize].params.spacing);
-        let Some(engulfer) = organism.engulfer.as_mut().filter(|engulfer| engulfer.pending_growth >= each) else { return };
+        let Some(engulfer) = organism.engulfer.as_mut().filter(|engulfer| engulfer.pending_growth >= each) else {
+            return;
+        };
         engulfer.pending_growth -= each;
         let nodes = organism.missing_nodes();
         // A world that is full, or a cell that is gone, does not grow.

@@ -1,8 +1,10 @@
 //! Measures: what there is, whether anything is where it must not be, and how well constraints hold.
 
 use super::World;
+use crate::behavior::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
-use crate::organism::{Body, Kind, Organism};
+use crate::id::OrganismId;
+use crate::organism::{Body, Organism};
 use crate::solver::membrane::links;
 use crate::solver::{ConstraintSet, Distance};
 use crate::template::Role;
@@ -21,7 +23,7 @@ pub struct Census {
     pub constraints: usize,
     /// Cytoplasm particles outside their own membrane (ray cast, seed 3.1.3).
     pub leaks: usize,
-    /// Rigid cells whose nucleus is inside an amoeboid cell that has not absorbed them (seed, 4.2.2).
+    /// Prey whose centre is inside an engulfer that has not taken it in (seed, 4.2.2), or outside one that has.
     pub improper_absorptions: usize,
     /// Organisms that are frozen.
     pub quarantined: usize,
@@ -100,7 +102,7 @@ impl World {
     }
 
     /// Scale of an organism's constraints.
-    fn scale_of(&self, organism: &Organism) -> f32 {
+    pub(crate) fn scale_of(&self, organism: &Organism) -> f32 {
         match organism.body {
             Body::Lane { block, first } => {
                 let block = &self.blocks[block as usize];
@@ -119,15 +121,32 @@ impl World {
         organism.fluid_particles.iter().filter(is_outside).count()
     }
 
+    /// Prey whose centre is inside an engulfer that does not hold it, or outside one that does.
     fn improper_absorptions(&self) -> usize {
-        let cells = self.organisms.iter().filter(|(_, organism)| organism.kind == Kind::AmoeboidCell);
-        let outlines: Vec<Vec<Vec2>> = cells.map(|(_, cell)| self.outline_of(cell)).collect();
-        let rigid = self.organisms.iter().filter(|(_, organism)| organism.kind == Kind::RigidCell);
-        let nuclei = rigid.filter_map(|(_, cell)| {
-            cell.particles().map(|i| i as usize).find(|&i| self.particles.role[i] == Role::Nucleus as u8)
-        });
-        let is_inside = |i: &usize| outlines.iter().any(|o| contains_point(o, self.particles.position(*i)));
-        nuclei.filter(is_inside).count()
+        let engulfers = self.organisms.iter().filter_map(|(_, o)| Some((o.engulfer.as_ref()?, self.outline_of(o))));
+        let engulfers: Vec<_> = engulfers.collect();
+        let prey = self.organisms.iter().filter(|(_, o)| o.prey.is_some() && !o.is_quarantined);
+        let is_improper = |id: OrganismId, organism: &Organism| {
+            let centre = self.centre_of(organism);
+            engulfers.iter().any(|(engulfer, outline)| {
+                let phase = engulfer.meals.iter().find(|meal| meal.prey == id).map(|meal| meal.phase);
+                let is_inside = contains_point(outline, centre);
+                match phase {
+                    Some(MealPhase::Ingesting(_)) => false,
+                    Some(MealPhase::Ingested | MealPhase::Digesting(_)) => !is_inside,
+                    Some(MealPhase::Touching(_)) | None => is_inside,
+                }
+            })
+        };
+        prey.filter(|(id, organism)| is_improper(*id, organism)).count()
+    }
+
+    /// Position of the nucleus, or of the first particle.
+    fn centre_of(&self, organism: &Organism) -> Vec2 {
+        let is_nucleus = |&i: &usize| self.particles.role[i] == Role::Nucleus as u8;
+        let mut particles = organism.particles().map(|i| i as usize);
+        let first = organism.first_node().map_or(0, |i| i as usize);
+        self.particles.position(particles.find(is_nucleus).unwrap_or(first))
     }
 
     fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {

@@ -217,7 +217,8 @@ impl World {
 
 impl Blueprint {
     fn custom(template: Template) -> Self {
-        let outline: Vec<Vec2> = template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
+        let outline: Vec<Vec2> =
+            template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         Self {
             area: crate::geometry::polygon::signed_area(&outline),
             engulfer: None,

@@ -3,6 +3,7 @@
 use super::World;
 use crate::behavior::Locomotion;
 use crate::behavior::crawl::{MembraneRegion, region};
+use crate::behavior::phagocytosis::MealPhase;
 use crate::id::OrganismId;
 use crate::organism::{Kind, Organism};
 use crate::template::Role;
@@ -104,6 +105,17 @@ impl<'a> OrganismView<'a> {
             outline[k] - along.perp().normalize_or_zero() * self.world.particles.radius[i as usize]
         });
         pushed.collect()
+    }
+
+    /// Its prey, in the order in which it was first touched, and where they stand; empty for what takes nothing in.
+    pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
+        self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
+    }
+
+    /// Who has taken it in, or is about to.
+    #[must_use]
+    pub fn held_by(self) -> Option<OrganismId> {
+        self.organism.prey.and_then(|prey| prey.held_by)
     }
 
     /// Its heavy centre, if it has one.
