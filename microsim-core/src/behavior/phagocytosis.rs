@@ -46,7 +46,7 @@ impl Default for PhagocytosisParams {
         Self {
             hold_time: 0.35,
             heading_cosine: 0.6,
-            soft_prey_contacts: 3,
+            soft_prey_contacts: 2,
             size_ratio: 2.0,
             time_limit: 3.0,
             pull_speed: 6.0,
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn t37_t38_t42_soft_prey_needs_contacts_and_size_and_agar_does_not() {
-        let few = |class| Encounter { contacts: 2, size_ratio: 0.1, ..encounter(1, class) };
+        let few = |class| Encounter { contacts: 1, size_ratio: 0.1, ..encounter(1, class) };
         assert!(steps_until_ingestion(few(PreyClass::Simple)).is_some());
         assert_eq!(steps_until_ingestion(few(PreyClass::Soft)), None);
         let only_small = Encounter { size_ratio: 1.99, ..encounter(1, PreyClass::Soft) };

@@ -13,6 +13,7 @@ use crate::behavior::controller::Controller;
 use crate::behavior::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
+use crate::id::OrganismId;
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid, FluidParams};
@@ -284,6 +285,11 @@ impl Organism {
     /// Whether somebody has taken it in, or is about to.
     pub(crate) fn is_held(&self) -> bool {
         self.prey.is_some_and(|prey| prey.held_by.is_some())
+    }
+
+    /// Notes who has taken it in, if it is prey at all.
+    pub(crate) fn set_held_by(&mut self, holder: Option<OrganismId>) {
+        self.prey = self.prey.map(|prey| Prey { held_by: holder, ..prey });
     }
 
     /// Takes note of the command to digest; returns whether it may move.

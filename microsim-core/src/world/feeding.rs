@@ -9,6 +9,7 @@ use crate::event::Event;
 use crate::geometry::polygon::{contains_point, nearest_on_segment};
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
+use crate::solver::contact::Contact;
 use crate::solver::fluid::rest_area;
 use crate::solver::lanes::LANES;
 use glam::Vec2;
@@ -17,12 +18,15 @@ use glam::Vec2;
 const SHRUNK_BY: f32 = 0.6;
 /// Size to which digestion shrinks prey before it is freed, relative to its size when it was taken in.
 const DIGESTED_SCALE: f32 = 0.25;
+/// Gap at which two discs still count as touching, as a share of the smaller one's radius.
+const TOUCH_GAP: f32 = 0.5;
 /// Share of a node's radius by which prey may still overlap the membrane when it counts as inside.
 const OVERLAP: f32 = 0.25;
 
 impl World {
     /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
     pub(crate) fn advance_phagocytosis(&mut self) {
+        self.free_orphans();
         let engulfers: Vec<OrganismId> = self
             .organisms
             .iter()
@@ -45,6 +49,19 @@ impl World {
         }
     }
 
+    /// Prey whose engulfer was removed is free again.
+    fn free_orphans(&mut self) {
+        let is_orphan = |(id, organism): (OrganismId, &Organism)| {
+            let holder = organism.prey.and_then(|prey| prey.held_by)?;
+            self.organisms.get(holder).is_none().then_some(id)
+        };
+        let orphans: Vec<OrganismId> = self.organisms.iter().filter_map(is_orphan).collect();
+        for id in orphans {
+            self.set_scale(id, 1.0);
+            self.organisms.get_mut(id).into_iter().for_each(|organism| organism.set_held_by(None));
+        }
+    }
+
     /// Forgets meals that were removed from the world.
     fn drop_lost_meals(&mut self, engulfer: &mut Engulfer) {
         engulfer.meals.retain(|meal| {
@@ -61,7 +78,7 @@ impl World {
         let Some(organism) = self.organisms.get(id) else { return Vec::new() };
         let front = front_nodes(organism);
         let mut touched: Vec<OrganismId> = Vec::new();
-        for contact in self.scratch.broad_phase.contacts.iter().filter(|contact| contact.touched) {
+        for contact in self.scratch.broad_phase.contacts.iter().filter(|contact| self.is_contact(contact)) {
             let other = match (front.binary_search(&contact.i), front.binary_search(&contact.j)) {
                 (Ok(_), Err(_)) => contact.j,
                 (Err(_), Ok(_)) => contact.i,
@@ -75,6 +92,14 @@ impl World {
         let area = self.engulfer_area(organism);
         let groups = touched.chunk_by(|a, b| a == b);
         groups.filter_map(|group| self.encounter(group[0], group.len() as u32, centre, to_goal, area)).collect()
+    }
+
+    /// Whether two discs touch: in any substep of this step, or nearly so now, because a contact between soft bodies
+    /// flickers from substep to substep.
+    fn is_contact(&self, contact: &Contact) -> bool {
+        let (i, j, p) = (contact.i as usize, contact.j as usize, &self.particles);
+        let smaller = if p.radius[i] < p.radius[j] { p.radius[i] } else { p.radius[j] };
+        contact.touched || p.between(i, j).length() < p.radius[i] + p.radius[j] + TOUCH_GAP * smaller
     }
 
     fn encounter(
@@ -101,9 +126,7 @@ impl World {
     fn open_gate(&mut self, id: OrganismId, meal: &mut Meal) {
         meal.gate = self.organisms.get(id).map_or(Vec::new(), front_nodes);
         self.exemptions.open_gate(&meal.gate, meal.prey.index);
-        if let Some(prey) = self.organisms.get_mut(meal.prey).and_then(|organism| organism.prey.as_mut()) {
-            prey.held_by = Some(id);
-        }
+        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(Some(id)));
         self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
     }
 
@@ -156,9 +179,7 @@ impl World {
         self.exemptions.close_gate(&meal.gate, meal.prey.index);
         meal.phase = MealPhase::Touching(0.0);
         self.set_scale(meal.prey, 1.0);
-        if let Some(prey) = self.organisms.get_mut(meal.prey).and_then(|organism| organism.prey.as_mut()) {
-            prey.held_by = None;
-        }
+        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(None));
         self.events.push(Event::Released { engulfer: id, prey: meal.prey });
     }
 

@@ -1,0 +1,296 @@
+//! Phagocytosis, digestion and growth (seed, 3.1.3 and 3.3.1) in whole worlds. The conditions' tests are beside
+//! `phagocytosis.rs`.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+
+mod common;
+
+use common::run;
+use microsim_core::geometry::polygon::{contains_point, signed_area};
+use microsim_core::geometry::ring::unit_vector;
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, Event, Inputs, Intent, Kind, MealPhase, OrganismId, OrganismSpec, PhagocytosisParams,
+    Placement, PlateletSpec, RigidCellSpec, Rng, Role, World, WorldConfig,
+};
+
+/// Near the right wall, which stops prey that is pushed.
+const CENTRE: Vec2 = Vec2::new(128.0, 45.0);
+
+/// A cell and one prey at some distance to its right.
+fn scene(prey: &OrganismSpec, distance: f32) -> (World, OrganismId, OrganismId) {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    let prey = world.spawn(prey, Placement::at(CENTRE.x + distance, CENTRE.y)).unwrap();
+    (world, cell, prey)
+}
+
+fn agar() -> OrganismSpec {
+    AgarSpec::default().into()
+}
+
+/// A rigid cell that is small enough.
+fn small_rigid() -> OrganismSpec {
+    RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() }.into()
+}
+
+fn phase(world: &World, cell: OrganismId, prey: OrganismId) -> Option<MealPhase> {
+    world.view().organism(cell)?.meals().find(|meal| meal.0 == prey).map(|meal| meal.1)
+}
+
+/// Steps towards the prey until `done`, at most `limit` steps; checks every step that nothing is lost or half inside.
+fn chase(
+    world: &mut World,
+    cell: OrganismId,
+    prey: OrganismId,
+    limit: u32,
+    done: impl Fn(&World) -> bool,
+) -> Option<u32> {
+    for step in 0..limit {
+        let mut inputs = Inputs::new();
+        world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
+        world.step(&inputs);
+        let census = world.census();
+        assert_eq!((census.leaks, census.improper_absorptions), (0, 0), "step {step}");
+        if done(world) {
+            return Some(step);
+        }
+    }
+    None
+}
+
+fn begins(world: &World) -> bool {
+    world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }))
+}
+
+fn is_ingested(event: &Event) -> bool {
+    matches!(event, Event::Ingested { .. })
+}
+
+#[test]
+fn t27_t37_agar_is_touched_then_enveloped_then_inside() {
+    let (mut world, cell, prey) = scene(&agar(), 14.0);
+    let began = chase(&mut world, cell, prey, 120, begins).unwrap();
+    assert!(began as f32 / 60.0 >= PhagocytosisParams::default().hold_time, "after the hold time, step {began}");
+    assert!(matches!(phase(&world, cell, prey), Some(MealPhase::Ingesting(_))));
+    assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(cell));
+    chase(&mut world, cell, prey, 180, |w| w.events().iter().any(is_ingested)).unwrap();
+    assert_eq!(phase(&world, cell, prey), Some(MealPhase::Ingested));
+    let outline: Vec<Vec2> = world.view().organism(cell).unwrap().outline().collect();
+    assert!(contains_point(&outline, world.centroid(prey).unwrap()));
+    // It stays inside, whatever the cell does.
+    let mut rng = Rng::new(3, 3);
+    for k in 0..20 {
+        let mut inputs = Inputs::new();
+        inputs.set(cell, Intent::toward(Vec2::new(rng.range(0.0, 160.0), rng.range(0.0, 90.0))).unwrap());
+        run(&mut world, &inputs, 30);
+        assert_eq!(world.census().improper_absorptions, 0, "goal {k}");
+    }
+}
+
+#[test]
+fn t26_only_cells_with_a_membrane_take_anything_in() {
+    let (mut world, _, _) = scene(&agar(), 14.0);
+    let rigid = world.spawn(&small_rigid(), Placement::at(100.0, 20.0)).unwrap();
+    world.spawn(&agar(), Placement::at(107.0, 20.0)).unwrap();
+    let mut inputs = Inputs::new();
+    inputs.set(rigid, Intent::toward(Vec2::new(150.0, 20.0)).unwrap());
+    for _ in 0..300 {
+        run(&mut world, &inputs, 1);
+        assert!(!world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. })));
+    }
+}
+
+#[test]
+fn t29_t30_touching_without_heading_for_it_takes_nothing_in() {
+    let (mut world, cell, prey) = scene(&agar(), 12.02);
+    for k in 0..40 {
+        // Towards it for less than the hold time, then away.
+        let goal = if k % 2 == 0 { Vec2::new(170.0, 45.0) } else { Vec2::new(10.0, 45.0) };
+        let mut inputs = Inputs::new();
+        inputs.set(cell, Intent::toward(goal).unwrap());
+        run(&mut world, &inputs, if k % 2 == 0 { 15 } else { 8 });
+        assert!(!matches!(phase(&world, cell, prey), Some(MealPhase::Ingesting(_))), "round {k}");
+    }
+}
+
+#[test]
+fn t31_only_the_gate_lets_the_prey_through_and_never_cytoplasm() {
+    let (mut world, cell, prey) = scene(&agar(), 14.0);
+    chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).unwrap();
+    let outline: Vec<Vec2> = world.view().organism(cell).unwrap().outline().collect();
+    let view = world.view().organism(cell).unwrap();
+    assert!(view.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&outline, p.position)));
+}
+
+#[test]
+fn t32_several_agar_go_in_at_once() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    let prey: Vec<OrganismId> = (0..5)
+        .map(|k| {
+            world.spawn(
+                &AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(),
+                Placement::at(143.0, 41.0 + 2.0 * k as f32),
+            )
+        })
+        .collect::<Result<_, _>>()
+        .unwrap();
+    let mut inputs = Inputs::new();
+    inputs.set(cell, Intent::toward(Vec2::new(170.0, 45.0)).unwrap());
+    let mut at_once = 0;
+    for _ in 0..300 {
+        run(&mut world, &inputs, 1);
+        let going_in = prey.iter().filter(|&&p| matches!(phase(&world, cell, p), Some(MealPhase::Ingesting(_))));
+        at_once = at_once.max(going_in.count());
+    }
+    assert!(at_once >= 2, "{at_once} at once");
+    let inside = prey.iter().filter(|&&p| phase(&world, cell, p) == Some(MealPhase::Ingested)).count();
+    assert!(inside >= 3, "{inside} of 5 inside");
+}
+
+#[test]
+fn t33_t34_t36_the_end_is_all_inside_or_all_outside() {
+    for seed in 0..12 {
+        let mut rng = Rng::new(seed, 0);
+        let way = unit_vector(rng.range(0.0, 6.28));
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let at = Vec2::new(80.0, 45.0) + way * 14.5;
+        let spec = AgarSpec { radius: rng.range(0.5, 2.0), ..AgarSpec::default() };
+        let prey = world.spawn(&spec.into(), Placement::at(at.x, at.y)).unwrap();
+        chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).expect("inside");
+        let outline: Vec<Vec2> = world.view().organism(cell).unwrap().outline().collect();
+        assert!(contains_point(&outline, world.centroid(prey).unwrap()), "seed {seed}");
+    }
+}
+
+#[test]
+fn t38_t39_t40_t41_rigid_cells_are_drawn_in_and_shrink_while_the_cell_waits() {
+    let (mut world, cell, prey) = scene(&small_rigid(), 17.0);
+    let size = |world: &World| world.view().organism(prey).unwrap().particles().map(|p| p.radius).fold(0.0, f32::max);
+    let before = size(&world);
+    chase(&mut world, cell, prey, 300, begins).unwrap();
+    let mut last = size(&world);
+    let mut away = Inputs::new();
+    away.set(cell, Intent::toward(Vec2::new(5.0, 45.0)).unwrap());
+    let mut took = 0;
+    while !world.events().iter().any(is_ingested) {
+        run(&mut world, &away, 1);
+        let is_locked = world.view().organism(cell).unwrap().membrane_regions().is_none();
+        assert!(is_locked || world.events().iter().any(is_ingested), "input is ignored meanwhile");
+        let now = size(&world);
+        assert!(now <= last, "shrinks continuously, {last} -> {now}");
+        last = now;
+        took += 1;
+        assert!(took < 240, "within the limit");
+    }
+    assert!(last < 0.9 * before, "shrunk from {before} to {last}");
+    run(&mut world, &away, 2);
+    assert!(world.view().organism(cell).unwrap().membrane_regions().is_some(), "moves again");
+    assert_eq!(world.census().improper_absorptions, 0);
+}
+
+#[test]
+fn t42_t79_a_rigid_cell_of_the_wrong_size_never_gets_inside() {
+    let large: OrganismSpec = RigidCellSpec { radii: Vec2::new(7.0, 12.0), ..RigidCellSpec::default() }.into();
+    let (mut world, cell, prey) = scene(&large, 19.0);
+    let seen = chase(&mut world, cell, prey, 1800, begins);
+    assert_eq!(seen, None, "area ratio below 2");
+}
+
+#[test]
+fn t43_one_rigid_cell_at_a_time_until_it_is_consumed() {
+    let (mut world, cell, first) = scene(&small_rigid(), 17.0);
+    chase(&mut world, cell, first, 600, |w| w.events().iter().any(is_ingested)).unwrap();
+    let at = world.centroid(cell).unwrap() - Vec2::new(20.0, 0.0);
+    let second = world.spawn(&small_rigid(), Placement::at(at.x, at.y)).unwrap();
+    assert_eq!(chase(&mut world, cell, second, 600, |w| w.events().iter().any(is_ingested)), None);
+    let mut digest = Inputs::new();
+    digest.set(cell, Intent::REST.digesting(true));
+    run(&mut world, &digest, 300);
+    assert!(world.kind(first).is_none(), "consumed");
+    assert!(chase(&mut world, cell, second, 900, |w| w.events().iter().any(is_ingested)).is_some());
+}
+
+#[test]
+fn t61_t62_only_held_digestion_consumes_and_only_consumption_grows() {
+    let (mut world, cell, prey) = scene(&AgarSpec { radius: 2.0, ..AgarSpec::default() }.into(), 15.0);
+    chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).unwrap();
+    let cytoplasm = |world: &World| {
+        let view = world.view().organism(cell).unwrap();
+        view.particles().filter(|p| matches!(p.role, Role::Cytoplasm | Role::GrownCytoplasm)).count()
+    };
+    let before = cytoplasm(&world);
+    run(&mut world, &Inputs::new(), 300);
+    assert_eq!(
+        (phase(&world, cell, prey), cytoplasm(&world)),
+        (Some(MealPhase::Ingested), before),
+        "absorbing is not eating"
+    );
+    let mut digest = Inputs::new();
+    digest.set(cell, Intent::REST.digesting(true));
+    run(&mut world, &digest, 18);
+    let Some(MealPhase::Digesting(progress)) = phase(&world, cell, prey) else { panic!("digesting") };
+    run(&mut world, &Inputs::new(), 60);
+    assert_eq!(phase(&world, cell, prey), Some(MealPhase::Digesting(progress)), "pauses on release");
+    assert_eq!(cytoplasm(&world), before);
+    let mut consumed = false;
+    for _ in 0..60 {
+        run(&mut world, &digest, 1);
+        consumed |= world.events().contains(&Event::Consumed { engulfer: cell, prey, kind: Kind::Agar });
+    }
+    assert!(consumed && world.kind(prey).is_none(), "freed");
+    let area = signed_area(&world.view().organism(cell).unwrap().outline().collect::<Vec<_>>());
+    run(&mut world, &Inputs::new(), 240);
+    // An agar of area 12.6 makes eight particles of 1.43.
+    assert_eq!(cytoplasm(&world) - before, 8);
+    let grown = signed_area(&world.view().organism(cell).unwrap().outline().collect::<Vec<_>>());
+    assert!(grown > area - 2.0, "area {area} -> {grown}");
+    assert_eq!(world.census().leaks, 0);
+}
+
+#[test]
+fn t66_digestion_slows_the_cell() {
+    let distance = |digests: bool| {
+        let (mut world, cell, prey) = scene(&AgarSpec { radius: 2.0, ..AgarSpec::default() }.into(), 15.0);
+        chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).unwrap();
+        let start = world.centroid(cell).unwrap();
+        let mut inputs = Inputs::new();
+        inputs.set(cell, Intent::toward(Vec2::new(5.0, 45.0)).unwrap().digesting(digests));
+        run(&mut world, &inputs, 30);
+        (world.centroid(cell).unwrap() - start).length()
+    };
+    assert!(distance(true) < 0.7 * distance(false), "{} against {}", distance(true), distance(false));
+}
+
+#[test]
+fn removing_the_prey_or_the_engulfer_in_the_middle_leaves_a_sound_world() {
+    for remove_prey in [true, false] {
+        let (mut world, cell, prey) = scene(&small_rigid(), 17.0);
+        chase(&mut world, cell, prey, 600, begins).unwrap();
+        run(&mut world, &Inputs::new(), 20);
+        world.remove(if remove_prey { prey } else { cell }).unwrap();
+        run(&mut world, &Inputs::new(), 120);
+        let census = world.census();
+        assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0));
+        let left = world.view().organisms().next().unwrap();
+        assert!(left.meals().count() == 0 && left.held_by().is_none(), "free again");
+    }
+}
+
+#[test]
+fn agar_among_platelets_is_absorbed_from_every_side() {
+    for seed in 0..6 {
+        let mut rng = Rng::new(seed, 9);
+        let mut world = World::new(WorldConfig { size: Vec2::new(110.0, 90.0), ..WorldConfig::default() }).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(55.0, 45.0)).unwrap();
+        let at = Vec2::new(55.0, 45.0) + unit_vector(rng.range(0.0, 6.28)) * 16.0;
+        let prey = world.spawn(&agar(), Placement::at(at.x, at.y)).unwrap();
+        for _ in 0..60 {
+            let at = Placement::at(rng.range(3.0, 107.0), rng.range(3.0, 87.0));
+            // Where there is no room there is no platelet.
+            let _ = world.spawn(&PlateletSpec::default().into(), at);
+        }
+        assert!(chase(&mut world, cell, prey, 900, |w| w.events().iter().any(is_ingested)).is_some(), "seed {seed}");
+    }
+}
