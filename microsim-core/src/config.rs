@@ -3,9 +3,6 @@
 use crate::error::{Error, count_in_range, in_range};
 use glam::Vec2;
 
-/// Largest coordinate, in length units: beyond it `f32` is too coarse for contacts.
-pub(crate) const MAX_EXTENT: f32 = 20_000.0;
-
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldConfig {
@@ -44,13 +41,16 @@ impl Default for WorldConfig {
 }
 
 impl WorldConfig {
+    /// Largest width and height of a room, units: beyond it `f32` is too coarse for contacts.
+    pub const MAX_SIZE: f32 = 20_000.0;
+
     /// Checks every field.
     ///
     /// # Errors
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        in_range("size.x", self.size.x, 1.0, MAX_EXTENT)?;
-        in_range("size.y", self.size.y, 1.0, MAX_EXTENT)?;
+        in_range("size.x", self.size.x, 1.0, Self::MAX_SIZE)?;
+        in_range("size.y", self.size.y, 1.0, Self::MAX_SIZE)?;
         in_range("dt", self.dt, 0.001, 0.1)?;
         count_in_range("substeps", self.substeps, 1, 64)?;
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;

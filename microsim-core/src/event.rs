@@ -1,7 +1,7 @@
 //! What happened in a step. Events are kept until the next step begins, in an order that depends on the state only.
 
 use crate::id::OrganismId;
-use crate::organism::Kind;
+use crate::kind::Kind;
 
 /// One thing that happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -30,6 +30,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact"))]
 
 mod behavior;
+mod capability;
 mod collision;
 mod config;
 mod error;
@@ -37,6 +38,7 @@ mod event;
 pub mod geometry;
 mod id;
 mod inputs;
+mod kind;
 mod organism;
 mod particle;
 mod rng;
@@ -47,25 +49,26 @@ mod step;
 mod template;
 mod world;
 
-pub use behavior::controller::Controller;
 pub use behavior::crawl::MembraneRegion;
-pub use behavior::phagocytosis::{MealPhase, PhagocytosisParams, PreyClass};
+pub use capability::controller::Controller;
+pub use capability::phagocytosis::{MealPhase, PhagocytosisParams, PreyClass};
+pub use collision::obstacle::Obstacle;
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::Event;
 pub use id::{ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
+pub use kind::Kind;
 pub use organism::agar::AgarSpec;
 pub use organism::filled_chain::AmoeboidCellSpec;
 pub use organism::fluid_block::FluidBlockSpec;
 pub use organism::platelet::PlateletSpec;
 pub use organism::probe::ProbeSpec;
 pub use organism::soft_body::RigidCellSpec;
-pub use organism::{Kind, OrganismSpec, Placement};
+pub use organism::{OrganismSpec, Placement};
 pub use particle::{CollisionGroups, Material};
 pub use rng::Rng;
 pub use solver::fluid::{FluidMode, FluidParams};
-pub use solver::obstacle::Obstacle;
 pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};

@@ -1,12 +1,13 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{controller, draw_in_prey, steer_organisms};
+use crate::behavior::{draw_in_prey, steer_organisms};
+use crate::capability::controller;
 use crate::collision::broad_phase::Surroundings;
 use crate::inputs::Inputs;
+use crate::organism::table::Organisms;
 use crate::solver::membrane::Membrane;
 use crate::solver::{contact, drive, integrate, obstacle};
 use crate::world::World;
-use crate::world::organisms::Organisms;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,32 +1,18 @@
 //! What organisms do, over the solver: how they choose a goal and how they move towards it.
 
-pub(crate) mod controller;
 pub(crate) mod crawl;
 pub(crate) mod front_pull;
-pub(crate) mod phagocytosis;
 
-use crate::behavior::phagocytosis::MealPhase;
+use crate::capability::phagocytosis::MealPhase;
+use crate::capability::{Locomotion, controller};
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::inputs::Inputs;
 use crate::organism::Organism;
+use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::drive::Drive;
-use crate::world::organisms::Organisms;
 use glam::Vec2;
-
-/// How an organism moves towards its goal, and what it remembers of it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Locomotion {
-    /// It does not.
-    None,
-    /// Its front body pulls it (seed, 3.1.1). `front` is a position in the outline.
-    FrontPull { front: u32 },
-    /// Its membrane's front and rear drive it (seed, 3.1.2). `front_centre` is a position in the outline, while it moves.
-    Crawl { front_centre: Option<u32> },
-    /// Somebody pulls all of it with finite force.
-    Tow { max_acceleration: f32 },
-}
 
 /// Turns inputs and controllers into the drives of this step.
 pub(crate) fn steer_organisms(

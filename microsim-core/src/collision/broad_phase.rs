@@ -6,9 +6,9 @@
 
 use super::filter::Exemptions;
 use super::grid::Grid;
+use super::obstacle::Obstacle;
+use super::{Contact, ObstacleContact, combine};
 use crate::particle::{NO_OWNER, Particles};
-use crate::solver::contact::{Contact, combine};
-use crate::solver::obstacle::{Obstacle, ObstacleContact};
 use glam::Vec2;
 use parry2d::bounding_volume::BoundingVolume;
 

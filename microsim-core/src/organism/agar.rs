@@ -1,9 +1,10 @@
 //! Agar (seed, 3.1.4): one small disc.
 
-use super::{Blueprint, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
-use crate::behavior::phagocytosis::PreyClass;
+use super::{Blueprint, OrganismSpec};
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::PreyClass;
 use crate::error::{Error, in_range};
+use crate::kind::Kind;
 use crate::template::{Node, Template};
 use glam::Vec2;
 

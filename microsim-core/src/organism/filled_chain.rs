@@ -7,12 +7,13 @@
 //! ```
 
 use super::fluid_block::hexagonal_fill;
-use super::{Blueprint, FluidPlan, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
-use crate::behavior::phagocytosis::PhagocytosisParams;
+use super::{Blueprint, FluidPlan, OrganismSpec};
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, in_range, out_of_range};
 use crate::geometry::polygon::{contains_point, perimeter};
 use crate::geometry::ring::ellipse;
+use crate::kind::Kind;
 use crate::particle::Material;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::template::{Node, Role, Template};

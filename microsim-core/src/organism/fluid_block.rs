@@ -1,8 +1,9 @@
 //! Fluid block: free fluid that fills a rectangle when it is spawned.
 
-use super::{Blueprint, FluidPlan, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
+use super::{Blueprint, FluidPlan, OrganismSpec};
+use crate::capability::Locomotion;
 use crate::error::{Error, in_range, out_of_range};
+use crate::kind::Kind;
 use crate::solver::fluid::FluidParams;
 use glam::Vec2;
 

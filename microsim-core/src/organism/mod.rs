@@ -7,13 +7,15 @@ pub(crate) mod fluid_block;
 pub(crate) mod platelet;
 pub(crate) mod probe;
 pub(crate) mod soft_body;
+pub(crate) mod table;
 
-use crate::behavior::Locomotion;
-use crate::behavior::controller::Controller;
-use crate::behavior::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
+use crate::capability::Locomotion;
+use crate::capability::controller::Controller;
+use crate::capability::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
 use crate::id::OrganismId;
+use crate::kind::Kind;
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid, FluidParams};
@@ -22,43 +24,6 @@ use crate::solver::membrane::{Content, Membrane};
 use crate::template::Template;
 use glam::Vec2;
 use parry2d::bounding_volume::Aabb;
-
-/// What an organism is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[non_exhaustive]
-#[repr(u8)]
-pub enum Kind {
-    /// A soft body that keeps its shape, like a paramecium.
-    RigidCell,
-    /// A membrane filled with cytoplasm, like a neutrophil.
-    AmoeboidCell,
-    /// A soft obstacle that returns to its anchor.
-    Platelet,
-    /// A small disc to be eaten.
-    Agar,
-    /// A heavy disc that an experimenter drives.
-    Probe,
-    /// Fluid on its own.
-    FluidBlock,
-    /// Spawned from a template that the library does not know.
-    Custom,
-}
-
-impl Kind {
-    /// Name in scenario files and output.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RigidCell => "rigid_cell",
-            Self::AmoeboidCell => "amoeboid_cell",
-            Self::Platelet => "platelet",
-            Self::Agar => "agar",
-            Self::Probe => "probe",
-            Self::FluidBlock => "fluid_block",
-            Self::Custom => "custom",
-        }
-    }
-}
 
 /// Any organism, as plain data.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +62,14 @@ impl OrganismSpec {
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         self.blueprint().map(drop)
+    }
+
+    /// Number of particles that it takes.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn particle_count(&self) -> Result<usize, Error> {
+        self.blueprint().map(|blueprint| blueprint.particle_count())
     }
 
     /// Farthest that it reaches from its place, units.

@@ -8,10 +8,11 @@
 //!      o o o
 //! ```
 
-use super::{Blueprint, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
+use super::{Blueprint, OrganismSpec};
+use crate::capability::Locomotion;
 use crate::error::{Error, count_in_range, in_range};
 use crate::geometry::ring::{ellipse, unit_vector};
+use crate::kind::Kind;
 use crate::particle::CollisionGroups;
 use crate::solver::{Anchor, Distance, MinDistance};
 use crate::template::{Node, Role, Template, TemplateBuilder};

@@ -1,8 +1,9 @@
 //! Probe: a heavy disc that an experimenter drives through the scene, like a microneedle. It pushes with finite force.
 
-use super::{Blueprint, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
+use super::{Blueprint, OrganismSpec};
+use crate::capability::Locomotion;
 use crate::error::{Error, in_range};
+use crate::kind::Kind;
 use crate::template::{Node, Template};
 use glam::Vec2;
 

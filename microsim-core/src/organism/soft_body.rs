@@ -8,11 +8,12 @@
 //!          N            nucleus: more massive than all satellites together; springs to the innermost ring
 //! ```
 
-use super::{Blueprint, Kind, OrganismSpec};
-use crate::behavior::Locomotion;
-use crate::behavior::phagocytosis::PreyClass;
+use super::{Blueprint, OrganismSpec};
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::PreyClass;
 use crate::error::{Error, count_in_range, in_range};
 use crate::geometry::ring::ellipse;
+use crate::kind::Kind;
 use crate::solver::MinDistance;
 use crate::template::{Node, Role, Template, TemplateBuilder};
 use glam::Vec2;

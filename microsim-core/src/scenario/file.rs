@@ -5,8 +5,8 @@ use super::group::{self, Group, Surroundings};
 use super::prototype::{self, Prototype};
 use super::source::Source;
 use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
-use crate::config::{MAX_EXTENT, WorldConfig};
-use crate::solver::obstacle::Obstacle;
+use crate::WorldConfig;
+use crate::collision::obstacle::Obstacle;
 use glam::Vec2;
 use toml::de::DeTable;
 
@@ -97,9 +97,9 @@ fn room_for(plans: &[(String, Prototype, GridPlan)], report: &Report<'_>) -> Opt
     let mut room = Vec2::ONE;
     for (path, _, plan) in plans {
         let wanted = plan.room();
-        if wanted.cmpgt(Vec2::splat(MAX_EXTENT)).any() {
+        if wanted.cmpgt(Vec2::splat(WorldConfig::MAX_SIZE)).any() {
             let message = format!("needs a room of {:.0} by {:.0}", wanted.x, wanted.y);
-            report.refuse(&format!("{path}.count"), message, format!("at most {MAX_EXTENT} by {MAX_EXTENT}"));
+            report.refuse(&format!("{path}.count"), message, format!("at most {0} by {0}", WorldConfig::MAX_SIZE));
             return None;
         }
         room = Vec2::select(wanted.cmpgt(room), wanted, room);

@@ -2,7 +2,7 @@
 
 use super::fields::Fields;
 use super::prototype::Prototype;
-use crate::config::MAX_EXTENT;
+use crate::WorldConfig;
 use crate::rng::Rng;
 use glam::Vec2;
 
@@ -42,7 +42,7 @@ impl GridPlan {
             return None;
         }
         let least = prototype.map_or(0.0, |prototype| 2.0 * (prototype.extent(1.0) + jitter));
-        let is_sound = fields.is_within("pitch", pitch, [least, MAX_EXTENT]);
+        let is_sound = fields.is_within("pitch", pitch, [least, WorldConfig::MAX_SIZE]);
         is_sound.then_some(Self { count, pitch, jitter, margin })
     }
 

@@ -5,7 +5,7 @@ use super::grid::{Grid, GridPlan};
 use super::prototype::{Prototype, Prototypes};
 use super::source::{DEGREE, NAME, Value, is_name, unknown};
 use super::steering::Controllers;
-use crate::behavior::controller::Controller;
+use crate::capability::controller::Controller;
 use glam::Vec2;
 use std::collections::BTreeSet;
 

@@ -2,10 +2,10 @@
 
 use super::fields::Fields;
 use super::source::DEGREE;
-use crate::config::MAX_EXTENT;
+use crate::WorldConfig;
+use crate::collision::obstacle::Obstacle;
 use crate::geometry::{is_simple, signed_area, triangulate};
 use crate::particle::Material;
-use crate::solver::obstacle::Obstacle;
 use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
@@ -13,8 +13,8 @@ use parry2d::shape::SharedShape;
 /// Most corners of a polygon: cutting it into triangles takes up to the third power of their number.
 const MAX_CORNERS: usize = 200;
 /// Lengths and coordinates that make sense.
-const LENGTH: [f32; 2] = [0.01, MAX_EXTENT];
-const NEAR: [f32; 2] = [-MAX_EXTENT, MAX_EXTENT];
+const LENGTH: [f32; 2] = [0.01, WorldConfig::MAX_SIZE];
+const NEAR: [f32; 2] = [-WorldConfig::MAX_SIZE, WorldConfig::MAX_SIZE];
 
 type ReadShape = fn(&mut Fields<'_>) -> Option<(SharedShape, Pose)>;
 
@@ -85,9 +85,10 @@ fn polygon(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
         refuse(&format!("{} corners", points.len()), format!("3 to {MAX_CORNERS} corners"));
         return None;
     }
-    let is_near = |point: &Vec2| point.abs().cmple(Vec2::splat(MAX_EXTENT)).all();
+    let is_near = |point: &Vec2| point.abs().cmple(Vec2::splat(WorldConfig::MAX_SIZE)).all();
     if !points.iter().all(is_near) || !is_simple(&points) || signed_area(&points).abs() < LENGTH[0] {
-        let accepted = format!("corners in order around an area, edges that do not cross, within ±{MAX_EXTENT}");
+        let accepted =
+            format!("corners in order around an area, edges that do not cross, within ±{}", WorldConfig::MAX_SIZE);
         refuse("no usable outline", accepted);
         return None;
     }

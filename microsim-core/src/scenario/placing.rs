@@ -2,9 +2,9 @@
 
 use super::fields::Report;
 use super::group::{Angle, Group, Place};
+use crate::collision::obstacle::Obstacle;
 use crate::organism::{OrganismSpec, Placement};
 use crate::rng::Rng;
-use crate::solver::obstacle::Obstacle;
 use glam::Vec2;
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;

@@ -71,7 +71,7 @@ impl Prototype {
     /// Particles that one of it takes.
     pub(super) fn particles(&self, scale: f32) -> Result<u64, Error> {
         let (spec, _) = self.scaled(scale);
-        spec.blueprint().map(|blueprint| blueprint.particle_count() as u64)
+        spec.particle_count().map(|count| count as u64)
     }
 
     /// Its spec in another size, and what is left for [`crate::Placement::scale`] to do. Where fluid is part of it the

@@ -2,7 +2,7 @@
 
 use super::fields::{Fields, Read, Report, mismatch};
 use super::source::Value;
-use crate::behavior::controller::Controller;
+use crate::capability::controller::Controller;
 use glam::Vec2;
 use std::collections::BTreeMap;
 

@@ -5,19 +5,9 @@
 //! pass after the substep (Mueller et al. 2020, "Detailed Rigid Body Simulation", eq. 34).
 
 use super::lanes::ratio;
-use crate::particle::{Material, Particles};
+use crate::collision::Contact;
+use crate::particle::Particles;
 use glam::Vec2;
-
-/// Two discs near enough that they may touch during the step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Contact {
-    pub i: u32,
-    pub j: u32,
-    pub friction: f32,
-    pub restitution: f32,
-    /// Touched in any substep since the pair was found.
-    pub touched: bool,
-}
 
 /// An impact of this substep that has to bounce.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +19,6 @@ pub(crate) struct Impact {
     normal: Vec2,
     /// Speed of separation that restitution asks for.
     rebound: f32,
-}
-
-/// Friction and restitution of two surfaces on each other.
-pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
-    let restitution = if a.restitution > b.restitution { a.restitution } else { b.restitution };
-    ((a.friction * b.friction).sqrt(), restitution)
 }
 
 /// Pushes overlapping discs apart.

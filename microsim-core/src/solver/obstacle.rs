@@ -1,61 +1,10 @@
 //! Contacts of discs with static geometry: any `parry2d` shape. The world's walls are the first user.
 
-use super::contact::{Impact, combine, friction, moved, shift};
-use crate::particle::{CollisionGroups, Material, Particles};
+use super::contact::{Impact, friction, moved, shift};
+use crate::collision::obstacle::Obstacle;
+use crate::collision::{ObstacleContact, combine};
+use crate::particle::Particles;
 use glam::Vec2;
-use parry2d::bounding_volume::Aabb;
-use parry2d::math::Pose;
-use parry2d::shape::SharedShape;
-use std::fmt;
-
-/// Static geometry that nothing moves.
-#[derive(Clone)]
-pub struct Obstacle {
-    /// Its shape, in its own frame.
-    pub shape: SharedShape,
-    /// Where its frame lies in the world.
-    pub pose: Pose,
-    /// Its surface.
-    pub material: Material,
-    /// What it collides with.
-    pub groups: CollisionGroups,
-}
-
-impl fmt::Debug for Obstacle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Obstacle")
-            .field("shape", &self.shape.shape_type())
-            .field("pose", &self.pose)
-            .finish_non_exhaustive()
-    }
-}
-
-impl Obstacle {
-    /// An obstacle of this shape at this pose, with the default surface, colliding with everything.
-    #[must_use]
-    pub fn new(shape: SharedShape, pose: Pose) -> Self {
-        Self { shape, pose, material: Material::default(), groups: CollisionGroups::ALL }
-    }
-
-    /// Axis-aligned box around it in the world.
-    pub(crate) fn bounds(&self) -> Aabb {
-        self.shape.compute_aabb(&self.pose)
-    }
-
-    /// Nearest point of the surface, and whether `point` is inside.
-    pub(crate) fn nearest(&self, point: Vec2) -> (Vec2, bool) {
-        let local = self.pose.inverse_transform_point(point);
-        let projection = self.shape.project_local_point(local, false);
-        (self.pose.transform_point(projection.point), projection.is_inside)
-    }
-}
-
-/// A disc and an obstacle that may touch during the step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ObstacleContact {
-    pub particle: u32,
-    pub obstacle: u32,
-}
 
 /// Moves discs out of obstacles.
 pub(crate) fn project(
@@ -91,6 +40,8 @@ fn direction(from_surface: Vec2, is_inside: bool) -> (Vec2, f32) {
 mod tests {
     use super::super::testing::line;
     use super::*;
+    use parry2d::math::Pose;
+    use parry2d::shape::SharedShape;
 
     fn out_of(shape: SharedShape, start: Vec2) -> f32 {
         let obstacle = Obstacle::new(shape, Pose::translation(10.0, 5.0));

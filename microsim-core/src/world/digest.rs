@@ -1,14 +1,15 @@
 //! Digest: 64 bits that stand for the whole state.
 //!
-//! FNV-1a over fixed-width little-endian words. Order: step index; every particle entry by index (owner, then for live
-//! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups); every organism by index (kind, outline, locomotion,
+//! FNV-1a over fixed-width little-endian words. Order: step index; settings, templates, fluids and obstacles; every particle entry by index (owner, then for live
+//! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups, material); every organism by index (kind, outline, locomotion,
 //! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
 //! positive and every NaN the same, so that equal states have equal digests.
 
 use super::World;
-use crate::behavior::Locomotion;
-use crate::behavior::controller::Controller;
-use crate::behavior::phagocytosis::{Engulfer, MealPhase};
+use crate::capability::Locomotion;
+use crate::capability::controller::Controller;
+use crate::capability::phagocytosis::{Engulfer, MealPhase};
+use crate::config::WorldConfig;
 use crate::organism::Organism;
 use glam::Vec2;
 
@@ -40,6 +41,10 @@ impl Digest {
         self.float(v.y);
     }
 
+    fn text(&mut self, text: &str) {
+        self.words(text.bytes().map(u32::from));
+    }
+
     fn words(&mut self, words: impl IntoIterator<Item = u32>) {
         let mut count = 0;
         for word in words {
@@ -57,6 +62,7 @@ impl World {
     pub fn digest(&self) -> u64 {
         let mut digest = Digest(Digest::OFFSET);
         digest.long(self.step_index);
+        self.digest_settings(&mut digest);
         self.digest_particles(&mut digest);
         for (id, organism) in self.organisms.iter() {
             digest.words([id.index, id.generation]);
@@ -76,6 +82,24 @@ impl World {
         digest.0
     }
 
+    /// What was fixed when the world, its templates and its fluids were made.
+    fn digest_settings(&self, digest: &mut Digest) {
+        let WorldConfig { size, dt, substeps, gravity, damping, max_speed, seed, max_particles } = &self.config;
+        digest.vector(*size);
+        digest.vector(*gravity);
+        [*dt, *damping, *max_speed].into_iter().for_each(|value| digest.float(value));
+        digest.words([*substeps, *max_particles]);
+        digest.long(*seed);
+        self.template_digests.iter().for_each(|&template| digest.long(template));
+        self.fluids.iter().for_each(|fluid| digest.text(&format!("{:?}", fluid.params)));
+        for obstacle in &self.obstacles {
+            let bounds = obstacle.bounds();
+            digest.text(&format!("{obstacle:?} {:?} {:?}", obstacle.material, obstacle.groups));
+            digest.vector(bounds.mins);
+            digest.vector(bounds.maxs);
+        }
+    }
+
     fn digest_particles(&self, digest: &mut Digest) {
         let p = &self.particles;
         for i in 0..p.len() {
@@ -90,10 +114,19 @@ impl World {
                 digest.word(p.fluid[i]);
                 digest.word(p.groups[i].memberships);
                 digest.word(p.groups[i].filter);
+                digest.float(p.material[i].friction);
+                digest.float(p.material[i].restitution);
             }
         }
         digest.words(p.free_indices().iter().copied());
     }
+}
+
+/// Digest of something that never changes, by its text, which gives every number exactly.
+pub(super) fn of_text(value: &impl std::fmt::Debug) -> u64 {
+    let mut digest = Digest(Digest::OFFSET);
+    digest.text(&format!("{value:?}"));
+    digest.0
 }
 
 fn digest_organism(organism: &Organism, digest: &mut Digest) {

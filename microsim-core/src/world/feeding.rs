@@ -3,13 +3,14 @@
 
 use super::World;
 use crate::behavior::crawl::{MembraneRegion, region};
-use crate::behavior::phagocytosis::{Encounter, Engulfer, Meal, MealPhase, PreyClass};
-use crate::behavior::{Locomotion, heading};
+use crate::behavior::heading;
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::{Encounter, Engulfer, Meal, MealPhase, PreyClass};
+use crate::collision::Contact;
 use crate::event::Event;
 use crate::geometry::polygon::{contains_point, nearest_on_segment};
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
-use crate::solver::contact::Contact;
 use crate::solver::fluid::rest_area;
 use crate::solver::lanes::LANES;
 use glam::Vec2;

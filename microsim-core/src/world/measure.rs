@@ -1,7 +1,7 @@
 //! Measures: what there is, whether anything is where it must not be, and how well constraints hold.
 
 use super::World;
-use crate::behavior::phagocytosis::MealPhase;
+use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};

@@ -5,7 +5,6 @@ pub(crate) mod digest;
 mod feeding;
 mod growth;
 pub(crate) mod measure;
-pub(crate) mod organisms;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
@@ -15,22 +14,22 @@ pub(crate) mod view;
 
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::filter::Exemptions;
+use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
 use crate::event::Event;
 use crate::id::{ObstacleId, OrganismId, TemplateId};
 use crate::inputs::Inputs;
-use crate::organism::Kind;
+use crate::kind::Kind;
+use crate::organism::table::Organisms;
 use crate::particle::{Material, Particles};
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::Fluid;
-use crate::solver::obstacle::Obstacle;
 use crate::step::{self, Phase};
 use crate::template::Template;
 use glam::Vec2;
-use organisms::Organisms;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 use touching::Touching;
@@ -44,6 +43,7 @@ pub struct World {
     pub(crate) config: WorldConfig,
     pub(crate) particles: Particles,
     pub(crate) templates: Vec<Template>,
+    template_digests: Vec<u64>,
     pub(crate) blocks: Vec<Block>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) obstacles: Vec<Obstacle>,
@@ -75,6 +75,7 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Vec::new(),
+            template_digests: Vec::new(),
             blocks: Vec::new(),
             fluids: Vec::new(),
             exemptions: Exemptions::default(),
@@ -130,6 +131,7 @@ impl World {
     pub(crate) fn template_index(&mut self, template: Template) -> u32 {
         let known = self.templates.iter().position(|other| *other == template);
         known.unwrap_or_else(|| {
+            self.template_digests.push(digest::of_text(&template));
             self.templates.push(template);
             self.templates.len() - 1
         }) as u32

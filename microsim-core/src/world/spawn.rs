@@ -1,10 +1,11 @@
 //! Putting organisms into the world and taking them out. Everything is checked before anything changes.
 
 use super::World;
-use crate::behavior::phagocytosis::{Engulfer, Prey};
+use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
-use crate::organism::{Blueprint, Body, FluidPlan, Kind, Organism, OrganismSpec, Placement};
+use crate::kind::Kind;
+use crate::organism::{Blueprint, Body, FluidPlan, Organism, OrganismSpec, Placement};
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
@@ -130,7 +131,7 @@ impl World {
     /// Names what the discs overlap, if anything.
     fn overlap(&self, discs: &[Particle]) -> Option<String> {
         let obstacles = self.obstacles.iter().skip(super::WALLS);
-        let blocked = |obstacle: &crate::solver::obstacle::Obstacle, disc: &Particle| {
+        let blocked = |obstacle: &crate::collision::obstacle::Obstacle, disc: &Particle| {
             let (surface, is_inside) = obstacle.nearest(disc.position());
             let gap = (disc.position() - surface).length();
             disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
@@ -228,7 +229,7 @@ impl Blueprint {
             scale: 1.0,
             has_membrane: false,
             fluid: None,
-            locomotion: crate::behavior::Locomotion::None,
+            locomotion: crate::capability::Locomotion::None,
             speed: 0.0,
         }
     }

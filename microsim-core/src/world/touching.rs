@@ -1,10 +1,10 @@
 //! Which organisms touch: turns the solver's contacts into exactly one begin and one end event per pair.
 
-use super::organisms::Organisms;
+use crate::collision::Contact;
 use crate::event::Event;
 use crate::id::OrganismId;
+use crate::organism::table::Organisms;
 use crate::particle::Particles;
-use crate::solver::contact::Contact;
 
 /// Pairs of organisms that touched in the last step, sorted.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,12 @@
 //! A read-only view for drawing and measuring.
 
 use super::World;
-use crate::behavior::Locomotion;
 use crate::behavior::crawl::{MembraneRegion, region};
-use crate::behavior::phagocytosis::MealPhase;
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::MealPhase;
 use crate::id::OrganismId;
-use crate::organism::{Kind, Organism};
+use crate::kind::Kind;
+use crate::organism::Organism;
 use crate::template::Role;
 use glam::Vec2;
 

@@ -58,7 +58,11 @@ impl Controller {
         Self::Patrol { through, repeats, next: 0 }
     }
 
-    pub(crate) fn validate(&self) -> Result<(), Error> {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
         match self {
             Self::Still => Ok(()),
             Self::Wander { interval, rest, goal, remaining } => {

@@ -1,0 +1,18 @@
+//! Capabilities: what an organism can do, as data that it carries, and the rules that need nothing but that data. How they
+//! act on the world is [`crate::behavior`] and the world's feeding.
+
+pub(crate) mod controller;
+pub(crate) mod phagocytosis;
+
+/// How an organism moves towards its goal, and what it remembers of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Locomotion {
+    /// It does not.
+    None,
+    /// Its front body pulls it (seed, 3.1.1). `front` is a position in the outline.
+    FrontPull { front: u32 },
+    /// Its membrane's front and rear drive it (seed, 3.1.2). `front_centre` is a position in the outline, while it moves.
+    Crawl { front_centre: Option<u32> },
+    /// Somebody pulls all of it with finite force.
+    Tow { max_acceleration: f32 },
+}
