@@ -152,7 +152,7 @@ fn t32_several_agar_go_in_at_once() {
 fn t33_t34_t36_the_end_is_all_inside_or_all_outside() {
     for seed in 0..12 {
         let mut rng = Rng::new(seed, 0);
-        let way = unit_vector(rng.range(0.0, 6.28));
+        let way = unit_vector(rng.range(0.0, std::f32::consts::TAU));
         let mut world = World::new(WorldConfig::default()).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
         let at = Vec2::new(80.0, 45.0) + way * 14.5;
@@ -284,7 +284,7 @@ fn agar_among_platelets_is_absorbed_from_every_side() {
         let mut rng = Rng::new(seed, 9);
         let mut world = World::new(WorldConfig { size: Vec2::new(110.0, 90.0), ..WorldConfig::default() }).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(55.0, 45.0)).unwrap();
-        let at = Vec2::new(55.0, 45.0) + unit_vector(rng.range(0.0, 6.28)) * 16.0;
+        let at = Vec2::new(55.0, 45.0) + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 16.0;
         let prey = world.spawn(&agar(), Placement::at(at.x, at.y)).unwrap();
         for _ in 0..60 {
             let at = Placement::at(rng.range(3.0, 107.0), rng.range(3.0, 87.0));

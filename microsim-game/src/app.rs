@@ -10,6 +10,7 @@ use crate::shot::Shot;
 use crate::stage::Stage;
 use macroquad::time::{get_frame_time, get_time};
 use macroquad::window::{next_frame, screen_dpi_scale, screen_height, screen_width};
+use microsim_core::Intent;
 use microsim_core::glam::Vec2;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -125,7 +126,8 @@ impl App {
             None => {}
         }
         let goal = actions.goal.map(|pixel| self.camera.to_room(pixel));
-        self.stage.steer(goal);
+        let moving = goal.and_then(|goal| Intent::toward(goal).ok()).unwrap_or(Intent::REST);
+        self.stage.steer(moving.digesting(actions.digest));
     }
 
     fn advance(&mut self, actions: &Actions, elapsed: f32) {

@@ -24,6 +24,8 @@ const DIGITS: [KeyCode; 9] = [
 pub struct Actions {
     /// Where the cell is told to go, picture pixels.
     pub goal: Option<Vec2>,
+    /// Digest what is inside.
+    pub digest: bool,
     /// Where the cursor is, picture pixels.
     pub cursor: Vec2,
     /// Zooming with a key: 1 in, -1 out.
@@ -49,6 +51,7 @@ pub fn read() -> Actions {
     let held = |key| if is_key_down(key) { 1.0 } else { 0.0 };
     Actions {
         goal: is_mouse_button_down(MouseButton::Left).then_some(cursor),
+        digest: is_key_down(KeyCode::Q),
         cursor,
         zoom: held(KeyCode::D) - held(KeyCode::A),
         // A notch is 1 on some systems and 120 on others.

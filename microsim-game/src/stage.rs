@@ -2,7 +2,6 @@
 
 use crate::args::Scene;
 use crate::picture::Picture;
-use microsim_core::glam::Vec2;
 use microsim_core::scenario::{self, Scenario};
 use microsim_core::{Census, Inputs, Intent, Kind, OrganismId, World};
 
@@ -91,13 +90,11 @@ impl Stage {
         self.census
     }
 
-    /// Sends the player to a point, or lets it rest. Until the first time it follows its own controller.
-    pub fn steer(&mut self, goal: Option<Vec2>) {
+    /// Tells the player what to do. Until it is told something for the first time it follows its own controller.
+    pub fn steer(&mut self, intent: Intent) {
         let Some(player) = self.player else { return };
-        if let Some(goal) = goal.and_then(|goal| Intent::toward(goal).ok()) {
-            self.inputs.set(player, goal);
-        } else if self.inputs.get(player).is_some() {
-            self.inputs.set(player, Intent::REST);
+        if intent != Intent::REST || self.inputs.get(player).is_some() {
+            self.inputs.set(player, intent);
         }
     }
 
@@ -120,6 +117,7 @@ impl Stage {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use microsim_core::glam::Vec2;
     use microsim_core::{AmoeboidCellSpec, Placement, ProbeSpec, WorldConfig};
 
     fn stage() -> Stage {
@@ -134,7 +132,7 @@ mod tests {
         let mut stage = stage();
         let player = stage.player().unwrap();
         let start = stage.world().centroid(player).unwrap();
-        stage.steer(Some(Vec2::new(120.0, 40.0)));
+        stage.steer(Intent::toward(Vec2::new(120.0, 40.0)).unwrap());
         (0..90).for_each(|_| stage.step());
         let there = stage.world().centroid(player).unwrap();
         assert!(there.x > start.x + 3.0, "{start} -> {there}");
@@ -143,10 +141,10 @@ mod tests {
     #[test]
     fn the_player_follows_its_own_controller_until_it_is_steered() {
         let mut stage = stage();
-        stage.steer(None);
+        stage.steer(Intent::REST);
         assert_eq!(stage.inputs, Inputs::new());
-        stage.steer(Some(Vec2::ONE));
-        stage.steer(None);
+        stage.steer(Intent::toward(Vec2::ONE).unwrap());
+        stage.steer(Intent::REST);
         assert_eq!(stage.inputs.get(stage.player().unwrap()), Some(Intent::REST));
     }
 
