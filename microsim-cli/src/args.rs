@@ -85,9 +85,9 @@ largest counts seen in any step, the warm-up included. Measures are taken outsid
 pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
-    /// Number of measured steps
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
-    pub steps: u64,
+    /// Number of measured steps; without it, the scenario's duration
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub steps: Option<u64>,
     /// Number of steps before the measured ones
     #[arg(long, value_name = "N", default_value_t = 60)]
     pub warmup: u64,

@@ -43,13 +43,14 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     let prepared = prepare(&args.scenario)?;
     interrupt::listen();
     let mut world = prepared.built.world.clone();
-    let bar = console.progress(args.warmup + args.steps);
+    let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
+    let bar = console.progress(args.warmup + steps);
     let mut stopwatch = Stopwatch::default();
     let warmup = measure(&mut world, args.warmup, &bar, &mut stopwatch, |_| {})?;
     stopwatch = Stopwatch::default();
     let mut qualities = Vec::new();
     let see = |world: &World| qualities.push(world.quality());
-    let mut tally = measure(&mut world, args.steps, &bar, &mut stopwatch, see)?;
+    let mut tally = measure(&mut world, steps, &bar, &mut stopwatch, see)?;
     bar.finish_and_clear();
     tally.leaks = tally.leaks.max(warmup.leaks);
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);

@@ -26,7 +26,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     interrupt::listen();
     let outputs = args.out.as_deref();
     let outputs = outputs.map(|folder| Outputs::open(folder, args.force)).transpose()?;
-    let steps = steps(args, &prepared);
+    let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
     let mut world = prepared.built.world.clone();
     let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &world, steps)).transpose()?;
     let bar = console.progress(steps);
@@ -43,13 +43,6 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     Ok(())
-}
-
-fn steps(args: &RunArgs, prepared: &Prepared) -> u64 {
-    let scenario = &prepared.scenario;
-    let seconds = args.seconds.unwrap_or(f64::from(scenario.duration()));
-    let in_time = (seconds / f64::from(scenario.config().dt)).round() as u64;
-    args.steps.unwrap_or(in_time)
 }
 
 fn advance(

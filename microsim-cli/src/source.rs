@@ -36,6 +36,14 @@ pub(crate) struct Prepared {
     pub built: Built,
 }
 
+impl Prepared {
+    /// Steps in so many simulated seconds; without a number, in the scenario's duration.
+    pub(crate) fn steps_in(&self, seconds: Option<f64>) -> u64 {
+        let seconds = seconds.unwrap_or(f64::from(self.scenario.duration()));
+        (seconds / f64::from(self.scenario.config().dt)).round() as u64
+    }
+}
+
 /// Reads, parses and builds: whatever is wrong with a scenario is found here, before anything is written.
 pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
     let source = load(&args.scenario)?;
