@@ -21,6 +21,9 @@ use glam::Vec2;
 /// Share of a satellite's radius that stays free between ring and interlayer.
 const INTERLAYER_GAP: f32 = 0.1;
 
+/// Satellites `i` and `i + 2` stay this many links apart, so that a ring under load does not fold.
+const FOLD_LIMIT: f32 = 1.6;
+
 /// A soft obstacle on a rope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlateletSpec {
@@ -92,6 +95,11 @@ impl PlateletSpec {
         let ring: Vec<u32> = points.into_iter().map(|at| builder.node(satellite(at))).collect();
         builder.ring(&ring, 0.0).outline(&ring);
         let held_out = ring_radius - INTERLAYER_GAP * satellite_radius;
+        let straightest = FOLD_LIMIT * 2.0 * satellite_radius;
+        for (k, &a) in ring.iter().enumerate() {
+            let b = ring[(k + 2) % ring.len()];
+            builder.min_distance(MinDistance { a, b, min_length: straightest });
+        }
         for &a in &ring {
             let compliance = self.spoke_compliance;
             builder.distance(Distance { a, b: core.nucleus, rest_length: ring_radius, compliance, damping: 0.0 });
@@ -156,7 +164,7 @@ mod tests {
         let ring_radius = satellites[0].position.length();
         let gap = ring_radius - satellites[0].radius - interlayer[0].radius;
         assert!(gap > 0.0 && gap < 0.2 * satellites[0].radius, "almost reaches the satellites, gap {gap}");
-        assert_eq!(template.constraints().min_distances.len(), 28);
+        assert_eq!(template.constraints().min_distances.len(), 28 + 28, "held out, and kept from folding");
         assert!((template.extent() - 1.0).abs() < 1e-5);
     }
 
