@@ -129,8 +129,8 @@ fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &m
 fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
     let p = around.particles;
     let (a, b) = (i as usize, j as usize);
-    // First what is cheapest and, in a fluid, by far the most frequent.
-    if share_fluid(p, a, b) {
+    // First what is cheapest and by far the most frequent.
+    if keep_apart_themselves(p, a, b) {
         return;
     }
     let reach = p.radius[a] + p.radius[b] + margin;
@@ -140,9 +140,11 @@ fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mu
     }
 }
 
-/// Whether two particles belong to one fluid, which keeps its particles apart by itself.
-fn share_fluid(p: &Particles, a: usize, b: usize) -> bool {
-    p.fluid[a] != 0 && p.fluid[a] == p.fluid[b]
+/// Whether two particles belong to one fluid, which keeps its particles apart by itself, or to one soft body, whose
+/// constraints do.
+fn keep_apart_themselves(p: &Particles, a: usize, b: usize) -> bool {
+    let in_one_body = p.owner[a] == p.owner[b] && p.next_in_ring[a] == NO_OWNER && p.next_in_ring[b] == NO_OWNER;
+    p.fluid[a] == p.fluid[b] && (p.fluid[a] != 0 || in_one_body)
 }
 
 fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bool {
@@ -152,7 +154,7 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
     if p.owner[a] == p.owner[b] {
         // Within one owner a membrane holds its cytoplasm and does not pass through itself; nothing else collides.
         let in_membrane = p.next_in_ring[a] != NO_OWNER && p.next_in_ring[b] != NO_OWNER;
-        return (p.fluid[a] == 0) != (p.fluid[b] == 0) || (in_membrane && !p.are_ring_neighbours(a, b));
+        return p.fluid[a] != p.fluid[b] || (in_membrane && !p.are_ring_neighbours(a, b));
     }
     let owners = [p.owner[a], p.owner[b]];
     !exemptions.contains(owners[0], owners[1]) && !exemptions.gate_is_open([a as u32, b as u32], owners)
@@ -199,7 +201,8 @@ mod tests {
                 for j in i + 1..particles.len() {
                     let gap = (particles.position(i) - particles.position(j)).length();
                     let is_near = gap < particles.radius[i] + particles.radius[j] + 0.2;
-                    if is_near && !share_fluid(&particles, i, j) && may_collide(&particles, i, j, &exemptions) {
+                    if is_near && !keep_apart_themselves(&particles, i, j) && may_collide(&particles, i, j, &exemptions)
+                    {
                         expected.push((i as u32, j as u32));
                     }
                 }
