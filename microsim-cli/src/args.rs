@@ -42,7 +42,7 @@ pub(crate) struct ScenarioArgs {
     #[arg(value_name = "NAME|FILE")]
     pub scenario: String,
     /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
@@ -60,7 +60,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
     /// Number of steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", conflicts_with = "seconds")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "seconds")]
     pub steps: Option<u64>,
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]
@@ -86,10 +86,10 @@ pub(crate) struct BenchArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
     /// Number of measured steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
     pub steps: Option<u64>,
     /// Number of steps before the measured ones
-    #[arg(long, value_name = "N", default_value_t = 60)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 60)]
     pub warmup: u64,
     /// Print one JSON object instead of the table
     #[arg(long)]

@@ -44,7 +44,7 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     interrupt::listen();
     let mut world = prepared.built.world.clone();
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
-    let bar = console.progress(args.warmup + steps);
+    let bar = console.progress(args.warmup.saturating_add(steps));
     let mut stopwatch = Stopwatch::default();
     let warmup = measure(&mut world, args.warmup, &bar, &mut stopwatch, |_| {})?;
     stopwatch = Stopwatch::default();

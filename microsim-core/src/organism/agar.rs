@@ -35,11 +35,12 @@ impl AgarSpec {
         in_range("density", self.density, 0.01, 100.0)?;
         let mass = std::f32::consts::PI * self.radius * self.radius * self.density;
         let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, mass, 1.0));
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
         Ok(Blueprint {
             kind: Kind::Agar,
             template: Some(builder.build()?),
             scale: self.radius,
+            mass,
             has_membrane: false,
             fluid: None,
             locomotion: Locomotion::None,

@@ -22,6 +22,9 @@ use glam::Vec2;
 /// Most nodes of a membrane.
 const MAX_NODES: f32 = 4096.0;
 
+/// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
+const LEAST_CYTOPLASM: usize = 7;
+
 /// A membrane filled with cytoplasm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AmoeboidCellSpec {
@@ -69,11 +72,17 @@ impl AmoeboidCellSpec {
         in_range("speed", self.speed, 0.0, 1000.0)?;
         self.phagocytosis.validate().map_err(|error| error.within("phagocytosis"))?;
         let chain = self.chain()?;
+        let cytoplasm = self.cytoplasm(&chain);
+        if cytoplasm.points.len() < LEAST_CYTOPLASM {
+            let accepted = format!("large enough for {LEAST_CYTOPLASM} cytoplasm particles at this spacing");
+            return Err(out_of_range("radii", cytoplasm.points.len() as f64, accepted));
+        }
         Ok(Blueprint {
             kind: Kind::AmoeboidCell,
-            fluid: Some(self.cytoplasm(&chain)),
+            fluid: Some(cytoplasm),
             template: Some(self.membrane(&chain)?),
             scale: 1.0,
+            mass: 1.0,
             has_membrane: true,
             locomotion: Locomotion::Crawl { front_centre: None },
             speed: self.speed,
@@ -160,6 +169,7 @@ mod tests {
         refuse(AmoeboidCellSpec { radii: Vec2::new(1.0, 10.0), ..spec() }, "radii.x");
         refuse(AmoeboidCellSpec { node_radius: f32::INFINITY, ..spec() }, "node_radius");
         refuse(AmoeboidCellSpec { radii: Vec2::splat(500.0), node_radius: 0.1, ..spec() }, "radii");
+        refuse(AmoeboidCellSpec { radii: Vec2::splat(3.0), cytoplasm_spacing: 3.0, ..spec() }, "radii");
         refuse(AmoeboidCellSpec { cytoplasm_spacing: 0.1, ..spec() }, "cytoplasm_spacing");
     }
 }

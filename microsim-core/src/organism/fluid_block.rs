@@ -61,6 +61,7 @@ impl FluidBlockSpec {
             kind: Kind::FluidBlock,
             template: None,
             scale: 1.0,
+            mass: 1.0,
             has_membrane: false,
             fluid: Some(FluidPlan {
                 params: self.fluid,

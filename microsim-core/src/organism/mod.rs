@@ -142,8 +142,10 @@ pub(crate) struct Blueprint {
     pub kind: Kind,
     /// Its discs and constraints; none for fluid on its own.
     pub template: Option<Template>,
-    /// Size of the organism relative to the template: templates of equal shape are shared by all sizes.
+    /// Size of the organism relative to the template: templates of equal shape are shared by all sizes ...
     pub scale: f32,
+    /// ... and masses.
+    pub mass: f32,
     /// Its outline is a membrane, which may grow, rather than a ring that the template's constraints hold together.
     pub has_membrane: bool,
     pub fluid: Option<FluidPlan>,

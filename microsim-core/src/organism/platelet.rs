@@ -72,6 +72,7 @@ impl PlateletSpec {
             kind: Kind::Platelet,
             template: Some(self.template()?),
             scale: self.radius,
+            mass: 1.0,
             has_membrane: false,
             fluid: None,
             locomotion: Locomotion::None,

@@ -39,11 +39,12 @@ impl ProbeSpec {
         in_range("speed", self.speed, 0.0, 1000.0)?;
         in_range("max_acceleration", self.max_acceleration, 0.0, 1e6)?;
         let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, self.mass, 1.0));
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
         Ok(Blueprint {
             kind: Kind::Probe,
             template: Some(builder.build()?),
             scale: self.radius,
+            mass: self.mass,
             has_membrane: false,
             fluid: None,
             locomotion: Locomotion::Tow { max_acceleration: self.max_acceleration },

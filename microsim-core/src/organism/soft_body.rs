@@ -78,6 +78,7 @@ impl RigidCellSpec {
             kind: Kind::RigidCell,
             template: Some(self.template()?),
             scale: self.radii.x,
+            mass: 1.0,
             has_membrane: false,
             fluid: None,
             locomotion: Locomotion::FrontPull { front: 0 },

@@ -9,6 +9,7 @@ use crate::particle::{NO_OWNER, Particles};
 pub(crate) struct Block {
     /// Index of the template in the world.
     pub template: u32,
+    pub slots: u32,
     /// First particle of slot 0.
     pub base: u32,
     /// Owner in each lane, or [`NO_OWNER`].
@@ -21,7 +22,7 @@ impl Block {
     /// A block with eight empty lanes, its `slots * 8` particles appended to the store.
     pub(crate) fn new(template: u32, slots: usize, particles: &mut Particles) -> Self {
         let base = particles.extend(slots * LANES);
-        Self { template, base, owner: [NO_OWNER; LANES], scale: [1.0; LANES] }
+        Self { template, slots: slots as u32, base, owner: [NO_OWNER; LANES], scale: [1.0; LANES] }
     }
 
     /// Particle of a slot in a lane.

@@ -1,6 +1,6 @@
 //! Digest: 64 bits that stand for the whole state.
 //!
-//! FNV-1a over fixed-width little-endian words. Order: step index; settings, templates, fluids and obstacles; every particle entry by index (owner, then for live
+//! FNV-1a over fixed-width little-endian words. Order: step index; settings, templates, fluids, obstacles; every particle entry by index (owner, then for live
 //! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups, material); every organism by index (kind, outline, locomotion,
 //! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
 //! positive and every NaN the same, so that equal states have equal digests.
@@ -9,6 +9,7 @@ use super::World;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::phagocytosis::{Engulfer, MealPhase};
+use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::organism::Organism;
 use glam::Vec2;
@@ -73,7 +74,7 @@ impl World {
             digest.words(block.owner);
             block.scale.iter().for_each(|&scale| digest.float(scale));
         }
-        digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, b.index]));
+        digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, a.generation, b.index, b.generation]));
         digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
         digest.words(self.exemptions.gates().iter().flat_map(|&(a, b)| [a, b]));
         for fluid in &self.fluids {
@@ -92,12 +93,7 @@ impl World {
         digest.long(*seed);
         self.template_digests.iter().for_each(|&template| digest.long(template));
         self.fluids.iter().for_each(|fluid| digest.text(&format!("{:?}", fluid.params)));
-        for obstacle in &self.obstacles {
-            let bounds = obstacle.bounds();
-            digest.text(&format!("{obstacle:?} {:?} {:?}", obstacle.material, obstacle.groups));
-            digest.vector(bounds.mins);
-            digest.vector(bounds.maxs);
-        }
+        self.obstacle_digests.iter().for_each(|&obstacle| digest.long(obstacle));
     }
 
     fn digest_particles(&self, digest: &mut Digest) {
@@ -129,6 +125,24 @@ pub(super) fn of_text(value: &impl std::fmt::Debug) -> u64 {
     digest.0
 }
 
+/// Digest of an obstacle by what the step sees of it: its surface from a grid of points around it.
+pub(super) fn of_obstacle(obstacle: &Obstacle) -> u64 {
+    const POINTS: u8 = 8;
+    let mut digest = Digest(Digest::OFFSET);
+    let bounds = obstacle.bounds();
+    let extent = bounds.maxs - bounds.mins;
+    for k in 0..POINTS * POINTS {
+        let share = Vec2::new(f32::from(k % POINTS), f32::from(k / POINTS)) / f32::from(POINTS - 1);
+        let (surface, is_inside) = obstacle.nearest(bounds.mins + extent * share);
+        digest.vector(surface);
+        digest.word(u32::from(is_inside));
+    }
+    digest.float(obstacle.material.friction);
+    digest.float(obstacle.material.restitution);
+    digest.words([obstacle.groups.memberships, obstacle.groups.filter]);
+    digest.0
+}
+
 fn digest_organism(organism: &Organism, digest: &mut Digest) {
     digest.word(organism.kind as u32);
     digest.words(organism.particles());
@@ -142,7 +156,7 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
         Locomotion::Crawl { front_centre } => digest.words([2, front_centre.map_or(u32::MAX, |k| k)]),
         Locomotion::Tow { max_acceleration } => digest.float(max_acceleration),
     }
-    digest.float(organism.speed);
+    [organism.speed, organism.spawn_area, organism.spawn_scale].into_iter().for_each(|value| digest.float(value));
     organism.engulfer.iter().for_each(|engulfer| digest_engulfer(engulfer, digest));
     organism.prey.and_then(|prey| prey.held_by).into_iter().for_each(|id| digest.words([id.index, id.generation]));
     digest_controller(&organism.controller, digest);
@@ -152,6 +166,8 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
 }
 
 fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
+    digest.text(&format!("{:?}", engulfer.params));
+    digest.word(u32::from(engulfer.digests));
     digest.float(engulfer.held_area);
     digest.float(engulfer.pending_growth);
     for meal in &engulfer.meals {

@@ -27,7 +27,6 @@ const OVERLAP: f32 = 0.25;
 impl World {
     /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
     pub(crate) fn advance_phagocytosis(&mut self) {
-        self.free_orphans();
         let engulfers: Vec<OrganismId> = self
             .organisms
             .iter()
@@ -50,16 +49,15 @@ impl World {
         }
     }
 
-    /// Prey whose engulfer was removed is free again.
-    fn free_orphans(&mut self) {
-        let is_orphan = |(id, organism): (OrganismId, &Organism)| {
-            let holder = organism.prey.and_then(|prey| prey.held_by)?;
-            self.organisms.get(holder).is_none().then_some(id)
-        };
-        let orphans: Vec<OrganismId> = self.organisms.iter().filter_map(is_orphan).collect();
-        for id in orphans {
-            self.set_scale(id, 1.0);
-            self.organisms.get_mut(id).into_iter().for_each(|organism| organism.set_held_by(None));
+    /// Frees all prey of an organism that is about to be removed or was frozen.
+    pub(crate) fn release_meals(&mut self, id: OrganismId) {
+        let engulfer = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.as_mut());
+        for meal in engulfer.map_or(Vec::new(), |engulfer| std::mem::take(&mut engulfer.meals)) {
+            self.exemptions.close_gate(&meal.gate, meal.prey.index);
+            if self.organisms.get(meal.prey).is_some_and(Organism::is_held) {
+                self.set_scale(meal.prey, 1.0);
+                self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(None));
+            }
         }
     }
 

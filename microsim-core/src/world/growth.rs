@@ -1,13 +1,14 @@
 //! Growth of a filled chain (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
 use super::World;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::contains_point;
 use crate::geometry::ring::unit_vector;
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
 use crate::particle::{Particle, Particles};
-use crate::solver::membrane::links;
+use crate::solver::fluid::rest_area;
+use crate::solver::membrane::{STRAIN_LIMIT, links};
 use crate::template::Role;
 use glam::Vec2;
 
@@ -22,8 +23,8 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane or the world would hold too many particles. Nothing is
-    /// changed then.
+    /// When the handle is stale, the organism has no membrane, the membrane could not go round so much cytoplasm, or the
+    /// world would hold too many particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
         let limit = u64::from(self.config.max_particles);
@@ -34,6 +35,7 @@ impl World {
         let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
         };
+        check_room(organism, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
         }
@@ -42,6 +44,17 @@ impl World {
         fluid.particles.extend(added);
         Ok(())
     }
+}
+
+/// Checks that a membrane with so many more nodes goes round so much more cytoplasm without a link at its limit.
+fn check_room(organism: &Organism, spacing: f32, nodes: u32, particles: u32) -> Result<(), Error> {
+    let Some(membrane) = organism.body.membrane() else { return Ok(()) };
+    let longest = STRAIN_LIMIT * membrane.rest_length * (organism.outline.len() as f32 + nodes as f32);
+    let radius = longest / std::f32::consts::TAU - membrane.node_radius;
+    let most = std::f32::consts::PI * radius * radius / rest_area(1, spacing);
+    let count = organism.fluid_particles.len() as f32 + particles as f32;
+    let accepted = || format!("at most {} in all with {nodes} new nodes", most as u32);
+    (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
 }
 
 /// Puts a node like its neighbours into the longest link. The link is replaced by two of the same rest length.
@@ -69,7 +82,8 @@ fn insert_node(organism: &mut Organism, p: &mut Particles) {
 fn inject(organism: &mut Organism, count: u32, spacing: f32, p: &mut Particles) -> Vec<u32> {
     let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
     let Some(centre) = injection_point(organism, &outline, p) else { return Vec::new() };
-    let like = Particle { role: Role::GrownCytoplasm as u8, ..p.get(organism.fluid_particles[0] as usize) };
+    let Some(&first) = organism.fluid_particles.first() else { return Vec::new() };
+    let like = Particle { role: Role::GrownCytoplasm as u8, ..p.get(first as usize) };
     let mut added = Vec::new();
     for k in 0..count {
         let mut around = unit_vector(k as f32 * GOLDEN_ANGLE) * (CROWDING * spacing * (k as f32 + 0.5).sqrt());
@@ -89,4 +103,47 @@ fn injection_point(organism: &Organism, outline: &[Vec2], p: &Particles) -> Opti
     }
     let cytoplasm: Vec<Vec2> = organism.fluid_particles.iter().map(|&i| p.position(i as usize)).collect();
     crate::geometry::ring::nearest_index(&cytoplasm, centroid).map(|k| cytoplasm[k])
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{AmoeboidCellSpec, Inputs, Placement, World, WorldConfig};
+
+    #[test]
+    fn t22_new_nodes_follow_their_neighbours_in_the_ring() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        for _ in 0..5 {
+            world.grow(cell, 3, 8).unwrap();
+            world.step(&Inputs::new());
+            let ring = &world.organisms.get(cell).unwrap().outline;
+            for (k, &node) in ring.iter().enumerate() {
+                assert_eq!(world.particles.next_in_ring[node as usize], ring[(k + 1) % ring.len()]);
+            }
+        }
+    }
+
+    #[test]
+    fn t15_a_displaced_node_is_pulled_back_by_its_links() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let node = world.organisms.get(cell).unwrap().outline[0] as usize;
+        world.particles.x[node] += 3.0;
+        (0..60).for_each(|_| world.step(&Inputs::new()));
+        assert!(world.quality().edge_stretch_max < 0.02, "{:?}", world.quality());
+    }
+
+    #[test]
+    fn more_cytoplasm_than_the_membrane_can_hold_is_refused() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let before = world.digest();
+        assert_eq!(world.grow(cell, 0, 400).unwrap_err().field(), "particles");
+        assert_eq!(world.digest(), before);
+        world.grow(cell, 40, 400).unwrap();
+        for _ in 0..300 {
+            world.step(&Inputs::new());
+            assert_eq!(world.census().leaks, 0);
+        }
+    }
 }

@@ -44,6 +44,7 @@ pub struct World {
     pub(crate) particles: Particles,
     pub(crate) templates: Vec<Template>,
     template_digests: Vec<u64>,
+    obstacle_digests: Vec<u64>,
     pub(crate) blocks: Vec<Block>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) obstacles: Vec<Obstacle>,
@@ -71,11 +72,12 @@ impl World {
     pub fn new(config: WorldConfig) -> Result<Self, Error> {
         config.validate()?;
         Ok(Self {
-            obstacles: walls(config.size),
+            obstacles: walls(&config),
             config,
             particles: Particles::default(),
             templates: Vec::new(),
             template_digests: Vec::new(),
+            obstacle_digests: Vec::new(),
             blocks: Vec::new(),
             fluids: Vec::new(),
             exemptions: Exemptions::default(),
@@ -151,6 +153,7 @@ impl World {
         if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
+        self.obstacle_digests.push(digest::of_obstacle(&obstacle));
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
     }
@@ -202,9 +205,10 @@ impl World {
     }
 }
 
-/// Thick slabs around the room; the overlap at the corners closes them.
-fn walls(size: Vec2) -> Vec<Obstacle> {
-    let thickness = 0.5 * (size.x + size.y);
+/// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step.
+fn walls(config: &WorldConfig) -> Vec<Obstacle> {
+    let size = config.size;
+    let thickness = size.x + size.y + 4.0 * config.reach();
     let half = size * 0.5;
     let slab = |half_extents: Vec2, centre: Vec2| {
         Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))

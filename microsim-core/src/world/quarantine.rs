@@ -2,11 +2,19 @@
 
 use super::World;
 use crate::event::Event;
+use crate::id::OrganismId;
 use glam::Vec2;
 
 impl World {
     /// Freezes every organism with a particle that is not finite or has left the room by more than the room's size.
     pub(crate) fn quarantine(&mut self) {
+        for id in self.freeze_insane() {
+            self.release_meals(id);
+        }
+    }
+
+    /// Freezes them and returns which.
+    fn freeze_insane(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
         let is_sane = |i: u32| {
             let Vec2 { x, y } = particles.position(i as usize);
@@ -14,10 +22,12 @@ impl World {
             let in_x = x > -config.size.x && x < 2.0 * config.size.x;
             in_x && y > -config.size.y && y < 2.0 * config.size.y && velocity.is_finite()
         };
-        let mut lost = Vec::new();
+        let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         for (id, organism) in organisms.iter_mut().filter(|(_, organism)| !organism.is_quarantined) {
             if !organism.particles().all(is_sane) {
                 organism.is_quarantined = true;
+                organism.fluid = None;
+                frozen.push(id);
                 events.push(Event::Quarantined { organism: id });
                 lost.extend(organism.particles().map(|i| (i, organism.home)));
             }
@@ -27,6 +37,7 @@ impl World {
             particles.freeze(i as usize, if last.is_finite() { last.clamp(Vec2::ZERO, config.size) } else { home });
             fluids.iter_mut().for_each(|fluid| fluid.particles.retain(|&j| j != i));
         }
+        frozen
     }
 }
 

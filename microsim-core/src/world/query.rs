@@ -1,7 +1,7 @@
 //! Queries: what is at a point, in a circle, in a box, along a ray. Results are in the order of the organisms.
 
 use super::World;
-use crate::geometry::polygon::contains_point;
+use crate::geometry::polygon::{contains_point, nearest_on_segment};
 use crate::id::OrganismId;
 use glam::Vec2;
 
@@ -26,7 +26,7 @@ impl World {
 
     /// Organisms that a circle touches: one of their discs, or the area within their outline, reaches into it.
     pub fn organisms_in_circle(&self, centre: Vec2, radius: f32) -> impl Iterator<Item = OrganismId> + '_ {
-        self.find(move |disc, r| (disc - centre).length() <= r + radius, Some(centre))
+        self.find(move |disc, r| (disc - centre).length() <= r + radius, Some((centre, radius)))
     }
 
     /// Organisms with a disc that reaches into the box from `low` to `high`.
@@ -58,19 +58,25 @@ impl World {
     fn find<'a>(
         &'a self,
         meets: impl Fn(Vec2, f32) -> bool + 'a,
-        inside: Option<Vec2>,
+        inside: Option<(Vec2, f32)>,
     ) -> impl Iterator<Item = OrganismId> + 'a {
         let found = self.organisms.iter().filter(move |(_, organism)| {
             let discs = organism.particles().map(|i| i as usize);
             let mut solid = discs.filter(|&i| self.particles.groups[i].memberships != 0);
             solid.any(|i| meets(self.particles.position(i), self.particles.radius[i]))
-                || inside.is_some_and(|point| {
+                || inside.is_some_and(|(centre, radius)| {
                     let outline = organism.outline_particles().map(|i| self.particles.position(i as usize));
-                    contains_point(&outline.collect::<Vec<_>>(), point)
+                    reaches_into(&outline.collect::<Vec<_>>(), centre, radius)
                 })
         });
         found.map(|(id, _)| id)
     }
+}
+
+/// Whether a circle reaches into the area of a polygon.
+fn reaches_into(outline: &[Vec2], centre: Vec2, radius: f32) -> bool {
+    let edge = |k: usize| nearest_on_segment(outline[k], outline[(k + 1) % outline.len()], centre);
+    contains_point(outline, centre) || (0..outline.len()).any(|k| (edge(k) - centre).length() <= radius)
 }
 
 /// Distance along the ray to the circle; 0 from inside it.

@@ -39,12 +39,14 @@ impl World {
         self.spawn_blueprint(Blueprint::custom(template), placement)
     }
 
-    /// Takes an organism out of the world.
+    /// Takes an organism out of the world. What it holds is free again, in its full size.
     ///
     /// # Errors
     /// When the handle is stale.
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
-        let organism = self.organisms.remove(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        self.organism_or_stale(id, "organism")?;
+        self.release_meals(id);
+        let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
             let fluid = &mut self.fluids[fluid as usize];
@@ -64,6 +66,9 @@ impl World {
 
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
+        if blueprint.fluid.is_some() && placement.scale != 1.0 {
+            return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
+        }
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
@@ -168,11 +173,15 @@ impl World {
         let slots = template.nodes().len();
         let template = self.template_index(template);
         let has_room = |block: &Block| block.template == template && block.free_lane().is_some();
-        let index = self.blocks.iter().position(has_room).unwrap_or_else(|| {
+        let can_serve = |block: &Block| block.slots == slots as u32 && block.is_empty();
+        let blocks = &self.blocks;
+        let index = blocks.iter().position(has_room).or_else(|| blocks.iter().position(can_serve));
+        let index = index.unwrap_or_else(|| {
             self.blocks.push(Block::new(template, slots, &mut self.particles));
             self.blocks.len() - 1
         });
         let block = &mut self.blocks[index];
+        block.template = template;
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
@@ -227,6 +236,7 @@ impl Blueprint {
             kind: Kind::Custom,
             template: Some(template),
             scale: 1.0,
+            mass: 1.0,
             has_membrane: false,
             fluid: None,
             locomotion: crate::capability::Locomotion::None,
@@ -243,7 +253,7 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
         origin,
         offset: placement.place(node.position, scale, origin),
         velocity: Vec2::ZERO,
-        inv_mass: 1.0 / node.mass,
+        inv_mass: 1.0 / (node.mass * blueprint.mass),
         radius: node.radius * scale,
         groups: node.groups,
         material: node.material,

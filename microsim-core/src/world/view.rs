@@ -73,7 +73,7 @@ impl<'a> OrganismView<'a> {
         self.organism.kind
     }
 
-    /// Area that it had when it was spawned, square units; 0 without an outline.
+    /// Area that it had when it was spawned, square units: of its ellipse or disc, or within its outline.
     #[must_use]
     pub fn spawn_area(self) -> f32 {
         self.organism.spawn_area
@@ -95,8 +95,8 @@ impl<'a> OrganismView<'a> {
         self.organism.outline_particles().map(move |i| self.world.particles.position(i as usize))
     }
 
-    /// Its outline pushed out by the discs' radius, away from the centre of the outline (seed, 3.2.1): nothing that
-    /// touches leaves a gap in the picture.
+    /// Its outline pushed out by the discs' radius, square to the line between its neighbours (the seed's 3.2.1 pushes away
+    /// from the centre, which a concave outline does not allow): nothing that touches leaves a gap in the picture.
     #[must_use]
     pub fn surface(self) -> Vec<Vec2> {
         let outline: Vec<Vec2> = self.outline().collect();
