@@ -8,8 +8,8 @@ use common::run;
 use microsim_core::geometry::polygon::{contains_point, signed_area};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, ErrorKind, Inputs, Intent, MembraneRegion, OrganismId, Placement, PlateletSpec, Rng, Role, World,
-    WorldConfig,
+    AmoeboidCellSpec, Controller, ErrorKind, Inputs, Intent, MembraneRegion, OrganismId, Placement, PlateletSpec,
+    ProbeSpec, Rng, Role, World, WorldConfig,
 };
 
 fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
@@ -216,4 +216,21 @@ fn growth_refuses_what_cannot_grow_and_what_would_not_fit() {
     assert_eq!(world.digest(), before, "nothing changed");
     world.remove(cell).unwrap();
     assert_eq!(world.grow(cell, 1, 1).unwrap_err().kind(), &ErrorKind::Stale);
+}
+
+#[test]
+fn t25_links_keep_their_limit_when_a_heavy_probe_rams_the_membrane() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(148.0, 45.0)).unwrap();
+    let rest = links(&world, cell)[0];
+    let ram = Controller::patrol(vec![Vec2::new(200.0, 45.0)], false);
+    let spec = ProbeSpec { radius: 1.5, mass: 120.0, speed: 18.0, max_acceleration: 1200.0 };
+    world.spawn(&spec.into(), Placement::at(120.0, 45.0).steered_by(ram)).unwrap();
+    let mut longest: f32 = 0.0;
+    for step in 0..180 {
+        run(&mut world, &Inputs::new(), 1);
+        longest = links(&world, cell).into_iter().fold(longest, f32::max);
+        assert_eq!(world.census().leaks, 0, "step {step}");
+    }
+    assert!(longest < 1.35 * rest, "longest link {} rest lengths", longest / rest);
 }

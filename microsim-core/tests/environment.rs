@@ -118,3 +118,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn t50_walls_hold_at_the_extremes_of_every_setting() {
+    let config = WorldConfig {
+        size: Vec2::splat(20.0),
+        gravity: Vec2::new(1000.0, -1000.0),
+        dt: 0.1,
+        substeps: 1,
+        max_speed: 1000.0,
+        ..WorldConfig::default()
+    };
+    let mut world = World::new(config).unwrap();
+    world.spawn(&AgarSpec::default().into(), Placement::at(10.0, 10.0)).unwrap();
+    for step in 0..100 {
+        run(&mut world, &Inputs::new(), 1);
+        assert!(everything_is_inside(&world, 0.05), "outside at step {step}");
+    }
+}

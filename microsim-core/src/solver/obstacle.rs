@@ -3,6 +3,7 @@
 use super::contact::{Impact, friction, moved, shift};
 use crate::collision::obstacle::Obstacle;
 use crate::collision::{ObstacleContact, combine};
+use crate::geometry::ring::direction_or;
 use crate::particle::Particles;
 use glam::Vec2;
 
@@ -15,25 +16,43 @@ pub(crate) fn project(
 ) {
     for contact in contacts {
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
-        let position = particles.position(i);
-        let (surface, is_inside) = obstacle.nearest(position);
-        let (away, distance) = direction(position - surface, is_inside);
-        let depth = particles.radius[i] - distance;
-        if depth > 0.0 {
+        if let Some((away, depth)) = separate(i, obstacle, particles) {
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
             impacts.extend(Impact::on_static(particles, contact.particle, -away, restitution));
-            shift(particles, i, away * depth);
             let rub = friction(moved(particles, i), away, mu * depth);
             shift(particles, i, rub);
         }
     }
+    // In a corner the friction on one wall may have moved a disc into the other.
+    for contact in contacts {
+        separate(contact.particle as usize, &obstacles[contact.obstacle as usize], particles);
+    }
 }
 
-/// Unit vector out of the obstacle and signed distance to its surface (negative inside).
-fn direction(from_surface: Vec2, is_inside: bool) -> (Vec2, f32) {
+/// Moves a disc out of an obstacle; returns the way out and how deep it was, if it was inside.
+fn separate(i: usize, obstacle: &Obstacle, particles: &mut Particles) -> Option<(Vec2, f32)> {
+    let position = particles.position(i);
+    let (surface, is_inside) = obstacle.nearest(position);
+    let came_from = particles.last_position(i) - surface;
+    let (away, distance) = direction(position - surface, is_inside, came_from);
+    let depth = particles.radius[i] - distance;
+    (depth > 0.0).then(|| {
+        shift(particles, i, away * depth);
+        (away, depth)
+    })
+}
+
+/// Unit vector out of the obstacle and signed distance to its surface (negative inside). On the surface itself the way out
+/// is the way back.
+fn direction(from_surface: Vec2, is_inside: bool, came_from: Vec2) -> (Vec2, f32) {
     let length = from_surface.length();
-    let unit = if length > 1e-6 { from_surface / length } else { Vec2::Y };
-    if is_inside { (-unit, -length) } else { (unit, length) }
+    if length <= 1e-6 {
+        (direction_or(came_from, Vec2::Y), 0.0)
+    } else if is_inside {
+        (-from_surface / length, -length)
+    } else {
+        (from_surface / length, length)
+    }
 }
 
 #[cfg(test)]
