@@ -78,3 +78,9 @@ pub use world::query::RayHit;
 pub use world::view::{OrganismView, ParticleView, View};
 
 pub use {glam, parry2d};
+
+/// The READMEs' examples, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+#[doc = include_str!("../../README.md")]
+struct Readme;
