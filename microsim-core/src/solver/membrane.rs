@@ -234,6 +234,16 @@ mod tests {
     }
 
     #[test]
+    fn t15_stretched_links_return_to_their_rest_length() {
+        let mut p = ring(40, 1.15 * 40.0 / TAU);
+        let indices: Vec<u32> = (0..40).collect();
+        let membrane = Membrane::new(1.0, 0.5, 40);
+        (0..400).for_each(|_| membrane.project(&indices, &mut p, 1.0 / 480.0));
+        let longest = links(&indices).map(|(a, b)| p.between(a as usize, b as usize).length()).fold(0.0, f32::max);
+        assert!(longest < 1.01, "longest {longest}");
+    }
+
+    #[test]
     fn no_link_stays_longer_than_the_strain_limit() {
         let mut p = ring(40, 6.4);
         p.x[0] += 2.0;
