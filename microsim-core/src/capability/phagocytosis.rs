@@ -25,7 +25,8 @@ pub struct PhagocytosisParams {
     pub soft_prey_contacts: u32,
     /// Area of the engulfer's cytoplasm over the prey's area when spawned that soft prey needs at least, 0.1 to 1000.
     pub size_ratio: f32,
-    /// Time after which ingestion is decided, s, 0.1 to 60.
+    /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn on
+    /// until it is inside. Soft prey has shrunk to its scale after a fixed share of this time.
     pub time_limit: f32,
     /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.
     pub pull_speed: f32,

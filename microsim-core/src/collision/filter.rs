@@ -79,4 +79,19 @@ mod tests {
         exemptions.forget(9);
         assert!(exemptions.pairs().is_empty());
     }
+
+    #[test]
+    fn t31_a_gate_is_open_for_its_nodes_and_for_one_owner_only() {
+        let mut exemptions = Exemptions::default();
+        exemptions.open_gate(&[4, 5], 9);
+        // A particle of owner 9 and a node of owner 1, in either order.
+        assert!(exemptions.gate_is_open([4, 70], [1, 9]) && exemptions.gate_is_open([70, 5], [9, 1]));
+        assert!(!exemptions.gate_is_open([6, 70], [1, 9]), "another node still collides");
+        assert!(!exemptions.gate_is_open([4, 80], [1, 8]), "other prey still collides");
+        assert!(!exemptions.gate_is_open([4, 20], [1, 1]), "and so does the cytoplasm");
+        exemptions.close_gate(&[4], 9);
+        assert!(!exemptions.gate_is_open([4, 70], [1, 9]) && exemptions.gate_is_open([5, 70], [1, 9]));
+        exemptions.forget(9);
+        assert!(exemptions.gates().is_empty());
+    }
 }

@@ -133,9 +133,10 @@ impl World {
         let Some(organism) = self.organisms.get(id) else { return };
         let outline: Vec<Vec2> = organism.outline_particles().map(|i| self.particles.position(i as usize)).collect();
         let node_radius = organism.body.membrane().map_or(0.0, |membrane| membrane.node_radius);
+        let clearance = node_radius * (1.0 - OVERLAP);
         let params = engulfer.params;
-        for meal in &mut engulfer.meals {
-            let MealPhase::Ingesting(elapsed) = meal.phase else { continue };
+        engulfer.meals.retain_mut(|meal| {
+            let MealPhase::Ingesting(elapsed) = meal.phase else { return true };
             let elapsed = elapsed + self.config.dt;
             meal.phase = MealPhase::Ingesting(elapsed);
             if meal.class == PreyClass::Soft {
@@ -143,20 +144,24 @@ impl World {
                 self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
             }
             self.widen_gate(id, meal);
-            let place = self.place_of_prey(meal.prey, &outline, node_radius * (1.0 - OVERLAP));
-            match place {
-                Place::Inside => {
-                    self.exemptions.close_gate(&meal.gate, meal.prey.index);
-                    meal.gate.clear();
-                    meal.phase = MealPhase::Ingested;
-                    self.events.push(Event::Ingested { engulfer: id, prey: meal.prey });
+            match self.place_of_prey(meal.prey, &outline, clearance) {
+                Place::Inside => self.complete(id, meal),
+                Place::Outside if elapsed >= params.time_limit => {
+                    self.release(id, meal);
+                    return false;
                 }
-                Place::Outside if elapsed >= params.time_limit => self.release(id, meal),
                 Place::Outside | Place::Between => {}
             }
-        }
-        let was_released = |meal: &Meal| matches!(meal.phase, MealPhase::Touching(_)) && !meal.gate.is_empty();
-        engulfer.meals.retain(|meal| !was_released(meal));
+            true
+        });
+    }
+
+    /// Closes the gate behind prey that is inside.
+    fn complete(&mut self, id: OrganismId, meal: &mut Meal) {
+        self.exemptions.close_gate(&meal.gate, meal.prey.index);
+        meal.gate.clear();
+        meal.phase = MealPhase::Ingested;
+        self.events.push(Event::Ingested { engulfer: id, prey: meal.prey });
     }
 
     /// Opens the gate to the nodes next to the prey: it may have slid along the membrane since the gate was opened.
@@ -174,9 +179,8 @@ impl World {
     }
 
     /// Closes the gate behind prey that stayed outside.
-    fn release(&mut self, id: OrganismId, meal: &mut Meal) {
+    fn release(&mut self, id: OrganismId, meal: &Meal) {
         self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        meal.phase = MealPhase::Touching(0.0);
         self.set_scale(meal.prey, 1.0);
         self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(None));
         self.events.push(Event::Released { engulfer: id, prey: meal.prey });
