@@ -3,10 +3,11 @@
 use crate::behavior::{draw_in_prey, steer_organisms};
 use crate::capability::controller;
 use crate::collision::broad_phase::Surroundings;
+use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::solver::membrane::Membrane;
-use crate::solver::{contact, drive, integrate, obstacle};
+use crate::solver::{contact, drive, integrate, obstacle, ring_contact};
 use crate::world::World;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -84,6 +85,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
     }
+    catch_strays(world);
     world.advance_phagocytosis();
     finished(Phase::AdvancePhagocytosis);
     conclude(world);
@@ -102,16 +104,18 @@ fn steer(world: &mut World, inputs: &Inputs) {
 }
 
 fn find_pairs(world: &mut World) {
-    let World { config, particles, fluids, obstacles, exemptions, scratch, .. } = world;
+    let World { config, particles, organisms, fluids, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
     fluids.iter_mut().for_each(|fluid| fluid.find_neighbours(particles));
-    scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, size, reach });
+    let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
+    let (rings, homes) = (rings.as_slice(), &organisms.homes());
+    scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, rings, homes, size, reach });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, scratch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
-    integrate::predict_positions(particles, config.gravity, config.max_speed, h);
+    integrate::predict_positions(particles, config.gravity, config.speed_limit(), h);
 }
 
 fn project_fluids(world: &mut World) {
@@ -136,25 +140,36 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
-    let World { particles, obstacles, organisms, scratch, .. } = world;
+    let World { config, particles, obstacles, organisms, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     contact::project(&mut broad_phase.contacts, particles, &mut scratch.impacts);
-    for (membrane, ring) in membranes(organisms) {
+    guard.wrong_side += u64::from(ring_contact::project(&mut broad_phase.ring_contacts, particles));
+    for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);
     }
     obstacle::project(&broad_phase.obstacle_contacts, obstacles, particles, &mut scratch.impacts);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, scratch, .. } = world;
-    integrate::update_velocities(particles, config.damping, config.max_speed, h);
+    let World { config, particles, guard, scratch, .. } = world;
+    integrate::update_velocities(particles, config.damping, config.speed_limit(), h);
+    guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
     contact::apply_restitution(&mut scratch.impacts, particles);
+}
+
+/// The safety net: casts a ray from every disc near a membrane.
+fn catch_strays(world: &mut World) {
+    let World { particles, organisms, guard, scratch, .. } = world;
+    for ring in organisms.rings() {
+        let caught = ring_contact::catch_strays(ring, &scratch.broad_phase.ring_contacts, particles);
+        guard.net_fired += u64::from(caught);
+    }
 }
 
 fn conclude(world: &mut World) {
     let World { config, particles, fluids, organisms, touching, events, scratch, .. } = world;
     fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles, config.dt));
-    touching.update(&scratch.broad_phase.contacts, particles, organisms, events);
+    touching.update(scratch.broad_phase.touched(), particles, organisms, events);
     world.quarantine();
     world.rebase();
 }

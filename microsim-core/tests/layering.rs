@@ -22,7 +22,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("solver", &["collision", "config", "error", "geometry", "particle"]),
     ("template", &["error", "geometry", "particle", "solver"]),
     ("capability", &["error", "geometry", "id", "rng"]),
-    ("organism", &["capability", "error", "geometry", "id", "kind", "particle", "rng", "solver", "template"]),
+    (
+        "organism",
+        &["capability", "collision", "error", "geometry", "id", "kind", "particle", "rng", "solver", "template"],
+    ),
     ("behavior", &["capability", "event", "geometry", "id", "inputs", "organism", "particle", "solver::drive"]),
     // The step takes the world apart and hands each phase what it needs, so these two know each other.
     (

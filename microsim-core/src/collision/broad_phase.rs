@@ -4,9 +4,10 @@
 //! interlayers, probes) in a coarse one, and large ones also look through the fine grid. Nothing moves farther in a step
 //! than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can touch.
 
-use super::filter::Exemptions;
+use super::filter::{Exemptions, Home};
 use super::grid::Grid;
 use super::obstacle::Obstacle;
+use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, ObstacleContact, combine};
 use crate::particle::{NO_OWNER, Particles};
 use glam::Vec2;
@@ -17,6 +18,7 @@ use parry2d::bounding_volume::BoundingVolume;
 pub(crate) struct BroadPhase {
     pub contacts: Vec<Contact>,
     pub obstacle_contacts: Vec<ObstacleContact>,
+    pub ring_contacts: RingContacts,
     fine: Grid,
     coarse: Grid,
     small: Vec<u32>,
@@ -29,6 +31,10 @@ pub(crate) struct Surroundings<'a> {
     pub particles: &'a Particles,
     pub obstacles: &'a [Obstacle],
     pub exemptions: &'a Exemptions,
+    /// Rings whose links collide. Without any, ring nodes collide as discs.
+    pub rings: &'a [Ring<'a>],
+    /// On which sides of them owners stay, by owner.
+    pub homes: &'a [Home],
     /// Upper right corner of the room.
     pub size: Vec2,
     /// Farthest that a particle moves in one step.
@@ -52,6 +58,16 @@ impl BroadPhase {
         pairs_within(&self.coarse, around, margin, &mut self.contacts);
         self.pairs_across(around, small_radius, margin);
         self.find_obstacle_contacts(around, small_radius);
+        let Surroundings { particles, exemptions, homes, rings, .. } = around;
+        let grids = [(&self.fine, small_radius), (&self.coarse, large_radius)];
+        self.ring_contacts.find(rings, Nearby { particles, exemptions, homes, grids, margin });
+    }
+
+    /// Pairs of particles that have touched since they were found; of a link, the nearer node.
+    pub(crate) fn touched(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let discs = self.contacts.iter().filter(|contact| contact.touched).map(|contact| (contact.i, contact.j));
+        let links = self.ring_contacts.contacts.iter();
+        discs.chain(links.filter_map(|contact| Some((contact.particle, contact.touched?))))
     }
 
     /// Splits the colliding particles at twice their mean radius; returns the largest radius on both sides.
@@ -134,7 +150,8 @@ fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mu
         return;
     }
     let reach = p.radius[a] + p.radius[b] + margin;
-    if p.between(a, b).length_squared() < reach * reach && may_collide(p, a, b, around.exemptions) {
+    let is_for_rings = !around.rings.is_empty() && is_for_rings(p, a, b);
+    if p.between(a, b).length_squared() < reach * reach && !is_for_rings && may_collide(p, a, b, around.exemptions) {
         let (friction, restitution) = combine(p.material[a], p.material[b]);
         contacts.push(Contact { i, j, friction, restitution, touched: false });
     }
@@ -145,6 +162,12 @@ fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mu
 fn keep_apart_themselves(p: &Particles, a: usize, b: usize) -> bool {
     let in_one_body = p.owner[a] == p.owner[b] && p.next_in_ring[a] == NO_OWNER && p.next_in_ring[b] == NO_OWNER;
     p.fluid[a] == p.fluid[b] && (p.fluid[a] != 0 || in_one_body)
+}
+
+/// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
+fn is_for_rings(p: &Particles, a: usize, b: usize) -> bool {
+    let in_ring = [a, b].map(|i| p.next_in_ring[i] != NO_OWNER);
+    in_ring != [false; 2] && (in_ring != [true; 2] || p.owner[a] != p.owner[b])
 }
 
 fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bool {
@@ -184,7 +207,15 @@ mod tests {
     fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
         let mut broad = BroadPhase::default();
         let size = Vec2::new(40.0, 30.0);
-        broad.find_pairs(Surroundings { particles, obstacles: &[], exemptions, size, reach: 0.1 });
+        broad.find_pairs(Surroundings {
+            particles,
+            obstacles: &[],
+            exemptions,
+            rings: &[],
+            homes: &[],
+            size,
+            reach: 0.1,
+        });
         let mut pairs: Vec<_> = broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect();
         pairs.sort_unstable();
         pairs

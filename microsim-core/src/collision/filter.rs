@@ -1,4 +1,36 @@
-//! Pairs of owners that do not collide, whatever their groups say.
+//! Pairs of owners that do not collide, whatever their groups say, and the sides of rings on which owners stay.
+
+/// Where all particles of an owner are at home.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Home {
+    /// Outside of every ring but its own.
+    Free,
+    /// Inside the ring of this owner.
+    Inside(u32),
+    /// On its way through the ring of this owner.
+    Passing(u32),
+}
+
+/// A side of a ring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Inside,
+    Outside,
+    /// The one where it is.
+    Either,
+}
+
+/// On which side of a ring an owner's particles stay. `homes` is indexed by owner; who is not in it is free.
+pub(crate) fn side_of(owner: u32, ring: u32, homes: &[Home]) -> Side {
+    if owner == ring {
+        return Side::Inside;
+    }
+    match homes.get(owner as usize) {
+        Some(&Home::Inside(holder)) if holder == ring => Side::Inside,
+        Some(&Home::Passing(holder)) if holder == ring => Side::Either,
+        _ => Side::Outside,
+    }
+}
 
 /// A symmetric set of owner pairs, sorted.
 #[derive(Clone, Debug, Default)]

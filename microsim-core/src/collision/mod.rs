@@ -4,6 +4,7 @@ pub(crate) mod broad_phase;
 pub(crate) mod filter;
 pub(crate) mod grid;
 pub(crate) mod obstacle;
+pub(crate) mod ring;
 
 use crate::particle::Material;
 

@@ -14,7 +14,7 @@ pub use ring::{direction_or, ellipse, nearest_index, rotate, unit_vector};
 pub use triangulate::triangulate;
 
 #[cfg(test)]
-mod arbitrary {
+pub(crate) mod arbitrary {
     //! Random polygons for the property tests of this module.
 
     use core::f32::consts::TAU;
@@ -26,7 +26,7 @@ mod arbitrary {
     ///
     /// The jitter stays below 0.4 of a slot: a larger one could open a gap of more than half a
     /// turn between two of three vertices, and the centre would then lie outside.
-    pub(super) fn star_polygon() -> impl Strategy<Value = Vec<Vec2>> {
+    pub(crate) fn star_polygon() -> impl Strategy<Value = Vec<Vec2>> {
         let spoke = (0.5f32..10.0, 0.0f32..0.4);
         let centre = (-20.0f32..20.0, -20.0f32..20.0);
         (prop::collection::vec(spoke, 3..40), centre)

@@ -1,5 +1,8 @@
 //! The table of organisms: slots with generations, so that stale handles are recognised.
 
+use crate::capability::phagocytosis::MealPhase;
+use crate::collision::filter::Home;
+use crate::collision::ring::Ring;
 use crate::id::OrganismId;
 use crate::organism::Organism;
 
@@ -71,6 +74,30 @@ impl Organisms {
             let id = OrganismId { index, generation: slot.generation };
             slot.organism.as_mut().map(|organism| (id, organism))
         })
+    }
+
+    /// The membranes of all organisms.
+    pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
+        let has_membrane = |organism: &&Organism| organism.body.membrane().is_some();
+        let with_membrane = self.iter().filter(move |(_, organism)| has_membrane(organism));
+        with_membrane.map(|(id, organism)| Ring { owner: id.index, nodes: &organism.outline })
+    }
+
+    /// On which side of the membranes each organism is at home.
+    pub(crate) fn homes(&self) -> Vec<Home> {
+        let mut homes = vec![Home::Free; self.slots.len()];
+        for (id, organism) in self.iter() {
+            for meal in organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals) {
+                match meal.phase {
+                    MealPhase::Touching(_) => {}
+                    MealPhase::Ingesting(_) => homes[meal.prey.index as usize] = Home::Passing(id.index),
+                    MealPhase::Ingested | MealPhase::Digesting(_) => {
+                        homes[meal.prey.index as usize] = Home::Inside(id.index);
+                    }
+                }
+            }
+        }
+        homes
     }
 
     pub(crate) fn len(&self) -> usize {

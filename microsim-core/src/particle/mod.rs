@@ -149,6 +149,12 @@ impl Particles {
         )
     }
 
+    /// The smaller one of two particles' radii.
+    pub(crate) fn smaller_radius(&self, i: u32, j: u32) -> f32 {
+        let (i, j) = (self.radius[i as usize], self.radius[j as usize]);
+        if i < j { i } else { j }
+    }
+
     /// Moves the origin of particle `i` by whole units; the particle stays where it is.
     pub(crate) fn shift_origin(&mut self, i: usize, by: Vec2) {
         self.origin_x[i] += by.x;

@@ -75,6 +75,7 @@ fn read_config(root: &mut Fields<'_>) -> (WorldConfig, Option<Vec2>) {
         damping: world.or("damping", default.damping),
         max_speed: world.or("max_speed", default.max_speed),
         seed,
+        protects_membranes: world.or("protects_membranes", default.protects_membranes),
         max_particles: world.or("max_particles", default.max_particles),
     };
     world.finish();

@@ -22,8 +22,12 @@ use crate::particle::Particles;
 use crate::solver::lanes::Span;
 use std::f32::consts::{PI, TAU};
 
-/// No link gets longer than this many rest lengths.
+/// No link gets longer than this many rest lengths: the promise ...
 pub(crate) const STRAIN_LIMIT: f32 = 1.25;
+/// ... what is enforced, because walls come after it in a substep ...
+const TAUT: f32 = 1.2;
+/// ... and how many sweeps that may take.
+const STRAIN_SWEEPS: usize = 8;
 /// Inverse stiffness of a stretched link (length/force).
 const TENSION_COMPLIANCE: f32 = 1e-5;
 /// Share of the tension correction that a slack link gets ...
@@ -123,15 +127,23 @@ impl Membrane {
         }
     }
 
-    /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows; two sweeps, the second one backwards.
+    /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows, in sweeps forwards and backwards.
     pub(crate) fn limit_strain(&self, ring: &[u32], particles: &mut Particles) {
-        let max_length = STRAIN_LIMIT * self.rest_length;
-        let link = |(a, b)| Rope { a, b, max_length };
-        for (a, b) in links(ring) {
-            rope::project(&[link((a, b))], Span::LOOSE, particles);
-        }
-        for k in (0..ring.len()).rev() {
-            rope::project(&[link((ring[k], ring[(k + 1) % ring.len()]))], Span::LOOSE, particles);
+        let max_length = TAUT * self.rest_length;
+        let mut shorten = |k: usize| {
+            let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
+            let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
+            if is_long {
+                rope::project(&[Rope { a, b, max_length }], Span::LOOSE, particles);
+            }
+            is_long
+        };
+        for sweep in 0..STRAIN_SWEEPS {
+            let count = ring.len();
+            let turn = |k| if sweep % 2 == 0 { k } else { count - 1 - k };
+            if (0..count).filter(|&k| shorten(turn(k))).count() == 0 {
+                break;
+            }
         }
     }
 }

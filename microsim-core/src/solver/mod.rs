@@ -15,6 +15,7 @@ pub(crate) mod lanes;
 pub(crate) mod membrane;
 pub(crate) mod min_distance;
 pub(crate) mod obstacle;
+pub(crate) mod ring_contact;
 pub(crate) mod rope;
 #[cfg(test)]
 pub(crate) mod testing;

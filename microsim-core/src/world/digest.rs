@@ -63,6 +63,8 @@ impl World {
     pub fn digest(&self) -> u64 {
         let mut digest = Digest(Digest::OFFSET);
         digest.long(self.step_index);
+        digest.long(self.guard.wrong_side);
+        digest.long(self.guard.net_fired);
         self.digest_settings(&mut digest);
         self.digest_particles(&mut digest);
         for (id, organism) in self.organisms.iter() {
@@ -85,11 +87,12 @@ impl World {
 
     /// What was fixed when the world, its templates and its fluids were made.
     fn digest_settings(&self, digest: &mut Digest) {
-        let WorldConfig { size, dt, substeps, gravity, damping, max_speed, seed, max_particles } = &self.config;
+        let WorldConfig { size, dt, substeps, gravity, damping, max_speed, seed, protects_membranes, max_particles } =
+            &self.config;
         digest.vector(*size);
         digest.vector(*gravity);
         [*dt, *damping, *max_speed].into_iter().for_each(|value| digest.float(value));
-        digest.words([*substeps, *max_particles]);
+        digest.words([*substeps, *max_particles, u32::from(*protects_membranes)]);
         digest.long(*seed);
         self.template_digests.iter().for_each(|&template| digest.long(template));
         self.fluids.iter().for_each(|fluid| digest.text(&format!("{:?}", fluid.params)));

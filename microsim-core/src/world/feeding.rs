@@ -2,11 +2,11 @@
 //! digested and removed, and its engulfer grows.
 
 use super::World;
+use super::touching::NearPair;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::behavior::heading;
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::{Encounter, Engulfer, Meal, MealPhase, PreyClass};
-use crate::collision::Contact;
 use crate::event::Event;
 use crate::geometry::polygon::{contains_point, nearest_on_segment};
 use crate::id::OrganismId;
@@ -77,10 +77,10 @@ impl World {
         let Some(organism) = self.organisms.get(id) else { return Vec::new() };
         let front = front_nodes(organism);
         let mut touched: Vec<OrganismId> = Vec::new();
-        for contact in self.scratch.broad_phase.contacts.iter().filter(|contact| self.is_contact(contact)) {
-            let other = match (front.binary_search(&contact.i), front.binary_search(&contact.j)) {
-                (Ok(_), Err(_)) => contact.j,
-                (Err(_), Ok(_)) => contact.i,
+        for pair in self.near_pairs().filter(|pair| self.is_contact(pair)) {
+            let other = match (front.binary_search(&pair.i), front.binary_search(&pair.j)) {
+                (Ok(_), Err(_)) => pair.j,
+                (Err(_), Ok(_)) => pair.i,
                 _ => continue,
             };
             touched.extend(self.organisms.id_at(self.particles.owner[other as usize]).filter(|&other| other != id));
@@ -95,10 +95,8 @@ impl World {
 
     /// Whether two discs touch: in any substep of this step, or nearly so now, because a contact between soft bodies
     /// flickers from substep to substep.
-    fn is_contact(&self, contact: &Contact) -> bool {
-        let (i, j, p) = (contact.i as usize, contact.j as usize, &self.particles);
-        let smaller = if p.radius[i] < p.radius[j] { p.radius[i] } else { p.radius[j] };
-        contact.touched || p.between(i, j).length() < p.radius[i] + p.radius[j] + TOUCH_GAP * smaller
+    fn is_contact(&self, pair: &NearPair) -> bool {
+        pair.touched || pair.gap < TOUCH_GAP * self.particles.smaller_radius(pair.i, pair.j)
     }
 
     fn encounter(

@@ -1,10 +1,12 @@
 //! Measures: what there is, whether anything is where it must not be, and how well constraints hold.
 
 use super::World;
+use super::touching::NearPair;
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
+use crate::solver::lanes::ratio;
 use crate::solver::membrane::links;
 use crate::solver::{ConstraintSet, Distance};
 use crate::template::Role;
@@ -25,6 +27,10 @@ pub struct Census {
     pub leaks: usize,
     /// Prey whose centre is inside an engulfer that has not taken it in (seed, 4.2.2), or outside one that has.
     pub improper_absorptions: usize,
+    /// How often a disc was found on the wrong side of the link of a membrane nearest to it, since the world was made.
+    pub wrong_side: u64,
+    /// How often the membranes' safety net, a ray cast, had to take a disc back, since the world was made.
+    pub net_fired: u64,
     /// Organisms that are frozen.
     pub quarantined: usize,
 }
@@ -64,6 +70,8 @@ impl World {
             constraints,
             leaks: self.organisms.iter().map(|(_, organism)| self.leaks_of(organism)).sum(),
             improper_absorptions: self.improper_absorptions(),
+            wrong_side: self.guard.wrong_side,
+            net_fired: self.guard.net_fired,
             quarantined: self.organisms.iter().filter(|(_, organism)| organism.is_quarantined).count(),
         }
     }
@@ -183,15 +191,9 @@ impl World {
 
     fn deepest_overlap(&self) -> f32 {
         let p = &self.particles;
-        self.scratch.broad_phase.contacts.iter().fold(0.0, |deepest, contact| {
-            let (i, j) = (contact.i as usize, contact.j as usize);
-            if p.owner[i] == p.owner[j] || !p.is_live(i) || !p.is_live(j) {
-                return deepest;
-            }
-            let smaller = if p.radius[i] < p.radius[j] { p.radius[i] } else { p.radius[j] };
-            let depth = p.radius[i] + p.radius[j] - p.between(i, j).length();
-            larger(deepest, if smaller > 0.0 { depth / smaller } else { 0.0 })
-        })
+        let is_apart = |pair: &NearPair| p.owner[pair.i as usize] != p.owner[pair.j as usize];
+        let overlap = |pair: NearPair| ratio(-pair.gap, p.smaller_radius(pair.i, pair.j));
+        self.near_pairs().filter(is_apart).map(overlap).fold(0.0, larger)
     }
 
     fn mean_compression(&self) -> f32 {

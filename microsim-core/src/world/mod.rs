@@ -53,7 +53,17 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) step_index: u64,
+    pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
+}
+
+/// How often the membranes' protections had to do what must never be needed, since the world was made.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Guard {
+    /// A disc was found on the wrong side of the link nearest to it.
+    pub wrong_side: u64,
+    /// A ray cast found a disc on the wrong side of a whole membrane.
+    pub net_fired: u64,
 }
 
 /// What a step works with and the next one does not need.
@@ -85,6 +95,7 @@ impl World {
             touching: Touching::default(),
             events: Vec::new(),
             step_index: 0,
+            guard: Guard::default(),
             scratch: Scratch::default(),
         })
     }

@@ -1,10 +1,12 @@
 //! Which organisms touch: turns the solver's contacts into exactly one begin and one end event per pair.
 
+use super::World;
 use crate::collision::Contact;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
+use crate::solver::ring_contact;
 
 /// Pairs of organisms that touched in the last step, sorted.
 #[derive(Clone, Debug, Default)]
@@ -13,22 +15,49 @@ pub(crate) struct Touching {
     now: Vec<(OrganismId, OrganismId)>,
 }
 
+/// Two particles of which the surfaces may have met in the last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearPair {
+    pub i: u32,
+    /// The other disc; of a link of a membrane the node that is nearer.
+    pub j: u32,
+    /// Distance of the surfaces now, negative where they overlap.
+    pub gap: f32,
+    pub touched: bool,
+}
+
+impl World {
+    /// All pairs of live particles that the last step's search found.
+    pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> + '_ {
+        let (p, near) = (&self.particles, &self.scratch.broad_phase);
+        let discs = near.contacts.iter().map(|&Contact { i, j, touched, .. }| {
+            let (a, b) = (i as usize, j as usize);
+            NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
+        });
+        let links = near.ring_contacts.contacts.iter().filter_map(|contact| {
+            let (j, gap) = ring_contact::gap(contact, &near.ring_contacts, p)?;
+            Some(NearPair { i: contact.particle, j, gap, touched: contact.touched.is_some() })
+        });
+        discs.chain(links).filter(|pair| p.is_live(pair.i as usize) && p.is_live(pair.j as usize))
+    }
+}
+
 impl Touching {
     pub(crate) fn pairs(&self) -> &[(OrganismId, OrganismId)] {
         &self.pairs
     }
 
-    /// Compares this step's contacts with the last step's and reports what began and what ended.
+    /// Compares the pairs of particles that touched in this step with the last step's and reports what began and what ended.
     pub(crate) fn update(
         &mut self,
-        contacts: &[Contact],
+        touched: impl Iterator<Item = (u32, u32)>,
         particles: &Particles,
         organisms: &Organisms,
         events: &mut Vec<Event>,
     ) {
         self.now.clear();
-        for contact in contacts.iter().filter(|contact| contact.touched) {
-            let (a, b) = (particles.owner[contact.i as usize], particles.owner[contact.j as usize]);
+        for (i, j) in touched {
+            let (a, b) = (particles.owner[i as usize], particles.owner[j as usize]);
             if a != b {
                 let ids = (organisms.id_at(a.min(b)), organisms.id_at(a.max(b)));
                 self.now.extend(ids.0.zip(ids.1));

@@ -1,0 +1,140 @@
+//! Discs near rings of linked particles: which links each may touch during a step, and on which side it is at home.
+
+use super::combine;
+use super::filter::{Exemptions, Home, Side, side_of};
+use super::grid::Grid;
+use crate::geometry::polygon::nearest_on_segment;
+use crate::particle::{NO_OWNER, Particles};
+use glam::Vec2;
+use std::ops::Range;
+
+/// A closed ring of linked particles, counter-clockwise: what is to the left of its links is inside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ring<'a> {
+    pub owner: u32,
+    pub nodes: &'a [u32],
+}
+
+impl Ring<'_> {
+    /// The link from node `k` of the ring to the next one.
+    pub(crate) fn link(&self, k: usize) -> Link {
+        Link { a: self.nodes[k], b: self.nodes[(k + 1) % self.nodes.len()] }
+    }
+}
+
+/// Two neighbours in a ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    pub a: u32,
+    pub b: u32,
+}
+
+/// A disc that may touch a ring during the step.
+#[derive(Clone, Debug)]
+pub(crate) struct RingContact {
+    pub particle: u32,
+    /// Owner of the ring.
+    pub ring: u32,
+    /// Where it has to stay.
+    pub side: Side,
+    pub friction: f32,
+    /// The nearer node of the link that it touched last in any substep since it was found.
+    pub touched: Option<u32>,
+    links: Range<u32>,
+}
+
+/// All discs near rings, found once per step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RingContacts {
+    pub contacts: Vec<RingContact>,
+    links: Vec<Link>,
+    found: Vec<(u32, u32)>,
+}
+
+/// What the search needs to know.
+#[derive(Clone, Copy)]
+pub(crate) struct Nearby<'a> {
+    pub particles: &'a Particles,
+    pub exemptions: &'a Exemptions,
+    pub homes: &'a [Home],
+    /// Grids over everything that collides, and the largest radius in each.
+    pub grids: [(&'a Grid, f32); 2],
+    /// How much the gap between two particles may close in one step.
+    pub margin: f32,
+}
+
+impl RingContacts {
+    /// The links that a disc may touch.
+    pub(crate) fn links_of(&self, contact: &RingContact) -> &[Link] {
+        &self.links[contact.links.start as usize..contact.links.end as usize]
+    }
+
+    /// The contacts, to be worked on, and all links.
+    pub(crate) fn parts(&mut self) -> (&mut [RingContact], &[Link]) {
+        (&mut self.contacts, &self.links)
+    }
+
+    /// Finds the discs near some rings.
+    pub(crate) fn find(&mut self, rings: &[Ring<'_>], near: Nearby<'_>) {
+        self.contacts.clear();
+        self.links.clear();
+        for ring in rings {
+            self.found.clear();
+            for k in 0..ring.nodes.len() {
+                for (grid, radius) in near.grids {
+                    find_near_link(*ring, k, grid, radius, near, &mut self.found);
+                }
+            }
+            self.found.sort_unstable();
+            self.group(*ring, near);
+        }
+    }
+
+    /// Turns what was found near one ring into one contact for each disc.
+    fn group(&mut self, ring: Ring<'_>, near: Nearby<'_>) {
+        let p = near.particles;
+        for group in self.found.chunk_by(|a, b| a.0 == b.0) {
+            let particle = group[0].0;
+            let first = self.links.len() as u32;
+            self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
+            let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
+            let side = side_of(p.owner[particle as usize], ring.owner, near.homes);
+            let links = first..self.links.len() as u32;
+            self.contacts.push(RingContact { particle, ring: ring.owner, side, friction, touched: None, links });
+        }
+    }
+}
+
+impl RingContact {
+    /// Its links in the list of all.
+    pub(crate) fn range(&self) -> Range<usize> {
+        self.links.start as usize..self.links.end as usize
+    }
+}
+
+fn find_near_link(ring: Ring<'_>, k: usize, grid: &Grid, radius: f32, near: Nearby<'_>, found: &mut Vec<(u32, u32)>) {
+    let p = near.particles;
+    let Link { a, b } = ring.link(k);
+    let ends = [p.position(a as usize), p.position(b as usize)];
+    let reach = Vec2::splat(p.radius[a as usize] + radius + near.margin);
+    for particle in grid.in_box(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach) {
+        let i = particle as usize;
+        let at = p.position(i);
+        let nearest = nearest_on_segment(ends[0], ends[1], at);
+        let reach = p.radius[i] + p.radius[a as usize] + near.margin;
+        if (at - nearest).length_squared() < reach * reach && may_touch(p, i, [a, b], near.exemptions) {
+            found.push((particle, k as u32));
+        }
+    }
+}
+
+/// Whether a disc collides with a link: not with its own ring's, whose nodes keep apart as discs, and not through a gate.
+pub(crate) fn may_touch(p: &Particles, i: usize, ends: [u32; 2], exemptions: &Exemptions) -> bool {
+    let a = ends[0] as usize;
+    let owners = [p.owner[i], p.owner[a]];
+    let is_own_node = owners[0] == owners[1] && p.next_in_ring[i] != NO_OWNER;
+    !is_own_node
+        && p.groups[i].meets(p.groups[a])
+        && !exemptions.contains(owners[0], owners[1])
+        && !ends.iter().any(|&node| exemptions.gate_is_open([i as u32, node], owners))
+}

@@ -1,0 +1,331 @@
+//! Contacts of discs with the links of a ring, as capsules, that know on which side of the ring a disc has to be.
+//!
+//! ```text
+//!            inside: left of a -> b
+//!        ( i )  away = x_i - c,  c = (1 - t) x_a + t x_b the nearest point of the link
+//!      a--c----b
+//! ```
+//!
+//! `C = n . (x_i - c) - (r_i + r_a) >= 0`, where `n` points to the disc's own side: along `away` while the disc is on
+//! that side, against it otherwise, so that a disc is pushed back through the ring and never out on the wrong side. Both
+//! move, the link by its barycentric shares `1 - t` and `t`. The nearest link decides the side; of two that share the
+//! nearest node, the one that the disc stands over more squarely (Baerentzen, Aanaes 2005, section 2: the sign at a vertex
+//! is that of an angle-weighted normal; in the plane it is that of the more orthogonal edge).
+
+use super::contact::{friction, moved, shift};
+use super::lanes::ratio;
+use crate::collision::filter::Side;
+use crate::collision::ring::{Link, Ring, RingContact, RingContacts};
+use crate::geometry::polygon::contains_point;
+use crate::particle::Particles;
+use glam::Vec2;
+
+/// Share of the contact distance below which [`keep_sides`] moves a disc away from a link by itself.
+const STANDOFF: f32 = 0.25;
+
+/// A disc counts as at most so many times as heavy as a node of the ring: a heavier one would crush its light nodes, and
+/// the fluid behind them, faster than a substep's iterations can pass the load on. It feels the ring more than it should.
+const HEAVIEST: f32 = 20.0;
+
+/// Where a disc is with respect to a link.
+#[derive(Clone, Copy)]
+struct Relation {
+    /// Place of the nearest point on the link, 0 at its first node and 1 at its second.
+    t: f32,
+    /// From the nearest point to the disc.
+    away: Vec2,
+    squared: f32,
+    /// Sine of the angle between link and way, positive inside, times the way's length.
+    height: f32,
+    /// Unit vector across the link, to the inside.
+    inwards: Vec2,
+}
+
+/// Pushes discs and links apart; returns how many discs were on the wrong side.
+pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
+    let (contacts, links) = rings.parts();
+    let mut wrong = 0;
+    for contact in contacts {
+        let links = &links[contact.range()];
+        let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
+        let reach = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+        if is_wrong(contact.side, &relation) {
+            wrong += 1;
+            separate(contact, nearest, &relation, reach + relation.squared.sqrt(), p);
+        } else if relation.squared < reach * reach {
+            for &link in links {
+                let relation = relate(contact.particle, link, p);
+                if relation.squared < reach * reach {
+                    separate(contact, link, &relation, reach - relation.squared.sqrt(), p);
+                }
+            }
+        }
+    }
+    wrong
+}
+
+/// The nearer node of the link nearest to a disc, and how far their surfaces are apart.
+pub(crate) fn gap(contact: &RingContact, rings: &RingContacts, p: &Particles) -> Option<(u32, f32)> {
+    let (link, relation) = nearest_link(contact.particle, rings.links_of(contact), p)?;
+    let length = relation.squared.sqrt();
+    let height = if is_wrong(contact.side, &relation) { -length } else { length };
+    let reach = p.radius[contact.particle as usize] + p.radius[link.a as usize];
+    Some((if relation.t < 0.5 { link.a } else { link.b }, height - reach))
+}
+
+/// The last word in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away by itself.
+/// Returns how many were on the wrong side.
+pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
+    let mut wrong = 0;
+    for contact in &rings.contacts {
+        let Some((link, relation)) = nearest_link(contact.particle, rings.links_of(contact), p) else { continue };
+        let i = contact.particle as usize;
+        let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
+        let is_wrong = is_wrong(contact.side, &relation);
+        wrong += u32::from(is_wrong);
+        if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
+            let length = relation.squared.sqrt();
+            let direction = if is_wrong { -1.0 } else { 1.0 };
+            shift(p, i, homewards(contact.side, &relation) * (standoff - direction * length));
+        }
+    }
+    wrong
+}
+
+/// The safety net: casts a ray from every disc near a ring and takes those on the wrong side back to the nearest link.
+/// Returns how many there were.
+pub(crate) fn catch_strays(ring: Ring<'_>, rings: &RingContacts, p: &mut Particles) -> u32 {
+    let outline: Vec<Vec2> = ring.nodes.iter().map(|&node| p.position(node as usize)).collect();
+    let mut caught = 0;
+    for contact in rings.contacts.iter().filter(|contact| contact.ring == ring.owner) {
+        let position = p.position(contact.particle as usize);
+        let is_stray = match contact.side {
+            Side::Inside => !contains_point(&outline, position),
+            Side::Outside => contains_point(&outline, position),
+            Side::Either => false,
+        };
+        if is_stray {
+            caught += 1;
+            take_back(contact, ring, p);
+        }
+    }
+    caught
+}
+
+/// Moves a disc to its own side of the link of a whole ring that is nearest to it.
+fn take_back(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
+    let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
+    let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
+    let i = contact.particle as usize;
+    let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
+    shift(p, i, -relation.away + homewards(contact.side, &relation) * standoff);
+}
+
+fn is_wrong(side: Side, relation: &Relation) -> bool {
+    match side {
+        Side::Inside => relation.height < 0.0,
+        Side::Outside => relation.height > 0.0,
+        Side::Either => false,
+    }
+}
+
+/// Unit vector across the link, to the disc's own side.
+fn homewards(side: Side, relation: &Relation) -> Vec2 {
+    let length = relation.squared.sqrt();
+    if length > 1e-6 {
+        let away = relation.away / length;
+        if is_wrong(side, relation) { -away } else { away }
+    } else if side == Side::Inside {
+        relation.inwards
+    } else {
+        -relation.inwards
+    }
+}
+
+/// The link nearest to a disc. Ends of two links in the same node are equally far; then the more orthogonal link wins.
+fn nearest_link(particle: u32, links: &[Link], p: &Particles) -> Option<(Link, Relation)> {
+    let mut best: Option<(Link, Relation)> = None;
+    for &link in links {
+        let relation = relate(particle, link, p);
+        let is_better = best.is_none_or(|(_, best)| {
+            relation.squared < best.squared
+                || (relation.squared == best.squared && relation.height.abs() > best.height.abs())
+        });
+        if is_better {
+            best = Some((link, relation));
+        }
+    }
+    best
+}
+
+fn relate(particle: u32, link: Link, p: &Particles) -> Relation {
+    let (i, a, b) = (particle as usize, link.a as usize, link.b as usize);
+    let (along, from_a) = (p.between(a, b), p.between(a, i));
+    let squared_length = along.length_squared();
+    let place = ratio(from_a.dot(along), squared_length);
+    // At an end, relative to that end exactly, so that both links of a node find the same distance.
+    let (t, away) = if place <= 0.0 {
+        (0.0, from_a)
+    } else if place >= 1.0 {
+        (1.0, p.between(b, i))
+    } else {
+        (place, from_a - along * place)
+    };
+    let inwards = along.perp() * ratio(1.0, squared_length.sqrt());
+    Relation { t, away, squared: away.length_squared(), height: inwards.dot(away), inwards }
+}
+
+/// Moves disc and link `depth` apart, the disc to its own side.
+fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f32, p: &mut Particles) {
+    let (i, a, b) = (contact.particle as usize, link.a as usize, link.b as usize);
+    let normal = homewards(contact.side, relation);
+    let (share_a, share_b) = (1.0 - relation.t, relation.t);
+    let (wi, wa, wb) = (p.inv_mass[i], p.inv_mass[a] * share_a, p.inv_mass[b] * share_b);
+    let lightest = p.inv_mass[a] / HEAVIEST;
+    let wi = if wi > 0.0 && wi < lightest { lightest } else { wi };
+    let weight = wi + wa * share_a + wb * share_b;
+    let push = |by: Vec2, p: &mut Particles| {
+        shift(p, i, by * wi);
+        shift(p, a, -by * wa);
+        shift(p, b, -by * wb);
+    };
+    push(normal * ratio(depth, weight), p);
+    contact.touched = Some(if relation.t < 0.5 { link.a } else { link.b });
+    let slip = moved(p, i) - moved(p, a) * share_a - moved(p, b) * share_b;
+    push(friction(slip, normal, contact.friction * depth) * ratio(1.0, weight), p);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{disc, momentum};
+    use super::*;
+    use crate::collision::filter::{Exemptions, Home};
+    use crate::collision::grid::Grid;
+    use crate::collision::ring::Nearby;
+    use crate::geometry::arbitrary::star_polygon;
+    use crate::geometry::polygon::contains_point;
+    use crate::particle::Particle;
+    use proptest::prelude::*;
+
+    const RADIUS: f32 = 0.5;
+
+    /// A ring of owner 0 and a disc of owner `owner` at some place; the contacts between them.
+    fn scene(outline: &[Vec2], at: Vec2, owner: u32) -> (Particles, RingContacts, Vec<u32>) {
+        let mut p = Particles::default();
+        let particle = |at, owner| Particle { owner, radius: RADIUS, ..disc(at, 1.0) };
+        let nodes: Vec<u32> = outline.iter().map(|&at| p.insert(&particle(at, 0))).collect();
+        p.link_ring(&nodes);
+        let i = p.insert(&particle(at, owner));
+        let (mut contacts, [mut small, mut large]) = (RingContacts::default(), [Grid::default(), Grid::default()]);
+        small.fill(Vec2::splat(-50.0), Vec2::splat(50.0), 1.0, &[i], |_| at);
+        large.fill(Vec2::ZERO, Vec2::ONE, 1.0, &[], |_| at);
+        let near = Nearby {
+            particles: &p,
+            exemptions: &Exemptions::default(),
+            homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
+            grids: [(&small, RADIUS), (&large, 0.0)],
+            margin: 100.0,
+        };
+        contacts.find(&[Ring { owner: 0, nodes: &nodes }], near);
+        (p, contacts, nodes)
+    }
+
+    fn square() -> Vec<Vec2> {
+        [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(Vec2::from).to_vec()
+    }
+
+    fn distance(outline: &[u32], p: &Particles, at: Vec2) -> f32 {
+        let ends = |k: usize| (p.position(outline[k] as usize), p.position(outline[(k + 1) % outline.len()] as usize));
+        let gap = |k| (crate::geometry::polygon::nearest_on_segment(ends(k).0, ends(k).1, at) - at).length();
+        (0..outline.len()).map(gap).fold(f32::INFINITY, f32::min)
+    }
+
+    #[test]
+    fn a_disc_is_pushed_to_its_own_side_from_either_side() {
+        // Own particle, stranger, prey that is held; inside and outside of the lower side.
+        for (owner, home) in [(0, 1.0), (1, -1.0), (2, 1.0)] {
+            for y in [0.3, -0.3, 0.0] {
+                let (mut p, mut contacts, _) = scene(&square(), Vec2::new(2.0, y), owner);
+                // The disc of the ring's owner is no node of it.
+                let before = momentum(&p);
+                let wrong = project(&mut contacts, &mut p);
+                assert_eq!(wrong, u32::from(y * home < 0.0), "owner {owner} at {y}");
+                let height = p.position(4).y - 0.5 * (p.position(0).y + p.position(1).y);
+                assert!((height * home - 2.0 * RADIUS).abs() < 1e-4, "owner {owner} at {y}: {height}");
+                assert!((momentum(&p) - before).length() < 1e-4);
+                assert!(contacts.contacts[0].touched.is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn prey_on_its_way_stays_where_it_is_and_a_gate_lets_it_through() {
+        for y in [0.3, -0.3] {
+            let (mut p, mut contacts, _) = scene(&square(), Vec2::new(2.0, y), 3);
+            assert_eq!(project(&mut contacts, &mut p) + keep_sides(&contacts, &mut p), 0);
+            let height = p.position(4).y - 0.5 * (p.position(0).y + p.position(1).y);
+            assert!(height * y > 0.0, "at {y}: {height}");
+        }
+        let (p, _, nodes) = scene(&square(), Vec2::new(2.0, 0.3), 3);
+        let mut exemptions = Exemptions::default();
+        exemptions.open_gate(&nodes[..1], 3);
+        assert!(!may_pass(&p, &exemptions, [nodes[0], nodes[1]]) && may_pass(&p, &exemptions, [nodes[1], nodes[2]]));
+    }
+
+    fn may_pass(p: &Particles, exemptions: &Exemptions, ends: [u32; 2]) -> bool {
+        crate::collision::ring::may_touch(p, 4, ends, exemptions)
+    }
+
+    #[test]
+    fn a_disc_in_a_narrow_passage_keeps_off_both_walls() {
+        let narrow = [(0.0, 0.0), (8.0, 0.0), (8.0, 1.6), (0.0, 1.6)].map(Vec2::from);
+        let (mut p, mut contacts, nodes) = scene(&narrow, Vec2::new(4.0, 0.5), 0);
+        (0..50).for_each(|_| assert_eq!(project(&mut contacts, &mut p), 0));
+        assert!(distance(&nodes, &p, p.position(4)) > 2.0 * RADIUS - 1e-3);
+    }
+
+    #[test]
+    fn the_last_word_moves_the_disc_alone() {
+        for (owner, y) in [(0, -0.2), (0, 0.1), (1, 0.2), (1, -0.1)] {
+            let (mut p, contacts, nodes) = scene(&square(), Vec2::new(2.0, y), owner);
+            let before: Vec<Vec2> = nodes.iter().map(|&i| p.position(i as usize)).collect();
+            let home = if owner == 0 { 1.0 } else { -1.0 };
+            assert_eq!(keep_sides(&contacts, &mut p), u32::from(y * home < 0.0));
+            assert!((p.position(4).y * home - STANDOFF * 2.0 * RADIUS).abs() < 1e-5, "{}", p.position(4));
+            assert!(nodes.iter().zip(before).all(|(&i, at)| p.position(i as usize) == at));
+        }
+    }
+
+    #[test]
+    fn a_heavy_disc_does_not_crush_a_light_ring() {
+        let (mut p, mut contacts, _) = scene(&square(), Vec2::new(2.0, -0.3), 1);
+        p.inv_mass[4] = 1e-4;
+        project(&mut contacts, &mut p);
+        assert!(p.position(4).y < -0.3 - 0.01, "{}", p.position(4));
+    }
+
+    proptest! {
+        #[test]
+        fn the_nearest_link_and_the_ray_agree_on_the_side(
+            outline in star_polygon(), x in -12.0f32..12.0, y in -12.0f32..12.0
+        ) {
+            let at = Vec2::new(x, y);
+            let (p, contacts, nodes) = scene(&outline, at, 0);
+            prop_assume!(distance(&nodes, &p, at) > 1e-3 && !contacts.contacts.is_empty());
+            let i = contacts.contacts[0].particle;
+            let (_, relation) = nearest_link(i, contacts.links_of(&contacts.contacts[0]), &p).unwrap();
+            prop_assert_eq!(relation.height > 0.0, contains_point(&outline, at));
+        }
+
+        #[test]
+        fn the_net_takes_every_stray_back(outline in star_polygon(), x in -12.0f32..12.0, y in -12.0f32..12.0) {
+            let at = Vec2::new(x, y);
+            let is_inside = contains_point(&outline, at);
+            let (mut p, contacts, nodes) = scene(&outline, at, 0);
+            prop_assume!(!contacts.contacts.is_empty());
+            let ring = Ring { owner: 0, nodes: &nodes };
+            prop_assert_eq!(catch_strays(ring, &contacts, &mut p), u32::from(!is_inside));
+            prop_assert_eq!(is_inside, p.position(contacts.contacts[0].particle as usize) == at);
+        }
+    }
+}
