@@ -74,6 +74,7 @@ pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
 pub use world::measure::{Census, Quality};
+pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::query::RayHit;
 pub use world::view::{OrganismView, ParticleView, View};
 

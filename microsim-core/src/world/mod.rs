@@ -5,6 +5,7 @@ pub(crate) mod digest;
 mod feeding;
 mod growth;
 pub(crate) mod measure;
+pub(crate) mod membrane_quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
