@@ -36,8 +36,8 @@ fn main() -> Result<(), Error> {
 fn measure(size: usize) -> Result<(), Error> {
     let spec = cell_of(size);
     let (mut world, cell) = room(&spec, 12.0)?;
-    let particles = OrganismSpec::from(spec.clone()).particle_count()?;
     let nodes = world.view().organism(cell).map_or(0, |view| view.outline().len());
+    let particles = OrganismSpec::from(spec.clone()).particle_count()? - nodes;
     let mut inputs = Inputs::new();
     run(&mut world, &inputs, 5.0, |_| {});
     let rest = quality(&world, cell);

@@ -9,17 +9,17 @@ use crate::organism::Organism;
 use crate::solver::membrane::links;
 use glam::Vec2;
 
-/// Distance from a cytoplasm particle, in rest spacings of the cytoplasm, up to which a place is covered by it. Within a
-/// perfect lattice the farthest place is `1 / sqrt(3)` = 0.58 away; what is farther than this leaves room for a hole
-/// that a lattice does not have.
-const COVERED: f32 = 0.75;
+/// Distance from a cytoplasm particle, in rest spacings of the cytoplasm, up to which a place is covered by it. In the
+/// hexagonal lattice no place is farther than `1 / sqrt(3)` = 0.58 from a particle; an eighth more is for the disorder of
+/// a fluid at rest.
+const COVERED: f32 = 0.65;
 /// Samples per rest spacing.
 const SAMPLES: f32 = 6.0;
 
 /// Shape and motion of one organism that has a membrane. All measures are of the present state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MembraneQuality {
-    /// Share of the area within the membrane that nothing covers: no cytoplasm within 0.75 of its rest spacing, no prey
+    /// Share of the area within the membrane that nothing covers: no cytoplasm within 0.65 of its rest spacing, no prey
     /// that is held, no membrane within its own thickness. Sampled six times per spacing, so exact to about 1e-3.
     pub voids: f32,
     /// How much more the membrane turns than a convex one, radians: the magnitudes of all exterior angles of the polygon
