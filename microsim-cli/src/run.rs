@@ -12,7 +12,7 @@ use crate::report::{EventFile, MeasureFile, RunReport};
 use crate::simulate::{Tally, simulate};
 use crate::source::{Prepared, prepare};
 use indicatif::ProgressBar;
-use microsim_core::{Census, Inputs, World};
+use microsim_core::{Inputs, World};
 use serde::Serialize;
 use std::io::Write;
 use std::time::{Duration, Instant};
@@ -57,9 +57,9 @@ fn advance(
         world.step(&inputs);
         start.elapsed()
     };
-    simulate(world, steps, step, |world, census| {
+    simulate(world, steps, step, |world| {
         bar.set_position(world.step_index());
-        record.as_mut().map_or(Ok(()), |record| record.add(world, census))
+        record.as_mut().map_or(Ok(()), |record| record.add(world))
     })
 }
 
@@ -78,10 +78,10 @@ impl Record {
         Ok(Self { measures: MeasureFile::create(outputs)?, events: EventFile::create(outputs)?, moments })
     }
 
-    fn add(&mut self, world: &World, census: &Census) -> Result<(), Failure> {
+    fn add(&mut self, world: &World) -> Result<(), Failure> {
         self.moments.look_at(world);
         self.events.add(world)?;
-        self.measures.add(world, census)
+        self.measures.add(world)
     }
 
     fn finish(self, outputs: &Outputs, world: &World) -> Result<(), Failure> {

@@ -35,7 +35,8 @@ impl Coverage {
         let size = high - low;
         let side = if size.x > size.y { size.x } else { size.y };
         let pitch = if side / MOST > pitch { side / MOST } else { pitch };
-        if !polygon.iter().all(|p| p.is_finite()) || !(pitch > 0.0 && pitch.is_finite()) {
+        let is_sound = polygon.iter().all(|p| p.is_finite()) && pitch > 0.0 && pitch.is_finite();
+        if !is_sound {
             return None;
         }
         let (from, to) = ((low / pitch).ceil(), (high / pitch).floor());

@@ -6,6 +6,8 @@ mod feeding;
 mod growth;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
+pub(crate) mod named_measure;
+pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
