@@ -8,6 +8,7 @@ use crate::report::{RunReport, Table, mean, median};
 use crate::simulate::{Tally, simulate};
 use crate::source::prepare;
 use indicatif::ProgressBar;
+use microsim_core::scenario::{Built, Script};
 use microsim_core::{Inputs, Phase, Quality, World};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -51,15 +52,15 @@ struct QualityReport {
 pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> {
     let prepared = prepare(&args.scenario)?;
     interrupt::listen();
-    let mut world = prepared.built.world.clone();
+    let Built { mut world, mut script, .. } = prepared.built.clone();
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
     let bar = console.progress(args.warmup.saturating_add(steps));
     let mut stopwatch = Stopwatch::default();
-    let warmup = measure(&mut world, args.warmup, &bar, &mut stopwatch, |_| {})?;
+    let warmup = measure(&mut world, &mut script, args.warmup, &bar, &mut stopwatch, |_| {})?;
     stopwatch = Stopwatch::default();
     let mut qualities = Vec::new();
     let see = |world: &World| qualities.push(world.quality());
-    let mut tally = measure(&mut world, steps, &bar, &mut stopwatch, see)?;
+    let mut tally = measure(&mut world, &mut script, steps, &bar, &mut stopwatch, see)?;
     bar.finish_and_clear();
     tally.leaks = tally.leaks.max(warmup.leaks);
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
@@ -79,13 +80,16 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
 
 fn measure(
     world: &mut World,
+    script: &mut Script,
     steps: u64,
     bar: &ProgressBar,
     stopwatch: &mut Stopwatch,
     mut see: impl FnMut(&World),
 ) -> Result<Tally, Failure> {
-    let inputs = Inputs::new();
-    let step = |world: &mut World| stopwatch.step(world, &inputs);
+    let step = |world: &mut World| {
+        let inputs = script.before_step(world);
+        stopwatch.step(world, inputs)
+    };
     simulate(world, steps, step, |world| {
         bar.set_position(world.step_index());
         see(world);

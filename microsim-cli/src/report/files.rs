@@ -22,7 +22,8 @@ impl MeasureFile {
     }
 
     pub(crate) fn add(&mut self, world: &World) -> Result<(), Failure> {
-        let start = [world.step_index().to_string(), rounded(world.time()).to_string(), world.events().len().to_string()];
+        let start =
+            [world.step_index().to_string(), rounded(world.time()).to_string(), world.events().len().to_string()];
         // Most measures are single precision: their shortest digits.
         let measures = Measure::ALL.iter().map(|measure| (measure.of(world) as f32).to_string());
         self.writer.write_record(start.into_iter().chain(measures)).map_err(|e| unwritable(&e))
