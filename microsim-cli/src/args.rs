@@ -9,7 +9,7 @@ use std::path::PathBuf;
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 2 wrong usage, a refused scenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 done; 1 an invariant or expectation of the scenario broke; 2 wrong usage, a refused scenario or an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
@@ -52,7 +52,9 @@ pub(crate) struct ScenarioArgs {
 /// `run`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The census (leaks, improper absorptions) is taken after every step, outside the time that is measured.\n\
+    after_help = "The scenario's invariants and expectations are checked after every step; the first that breaks is named on\n\
+stderr, the run goes on to its end, and the exit code is 1. The census (leaks, improper absorptions) is taken after\n\
+every step, outside the time that is measured.\n\
 With --out, the files are: frame.svg and frame.png (the end), frames.png (six moments), measures.csv (one row per step),\n\
 events.jsonl (one object per event), run.json. Equal scenario, seed and steps give equal bytes in all but run.json."
 )]

@@ -8,6 +8,7 @@ use crate::report::{RunReport, Table, mean, median};
 use crate::simulate::{Tally, simulate};
 use crate::source::prepare;
 use indicatif::ProgressBar;
+use microsim_core::scenario::{Built, Script};
 use microsim_core::{Inputs, Phase, Quality, World};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -36,21 +37,30 @@ struct QualityReport {
     /// At the end.
     anchor_offset_max: f32,
     fluid_compression_mean: f64,
+    membrane_stretch_max: f32,
+    voids_mean: f64,
+    voids_max: f32,
+    /// Radians.
+    excess_turning_mean: f64,
+    excess_turning_max: f32,
+    /// Over the steps in which a cell crawls.
+    width_ratio_mean: f64,
+    speed_kept_mean: f64,
 }
 
 /// Measures a scenario.
 pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> {
     let prepared = prepare(&args.scenario)?;
     interrupt::listen();
-    let mut world = prepared.built.world.clone();
+    let Built { mut world, mut script, .. } = prepared.built.clone();
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
     let bar = console.progress(args.warmup.saturating_add(steps));
     let mut stopwatch = Stopwatch::default();
-    let warmup = measure(&mut world, args.warmup, &bar, &mut stopwatch, |_| {})?;
+    let warmup = measure(&mut world, &mut script, args.warmup, &bar, &mut stopwatch, |_| {})?;
     stopwatch = Stopwatch::default();
     let mut qualities = Vec::new();
     let see = |world: &World| qualities.push(world.quality());
-    let mut tally = measure(&mut world, steps, &bar, &mut stopwatch, see)?;
+    let mut tally = measure(&mut world, &mut script, steps, &bar, &mut stopwatch, see)?;
     bar.finish_and_clear();
     tally.leaks = tally.leaks.max(warmup.leaks);
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
@@ -70,14 +80,17 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
 
 fn measure(
     world: &mut World,
+    script: &mut Script,
     steps: u64,
     bar: &ProgressBar,
     stopwatch: &mut Stopwatch,
     mut see: impl FnMut(&World),
 ) -> Result<Tally, Failure> {
-    let inputs = Inputs::new();
-    let step = |world: &mut World| stopwatch.step(world, &inputs);
-    simulate(world, steps, step, |world, _| {
+    let step = |world: &mut World| {
+        let inputs = script.before_step(world);
+        stopwatch.step(world, inputs)
+    };
+    simulate(world, steps, step, |world| {
         bar.set_position(world.step_index());
         see(world);
         Ok(())
@@ -116,7 +129,9 @@ impl Stopwatch {
 impl QualityReport {
     fn of(steps: &[Quality]) -> Self {
         let worst = |value: fn(&Quality) -> f32| steps.iter().map(value).fold(0.0, f32::max);
-        let average = |value: fn(&Quality) -> f32| mean(&steps.iter().map(|q| f64::from(value(q))).collect::<Vec<_>>());
+        let values = |value: fn(&Quality) -> f32| steps.iter().map(move |q| f64::from(value(q)));
+        let average = |value| mean(&values(value).collect::<Vec<_>>());
+        let while_crawling = |value| mean(&values(value).filter(|&x| x != 0.0).collect::<Vec<_>>());
         Self {
             ring_error_mean: average(|q| q.ring_error_mean),
             ring_error_max: worst(|q| q.ring_error_max),
@@ -124,6 +139,13 @@ impl QualityReport {
             edge_stretch_max: worst(|q| q.edge_stretch_max),
             anchor_offset_max: steps.last().map_or(0.0, |q| q.anchor_offset_max),
             fluid_compression_mean: average(|q| q.fluid_compression_mean),
+            membrane_stretch_max: worst(|q| q.membrane_stretch_max),
+            voids_mean: average(|q| q.voids_max),
+            voids_max: worst(|q| q.voids_max),
+            excess_turning_mean: average(|q| q.excess_turning_max),
+            excess_turning_max: worst(|q| q.excess_turning_max),
+            width_ratio_mean: while_crawling(|q| q.width_ratio_mean),
+            speed_kept_mean: while_crawling(|q| q.speed_kept_mean),
         }
     }
 }
@@ -154,6 +176,13 @@ impl BenchReport {
         percent("edge stretch, max", quality.edge_stretch_max.into());
         percent("anchor offset at the end", quality.anchor_offset_max.into());
         percent("fluid compression, mean", quality.fluid_compression_mean);
+        percent("membrane stretch, max", quality.membrane_stretch_max.into());
+        percent("voids, mean", quality.voids_mean);
+        percent("voids, max", quality.voids_max.into());
+        percent("speed kept, mean", quality.speed_kept_mean);
+        table.row("excess turning, mean", format!("{:8.3} rad", quality.excess_turning_mean));
+        table.row("excess turning, max", format!("{:8.3} rad", quality.excess_turning_max));
+        table.row("front to rear width, mean", format!("{:8.3}", quality.width_ratio_mean));
         table
     }
 }

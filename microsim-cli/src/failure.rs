@@ -8,6 +8,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
 
+const BROKEN: u8 = 1;
 const REFUSED: u8 = 2;
 const INTERRUPTED: u8 = 130;
 
@@ -20,6 +21,8 @@ pub(crate) enum Failure {
     Scenario(Source, Diagnostics),
     /// Whoever reads stdout has enough.
     PipeClosed,
+    /// What the scenario says must hold does not; what there was has been written.
+    Broken(Vec<String>),
     /// Ctrl-C; what there was has been written.
     Interrupted,
 }
@@ -36,6 +39,10 @@ impl Failure {
             Self::Message(text) => console.complain(&format!("error: {text}")),
             Self::Scenario(source, problems) => {
                 console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
+            }
+            Self::Broken(lines) => {
+                lines.iter().for_each(|line| console.complain(line));
+                return ExitCode::from(BROKEN);
             }
             Self::PipeClosed => return ExitCode::SUCCESS,
             Self::Interrupted => {

@@ -12,7 +12,8 @@ use crate::report::{EventFile, MeasureFile, RunReport};
 use crate::simulate::{Tally, simulate};
 use crate::source::{Prepared, prepare};
 use indicatif::ProgressBar;
-use microsim_core::{Census, Inputs, World};
+use microsim_core::World;
+use microsim_core::scenario::{Built, Script};
 use serde::Serialize;
 use std::io::Write;
 use std::time::{Duration, Instant};
@@ -27,40 +28,56 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     let outputs = args.out.as_deref();
     let outputs = outputs.map(|folder| Outputs::open(folder, args.force)).transpose()?;
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
-    let mut world = prepared.built.world.clone();
-    let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &world, steps)).transpose()?;
+    let mut built = prepared.built.clone();
+    let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &built.world, steps)).transpose()?;
     let bar = console.progress(steps);
-    let tally = advance(&mut world, steps, &bar, record.as_mut())?;
+    let (tally, failures) = advance(&mut built, steps, &bar, record.as_mut())?;
     bar.finish_and_clear();
-    let report = RunReport::new(&prepared, &world, tally);
+    let report = RunReport { failures, ..RunReport::new(&prepared, &built.world, tally) };
     if let (Some(record), Some(outputs)) = (record, &outputs) {
-        record.finish(outputs, &world)?;
+        record.finish(outputs, &built.world)?;
         write_description(outputs, &prepared, args, &report)?;
         console.note(&format!("wrote {}", outputs.folder().display()));
     }
     print(&report, args.json)?;
-    if report.interrupted {
-        return Err(Failure::Interrupted);
-    }
-    Ok(())
+    verdict(&report, prepared.name())
 }
 
+/// Takes the steps. Returns also what failed: the first check that broke, then commands that were refused.
 fn advance(
-    world: &mut World,
+    built: &mut Built,
     steps: u64,
     bar: &ProgressBar,
     mut record: Option<&mut Record>,
-) -> Result<Tally, Failure> {
-    let inputs = Inputs::new();
-    let step = |world: &mut World| -> Duration {
-        let start = Instant::now();
-        world.step(&inputs);
-        start.elapsed()
-    };
-    simulate(world, steps, step, |world, census| {
+) -> Result<(Tally, Vec<String>), Failure> {
+    let Built { world, script, checks, .. } = built;
+    let mut broken = None;
+    let see = |world: &World| {
         bar.set_position(world.step_index());
-        record.as_mut().map_or(Ok(()), |record| record.add(world, census))
-    })
+        broken = broken.or_else(|| checks.after_step(world).first().copied());
+        record.as_mut().map_or(Ok(()), |record| record.add(world))
+    };
+    let tally = simulate(world, steps, |world| timed_step(world, script), see)?;
+    let refusals = script.refusals().iter().map(ToString::to_string);
+    Ok((tally, broken.iter().map(ToString::to_string).chain(refusals).collect()))
+}
+
+fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
+    if report.interrupted {
+        return Err(Failure::Interrupted);
+    }
+    if report.failures.is_empty() {
+        return Ok(());
+    }
+    let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
+    Err(Failure::Broken(report.failures.iter().map(line).collect()))
+}
+
+fn timed_step(world: &mut World, script: &mut Script) -> Duration {
+    let inputs = script.before_step(world);
+    let start = Instant::now();
+    world.step(inputs);
+    start.elapsed()
 }
 
 /// What `--out` collects while the run goes on.
@@ -78,10 +95,10 @@ impl Record {
         Ok(Self { measures: MeasureFile::create(outputs)?, events: EventFile::create(outputs)?, moments })
     }
 
-    fn add(&mut self, world: &World, census: &Census) -> Result<(), Failure> {
+    fn add(&mut self, world: &World) -> Result<(), Failure> {
         self.moments.look_at(world);
         self.events.add(world)?;
-        self.measures.add(world, census)
+        self.measures.add(world)
     }
 
     fn finish(self, outputs: &Outputs, world: &World) -> Result<(), Failure> {

@@ -45,7 +45,7 @@ pub(crate) fn simulate(
     world: &mut World,
     steps: u64,
     mut step: impl FnMut(&mut World) -> Duration,
-    mut after: impl FnMut(&World, &Census) -> Result<(), Failure>,
+    mut after: impl FnMut(&World) -> Result<(), Failure>,
 ) -> Result<Tally, Failure> {
     let start = Instant::now();
     let mut tally = Tally::default();
@@ -55,9 +55,8 @@ pub(crate) fn simulate(
             break;
         }
         let took = step(world);
-        let census = world.census();
-        tally.add(world, &census, took);
-        after(world, &census)?;
+        tally.add(world, &world.census(), took);
+        after(world)?;
     }
     tally.wall = start.elapsed();
     Ok(tally)

@@ -37,6 +37,12 @@ pub(crate) struct Prepared {
 }
 
 impl Prepared {
+    /// The scenario's name; where it has none, its file's.
+    pub(crate) fn name(&self) -> &str {
+        let name = self.scenario.name();
+        if name.is_empty() { self.source.origin() } else { name }
+    }
+
     /// Steps in so many simulated seconds; without a number, in the scenario's duration.
     pub(crate) fn steps_in(&self, seconds: Option<f64>) -> u64 {
         let seconds = seconds.unwrap_or(f64::from(self.scenario.duration()));

@@ -64,6 +64,18 @@ pub enum Event {
 }
 
 impl Event {
+    /// Names of all kinds, see [`Event::name`].
+    pub const NAMES: [&str; 8] = [
+        "contact_began",
+        "contact_ended",
+        "front_switched",
+        "ingestion_began",
+        "ingested",
+        "released",
+        "consumed",
+        "quarantined",
+    ];
+
     /// Name of its kind, for counting.
     #[must_use]
     pub fn name(&self) -> &'static str {

@@ -73,7 +73,10 @@ pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
-pub use world::measure::{Census, Quality};
+pub use world::measure::Census;
+pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
+pub use world::named_measure::Measure;
+pub use world::quality::Quality;
 pub use world::query::RayHit;
 pub use world::view::{OrganismView, ParticleView, View};
 

@@ -3,65 +3,39 @@
 use super::rounded;
 use crate::failure::Failure;
 use crate::output::{Outputs, PendingFile};
-use microsim_core::{Census, Event, World};
+use microsim_core::{Event, Measure, World};
 use serde::Serialize;
 use std::io::Write;
 
-/// `measures.csv`: one row per step.
+/// `measures.csv`: one row per step, one column per measure.
 #[derive(Debug)]
 pub(crate) struct MeasureFile {
     writer: csv::Writer<PendingFile>,
 }
 
-/// One row; the field names are the column names.
-#[derive(Serialize)]
-struct MeasureRow {
-    step: u64,
-    time: f64,
-    organisms: usize,
-    leaks: usize,
-    improper_absorptions: usize,
-    events: usize,
-    ring_error_mean: f32,
-    ring_error_max: f32,
-    penetration_max: f32,
-    edge_stretch_max: f32,
-    anchor_offset_max: f32,
-    fluid_compression_mean: f32,
-}
-
 impl MeasureFile {
     pub(crate) fn create(outputs: &Outputs) -> Result<Self, Failure> {
-        let writer = csv::Writer::from_writer(outputs.file("measures.csv")?);
+        let mut writer = csv::Writer::from_writer(outputs.file("measures.csv")?);
+        let names = Measure::ALL.iter().map(|measure| measure.name());
+        writer.write_record(["step", "time", "events"].into_iter().chain(names)).map_err(|e| unwritable(&e))?;
         Ok(Self { writer })
     }
 
-    pub(crate) fn add(&mut self, world: &World, census: &Census) -> Result<(), Failure> {
-        let quality = world.quality();
-        let row = MeasureRow {
-            step: world.step_index(),
-            time: rounded(world.time()),
-            organisms: census.organisms,
-            leaks: census.leaks,
-            improper_absorptions: census.improper_absorptions,
-            events: world.events().len(),
-            ring_error_mean: quality.ring_error_mean,
-            ring_error_max: quality.ring_error_max,
-            penetration_max: quality.penetration_max,
-            edge_stretch_max: quality.edge_stretch_max,
-            anchor_offset_max: quality.anchor_offset_max,
-            fluid_compression_mean: quality.fluid_compression_mean,
-        };
-        self.writer.serialize(row).map_err(|error| Failure::Message(format!("cannot write measures.csv: {error}")))
+    pub(crate) fn add(&mut self, world: &World) -> Result<(), Failure> {
+        let start =
+            [world.step_index().to_string(), rounded(world.time()).to_string(), world.events().len().to_string()];
+        // Most measures are single precision: their shortest digits.
+        let measures = Measure::ALL.iter().map(|measure| (measure.of(world) as f32).to_string());
+        self.writer.write_record(start.into_iter().chain(measures)).map_err(|e| unwritable(&e))
     }
 
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let pending = self
-            .writer
-            .into_inner()
-            .map_err(|error| Failure::Message(format!("cannot write measures.csv: {error}")))?;
-        pending.finish()
+        self.writer.into_inner().map_err(|e| unwritable(&e))?.finish()
     }
+}
+
+fn unwritable(error: &dyn std::error::Error) -> Failure {
+    Failure::Message(format!("cannot write measures.csv: {error}"))
 }
 
 /// `events.jsonl`: one object per event.

@@ -35,6 +35,9 @@ pub(crate) struct RunReport {
     pub wall_seconds: f64,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
+    /// The first invariant or expectation that broke, and commands that were refused.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failures: Vec<String>,
 }
 
 impl RunReport {
@@ -59,6 +62,7 @@ impl RunReport {
             wall_seconds: tally.wall.as_secs_f64(),
             interrupted: tally.is_interrupted,
             events: tally.events,
+            failures: Vec::new(),
         }
     }
 

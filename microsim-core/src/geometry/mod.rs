@@ -5,10 +5,13 @@
 //! the positive direction. Results have the same bits on every platform: only `+ - * /`, `sqrt`,
 //! comparisons and `libm` are used. No input makes a function panic, NaN included.
 
+pub(crate) mod coverage;
+pub mod outline;
 pub mod polygon;
 pub mod ring;
 pub mod triangulate;
 
+pub use outline::{excess_turning, quarter_widths};
 pub use polygon::{centroid, contains_point, is_simple, nearest_on_segment, perimeter, signed_area};
 pub use ring::{direction_or, ellipse, nearest_index, rotate, unit_vector};
 pub use triangulate::triangulate;

@@ -1,8 +1,10 @@
 //! The whole file: from a tree of values to what a scenario is made of.
 
+use super::checks::{self, Checks};
 use super::fields::{Fields, Report};
 use super::group::{self, Group, Surroundings};
 use super::prototype::{self, Prototype};
+use super::script::{self, Command};
 use super::source::Source;
 use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
@@ -24,6 +26,8 @@ pub(super) struct File {
     pub config: WorldConfig,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
+    pub commands: Vec<Command>,
+    pub checks: Checks,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
@@ -44,10 +48,12 @@ pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnos
     let around = Surroundings { prototypes: &prototypes, controllers: &controllers, size };
     let mut groups = group::read_spawns(&mut root, &around);
     groups.extend(lay_out(plans, size, &report));
+    let commands = script::read(&mut root, &groups, duration);
+    let checks = checks::read(&mut root);
     root.finish();
     group::check_size(&groups, config.max_particles, &report);
     Diagnostics::check(report.found.into_inner())?;
-    Ok(File { name, description, duration, config, obstacles, groups })
+    Ok(File { name, description, duration, config, obstacles, groups, commands, checks })
 }
 
 fn read_schema(root: &mut Fields<'_>) {

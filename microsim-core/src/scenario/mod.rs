@@ -54,9 +54,17 @@
 //! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //!
+//! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }` |
+//! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
+//! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
+//!
+//! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
+//! place of what its controller wants.
+//!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
 mod builtin;
+mod checks;
 mod diagnostic;
 mod fields;
 mod file;
@@ -66,11 +74,14 @@ mod obstacle;
 mod overrides;
 mod placing;
 mod prototype;
+mod script;
 mod source;
 mod steering;
 
 pub use builtin::{Builtin, builtin, builtins};
+pub use checks::{Checks, Violation};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use script::{Refusal, Script};
 
 use crate::config::WorldConfig;
 use crate::error::Error;
@@ -103,6 +114,10 @@ pub struct Built {
     pub player: Option<OrganismId>,
     /// Organisms that have a `name`, in the order in which they were spawned.
     pub named: Vec<(String, OrganismId)>,
+    /// What is done to organisms while the world runs.
+    pub script: Script,
+    /// What must hold meanwhile.
+    pub checks: Checks,
 }
 
 impl Scenario {
@@ -167,8 +182,11 @@ impl Scenario {
             world: world.map_err(|error| report.diagnostic("world", &error))?,
             player: None,
             named: Vec::new(),
+            script: Script::default(),
+            checks: self.file.checks.clone(),
         };
         self.fill(&mut built, &report);
+        built.script = Script::new(self.file.commands.clone(), built.named.clone());
         Diagnostics::check(report.found.into_inner())?;
         Ok(built)
     }

@@ -63,6 +63,11 @@ impl Prototype {
         matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_))
     }
 
+    /// Whether it takes others in and grows.
+    pub(super) fn can_grow(&self) -> bool {
+        matches!(self.spec, OrganismSpec::AmoeboidCell(_))
+    }
+
     /// Farthest that it reaches from its centre when scaled, units.
     pub(super) fn extent(&self, scale: f32) -> f32 {
         self.extent * scale

@@ -1,0 +1,265 @@
+//! Scripts: the `[[command]]` tables, what is done to organisms and when.
+
+use super::fields::{Fields, Read, Report};
+use super::group::Group;
+use super::source::{Value, unknown};
+use crate::error::{Error, ErrorKind};
+use crate::id::OrganismId;
+use crate::{Inputs, Intent, World};
+use glam::Vec2;
+use std::fmt;
+
+/// The commands of a scenario. Ask it for the inputs before every step.
+#[derive(Clone, Debug, Default)]
+pub struct Script {
+    commands: Vec<Command>,
+    named: Vec<(String, OrganismId)>,
+    orders: Vec<Order>,
+    inputs: Inputs,
+    refusals: Vec<Refusal>,
+}
+
+/// A command that the world refused.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// Path of the command in the file, for example `command.2`.
+    pub command: String,
+    /// Number of steps taken then.
+    pub step: u64,
+    /// Simulated time then, s.
+    pub time: f64,
+    /// What the world said.
+    pub error: Error,
+}
+
+/// One table.
+#[derive(Clone, Debug)]
+pub(super) struct Command {
+    path: String,
+    of: String,
+    at: f32,
+    /// Time from one repetition to the next, s.
+    every: Option<f32>,
+    until: f32,
+    actions: Vec<Action>,
+}
+
+/// What is done to an organism.
+#[derive(Clone, Debug)]
+enum Action {
+    Goal(Goal),
+    Digest(bool),
+    Grow { nodes: u32, particles: u32 },
+}
+
+/// Where an organism is to go.
+#[derive(Clone, Debug)]
+enum Goal {
+    Rest,
+    Point(Vec2),
+    /// Wherever this one is, as long as there is one.
+    Organism(String),
+}
+
+/// What one organism has been told to do until it is told something else.
+#[derive(Clone, Debug)]
+struct Order {
+    organism: OrganismId,
+    goal: Goal,
+    digests: bool,
+}
+
+type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
+
+/// The fields that are actions and how they are read.
+const ACTIONS: [(&str, ReadAction); 5] = [
+    ("goal", |fields| fields.get("goal").map(Goal::Point).map(Action::Goal)),
+    ("follow", |fields| fields.get("follow").map(Goal::Organism).map(Action::Goal)),
+    ("rest", |fields| fields.get("rest").map(|Always| Action::Goal(Goal::Rest))),
+    ("digest", |fields| fields.get("digest").map(Action::Digest)),
+    ("grow", grow),
+];
+
+impl Script {
+    pub(super) fn new(commands: Vec<Command>, named: Vec<(String, OrganismId)>) -> Self {
+        Self { commands, named, ..Self::default() }
+    }
+
+    /// Whether there is nothing to do.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.commands.is_empty()
+    }
+
+    /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
+    /// to go, to rest or to digest no longer follow their controllers.
+    pub fn before_step(&mut self, world: &mut World) -> &Inputs {
+        let commands = std::mem::take(&mut self.commands);
+        for command in &commands {
+            let due = if command.is_due(world) { &command.actions[..] } else { &[] };
+            for action in due {
+                if let Err(error) = self.act(command, action, world) {
+                    self.refuse(command, world, error);
+                }
+            }
+        }
+        self.commands = commands;
+        for Order { organism, goal, digests } in &self.orders {
+            let place = match goal {
+                Goal::Rest => None,
+                Goal::Point(point) => Some(*point),
+                Goal::Organism(name) => self.organism(name).and_then(|id| world.centroid(id)),
+            };
+            let way = place.and_then(|place| Intent::toward(place).ok());
+            self.inputs.set(*organism, way.unwrap_or(Intent::REST).digesting(*digests));
+        }
+        &self.inputs
+    }
+
+    /// What the world refused, the first time for each command.
+    #[must_use]
+    pub fn refusals(&self) -> &[Refusal] {
+        &self.refusals
+    }
+
+    fn act(&mut self, command: &Command, action: &Action, world: &mut World) -> Result<(), Error> {
+        let id = self.organism(&command.of).filter(|&id| world.kind(id).is_some());
+        let id = id.ok_or_else(|| Error::new(ErrorKind::Stale, command.of.clone()))?;
+        match action {
+            Action::Goal(goal) => self.order(id).goal = goal.clone(),
+            Action::Digest(digests) => self.order(id).digests = *digests,
+            Action::Grow { nodes, particles } => world.grow(id, *nodes, *particles)?,
+        }
+        Ok(())
+    }
+
+    fn organism(&self, name: &str) -> Option<OrganismId> {
+        self.named.iter().find(|(known, _)| known == name).map(|(_, id)| *id)
+    }
+
+    /// What an organism has been told, to be changed.
+    fn order(&mut self, organism: OrganismId) -> &mut Order {
+        let known = self.orders.iter().position(|order| order.organism == organism);
+        let at = known.unwrap_or_else(|| {
+            self.orders.push(Order { organism, goal: Goal::Rest, digests: false });
+            self.orders.len() - 1
+        });
+        &mut self.orders[at]
+    }
+
+    fn refuse(&mut self, command: &Command, world: &World, error: Error) {
+        if self.refusals.iter().all(|refusal| refusal.command != command.path) {
+            let (command, step, time) = (command.path.clone(), world.step_index(), world.time());
+            self.refusals.push(Refusal { command, step, time, error });
+        }
+    }
+}
+
+impl Command {
+    /// Whether it is to be done before the world's next step.
+    fn is_due(&self, world: &World) -> bool {
+        let steps = |time: f32| (f64::from(time) / f64::from(world.config().dt)).round() as u64;
+        let Some(since) = world.step_index().checked_sub(steps(self.at)) else { return false };
+        match self.every.map(|every| steps(every).max(1)) {
+            Some(every) => since.is_multiple_of(every) && world.step_index() <= steps(self.until),
+            None => since == 0,
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} was refused before step {} ({:.2} s): {}", self.command, self.step + 1, self.time, self.error)
+    }
+}
+
+/// Reads the `[[command]]` tables.
+pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Vec<Command> {
+    let named: Vec<(&str, &Group)> = groups.iter().filter_map(|group| Some((group.name.as_deref()?, group))).collect();
+    let mut commands = Vec::new();
+    for mut fields in root.list("command") {
+        let command = read_command(&mut fields, &named, duration);
+        fields.finish();
+        commands.extend(command);
+    }
+    commands
+}
+
+fn read_command(fields: &mut Fields<'_>, named: &[(&str, &Group)], duration: f32) -> Option<Command> {
+    let at = fields.number("at", 0.0, [0.0, 1e6]);
+    let of = fields.required::<String>("of");
+    let every = fields.has("every").then(|| fields.number("every", 1.0, [0.001, 1e6]));
+    let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
+    let path = fields.path.clone();
+    let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
+    if !ACTIONS.iter().any(|(field, _)| fields.has(field)) {
+        let known = ACTIONS.map(|(field, _)| field).join(", ");
+        fields.report.refuse(&fields.path, "does nothing", format!("at least one of {known}"));
+    }
+    let refuse = |field: &str, (message, accepted): (String, String)| {
+        fields.report.refuse(&fields.at(field), message, accepted);
+    };
+    if fields.has("until") && !fields.has("every") {
+        refuse("until", ("does nothing by itself".to_owned(), "`until` with `every`".to_owned()));
+    }
+    let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
+    let find = |name: &str| named.iter().find(|(known, _)| *known == name).map(|(_, group)| *group);
+    let of = of?;
+    match find(&of) {
+        None => refuse("of", unknown("organism", &of, &names)),
+        Some(group) => check_actions(fields, &actions, group),
+    }
+    for action in &actions {
+        if let Action::Goal(Goal::Organism(name)) = action
+            && find(name).is_none()
+        {
+            refuse("follow", unknown("organism", name, &names));
+        }
+    }
+    Some(Command { path, of, at, every, until, actions })
+}
+
+/// Checks that an organism can do what is asked of it.
+fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
+    let refuse = |field: &str, what: &str, accepted: &str| {
+        let message = format!("`{}` cannot {what}", group.prototype.name);
+        fields.report.refuse(&fields.at(field), message, accepted);
+    };
+    for action in actions {
+        match action {
+            Action::Goal(_) if !group.prototype.can_move() => {
+                let field = ["goal", "follow", "rest"].into_iter().find(|field| fields.has(field));
+                refuse(field.unwrap_or_default(), "move", "an amoeboid_cell, a rigid_cell or a probe");
+            }
+            Action::Digest(_) if !group.prototype.can_grow() => refuse("digest", "digest", "an amoeboid_cell"),
+            Action::Grow { .. } if !group.prototype.can_grow() => refuse("grow", "grow", "an amoeboid_cell"),
+            Action::Goal(_) | Action::Digest(_) | Action::Grow { .. } => {}
+        }
+    }
+}
+
+fn grow(fields: &mut Fields<'_>) -> Option<Action> {
+    if !fields.has("grow") {
+        return None;
+    }
+    let mut amount = fields.table("grow");
+    let (nodes, particles) = (amount.or("nodes", 0), amount.or("particles", 0));
+    amount.finish();
+    Some(Action::Grow { nodes, particles })
+}
+
+/// `true`, the only value of a field that stands for an action without more to say.
+struct Always;
+
+impl Read for Always {
+    fn accepted() -> String {
+        "true".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_bool() {
+            Some(true) => Some(Self),
+            _ => super::fields::mismatch(value, path, report),
+        }
+    }
+}
