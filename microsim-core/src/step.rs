@@ -151,8 +151,12 @@ fn project_contacts(world: &mut World) {
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, guard, scratch, .. } = world;
+    let World { config, particles, organisms, guard, scratch, .. } = world;
     integrate::update_velocities(particles, config.damping, config.speed_limit(), h);
+    // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
+    for (_, cell) in organisms.iter().filter(|(_, organism)| organism.crawls()) {
+        integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
+    }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }

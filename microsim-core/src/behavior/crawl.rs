@@ -1,5 +1,7 @@
 //! Movement of an amoeboid cell (seed, 3.1.2): every step the membrane is divided anew into front, rear and two wings.
-//! Front bodies are given the speed towards the goal, rear bodies the speed towards the centroid; the wings follow.
+//! Front bodies are given the speed towards the goal, rear bodies a little less towards the centroid, so that they trail
+//! behind as a tail; the wings follow. Cytoplasm that lags behind streams after: the ring alone would take the longer to
+//! get it going the larger the cell, and leave it behind meanwhile.
 
 use super::heading;
 use crate::organism::Organism;
@@ -9,6 +11,13 @@ use glam::Vec2;
 
 /// Half-width of the front and of the rear, as a share of the membrane.
 const HALF_WIDTH: f32 = 1.0 / 8.0;
+
+/// Speed of the rear as a share of the front's.
+const REAR_SPEED: f32 = 0.85;
+/// Share of the speed that the cytoplasm is brought to, as a whole, ...
+const STREAMING_SPEED: f32 = 0.9;
+/// ... and the time constant of that, s.
+const STREAMING_TIME: f32 = 0.1;
 
 /// Goals nearer than this, in radii of the cell, are moved out to it along the same way.
 const FAR: f32 = 2.5;
@@ -52,15 +61,27 @@ pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, driv
     let centroid = crate::geometry::polygon::centroid(&nodes)?;
     let goal = beyond(goal, centroid, &nodes)?;
     for ((k, particle), at) in (0..count).zip(organism.outline_particles()).zip(nodes) {
-        let target = match region(k, front_centre, count) {
-            MembraneRegion::Front => goal,
-            MembraneRegion::Rear => centroid,
+        let (target, share) = match region(k, front_centre, count) {
+            MembraneRegion::Front => (goal, 1.0),
+            MembraneRegion::Rear => (centroid, REAR_SPEED),
             MembraneRegion::LeftWing | MembraneRegion::RightWing => continue,
         };
-        let velocity = heading(target - at) * organism.present_speed();
+        let velocity = heading(target - at) * (share * organism.present_speed());
         drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
     }
+    stream(organism, heading(goal - centroid), particles, drives);
     Some(front_centre)
+}
+
+/// Accelerates the cytoplasm evenly while its mean velocity lags behind.
+fn stream(organism: &Organism, way: Vec2, particles: &Particles, drives: &mut Vec<Drive>) {
+    let (cytoplasm, speed) = (&organism.fluid_particles, organism.present_speed());
+    let sum: Vec2 = cytoplasm.iter().map(|&i| particles.velocity(i as usize)).sum();
+    let lag = STREAMING_SPEED * speed - sum.dot(way) / cytoplasm.len() as f32;
+    if lag > 0.0 {
+        let (velocity, max_acceleration) = (way * speed, lag / STREAMING_TIME);
+        drives.extend(cytoplasm.iter().map(|&particle| Drive { particle, velocity, max_acceleration }));
+    }
 }
 
 /// The goal itself, or one farther along the same way: bodies that head for a goal next to them would meet in a point.
@@ -98,7 +119,7 @@ mod tests {
             let at = world.particles.position(*node as usize);
             let expected = match region(k, front, count) {
                 MembraneRegion::Front => Some((goal - at).normalize() * 8.0),
-                MembraneRegion::Rear => Some((centroid - at).normalize() * 8.0),
+                MembraneRegion::Rear => Some((centroid - at).normalize() * 8.0 * REAR_SPEED),
                 MembraneRegion::LeftWing | MembraneRegion::RightWing => None,
             };
             assert_eq!(given.is_some(), expected.is_some(), "only front and rear drive");

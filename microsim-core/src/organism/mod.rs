@@ -281,13 +281,18 @@ impl Organism {
         slowed.map_or(self.speed, |engulfer| self.speed * engulfer.params.digestion_speed)
     }
 
+    /// Whether it is crawling in this step.
+    pub(crate) fn crawls(&self) -> bool {
+        matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) })
+    }
+
     /// Finds this step's tension of its membrane, if it has one.
     pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
         let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
+        let is_driven = self.crawls();
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
         let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing };
-        let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
         membrane.relax(&self.outline, particles, content, is_driven, dt);
     }
 

@@ -39,6 +39,15 @@ pub(crate) fn update_velocities(particles: &mut Particles, damping: f32, max_spe
     }
 }
 
+/// Takes back the damping of [`update_velocities`] from some particles.
+pub(crate) fn take_back_damping(of: &[u32], particles: &mut Particles, damping: f32, h: f32) {
+    let undo = 1.0 + damping * h;
+    for &i in of {
+        particles.vx[i as usize] *= undo;
+        particles.vy[i as usize] *= undo;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::testing::line;
@@ -76,5 +85,17 @@ mod tests {
             update_velocities(&mut p, 0.5, 10.0, 0.001);
         }
         assert!((p.vx[0] - (-0.5f64).exp() as f32).abs() < 3e-3, "v {}", p.vx[0]);
+    }
+
+    #[test]
+    fn damping_that_is_taken_back_takes_nothing() {
+        let mut p = line(1.0, [1.0, 1.0]);
+        (p.vx[0], p.vx[1]) = (1.0, 1.0);
+        for _ in 0..1000 {
+            predict_positions(&mut p, Vec2::ZERO, 10.0, 0.001);
+            update_velocities(&mut p, 0.5, 10.0, 0.001);
+            take_back_damping(&[1], &mut p, 0.5, 0.001);
+        }
+        assert!(p.vx[0] < 0.7 && (p.vx[1] - 1.0).abs() < 1e-3, "{} {}", p.vx[0], p.vx[1]);
     }
 }
