@@ -9,6 +9,11 @@ use crate::collision::Contact;
 use crate::particle::Particles;
 use glam::Vec2;
 
+/// In a contact one side counts as at most so many times as heavy as the other: a heavier disc would crush a light ring,
+/// and what stands behind it, faster than a substep's iterations can pass the load on. Momentum is kept below this ratio;
+/// above it the heavy side feels more than it should. What cannot move at all stays so.
+const HEAVIEST: f32 = 30.0;
+
 /// An impact of this substep that has to bounce.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Impact {
@@ -39,7 +44,7 @@ fn separate(c: &Contact, between: Vec2, squared: f32, reach: f32, p: &mut Partic
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
-    let (wi, wj) = (p.inv_mass[i], p.inv_mass[j]);
+    let (wi, wj) = (no_heavier(p.inv_mass[i], p.inv_mass[j]), no_heavier(p.inv_mass[j], p.inv_mass[i]));
     let depth = reach - length;
     if c.restitution > 0.0 {
         let approach = (p.velocity(j) - p.velocity(i)).dot(normal);
@@ -54,6 +59,12 @@ fn separate(c: &Contact, between: Vec2, squared: f32, reach: f32, p: &mut Partic
     let rub = friction(slip, normal, c.friction * depth) * ratio(1.0, wi + wj);
     shift(p, i, -rub * wi);
     shift(p, j, rub * wj);
+}
+
+/// Inverse mass with which something presses on something of inverse mass `other`, see [`HEAVIEST`].
+pub(crate) fn no_heavier(inv_mass: f32, other: f32) -> f32 {
+    let least = other / HEAVIEST;
+    if inv_mass > 0.0 && inv_mass < least { least } else { inv_mass }
 }
 
 /// The move that takes back slip along a surface, by at most `most`.

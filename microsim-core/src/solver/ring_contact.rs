@@ -12,7 +12,7 @@
 //! nearest node, the one that the disc stands over more squarely (Baerentzen, Aanaes 2005, section 2: the sign at a vertex
 //! is that of an angle-weighted normal; in the plane it is that of the more orthogonal edge).
 
-use super::contact::{friction, moved, shift};
+use super::contact::{friction, moved, no_heavier, shift};
 use super::lanes::ratio;
 use crate::collision::filter::Side;
 use crate::collision::ring::{Link, Ring, RingContact, RingContacts};
@@ -22,10 +22,6 @@ use glam::Vec2;
 
 /// Share of the contact distance below which [`keep_sides`] moves a disc away from a link by itself.
 const STANDOFF: f32 = 0.25;
-
-/// A disc counts as at most so many times as heavy as a node of the ring: a heavier one would crush its light nodes, and
-/// the fluid behind them, faster than a substep's iterations can pass the load on. It feels the ring more than it should.
-const HEAVIEST: f32 = 20.0;
 
 /// Where a disc is with respect to a link.
 #[derive(Clone, Copy)]
@@ -181,8 +177,7 @@ fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f
     let normal = homewards(contact.side, relation);
     let (share_a, share_b) = (1.0 - relation.t, relation.t);
     let (wi, wa, wb) = (p.inv_mass[i], p.inv_mass[a] * share_a, p.inv_mass[b] * share_b);
-    let lightest = p.inv_mass[a] / HEAVIEST;
-    let wi = if wi > 0.0 && wi < lightest { lightest } else { wi };
+    let wi = no_heavier(wi, p.inv_mass[a]);
     let weight = wi + wa * share_a + wb * share_b;
     let push = |by: Vec2, p: &mut Particles| {
         shift(p, i, by * wi);
