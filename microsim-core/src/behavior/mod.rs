@@ -1,5 +1,6 @@
 //! What organisms do, over the solver: how they choose a goal and how they move towards it.
 
+pub(crate) mod constrict;
 pub(crate) mod crawl;
 pub(crate) mod front_pull;
 

@@ -169,7 +169,7 @@ impl Engulfer {
     }
 
     /// Whether the one place for soft prey is taken.
-    fn slot_is_taken(&self) -> bool {
+    pub(crate) fn slot_is_taken(&self) -> bool {
         let takes = |meal: &Meal| meal.class == PreyClass::Soft && !matches!(meal.phase, MealPhase::Touching(_));
         self.meals.iter().any(takes)
     }

@@ -48,6 +48,13 @@ impl Exemptions {
         &self.gates
     }
 
+    /// Exempts a new owner from what another one is exempt from.
+    pub(crate) fn inherit(&mut self, from: u32, to: u32) {
+        let others = self.pairs.iter().filter(|&&(a, b)| a == from || b == from);
+        let others: Vec<u32> = others.map(|&(a, b)| if a == from { b } else { a }).collect();
+        others.into_iter().for_each(|other| self.set(to, other, true));
+    }
+
     /// Forgets every pair of an owner that is gone.
     pub(crate) fn forget(&mut self, owner: u32) {
         self.pairs.retain(|&(a, b)| a != owner && b != owner);

@@ -6,11 +6,13 @@ pub(crate) mod filled_chain;
 pub(crate) mod fluid_block;
 pub(crate) mod platelet;
 pub(crate) mod probe;
+pub(crate) mod ring_surgery;
 pub(crate) mod soft_body;
 pub(crate) mod table;
 
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
+use crate::capability::division::{Divider, DivisionParams, Furrow};
 use crate::capability::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
@@ -156,6 +158,7 @@ pub(crate) struct Blueprint {
     pub area: f32,
     pub engulfer: Option<PhagocytosisParams>,
     pub prey: Option<PreyClass>,
+    pub divider: Option<DivisionParams>,
 }
 
 /// Fluid that comes with an organism.
@@ -234,6 +237,8 @@ pub(crate) struct Organism {
     pub engulfer: Option<Engulfer>,
     /// The capability to be taken in.
     pub prey: Option<Prey>,
+    /// The capability to divide and to fuse.
+    pub divider: Option<Divider>,
     /// Where it wanted to go in the last step.
     pub goal: Option<Vec2>,
     /// Where it was spawned.
@@ -269,10 +274,16 @@ impl Organism {
 
     /// Takes note of the command to digest; returns whether it may move.
     pub(crate) fn obey(&mut self, digests: bool) -> bool {
-        self.engulfer.as_mut().is_none_or(|engulfer| {
+        let is_free = self.engulfer.as_mut().is_none_or(|engulfer| {
             engulfer.digests = digests;
             !engulfer.is_locked()
-        })
+        });
+        is_free && self.furrow().is_none()
+    }
+
+    /// Its furrow, if it is dividing.
+    pub(crate) fn furrow(&self) -> Option<Furrow> {
+        self.divider.as_ref().and_then(|divider| divider.furrow)
     }
 
     /// Speed when it moves, units/s: less while it digests.
@@ -284,9 +295,10 @@ impl Organism {
     /// Finds this step's tension of its membrane, if it has one.
     pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
         let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
+        let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
-        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing };
+        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing, lobes };
         let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
         membrane.relax(&self.outline, particles, content, is_driven, dt);
     }
@@ -296,6 +308,12 @@ impl Organism {
         let Some(membrane) = self.body.membrane() else { return 0 };
         let wanted = membrane.rest_perimeter() / membrane.rest_length;
         u32::from(wanted > self.outline.len() as f32 + 0.5)
+    }
+
+    /// Whether its membrane is so short that it goes round with a node less.
+    pub(crate) fn has_spare_node(&self) -> bool {
+        let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
+        wanted < self.outline.len() as f32 - 0.5
     }
 
     /// All its particles: those of the body by node, then the fluid.

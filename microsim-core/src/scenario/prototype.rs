@@ -5,7 +5,7 @@ use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
-use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec, RigidCellSpec};
+use crate::{AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec, RigidCellSpec};
 use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.
@@ -112,7 +112,20 @@ fn amoeboid_cell(fields: &mut Fields<'_>) -> OrganismSpec {
         viscosity: fields.or("viscosity", default.viscosity),
         speed: fields.or("speed", default.speed),
         phagocytosis: phagocytosis(fields.table("phagocytosis"), default.phagocytosis),
+        division: division(fields.table("division"), default.division),
     })
+}
+
+fn division(mut fields: Fields<'_>, default: DivisionParams) -> DivisionParams {
+    let params = DivisionParams {
+        furrow_speed: fields.or("furrow_speed", default.furrow_speed),
+        closing_length: fields.or("closing_length", default.closing_length),
+        time_limit: fields.or("time_limit", default.time_limit),
+        least_particles: fields.or("least_particles", default.least_particles),
+        least_nodes: fields.or("least_nodes", default.least_nodes),
+    };
+    fields.finish();
+    params
 }
 
 fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> PhagocytosisParams {

@@ -212,7 +212,7 @@ impl World {
     }
 
     /// Area of everything that an engulfer holds or takes in.
-    fn held_area(&self, engulfer: &Engulfer) -> f32 {
+    pub(super) fn held_area(&self, engulfer: &Engulfer) -> f32 {
         let held = engulfer.meals.iter().filter(|meal| !matches!(meal.phase, MealPhase::Touching(_)));
         held.filter_map(|meal| self.organisms.get(meal.prey)).map(|prey| prey.spawn_area * self.shrinkage(prey)).sum()
     }
@@ -246,6 +246,12 @@ impl World {
         let nodes = organism.missing_nodes();
         // A world that is full, or a cell that is gone, does not grow.
         let _ = self.grow(id, nodes, 1);
+    }
+
+    /// The discs of an organism that can move.
+    pub(super) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
+        let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
+        particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
     }
 
     /// Where all discs of prey lie with respect to an outline whose inner edge is `clearance` inside its line.

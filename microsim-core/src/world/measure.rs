@@ -149,7 +149,7 @@ impl World {
         self.particles.position(particles.find(is_nucleus).unwrap_or(first))
     }
 
-    fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
+    pub(super) fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
         organism.outline_particles().map(|i| self.particles.position(i as usize)).collect()
     }
 

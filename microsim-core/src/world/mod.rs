@@ -2,7 +2,9 @@
 //! their own.
 
 pub(crate) mod digest;
+mod division;
 mod feeding;
+mod fusion;
 mod growth;
 pub(crate) mod measure;
 mod quarantine;
@@ -25,6 +27,7 @@ use crate::organism::table::Organisms;
 use crate::particle::{Material, Particles};
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
+use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::Fluid;
 use crate::step::{self, Phase};
@@ -61,6 +64,7 @@ pub struct World {
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
     pub drives: Vec<Drive>,
+    pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
 }
 
