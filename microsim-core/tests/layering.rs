@@ -23,7 +23,20 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("template", &["error", "geometry", "particle", "solver"]),
     ("capability", &["error", "geometry", "id", "rng"]),
     ("organism", &["capability", "error", "geometry", "id", "kind", "particle", "rng", "solver", "template"]),
-    ("behavior", &["capability", "event", "geometry", "id", "inputs", "organism", "particle", "solver::contraction", "solver::drive"]),
+    (
+        "behavior",
+        &[
+            "capability",
+            "event",
+            "geometry",
+            "id",
+            "inputs",
+            "organism",
+            "particle",
+            "solver::contraction",
+            "solver::drive",
+        ],
+    ),
     // The step takes the world apart and hands each phase what it needs, so these two know each other.
     (
         "step",

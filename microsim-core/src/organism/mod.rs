@@ -298,7 +298,8 @@ impl Organism {
         let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
-        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing, lobes };
+        let content =
+            Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing, lobes };
         let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
         membrane.relax(&self.outline, particles, content, is_driven, dt);
     }

@@ -118,9 +118,11 @@ pub(crate) fn remove_node(organism: &mut Organism, p: &mut Particles) {
         return;
     }
     let lengths = links(&organism.outline).map(|(a, b)| p.between(a as usize, b as usize).length_squared());
-    let (k, _) =
-        lengths.enumerate().fold((0, f32::INFINITY), |best, (k, length)| if length < best.1 { (k, length) } else { best });
-    let around: Vec<u32> = (0..=2 * SHARING).map(|step| organism.outline[(k + count + step - SHARING) % count]).collect();
+    let (k, _) = lengths
+        .enumerate()
+        .fold((0, f32::INFINITY), |best, (k, length)| if length < best.1 { (k, length) } else { best });
+    let around: Vec<u32> =
+        (0..=2 * SHARING).map(|step| organism.outline[(k + count + step - SHARING) % count]).collect();
     close_up(&around, p);
     let mut outline = organism.outline.clone();
     outline.remove(k);
@@ -213,7 +215,9 @@ mod tests {
         let organism = organisms.get_mut(cell).unwrap();
         let (nodes, live) = (organism.outline.len(), particles.live_count());
         let area = |o: &Organism, p: &Particles| {
-            crate::geometry::polygon::signed_area(&o.outline_particles().map(|i| p.position(i as usize)).collect::<Vec<_>>())
+            crate::geometry::polygon::signed_area(
+                &o.outline_particles().map(|i| p.position(i as usize)).collect::<Vec<_>>(),
+            )
         };
         let before = area(organism, particles);
         remove_node(organism, particles);

@@ -5,7 +5,10 @@ use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
-use crate::{AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec, RigidCellSpec};
+use crate::{
+    AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec,
+    RigidCellSpec,
+};
 use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.

@@ -109,7 +109,9 @@ impl World {
     /// Where the furrow is to be, if nothing is against it.
     fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
         Self::hindrance(organism).map_or(Ok(()), Err)?;
-        let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else { return Err(Refusal::TooSmall) };
+        let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else {
+            return Err(Refusal::TooSmall);
+        };
         let outline = self.outline_of(organism);
         let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
         let axis = axis.unwrap_or_else(|| long_axis(&outline, centre));
@@ -158,7 +160,8 @@ impl World {
         if room > 0 && (organism.missing_nodes() > 0 || longest_link(organism, &self.particles) > LONGEST) {
             insert_node_in(organism, shorter_arc(organism), &mut self.particles);
         }
-        let reason = match self.organisms.get(id).map_or(Err(Refusal::TooSmall), |organism| self.closing_swap(organism)) {
+        let reason = match self.organisms.get(id).map_or(Err(Refusal::TooSmall), |organism| self.closing_swap(organism))
+        {
             Ok(swap) => return self.split(id, swap),
             Err(_) if self.organisms.get(id).is_some_and(|organism| organism.is_quarantined) => Refusal::Quarantined,
             Err(reason) if elapsed >= time_limit => reason,
@@ -194,7 +197,8 @@ impl World {
         }
         let (left, cut) = swap.cut(&outline);
         let is_small = |lobe: &[Vec2]| {
-            let inside = organism.fluid_particles.iter().filter(|&&i| contains_point(lobe, self.particles.position(i as usize)));
+            let inside =
+                organism.fluid_particles.iter().filter(|&&i| contains_point(lobe, self.particles.position(i as usize)));
             lobe.len() < divider.params.least_nodes as usize || inside.count() < divider.params.least_particles as usize
         };
         if is_small(&left) || is_small(&cut) {
@@ -269,7 +273,7 @@ impl World {
         set_outline(organism, outline, particles);
         if let Some(divider) = organism.divider.as_mut() {
             divider.furrow = None;
-            divider.lobes = 1.0;
+            divider.lobes = if divider.lobes > 2.0 { 0.5 * divider.lobes } else { 1.0 };
             divider.adapt_to(organism.fluid_particles.len());
         }
     }
@@ -342,7 +346,8 @@ fn long_axis(outline: &[Vec2], centre: Vec2) -> Vec2 {
 /// The node of the outline on each side of the axis that is nearest to the line across it.
 fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2) -> Option<[u32; 2]> {
     let nearest = |is_left: bool| {
-        let on_side = outline.iter().zip(&organism.outline).filter(|(at, _)| (axis.perp_dot(**at - centre) > 0.0) == is_left);
+        let on_side =
+            outline.iter().zip(&organism.outline).filter(|(at, _)| (axis.perp_dot(**at - centre) > 0.0) == is_left);
         let mut best: Option<(f32, u32)> = None;
         for (&at, &node) in on_side {
             let distance = (at - centre).dot(axis).abs();
@@ -369,5 +374,6 @@ fn shorter_arc(organism: &Organism) -> Range<usize> {
 fn longest_link(organism: &Organism, particles: &Particles) -> f32 {
     let rest = organism.body.membrane().map_or(f32::INFINITY, |membrane| membrane.rest_length);
     let length = |(a, b): (u32, u32)| particles.between(a as usize, b as usize).length();
-    links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest }) / rest
+    links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest })
+        / rest
 }

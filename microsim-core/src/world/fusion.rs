@@ -34,7 +34,8 @@ impl World {
 
     /// Which of two cells takes the other in, and the links to swap, if nothing is against it.
     fn plan_fusion(&self, a: OrganismId, b: OrganismId) -> Result<(OrganismId, OrganismId, Swap), Refusal> {
-        let partner = |id| self.organisms.get(id).filter(|organism| organism.divider.is_some() && organism.fluid.is_some());
+        let partner =
+            |id| self.organisms.get(id).filter(|organism| organism.divider.is_some() && organism.fluid.is_some());
         let (one, other) = (partner(a).ok_or(Refusal::NoPartner)?, partner(b).ok_or(Refusal::NoPartner)?);
         Self::hindrance(one).or_else(|| Self::hindrance(other)).map_or(Ok(()), Err)?;
         let (Some(membrane), Some(fluid), Some(divider)) = (one.body.membrane(), one.fluid, &one.divider) else {
@@ -63,7 +64,8 @@ impl World {
         let (i, j) = (swap.first, swap.second);
         let neck = [a[i], b[(j + 1) % b.len()], b[j], a[(i + 1) % a.len()]];
         let p = &self.particles;
-        let mut others = p.live().filter(|&k| p.owner[k] != into.index && p.owner[k] != from.index && p.inv_mass[k] > 0.0);
+        let mut others =
+            p.live().filter(|&k| p.owner[k] != into.index && p.owner[k] != from.index && p.inv_mass[k] > 0.0);
         let is_free = !others.any(|k| contains_point(&neck, p.position(k)));
         (is_free && is_simple(&swap.join(&a, &b))).then_some(swap)
     }
@@ -72,9 +74,11 @@ impl World {
         let (Some(larger), Some(smaller)) = (self.organisms.get(into), self.organisms.get(from)) else { return };
         let outline = swap.join(&larger.outline, &smaller.outline);
         let nodes_per_root = [larger, smaller].map(nodes_per_root);
-        let origin = |organism: &Organism| organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize));
+        let origin =
+            |organism: &Organism| organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize));
         let by = origin(larger) - origin(smaller);
-        let meals: Vec<Meal> = smaller.engulfer.iter().flat_map(|e| &e.meals).filter(|meal| meal.phase.is_inside()).cloned().collect();
+        let meals: Vec<Meal> =
+            smaller.engulfer.iter().flat_map(|e| &e.meals).filter(|meal| meal.phase.is_inside()).cloned().collect();
         let pending = smaller.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.pending_growth);
         self.move_meals(&meals, from, into);
         let Some(smaller) = self.organisms.remove(from) else { return };
