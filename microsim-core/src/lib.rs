@@ -52,7 +52,7 @@ mod world;
 pub use behavior::crawl::MembraneRegion;
 pub use capability::controller::Controller;
 pub use capability::division::DivisionParams;
-pub use capability::phagocytosis::{MealPhase, PhagocytosisParams, PreyClass};
+pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
 pub use collision::obstacle::Obstacle;
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};

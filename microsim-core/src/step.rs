@@ -1,6 +1,6 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{constrict, draw_in_prey, steer_organisms};
+use crate::behavior::{constrict, cup, draw_in_prey, steer_organisms};
 use crate::capability::controller;
 use crate::collision::broad_phase::Surroundings;
 use crate::inputs::Inputs;
@@ -104,6 +104,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
     constrict::draw_furrows(organisms, particles, &mut scratch.contractions);
+    cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     for (_, organism) in organisms.iter_mut() {
         organism.relax_membrane(particles, fluids, config.dt);
     }
@@ -141,7 +142,7 @@ fn project_constraints(world: &mut World, h: f32) {
 
 /// All membranes with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    organisms.iter().filter_map(|(_, organism)| Some((organism.body.membrane()?, organism.outline.as_slice())))
+    organisms.iter().flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {

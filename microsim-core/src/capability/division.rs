@@ -77,8 +77,8 @@ pub(crate) struct Divider {
     pub furrow: Option<Furrow>,
     /// Circles that the membrane is to go round: 1 at rest, more while a furrow closes and for a while after a fusion.
     pub lobes: f32,
-    /// Membrane nodes over the square root of the number of cytoplasm particles, from the last division or fusion on: what
-    /// both cells of a division need, and what makes their fusion give the first count back.
+    /// Membrane nodes over the square root of the content in particles of cytoplasm, once a division, fusion or cup has made
+    /// it necessary: what both cells of a division need, and what makes their fusion give the first count back.
     pub nodes_per_root: Option<f32>,
     /// Number of nodes that the membrane is on its way to, one a step.
     pub wanted_nodes: Option<u32>,
@@ -98,11 +98,5 @@ impl Divider {
         let way = target - self.lobes;
         let most = rate * dt;
         self.lobes = if way.abs() <= most { target } else { self.lobes + most.copysign(way) };
-    }
-
-    /// Sets the number of nodes that suits so many particles of cytoplasm.
-    pub(crate) fn adapt_to(&mut self, particles: usize) {
-        let suits = |per_root: f32| (per_root * (particles as f32).sqrt() + 0.5) as u32;
-        self.wanted_nodes = self.nodes_per_root.map(suits);
     }
 }

@@ -204,12 +204,30 @@ impl Body {
         }
     }
 
+    pub(crate) fn membrane_mut(&mut self) -> Option<&mut Membrane> {
+        match self {
+            Self::Lane { .. } => None,
+            Self::Loose { membrane, .. } => membrane.as_mut(),
+        }
+    }
+
     pub(crate) fn membrane(&self) -> Option<&Membrane> {
         match self {
             Self::Lane { .. } => None,
             Self::Loose { membrane, .. } => membrane.as_ref(),
         }
     }
+}
+
+/// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Phagosome {
+    pub prey: OrganismId,
+    /// Particles, counter-clockwise.
+    pub ring: Vec<u32>,
+    pub membrane: Membrane,
+    /// Area that it has room for, square units.
+    pub area: f32,
 }
 
 /// One living organism.
@@ -237,6 +255,8 @@ pub(crate) struct Organism {
     pub engulfer: Option<Engulfer>,
     /// The capability to be taken in.
     pub prey: Option<Prey>,
+    /// What cups have cut off its membrane, around prey inside.
+    pub phagosomes: Vec<Phagosome>,
     /// The capability to divide and to fuse.
     pub divider: Option<Divider>,
     /// Where it wanted to go in the last step.
@@ -294,14 +314,46 @@ impl Organism {
 
     /// Finds this step's tension of its membrane, if it has one.
     pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
-        let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
+        let (held_area, folds) =
+            self.engulfer.as_ref().map_or((0.0, 0.0), |engulfer| (engulfer.held_area, engulfer.fold_length));
         let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
-        let content =
-            Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing, lobes };
+        let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
+        let content = Content { area, spacing, lobes, folds };
         let is_driven = matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) });
         membrane.relax(&self.outline, particles, content, is_driven, dt);
+        for phagosome in &mut self.phagosomes {
+            let content = Content { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
+        }
+    }
+
+    /// All membranes with their rings: its own, and those of its phagosomes.
+    pub(crate) fn membranes(&self) -> impl Iterator<Item = (&Membrane, &[u32])> {
+        let own = self.body.membrane().map(|membrane| (membrane, self.outline.as_slice()));
+        own.into_iter().chain(self.phagosomes.iter().map(|inner| (&inner.membrane, inner.ring.as_slice())))
+    }
+
+    /// What its membrane goes round, in particles of cytoplasm; prey inside counts by its area.
+    pub(crate) fn content(&self, fluids: &[Fluid]) -> f32 {
+        let each = self.fluid.map_or(1.0, |fluid| fluid::rest_area(1, fluids[fluid as usize].params.spacing));
+        let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
+        self.fluid_particles.len() as f32 + held_area / each
+    }
+
+    /// Remembers how many nodes its membrane has for its content, so that it can have as many again.
+    pub(crate) fn note_nodes(&mut self, fluids: &[Fluid]) {
+        let nodes_per_root = self.outline.len() as f32 / self.content(fluids).sqrt();
+        self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
+    }
+
+    /// Sends its membrane on the way to the number of nodes that suits its content.
+    pub(crate) fn adapt_nodes(&mut self, fluids: &[Fluid]) {
+        let root = self.content(fluids).sqrt();
+        if let Some(divider) = &mut self.divider {
+            divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
+        }
     }
 
     /// Nodes that its membrane lacks to go round its cytoplasm once.

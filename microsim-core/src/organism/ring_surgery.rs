@@ -15,6 +15,8 @@ use std::ops::Range;
 
 /// Nodes on both sides of one that is taken out which share its place.
 const SHARING: usize = 5;
+/// Fewest nodes of a ring.
+const LEAST_NODES: usize = 5;
 
 /// Two links that can be swapped: `first` to its follower and `second` to its follower become `first` to the follower of
 /// `second` and `second` to the follower of `first`. Positions in one ring, or in two.
@@ -110,24 +112,30 @@ pub(crate) fn insert_node_in(organism: &mut Organism, places: Range<usize>, p: &
     p.link_ring(&organism.outline);
 }
 
-/// Takes one node of the shortest link out; the nodes around share the gap along the line that there was, so that no link
-/// gets longer than a tenth. A ring too short for that stays as it is.
+/// Takes one node of the shortest link out of a membrane.
 pub(crate) fn remove_node(organism: &mut Organism, p: &mut Particles) {
-    let count = organism.outline.len();
-    if count <= 2 * SHARING + 2 {
-        return;
-    }
-    let lengths = links(&organism.outline).map(|(a, b)| p.between(a as usize, b as usize).length_squared());
-    let (k, _) = lengths
-        .enumerate()
-        .fold((0, f32::INFINITY), |best, (k, length)| if length < best.1 { (k, length) } else { best });
-    let around: Vec<u32> =
-        (0..=2 * SHARING).map(|step| organism.outline[(k + count + step - SHARING) % count]).collect();
-    close_up(&around, p);
     let mut outline = organism.outline.clone();
-    outline.remove(k);
-    free_nodes(organism, &around[SHARING..=SHARING], p);
+    let removed = take_out(&mut outline, p);
     set_outline(organism, outline, p);
+    free_nodes(organism, removed.as_slice(), p);
+}
+
+/// Takes a node of the shortest link out of a ring; the nodes around share the gap along the line that there was, so that
+/// no link becomes much longer. A ring too short for that stays as it is.
+pub(crate) fn take_out(ring: &mut Vec<u32>, p: &mut Particles) -> Option<u32> {
+    let count = ring.len();
+    let sharing = SHARING.min((count - 1) / 2);
+    if count <= LEAST_NODES {
+        return None;
+    }
+    let lengths = links(ring).map(|(a, b)| p.between(a as usize, b as usize).length_squared());
+    let shortest = |best: (usize, f32), (k, length)| if length < best.1 { (k, length) } else { best };
+    let (k, _) = lengths.enumerate().fold((0, f32::INFINITY), shortest);
+    let around: Vec<u32> = (0..=2 * sharing).map(|step| ring[(k + count + step - sharing) % count]).collect();
+    close_up(&around, p);
+    let removed = ring.remove(k);
+    p.link_ring(ring);
+    Some(removed)
 }
 
 /// Takes nodes that are in no ring any more out of the world.
@@ -143,7 +151,7 @@ fn close_up(around: &[u32], p: &mut Particles) {
     let line: Vec<Vec2> = around.iter().map(|&i| p.between(around[0] as usize, i as usize)).collect();
     let length: f32 = line.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum();
     let spacing = length / (around.len() - 2) as f32;
-    let inner = around.iter().enumerate().filter(|&(k, _)| k != SHARING);
+    let inner = around.iter().enumerate().filter(|&(k, _)| k != around.len() / 2);
     for (place, (k, &node)) in inner.enumerate() {
         if k != 0 && k + 1 != around.len() {
             let by = point_along(&line, spacing * place as f32) - line[k];

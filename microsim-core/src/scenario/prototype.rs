@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec,
-    RigidCellSpec,
+    AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams, PlateletSpec,
+    ProbeSpec, RigidCellSpec,
 };
 use std::collections::BTreeMap;
 
@@ -133,6 +133,7 @@ fn division(mut fields: Fields<'_>, default: DivisionParams) -> DivisionParams {
 
 fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> PhagocytosisParams {
     let params = PhagocytosisParams {
+        way: fields.or("way", default.way),
         hold_time: fields.or("hold_time", default.hold_time),
         heading_cosine: fields.or("heading_cosine", default.heading_cosine),
         soft_prey_contacts: fields.or("soft_prey_contacts", default.soft_prey_contacts),
@@ -140,6 +141,8 @@ fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> Phagocyt
         time_limit: fields.or("time_limit", default.time_limit),
         pull_speed: fields.or("pull_speed", default.pull_speed),
         pull_acceleration: fields.or("pull_acceleration", default.pull_acceleration),
+        lip_speed: fields.or("lip_speed", default.lip_speed),
+        closing_length: fields.or("closing_length", default.closing_length),
         soft_prey_scale: fields.or("soft_prey_scale", default.soft_prey_scale),
         digestion_time: fields.or("digestion_time", default.digestion_time),
         digestion_speed: fields.or("digestion_speed", default.digestion_speed),
@@ -190,6 +193,20 @@ fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
             mode: fields.or("mode", default.fluid.mode),
         },
     })
+}
+
+impl Read for IngestionWay {
+    fn accepted() -> String {
+        "\"gate\" or \"cup\"".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_str() {
+            Some("gate") => Some(Self::Gate),
+            Some("cup") => Some(Self::Cup),
+            _ => super::fields::mismatch(value, path, report),
+        }
+    }
 }
 
 impl Read for FluidMode {

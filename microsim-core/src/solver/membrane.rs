@@ -72,6 +72,8 @@ pub(crate) struct Content {
     pub spacing: f32,
     /// Circles of equal size that it is to fill: 1, or up to 2 while a furrow closes.
     pub lobes: f32,
+    /// Length that folds take beside that, units.
+    pub folds: f32,
 }
 
 impl Membrane {
@@ -83,6 +85,12 @@ impl Membrane {
     /// Present total rest length of its links.
     pub(crate) fn rest_perimeter(&self) -> f32 {
         self.rest_perimeter
+    }
+
+    /// The same for a part of its ring, or for more: `nodes` instead of `before`, under the same tension.
+    pub(crate) fn resized(&self, before: usize, nodes: usize) -> Self {
+        let rest_perimeter = self.rest_perimeter * nodes as f32 / before as f32;
+        Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
     }
 
     /// State for the digest.
@@ -105,6 +113,7 @@ impl Membrane {
             let excess = if accepted > target { accepted - target } else { 0.0 };
             target += EXCESS_ACCEPTED * self.activity * excess;
         }
+        target += content.folds;
         let time = if target > self.rest_perimeter { STRETCH_TIME } else { SHRINK_TIME };
         self.rest_perimeter += (target - self.rest_perimeter) * share(dt, time);
     }
@@ -221,7 +230,7 @@ mod tests {
             p.x[i] *= 0.7;
         }
         let before = momentum(&p);
-        relaxed(&mut p, Content { area: 90.0, spacing: 0.8, lobes: 1.0 }, 600);
+        relaxed(&mut p, Content { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let points = positions(&p);
         let centre = points.iter().sum::<glam::Vec2>() / 40.0;
         let radii: Vec<f32> = points.iter().map(|&at| (at - centre).length()).collect();
@@ -233,7 +242,7 @@ mod tests {
     #[test]
     fn perimeter_and_area_approach_the_circle_around_the_content() {
         let mut p = ring(40, 6.4);
-        relaxed(&mut p, Content { area: 80.0, spacing: 0.8, lobes: 1.0 }, 600);
+        relaxed(&mut p, Content { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
         let area = signed_area(&positions(&p));
         assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");

@@ -151,6 +151,10 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     if let Some(membrane) = organism.body.membrane() {
         membrane.state().into_iter().for_each(|value| digest.float(value));
     }
+    for phagosome in &organism.phagosomes {
+        digest.words(phagosome.ring.iter().copied());
+        phagosome.membrane.state().into_iter().for_each(|value| digest.float(value));
+    }
     match organism.locomotion {
         Locomotion::None => digest.word(0),
         Locomotion::FrontPull { front } => digest.words([1, front]),
@@ -171,6 +175,7 @@ fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
     digest.text(&format!("{:?}", engulfer.params));
     digest.word(u32::from(engulfer.digests));
     digest.float(engulfer.held_area);
+    digest.float(engulfer.fold_length);
     digest.float(engulfer.pending_growth);
     for meal in &engulfer.meals {
         digest.words([meal.prey.index, meal.prey.generation]);
@@ -180,7 +185,7 @@ fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
             MealPhase::Ingested => digest.float(-1.0),
             MealPhase::Digesting(progress) => digest.float(-2.0 - progress),
         }
-        digest.words(meal.gate.iter().copied());
+        digest.words(meal.gate.iter().copied().chain(meal.is_expelled.then_some(u32::MAX)));
     }
 }
 

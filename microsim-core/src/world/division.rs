@@ -11,10 +11,10 @@ use crate::geometry::polygon::{centroid, contains_point, is_simple};
 use crate::geometry::ring::direction_or;
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, insert_node, insert_node_in, remove_node, set_outline};
-use crate::organism::{Body, Organism};
+use crate::organism::{Body, Organism, Phagosome};
 use crate::particle::Particles;
 use crate::rng::Rng;
-use crate::solver::membrane::{Membrane, links};
+use crate::solver::membrane::links;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -95,10 +95,11 @@ impl World {
         let Some(organism) = self.organisms.get(id) else { return };
         match self.plan_furrow(organism, axis) {
             Ok(furrow) => {
-                let nodes_per_root = organism.outline.len() as f32 / (organism.fluid_particles.len() as f32).sqrt();
-                let Some(divider) = self.divider_mut(id) else { return };
+                let Self { organisms, fluids, .. } = self;
+                let Some(organism) = organisms.get_mut(id) else { return };
+                organism.note_nodes(fluids);
+                let Some(divider) = organism.divider.as_mut() else { return };
                 divider.furrow = Some(furrow);
-                divider.nodes_per_root = Some(nodes_per_root);
                 divider.wanted_nodes = None;
                 self.events.push(Event::DivisionBegan { organism: id });
             }
@@ -172,10 +173,8 @@ impl World {
 
     fn abandon(&mut self, id: OrganismId, reason: Refusal) {
         let Some(organism) = self.organisms.get_mut(id) else { return };
-        let particles = organism.fluid_particles.len();
-        let Some(divider) = organism.divider.as_mut() else { return };
-        divider.furrow = None;
-        divider.adapt_to(particles);
+        organism.divider.iter_mut().for_each(|divider| divider.furrow = None);
+        organism.adapt_nodes(&self.fluids);
         self.events.push(Event::DivisionAbandoned { organism: id, reason });
     }
 
@@ -212,7 +211,10 @@ impl World {
             return Err(Refusal::FurrowOpen);
         }
         let lies_between = |meal: &Meal| {
-            let side = self.discs_of(meal.prey).map(|i| contains_point(&left, self.particles.position(i)));
+            let around =
+                organism.phagosomes.iter().filter(|inner| inner.prey == meal.prey).flat_map(|inner| &inner.ring);
+            let discs = self.discs_of(meal.prey).chain(around.map(|&i| i as usize));
+            let side = discs.map(|i| contains_point(&left, self.particles.position(i)));
             let mut side = side.peekable();
             let first = side.peek().copied();
             side.any(|is_left| Some(is_left) != first)
@@ -234,6 +236,8 @@ impl World {
         let meals = parent.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
         let moves = |meal: &&Meal| self.discs_of(meal.prey).next().is_some_and(|i| is_in_lobe(i as u32));
         let meals: Vec<Meal> = meals.filter(|meal| meal.phase.is_inside()).filter(moves).cloned().collect();
+        let (given, kept): (Vec<Phagosome>, Vec<Phagosome>) =
+            parent.phagosomes.iter().cloned().partition(|inner| meals.iter().any(|meal| meal.prey == inner.prey));
         let share = moving.len() as f32 / parent.fluid_particles.len() as f32;
 
         let mut daughter = parent.clone();
@@ -251,22 +255,28 @@ impl World {
         let Some(parent) = self.organisms.get_mut(id) else { return };
         parent.spawn_area *= 1.0 - share;
         let fluid = parent.fluid;
-        self.rebuild(id, left, staying);
-        self.rebuild(daughter_id, cut, moving.clone());
+        self.rebuild(id, left, staying, kept);
+        self.rebuild(daughter_id, cut, moving.clone(), given);
         self.rehome_fluid(&moving, fluid, daughter_id);
         self.move_meals(&meals, id, daughter_id);
+        let Self { organisms, fluids, .. } = self;
+        for lobe in [id, daughter_id] {
+            organisms.get_mut(lobe).into_iter().for_each(|organism| organism.adapt_nodes(fluids));
+        }
         self.events.push(Event::Divided { parent: id, daughter: daughter_id });
     }
 
-    /// Gives a lobe its ring and its cytoplasm, at rest.
-    fn rebuild(&mut self, id: OrganismId, outline: Vec<u32>, fluid_particles: Vec<u32>) {
+    /// Gives a lobe its rings and its cytoplasm, at rest.
+    fn rebuild(&mut self, id: OrganismId, outline: Vec<u32>, fluid_particles: Vec<u32>, phagosomes: Vec<Phagosome>) {
         let Self { organisms, particles, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
-        outline.iter().for_each(|&node| particles.owner[node as usize] = id.index);
+        let before = organism.outline.len();
         if let Body::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
-            *membrane = Membrane::new(membrane.rest_length, membrane.node_radius, outline.len());
-            body.clone_from(&outline);
+            *membrane = membrane.resized(before, outline.len());
+            *body = outline.iter().chain(phagosomes.iter().flat_map(|inner| &inner.ring)).copied().collect();
+            body.iter().for_each(|&node| particles.owner[node as usize] = id.index);
         }
+        organism.phagosomes = phagosomes;
         organism.fluid_particles = fluid_particles;
         organism.locomotion = Locomotion::Crawl { front_centre: None };
         organism.goal = None;
@@ -274,7 +284,6 @@ impl World {
         if let Some(divider) = organism.divider.as_mut() {
             divider.furrow = None;
             divider.lobes = if divider.lobes > 2.0 { 0.5 * divider.lobes } else { 1.0 };
-            divider.adapt_to(organism.fluid_particles.len());
         }
     }
 

@@ -73,7 +73,7 @@ impl World {
     fn merge(&mut self, into: OrganismId, from: OrganismId, swap: Swap) {
         let (Some(larger), Some(smaller)) = (self.organisms.get(into), self.organisms.get(from)) else { return };
         let outline = swap.join(&larger.outline, &smaller.outline);
-        let nodes_per_root = [larger, smaller].map(nodes_per_root);
+        let nodes = [larger, smaller].map(|cell| self.nodes_per_root(cell));
         let origin =
             |organism: &Organism| organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize));
         let by = origin(larger) - origin(smaller);
@@ -97,21 +97,21 @@ impl World {
             *membrane = Membrane::new(membrane.rest_length, membrane.node_radius, outline.len());
         }
         larger.fluid_particles.extend(&smaller.fluid_particles);
+        larger.phagosomes.extend(smaller.phagosomes);
         larger.spawn_area += smaller.spawn_area;
         larger.engulfer.iter_mut().for_each(|engulfer| engulfer.pending_growth += pending);
         set_outline(larger, outline, particles);
         if let Some(divider) = larger.divider.as_mut() {
-            let [a, b] = nodes_per_root;
-            divider.nodes_per_root = Some(if a > b { a } else { b });
+            divider.nodes_per_root = Some(if nodes[0] > nodes[1] { nodes[0] } else { nodes[1] });
             divider.lobes = 2.0;
-            divider.adapt_to(larger.fluid_particles.len());
         }
+        larger.adapt_nodes(&self.fluids);
         self.events.push(Event::Fused { into, from });
     }
-}
 
-/// Membrane nodes over the square root of cytoplasm particles.
-fn nodes_per_root(organism: &Organism) -> f32 {
-    let known = organism.divider.as_ref().and_then(|divider| divider.nodes_per_root);
-    known.unwrap_or_else(|| organism.outline.len() as f32 / (organism.fluid_particles.len() as f32).sqrt())
+    /// Membrane nodes over the square root of the content.
+    fn nodes_per_root(&self, organism: &Organism) -> f32 {
+        let known = organism.divider.as_ref().and_then(|divider| divider.nodes_per_root);
+        known.unwrap_or_else(|| organism.outline.len() as f32 / organism.content(&self.fluids).sqrt())
+    }
 }

@@ -1,11 +1,13 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+mod cup;
 pub(crate) mod digest;
 mod division;
 mod feeding;
 mod fusion;
 mod growth;
+mod ingestion;
 pub(crate) mod measure;
 mod quarantine;
 pub(crate) mod query;

@@ -108,6 +108,7 @@ impl World {
             spawn_scale: scale,
             engulfer: blueprint.engulfer.map(Engulfer::new),
             prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
+            phagosomes: Vec::new(),
             divider: blueprint.divider.map(Divider::new),
             goal: None,
             home: placement.at,
