@@ -121,6 +121,12 @@ impl Cup<'_> {
 
     /// Moves the lips along the prey's surface towards the mouth.
     fn advance(&self, drives: &mut Vec<Drive>) {
+        let (ring, Fold { bottom, before, after, mouth }) = (&self.organism.outline, self.fold);
+        let inwards = -mouth * self.engulfer.params.pull_speed;
+        for k in bottom + ring.len() - before..=bottom + ring.len() + after {
+            let particle = ring[k % ring.len()];
+            drives.push(Drive { particle, velocity: inwards, max_acceleration: f32::INFINITY });
+        }
         for (is_after, step) in [false, true].into_iter().flat_map(|side| (0..LIP).map(move |step| (side, step))) {
             let particle = self.lip(is_after, step);
             let (gap, away) = nearest(self.prey, particle as usize, self.particles);
