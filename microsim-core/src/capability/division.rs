@@ -99,4 +99,10 @@ impl Divider {
         let most = rate * dt;
         self.lobes = if way.abs() <= most { target } else { self.lobes + most.copysign(way) };
     }
+
+    /// Forgets the furrow that has closed; each lobe has half of the membrane.
+    pub(crate) fn end(&mut self) {
+        self.furrow = None;
+        self.lobes = if self.lobes > 2.0 { 0.5 * self.lobes } else { 1.0 };
+    }
 }

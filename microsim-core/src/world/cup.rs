@@ -60,12 +60,13 @@ impl World {
         let is_cut = pocket.len() >= LEAST_NODES && left.len() >= 2 * LEAST_NODES && signed_area(&pocket) < 0.0;
         let is_sound = is_cut && is_simple(&left) && is_simple(&pocket);
         let p = &self.particles;
-        let is_foreign =
-            |&i: &usize| p.owner[i] != prey.index && p.inv_mass[i] > 0.0 && !organism.outline.contains(&(i as u32));
+        let own = p.owner[organism.outline[0] as usize];
+        let is_foreign = |&i: &usize| p.owner[i] != prey.index && p.owner[i] != own && p.inv_mass[i] > 0.0;
         let is_clear = is_sound
             && self.discs_of(prey).all(|i| holds(&pocket, i))
             && organism.fluid_particles.iter().all(|&i| holds(&left, i as usize))
-            && !p.live().filter(is_foreign).any(|i| holds(&pocket, i));
+            && !p.live().filter(is_foreign).any(|i| holds(&pocket, i))
+            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.bounds().center()));
         is_clear.then_some(swap)
     }
 

@@ -2,18 +2,16 @@
 //! everything inside goes to the lobe that holds it. What a cell carries of it is [`crate::capability::division`].
 
 use super::World;
-use crate::capability::Locomotion;
 use crate::capability::division::{Divider, Furrow, Order};
-use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PreyClass};
+use crate::capability::phagocytosis::{Meal, MealPhase, PreyClass};
 use crate::error::{Error, ErrorKind};
 use crate::event::{Event, Refusal};
 use crate::geometry::polygon::{centroid, contains_point, is_simple};
 use crate::geometry::ring::direction_or;
 use crate::id::OrganismId;
-use crate::organism::ring_surgery::{Swap, insert_node, insert_node_in, remove_node, set_outline};
-use crate::organism::{Body, Organism, Phagosome};
+use crate::organism::Organism;
+use crate::organism::ring_surgery::{Swap, insert_node, insert_node_in, remove_node};
 use crate::particle::Particles;
-use crate::rng::Rng;
 use crate::solver::membrane::links;
 use glam::Vec2;
 use std::ops::Range;
@@ -163,7 +161,7 @@ impl World {
         }
         let reason = match self.organisms.get(id).map_or(Err(Refusal::TooSmall), |organism| self.closing_swap(organism))
         {
-            Ok(swap) => return self.split(id, swap),
+            Ok(swap) => return self.split(id, &swap),
             Err(_) if self.organisms.get(id).is_some_and(|organism| organism.is_quarantined) => Refusal::Quarantined,
             Err(reason) if elapsed >= time_limit => reason,
             Err(_) => return,
@@ -225,107 +223,13 @@ impl World {
         Ok(swap)
     }
 
-    /// Makes one cell two: the second lobe becomes an organism of its own, like the first in everything but its handle and
-    /// its random numbers.
-    fn split(&mut self, id: OrganismId, swap: Swap) {
-        let Some(parent) = self.organisms.get(id) else { return };
-        let (left, cut) = swap.cut(&parent.outline);
-        let lobe: Vec<Vec2> = cut.iter().map(|&i| self.particles.position(i as usize)).collect();
-        let is_in_lobe = |i: u32| contains_point(&lobe, self.particles.position(i as usize));
-        let (moving, staying): (Vec<u32>, Vec<u32>) = parent.fluid_particles.iter().partition(|&&i| is_in_lobe(i));
-        let meals = parent.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
-        let moves = |meal: &&Meal| self.discs_of(meal.prey).next().is_some_and(|i| is_in_lobe(i as u32));
-        let meals: Vec<Meal> = meals.filter(|meal| meal.phase.is_inside()).filter(moves).cloned().collect();
-        let (given, kept): (Vec<Phagosome>, Vec<Phagosome>) =
-            parent.phagosomes.iter().cloned().partition(|inner| meals.iter().any(|meal| meal.prey == inner.prey));
-        let share = moving.len() as f32 / parent.fluid_particles.len() as f32;
-
-        let mut daughter = parent.clone();
-        let daughter_id = self.organisms.next_id();
-        daughter.rng = Rng::new(self.config.seed, daughter_id.stream());
-        daughter.home = centroid(&lobe).unwrap_or(daughter.home);
-        daughter.spawn_area *= share;
-        daughter.engulfer = daughter.engulfer.map(|engulfer| Engulfer::new(engulfer.params));
-        daughter.fluid = daughter.fluid.map(|fluid| {
-            let (params, is_enclosed) = (self.fluids[fluid as usize].params, self.fluids[fluid as usize].is_enclosed);
-            self.fluid_for(params, is_enclosed) as u32
-        });
-        self.exemptions.inherit(id.index, daughter_id.index);
-        self.organisms.insert(daughter);
-        let Some(parent) = self.organisms.get_mut(id) else { return };
-        parent.spawn_area *= 1.0 - share;
-        let fluid = parent.fluid;
-        self.rebuild(id, left, staying, kept);
-        self.rebuild(daughter_id, cut, moving.clone(), given);
-        self.rehome_fluid(&moving, fluid, daughter_id);
-        self.move_meals(&meals, id, daughter_id);
-        let Self { organisms, fluids, .. } = self;
-        for lobe in [id, daughter_id] {
-            organisms.get_mut(lobe).into_iter().for_each(|organism| organism.adapt_nodes(fluids));
-        }
-        self.events.push(Event::Divided { parent: id, daughter: daughter_id });
-    }
-
-    /// Gives a lobe its rings and its cytoplasm, at rest.
-    fn rebuild(&mut self, id: OrganismId, outline: Vec<u32>, fluid_particles: Vec<u32>, phagosomes: Vec<Phagosome>) {
-        let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id) else { return };
-        let before = organism.outline.len();
-        if let Body::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
-            *membrane = membrane.resized(before, outline.len());
-            *body = outline.iter().chain(phagosomes.iter().flat_map(|inner| &inner.ring)).copied().collect();
-            body.iter().for_each(|&node| particles.owner[node as usize] = id.index);
-        }
-        organism.phagosomes = phagosomes;
-        organism.fluid_particles = fluid_particles;
-        organism.locomotion = Locomotion::Crawl { front_centre: None };
-        organism.goal = None;
-        set_outline(organism, outline, particles);
-        if let Some(divider) = organism.divider.as_mut() {
-            divider.furrow = None;
-            divider.lobes = if divider.lobes > 2.0 { 0.5 * divider.lobes } else { 1.0 };
-        }
-    }
-
-    /// Moves cytoplasm from one fluid to that of another cell.
-    pub(super) fn rehome_fluid(&mut self, moving: &[u32], from: Option<u32>, to: OrganismId) {
-        let Some(into) = self.organisms.get(to).and_then(|organism| organism.fluid) else { return };
-        for &i in moving {
-            self.particles.owner[i as usize] = to.index;
-            self.particles.fluid[i as usize] = into + 1;
-        }
-        if let Some(from) = from {
-            let p = &self.particles;
-            self.fluids[from as usize].particles.retain(|&i| p.fluid[i as usize] == from + 1);
-        }
-        self.fluids[into as usize].particles.extend(moving);
-    }
-
-    /// Hands prey that is inside from one cell to another.
-    pub(super) fn move_meals(&mut self, meals: &[Meal], from: OrganismId, to: OrganismId) {
-        for meal in meals {
-            self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(Some(to)));
-        }
-        let engulfer = |organisms: &mut crate::organism::table::Organisms, id| {
-            organisms.get_mut(id).and_then(|organism| organism.engulfer.take())
-        };
-        for (id, is_giver) in [(from, true), (to, false)] {
-            let Some(mut changed) = engulfer(&mut self.organisms, id) else { continue };
-            if is_giver {
-                changed.meals.retain(|meal| meals.iter().all(|moved| moved.prey != meal.prey));
-            } else {
-                changed.meals.extend(meals.iter().cloned());
-            }
-            changed.held_area = self.held_area(&changed);
-            self.organisms.get_mut(id).into_iter().for_each(|organism| organism.engulfer = Some(changed.clone()));
-        }
-    }
-
-    /// Takes a membrane one node nearer to the number that it wants.
+    /// Takes a membrane one node nearer to the number that it wants, while no gate holds on to its nodes.
     fn turn_over(&mut self, id: OrganismId) {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id).filter(|organism| !organism.is_quarantined) else { return };
+        let Some(organism) = organisms.get_mut(id).filter(|organism| Self::hindrance(organism).is_none()) else {
+            return;
+        };
         let count = organism.outline.len() as u32;
         let Some(wanted) = organism.divider.as_ref().and_then(|divider| divider.wanted_nodes) else { return };
         if count < wanted && room {

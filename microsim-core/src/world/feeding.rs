@@ -5,7 +5,7 @@ use super::World;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::behavior::heading;
 use crate::capability::Locomotion;
-use crate::capability::phagocytosis::{Encounter, Engulfer, IngestionWay, Meal, MealPhase, PreyClass};
+use crate::capability::phagocytosis::{Encounter, Engulfer, IngestionWay, Meal, MealPhase};
 use crate::collision::Contact;
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -131,16 +131,14 @@ impl World {
         let params = engulfer.params;
         let mut eaten = 0.0;
         for meal in &mut engulfer.meals {
-            let (progress, time) = match (meal.phase, meal.class) {
-                (MealPhase::Ingested, class) => (0.0, params.digestion_time[class as usize]),
-                (MealPhase::Digesting(progress), class) => (progress, params.digestion_time[class as usize]),
-                _ => continue,
+            let before = match meal.phase {
+                MealPhase::Ingested => 0.0,
+                MealPhase::Digesting(progress) => progress,
+                MealPhase::Touching(_) | MealPhase::Ingesting(_) => continue,
             };
-            let progress = progress + self.config.dt / time;
+            let progress = before + self.config.dt / params.digestion_time[meal.class as usize];
             meal.phase = MealPhase::Digesting(progress);
-            let full = if meal.class == PreyClass::Soft { params.soft_prey_scale } else { 1.0 };
-            let part = if progress < 1.0 { progress } else { 1.0 };
-            self.set_scale(meal.prey, full * (1.0 + (DIGESTED_SCALE - 1.0) * part));
+            self.shrink(meal.prey, digested_scale(progress) / digested_scale(before));
             if progress >= 1.0 {
                 eaten += self.consume(id, meal.prey);
             }
@@ -194,6 +192,12 @@ impl World {
         particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
     }
 
+    /// Multiplies the present size of a templated organism.
+    fn shrink(&mut self, id: OrganismId, factor: f32) {
+        let present = self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale);
+        self.set_scale(id, present * factor);
+    }
+
     /// Sets the size of a templated organism relative to its size when spawned.
     pub(super) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
@@ -205,6 +209,11 @@ impl World {
             self.particles.radius[first as usize + slot * LANES] = node.radius * block.scale[lane];
         }
     }
+}
+
+/// Size of prey that is digested so far, relative to its size when it was taken in.
+fn digested_scale(progress: f32) -> f32 {
+    1.0 + (DIGESTED_SCALE - 1.0) * if progress < 1.0 { progress } else { 1.0 }
 }
 
 /// Particles of the front, sorted; none at rest.

@@ -8,10 +8,8 @@ use crate::error::Error;
 use crate::event::{Event, Refusal};
 use crate::geometry::polygon::{contains_point, is_simple};
 use crate::id::OrganismId;
-use crate::organism::ring_surgery::{Swap, set_outline};
-use crate::organism::{Body, Organism};
-use crate::solver::membrane::Membrane;
-use glam::Vec2;
+use crate::organism::Organism;
+use crate::organism::ring_surgery::Swap;
 
 impl World {
     /// Tells an amoeboid cell to fuse with another that it touches. In the next step the larger one, by cytoplasm, takes over
@@ -73,40 +71,21 @@ impl World {
     fn merge(&mut self, into: OrganismId, from: OrganismId, swap: Swap) {
         let (Some(larger), Some(smaller)) = (self.organisms.get(into), self.organisms.get(from)) else { return };
         let outline = swap.join(&larger.outline, &smaller.outline);
-        let nodes = [larger, smaller].map(|cell| self.nodes_per_root(cell));
-        let origin =
-            |organism: &Organism| organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize));
-        let by = origin(larger) - origin(smaller);
-        let meals: Vec<Meal> =
-            smaller.engulfer.iter().flat_map(|e| &e.meals).filter(|meal| meal.phase.is_inside()).cloned().collect();
-        let pending = smaller.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.pending_growth);
+        let (a, b) = (self.nodes_per_root(larger), self.nodes_per_root(smaller));
+        let meals = smaller.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
+        let meals: Vec<Meal> = meals.filter(|meal| meal.phase.is_inside()).cloned().collect();
         self.move_meals(&meals, from, into);
         let Some(smaller) = self.organisms.remove(from) else { return };
         self.exemptions.forget(from.index);
-        for i in smaller.particles() {
-            self.particles.owner[i as usize] = into.index;
-            self.particles.shift_origin(i as usize, by);
-        }
-        self.rehome_fluid(&smaller.fluid_particles, smaller.fluid, into);
-        let Self { organisms, particles, .. } = self;
+        self.adopt(into, smaller, outline);
+        let Self { organisms, fluids, events, .. } = self;
         let Some(larger) = organisms.get_mut(into) else { return };
-        if let (Body::Loose { particles: all, membrane: Some(membrane) }, Body::Loose { particles: added, .. }) =
-            (&mut larger.body, &smaller.body)
-        {
-            all.extend(added);
-            *membrane = Membrane::new(membrane.rest_length, membrane.node_radius, outline.len());
-        }
-        larger.fluid_particles.extend(&smaller.fluid_particles);
-        larger.phagosomes.extend(smaller.phagosomes);
-        larger.spawn_area += smaller.spawn_area;
-        larger.engulfer.iter_mut().for_each(|engulfer| engulfer.pending_growth += pending);
-        set_outline(larger, outline, particles);
-        if let Some(divider) = larger.divider.as_mut() {
-            divider.nodes_per_root = Some(if nodes[0] > nodes[1] { nodes[0] } else { nodes[1] });
+        if let Some(divider) = &mut larger.divider {
+            divider.nodes_per_root = Some(if a > b { a } else { b });
             divider.lobes = 2.0;
         }
-        larger.adapt_nodes(&self.fluids);
-        self.events.push(Event::Fused { into, from });
+        larger.adapt_nodes(fluids);
+        events.push(Event::Fused { into, from });
     }
 
     /// Membrane nodes over the square root of the content.

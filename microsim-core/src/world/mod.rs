@@ -12,6 +12,7 @@ pub(crate) mod measure;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
+mod rewire;
 mod spawn;
 pub(crate) mod touching;
 pub(crate) mod view;
