@@ -335,11 +335,11 @@ impl Organism {
         own.into_iter().chain(self.phagosomes.iter().map(|inner| (&inner.membrane, inner.ring.as_slice())))
     }
 
-    /// What its membrane goes round, in particles of cytoplasm; prey inside counts by its area.
+    /// What its membrane goes round, in particles of cytoplasm; prey inside and growth to come count by their area.
     pub(crate) fn content(&self, fluids: &[Fluid]) -> f32 {
         let each = self.fluid.map_or(1.0, |fluid| fluid::rest_area(1, fluids[fluid as usize].params.spacing));
-        let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
-        self.fluid_particles.len() as f32 + held_area / each
+        let eaten = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area + engulfer.pending_growth);
+        self.fluid_particles.len() as f32 + eaten / each
     }
 
     /// Remembers how many nodes its membrane has for its content, so that it can have as many again.

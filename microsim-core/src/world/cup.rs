@@ -87,14 +87,15 @@ impl World {
         set_outline(organism, left, particles);
     }
 
-    /// Lets phagosomes follow the size of their prey, and removes those without.
-    pub(super) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) {
+    /// Lets phagosomes follow the size of their prey, and removes those without; returns whether there were any.
+    pub(super) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
         let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
         for phagosome in &mut phagosomes {
             phagosome.area = ROOM * self.area_of(phagosome.prey);
         }
         let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id) else { return };
+        let Some(organism) = organisms.get_mut(id) else { return false };
+        let count = phagosomes.len();
         phagosomes.retain_mut(|phagosome| {
             let is_needed = engulfer.meals.iter().any(|meal| meal.prey == phagosome.prey);
             let wanted = phagosome.membrane.rest_perimeter() / phagosome.membrane.rest_length;
@@ -106,6 +107,7 @@ impl World {
             is_needed
         });
         organism.phagosomes = phagosomes;
+        organism.phagosomes.len() < count
     }
 
     /// Length of membrane that the folds around prey need now.

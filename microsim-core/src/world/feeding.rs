@@ -36,14 +36,14 @@ impl World {
             }
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
-            self.advance_phagosomes(id, &engulfer);
             let is_folded = engulfer.fold_length > 0.0;
+            let is_rid = self.advance_phagosomes(id, &engulfer);
             engulfer.held_area = self.held_area(&engulfer);
             engulfer.fold_length = self.fold_length(id, &engulfer);
-            let has_unfolded = is_folded && engulfer.fold_length == 0.0;
+            let has_spare_nodes = is_rid || (is_folded && engulfer.fold_length == 0.0);
             if let Some(organism) = self.organisms.get_mut(id) {
                 organism.engulfer = Some(engulfer);
-                if has_unfolded {
+                if has_spare_nodes {
                     organism.adapt_nodes(&self.fluids);
                 }
             }
