@@ -19,7 +19,7 @@ use glam::Vec2;
 /// Gap up to which a node counts as lying against the prey, in node radii.
 const GRIP: f32 = 0.9;
 /// Nodes of each lip that are driven, from the last that lies against the prey outwards.
-const LIP: usize = 3;
+const LIP: usize = 5;
 /// Lips closer than this, in rest lengths, close pair by pair from the prey outwards.
 const NARROW: f32 = 3.0;
 

@@ -213,6 +213,37 @@ mod tests {
         }
     }
 
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn nodes_go_in_and_out_and_the_ring_stays_a_ring(changes in proptest::collection::vec(any::<bool>(), 1..60)) {
+            use crate::geometry::polygon::{is_simple, signed_area};
+            use crate::{AmoeboidCellSpec, Placement, World, WorldConfig};
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+            let World { organisms, particles, .. } = &mut world;
+            let organism = organisms.get_mut(cell).unwrap();
+            for is_insertion in changes {
+                let (nodes, live) = (organism.outline.len(), particles.live_count());
+                if is_insertion {
+                    insert_node(organism, particles);
+                    prop_assert_eq!((organism.outline.len(), particles.live_count()), (nodes + 1, live + 1));
+                } else {
+                    remove_node(organism, particles);
+                    let taken = usize::from(nodes > LEAST_NODES);
+                    prop_assert_eq!((organism.outline.len(), particles.live_count()), (nodes - taken, live - taken));
+                }
+                let ring: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
+                prop_assert!(is_simple(&ring) && signed_area(&ring) > 0.0);
+                for (a, b) in links(&organism.outline) {
+                    prop_assert_eq!(particles.next_in_ring[a as usize], b);
+                    prop_assert_eq!(particles.owner[a as usize], cell.index);
+                }
+                prop_assert_eq!(organism.particles().count(), particles.live_count());
+            }
+        }
+    }
+
     #[test]
     fn a_node_is_taken_out_without_a_long_link() {
         use crate::{AmoeboidCellSpec, Inputs, Placement, World, WorldConfig};
