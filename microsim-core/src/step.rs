@@ -103,7 +103,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
-    constrict::draw_furrows(organisms, particles, &mut scratch.contractions);
+    constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     for (_, organism) in organisms.iter_mut() {
         organism.relax_membrane(particles, fluids, config.dt);

@@ -9,8 +9,8 @@ use microsim_core::geometry::polygon::{contains_point, is_simple, signed_area};
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, DivisionParams, Event, Inputs, Intent, MealPhase, OrganismId, Placement, PlateletSpec,
-    Refusal, RigidCellSpec, Rng, Role, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
+    OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, Refusal, RigidCellSpec, Rng, Role, World, WorldConfig,
 };
 
 const CENTRE: Vec2 = Vec2::new(80.0, 45.0);
@@ -43,7 +43,7 @@ fn check(world: &World, what: &str) {
 
 /// Steps until an event says how the division of a cell ended.
 fn finish(world: &mut World, what: &str) -> Option<Event> {
-    for step in 0..1200 {
+    for step in 0..2000 {
         run(world, &Inputs::new(), 1);
         check(world, &format!("{what}, step {step}"));
         let ends = |event: &&Event| {
@@ -69,11 +69,11 @@ fn refusal(world: &mut World, cell: OrganismId) -> Refusal {
     world.divide(cell).unwrap();
     run(world, &Inputs::new(), 1);
     assert_eq!(world.census(), before);
-    let reasons = world.events().iter().filter_map(|event| match event {
+    let reason = world.events().iter().find_map(|event| match event {
         Event::DivisionRefused { organism, reason } if *organism == cell => Some(*reason),
         _ => None,
     });
-    reasons.last().expect("refused")
+    reason.expect("refused")
 }
 
 /// Lets two cells crawl towards each other until they are one.
@@ -106,7 +106,7 @@ fn divide_and_fuse(seed: u64) {
             world.spawn(&PlateletSpec::default().into(), Placement::at(rng.range(40.0, 120.0), rng.range(5.0, 85.0)));
     }
     let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(CENTRE + unit_vector(rng.range(0.0, 6.28)) * 60.0).unwrap());
+    inputs.set(cell, Intent::toward(CENTRE + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 60.0).unwrap());
     run(&mut world, &inputs, seed as u32 % 40);
     let (nodes, fluid) = (count(&world, cell, Role::Membrane), count(&world, cell, Role::Cytoplasm));
     let others = world.census().particles - nodes - fluid;
@@ -247,13 +247,15 @@ fn a_furrow_that_cannot_close_in_time_is_abandoned() {
     assert!(far / near < 1.15, "round again, {near} to {far}");
 }
 
-/// A cell with prey inside.
-fn fed(prey: &[microsim_core::OrganismSpec], distance: f32) -> (World, OrganismId, Vec<OrganismId>) {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+/// A cell of this radius with prey inside, taken in by one way.
+fn fed(way: IngestionWay, radius: f32, prey: &[OrganismSpec]) -> (World, OrganismId, Vec<OrganismId>) {
+    let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
+    let (mut world, cell) =
+        cell_in_room(AmoeboidCellSpec { phagocytosis, radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() });
     let mut all = Vec::new();
     for (k, spec) in prey.iter().enumerate() {
         let way = unit_vector(0.9 * k as f32);
-        let at = world.centroid(cell).unwrap() + way * distance;
+        let at = world.centroid(cell).unwrap() + way * (radius + 6.5);
         let id = world.spawn(spec, Placement::at(at.x, at.y)).unwrap();
         all.push(id);
         for _ in 0..600 {
@@ -270,36 +272,62 @@ fn fed(prey: &[microsim_core::OrganismSpec], distance: f32) -> (World, OrganismI
     (world, cell, all)
 }
 
-#[test]
-fn prey_goes_to_the_lobe_that_holds_it() {
-    let agar: microsim_core::OrganismSpec = AgarSpec { radius: 0.8, ..AgarSpec::default() }.into();
-    let (mut world, cell, prey) = fed(&[agar.clone(), agar.clone(), agar], 16.0);
-    let daughter = divide(&mut world, cell, "fed");
+const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
+
+/// Every prey is held by one of these cells, and inside it.
+fn check_held(world: &World, cells: &[OrganismId], prey: &[OrganismId], way: IngestionWay) {
     let mut held = 0;
-    for id in [cell, daughter] {
-        let ring = outline(&world, id);
-        for (prey, phase) in world.view().organism(id).unwrap().meals() {
+    for &id in cells {
+        let ring = outline(world, id);
+        let view = world.view().organism(id).unwrap();
+        for (prey, phase) in view.meals() {
             assert_eq!((phase, world.view().organism(prey).unwrap().held_by()), (MealPhase::Ingested, Some(id)));
             assert!(contains_point(&ring, world.centroid(prey).unwrap()));
+            let phagosomes: Vec<_> = view.phagosomes().filter(|(inner, _)| *inner == prey).collect();
+            assert_eq!(phagosomes.len(), usize::from(way == IngestionWay::Cup));
+            assert!(phagosomes.iter().flat_map(|(_, nodes)| nodes).all(|&at| contains_point(&ring, at)));
             held += 1;
         }
     }
     assert_eq!(held, prey.len());
-    fuse(&mut world, cell, daughter, "fed");
-    let left = if world.kind(cell).is_some() { cell } else { daughter };
-    assert_eq!(world.view().organism(left).unwrap().meals().count(), prey.len());
 }
 
 #[test]
-fn soft_prey_in_the_furrow_forbids_division() {
-    let rigid = RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() };
-    let (mut world, cell, prey) = fed(&[rigid.into()], 17.0);
-    // Through the prey: no. Beside it: yes, and the prey goes along.
-    let way = (world.centroid(prey[0]).unwrap() - world.centroid(cell).unwrap()).normalize();
-    world.divide_along(cell, way.perp()).unwrap();
-    run(&mut world, &Inputs::new(), 1);
-    let refused = Event::DivisionRefused { organism: cell, reason: Refusal::PreyInFurrow };
-    assert!(world.events().contains(&refused), "{:?}", world.events());
+fn prey_goes_to_the_lobe_that_holds_it() {
+    let agar: OrganismSpec = AgarSpec { radius: 0.8, ..AgarSpec::default() }.into();
+    for way in WAYS {
+        let (mut world, cell, prey) = fed(way, 11.0, &[agar.clone(), agar.clone(), agar.clone()]);
+        let daughter = divide(&mut world, cell, "fed");
+        check_held(&world, &[cell, daughter], &prey, way);
+        fuse(&mut world, cell, daughter, "fed");
+        let left = if world.kind(cell).is_some() { cell } else { daughter };
+        check_held(&world, &[left], &prey, way);
+        let mut digest = Inputs::new();
+        digest.set(left, Intent::REST.digesting(true));
+        run(&mut world, &digest, 300);
+        assert_eq!(world.census().organisms, 1, "all digested");
+        world.remove(left).unwrap();
+        assert_eq!(world.census().particles, 0);
+    }
+}
+
+#[test]
+fn soft_prey_in_the_furrow_forbids_division_and_beside_it_goes_along() {
+    let rigid: OrganismSpec = RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() }.into();
+    for way in WAYS {
+        let (mut world, cell, prey) = fed(way, 16.0, std::slice::from_ref(&rigid));
+        let at = (world.centroid(prey[0]).unwrap() - world.centroid(cell).unwrap()).normalize();
+        world.divide_along(cell, at.perp()).unwrap();
+        run(&mut world, &Inputs::new(), 1);
+        let refused = Event::DivisionRefused { organism: cell, reason: Refusal::PreyInFurrow };
+        assert!(world.events().contains(&refused), "{way:?}: {:?}", world.events());
+        world.divide_along(cell, at).unwrap();
+        match finish(&mut world, "beside") {
+            Some(Event::Divided { daughter, .. }) => check_held(&world, &[cell, daughter], &prey, way),
+            Some(Event::DivisionRefused { reason: Refusal::PreyInFurrow, .. }) => {}
+            other => panic!("{way:?}: {other:?}"),
+        }
+    }
 }
 
 #[test]

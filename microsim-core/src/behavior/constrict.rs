@@ -1,9 +1,11 @@
 //! The furrow of a dividing cell: the two sides of its equator are drawn towards each other, as by a contractile ring.
 
+use super::{heading, place};
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::contraction::Contraction;
+use crate::solver::drive::Drive;
 
 /// Speeds of approach at the bottom of the furrow and next to it, relative to the furrow's: its sides slope.
 const SLOPE: [f32; 3] = [1.0, 0.8, 0.5];
@@ -12,10 +14,41 @@ const SLOPE: [f32; 3] = [1.0, 0.8, 0.5];
 const NARROW: f32 = 3.5;
 const SHUT: f32 = 1.3;
 
-/// Draws the sides of every furrow together.
-pub(crate) fn draw_furrows(organisms: &Organisms, particles: &Particles, contractions: &mut Vec<Contraction>) {
+/// Prey inside is kept this far from the plane of the furrow, in rest lengths beyond its own size.
+const CLEAR: f32 = 2.5;
+
+/// Draws the sides of every furrow together and drives prey inside out of its way.
+pub(crate) fn draw_furrows(
+    organisms: &Organisms,
+    particles: &Particles,
+    drives: &mut Vec<Drive>,
+    contractions: &mut Vec<Contraction>,
+) {
     for (_, organism) in organisms.iter().filter(|(_, organism)| !organism.is_quarantined) {
         draw_furrow(organism, particles, contractions);
+        clear_furrow(organism, organisms, particles, drives);
+    }
+}
+
+fn clear_furrow(organism: &Organism, organisms: &Organisms, p: &Particles, drives: &mut Vec<Drive>) {
+    let (Some(furrow), Some(engulfer), Some(membrane)) =
+        (organism.furrow(), &organism.engulfer, organism.body.membrane())
+    else {
+        return;
+    };
+    let [a, b] = furrow.nodes.map(|node| p.position(node as usize));
+    let axis = heading((b - a).perp());
+    for meal in engulfer.meals.iter().filter(|meal| meal.phase.is_inside()) {
+        let Some(prey) = organisms.get(meal.prey) else { continue };
+        let side = (place(prey, p) - 0.5 * (a + b)).dot(axis);
+        let discs = || prey.particles().map(|i| i as usize);
+        let reach = |i: usize| (p.position(i) - place(prey, p)).length() + p.radius[i];
+        let size = discs().map(reach).fold(0.0, |size, reach| if reach > size { reach } else { size });
+        if side.abs() < size + CLEAR * membrane.rest_length {
+            let velocity = axis * engulfer.params.pull_speed.copysign(side);
+            let max_acceleration = engulfer.params.pull_acceleration;
+            drives.extend(prey.particles().map(|particle| Drive { particle, velocity, max_acceleration }));
+        }
     }
 }
 

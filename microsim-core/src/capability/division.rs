@@ -12,8 +12,8 @@ use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
 use glam::Vec2;
 
-/// Circles that a membrane must be able to go round before its furrow closes: the neck takes more than two circles need.
-const LOBES_AT_CLOSING: f32 = 2.4;
+/// Circles that a membrane can go round at most while its furrow closes: the neck takes more than two circles need.
+const LOBES_AT_CLOSING: f32 = 3.0;
 /// Time in which the membrane of two fused cells shortens from two circles to one, s.
 const ROUNDING_TIME: f32 = 2.0;
 
@@ -35,7 +35,7 @@ pub struct DivisionParams {
 
 impl Default for DivisionParams {
     fn default() -> Self {
-        Self { furrow_speed: 3.0, closing_length: 1.4, time_limit: 12.0, least_particles: 20, least_nodes: 10 }
+        Self { furrow_speed: 3.0, closing_length: 1.4, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
     }
 }
 

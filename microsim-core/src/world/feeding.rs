@@ -13,6 +13,7 @@ use crate::organism::{Body, Organism};
 use crate::solver::fluid::rest_area;
 use crate::solver::lanes::LANES;
 use glam::Vec2;
+use std::f32::consts::PI;
 
 /// Size to which digestion shrinks prey before it is freed, relative to its size when it was taken in.
 const DIGESTED_SCALE: f32 = 0.25;
@@ -38,7 +39,7 @@ impl World {
             self.advance_digestion(id, &mut engulfer);
             let is_folded = engulfer.fold_length > 0.0;
             let is_rid = self.advance_phagosomes(id, &engulfer);
-            engulfer.held_area = self.held_area(&engulfer);
+            engulfer.held_area = self.held_area(id, &engulfer);
             engulfer.fold_length = self.fold_length(id, &engulfer);
             let has_spare_nodes = is_rid || (is_folded && engulfer.fold_length == 0.0);
             if let Some(organism) = self.organisms.get_mut(id) {
@@ -121,7 +122,7 @@ impl World {
     /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
     fn engulfer_area(&self, organism: &Organism) -> f32 {
         let radius = |&i: &u32| self.particles.radius[i as usize];
-        organism.fluid_particles.iter().map(radius).map(|r| std::f32::consts::PI * r * r).sum()
+        organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()
     }
 
     fn advance_digestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
@@ -147,12 +148,14 @@ impl World {
         engulfer.pending_growth += eaten * params.growth_yield;
     }
 
-    /// Area of everything that an engulfer holds, or lets through its gate.
-    pub(super) fn held_area(&self, engulfer: &Engulfer) -> f32 {
+    /// Area of everything that an engulfer holds, phagosomes included, or lets through its gate.
+    pub(super) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let is_gate = engulfer.params.way == IngestionWay::Gate;
         let goes_in = |meal: &&Meal| is_gate && matches!(meal.phase, MealPhase::Ingesting(_));
         let held = engulfer.meals.iter().filter(|meal| meal.phase.is_inside() || goes_in(meal));
-        held.map(|meal| self.area_of(meal.prey)).sum()
+        let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
+        let around = if is_gate { 0.0 } else { 2.0 * node_radius };
+        held.map(|meal| (self.area_of(meal.prey) / PI).sqrt() + around).map(|radius| PI * radius * radius).sum()
     }
 
     /// Present area of an organism over its area when spawned.

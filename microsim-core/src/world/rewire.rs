@@ -147,7 +147,7 @@ impl World {
         let engulfer = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.take());
         let Some(mut engulfer) = engulfer else { return };
         change(&mut engulfer);
-        engulfer.held_area = self.held_area(&engulfer);
+        engulfer.held_area = self.held_area(id, &engulfer);
         self.organisms.get_mut(id).into_iter().for_each(|organism| organism.engulfer = Some(engulfer.clone()));
     }
 }
