@@ -348,6 +348,13 @@ impl Organism {
         self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
     }
 
+    /// The same, unless it remembers a number already.
+    pub(crate) fn note_first_nodes(&mut self, fluids: &[Fluid]) {
+        if self.divider.as_ref().is_some_and(|divider| divider.nodes_per_root.is_none()) {
+            self.note_nodes(fluids);
+        }
+    }
+
     /// Sends its membrane on the way to the number of nodes that suits its content.
     pub(crate) fn adapt_nodes(&mut self, fluids: &[Fluid]) {
         let root = self.content(fluids).sqrt();

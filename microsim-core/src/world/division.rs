@@ -2,7 +2,7 @@
 //! everything inside goes to the lobe that holds it. What a cell carries of it is [`crate::capability::division`].
 
 use super::World;
-use crate::capability::division::{Divider, Furrow, Order};
+use crate::capability::division::{Divider, DivisionParams, Furrow, Order};
 use crate::capability::phagocytosis::{Meal, MealPhase, PreyClass};
 use crate::error::{Error, ErrorKind};
 use crate::event::{Event, Refusal};
@@ -159,14 +159,13 @@ impl World {
         if room > 0 && (organism.missing_nodes() > 0 || longest_link(organism, &self.particles) > LONGEST) {
             insert_node_in(organism, shorter_arc(organism), &mut self.particles);
         }
-        let reason = match self.organisms.get(id).map_or(Err(Refusal::TooSmall), |organism| self.closing_swap(organism))
-        {
-            Ok(swap) => return self.split(id, &swap),
-            Err(_) if self.organisms.get(id).is_some_and(|organism| organism.is_quarantined) => Refusal::Quarantined,
-            Err(reason) if elapsed >= time_limit => reason,
-            Err(_) => return,
-        };
-        self.abandon(id, reason);
+        let Some(organism) = self.organisms.get(id) else { return };
+        match self.closing_swap(organism) {
+            _ if organism.is_quarantined => self.abandon(id, Refusal::Quarantined),
+            Ok(swap) => self.split(id, &swap),
+            Err(reason) if elapsed >= time_limit => self.abandon(id, reason),
+            Err(_) => {}
+        }
     }
 
     fn abandon(&mut self, id: OrganismId, reason: Refusal) {
@@ -193,34 +192,43 @@ impl World {
             return Err(Refusal::FurrowOpen);
         }
         let (left, cut) = swap.cut(&outline);
+        if !(is_simple(&left) && is_simple(&cut)) {
+            return Err(Refusal::FurrowOpen);
+        }
+        self.check_lobes(organism, &divider.params, &left, &cut).map(|()| swap)
+    }
+
+    /// Checks that both rings are large enough, that every particle of cytoplasm is in exactly one of them, and that all of
+    /// every prey is in the same.
+    fn check_lobes(
+        &self,
+        organism: &Organism,
+        params: &DivisionParams,
+        left: &[Vec2],
+        cut: &[Vec2],
+    ) -> Result<(), Refusal> {
+        let is_in = |lobe: &[Vec2], i: usize| contains_point(lobe, self.particles.position(i));
+        let fluid = || organism.fluid_particles.iter().map(|&i| i as usize);
         let is_small = |lobe: &[Vec2]| {
-            let inside =
-                organism.fluid_particles.iter().filter(|&&i| contains_point(lobe, self.particles.position(i as usize)));
-            lobe.len() < divider.params.least_nodes as usize || inside.count() < divider.params.least_particles as usize
+            let inside = fluid().filter(|&i| is_in(lobe, i)).count();
+            lobe.len() < params.least_nodes as usize || inside < params.least_particles as usize
         };
-        if is_small(&left) || is_small(&cut) {
+        if is_small(left) || is_small(cut) {
             return Err(Refusal::TooSmall);
         }
-        let is_between = |i: u32| {
-            let at = self.particles.position(i as usize);
-            contains_point(&left, at) == contains_point(&cut, at)
-        };
-        if !(is_simple(&left) && is_simple(&cut)) || organism.fluid_particles.iter().any(|&i| is_between(i)) {
+        if fluid().any(|i| is_in(left, i) == is_in(cut, i)) {
             return Err(Refusal::FurrowOpen);
         }
         let lies_between = |meal: &Meal| {
-            let around =
-                organism.phagosomes.iter().filter(|inner| inner.prey == meal.prey).flat_map(|inner| &inner.ring);
-            let discs = self.discs_of(meal.prey).chain(around.map(|&i| i as usize));
-            let side = discs.map(|i| contains_point(&left, self.particles.position(i)));
-            let mut side = side.peekable();
-            let first = side.peek().copied();
-            side.any(|is_left| Some(is_left) != first)
+            let phagosome = organism.phagosomes.iter().find(|inner| inner.prey == meal.prey);
+            let around = phagosome.into_iter().flat_map(|inner| &inner.ring).map(|&i| i as usize);
+            let mut sides = self.discs_of(meal.prey).chain(around).map(|i| is_in(left, i));
+            let first = sides.next();
+            sides.any(|side| Some(side) != first)
         };
-        if organism.engulfer.iter().flat_map(|e| &e.meals).any(|meal| meal.phase.is_inside() && lies_between(meal)) {
-            return Err(Refusal::PreyInFurrow);
-        }
-        Ok(swap)
+        let mut held =
+            organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).filter(|meal| meal.phase.is_inside());
+        if held.any(lies_between) { Err(Refusal::PreyInFurrow) } else { Ok(()) }
     }
 
     /// Takes a membrane one node nearer to the number that it wants, while no gate holds on to its nodes.

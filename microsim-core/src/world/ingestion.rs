@@ -19,16 +19,14 @@ const PUT_AFTER: f32 = 2.0;
 
 impl World {
     pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal, way: IngestionWay) {
-        if way == IngestionWay::Gate {
-            meal.gate = self.organisms.get(id).map_or(Vec::new(), front_nodes);
-            self.exemptions.open_gate(&meal.gate, meal.prey.index);
-        }
-        let Self { organisms, fluids, .. } = self;
-        if let Some(organism) = organisms
-            .get_mut(id)
-            .filter(|organism| organism.divider.as_ref().is_some_and(|d| d.nodes_per_root.is_none()))
-        {
-            organism.note_nodes(fluids);
+        let Self { organisms, fluids, exemptions, .. } = self;
+        let Some(organism) = organisms.get_mut(id) else { return };
+        match way {
+            IngestionWay::Gate => {
+                meal.gate = front_nodes(organism);
+                exemptions.open_gate(&meal.gate, meal.prey.index);
+            }
+            IngestionWay::Cup => organism.note_first_nodes(fluids),
         }
         self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(Some(id)));
         self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
