@@ -153,9 +153,12 @@ impl World {
         let is_gate = engulfer.params.way == IngestionWay::Gate;
         let goes_in = |meal: &&Meal| is_gate && matches!(meal.phase, MealPhase::Ingesting(_));
         let held = engulfer.meals.iter().filter(|meal| meal.phase.is_inside() || goes_in(meal));
+        let areas = held.map(|meal| self.area_of(meal.prey));
+        if is_gate {
+            return areas.sum();
+        }
         let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
-        let around = if is_gate { 0.0 } else { 2.0 * node_radius };
-        held.map(|meal| (self.area_of(meal.prey) / PI).sqrt() + around).map(|radius| PI * radius * radius).sum()
+        areas.map(|area| (area / PI).sqrt() + 2.0 * node_radius).map(|radius| PI * radius * radius).sum()
     }
 
     /// Present area of an organism over its area when spawned.
