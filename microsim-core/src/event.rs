@@ -56,11 +56,98 @@ pub enum Event {
         /// What it was.
         kind: Kind,
     },
+    /// A furrow began to close around a cell.
+    DivisionBegan {
+        /// The cell.
+        organism: OrganismId,
+    },
+    /// A cell was told to divide and cannot; it stays as it is.
+    DivisionRefused {
+        /// The cell.
+        organism: OrganismId,
+        /// Why.
+        reason: Refusal,
+    },
+    /// A furrow did not close; the cell returns to rest.
+    DivisionAbandoned {
+        /// The cell.
+        organism: OrganismId,
+        /// What kept it open when its time was over.
+        reason: Refusal,
+    },
+    /// One cell became two.
+    Divided {
+        /// The cell, now with one of the lobes.
+        parent: OrganismId,
+        /// The other lobe.
+        daughter: OrganismId,
+    },
+    /// A cell was told to fuse with another and cannot; both stay as they are.
+    FusionRefused {
+        /// The cell that was told to.
+        organism: OrganismId,
+        /// The other one.
+        with: OrganismId,
+        /// Why.
+        reason: Refusal,
+    },
+    /// Two cells became one.
+    Fused {
+        /// The larger one, which has it all now.
+        into: OrganismId,
+        /// The smaller one; the handle is stale.
+        from: OrganismId,
+    },
     /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.
     Quarantined {
         /// The organism.
         organism: OrganismId,
     },
+}
+
+/// Why a cell does not divide or fuse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// It is frozen.
+    Quarantined,
+    /// It, or the other one, is dividing already.
+    Dividing,
+    /// It, or the other one, is taking prey in.
+    Ingesting,
+    /// A lobe would have too little cytoplasm or too few membrane nodes.
+    TooSmall,
+    /// Soft prey lies in the furrow.
+    PreyInFurrow,
+    /// The two sides of the furrow did not come near enough to each other.
+    FurrowOpen,
+    /// The membranes are too far from each other, or something is between them.
+    NotTouching,
+    /// Both hold soft prey, and there is one place for it.
+    PlaceTaken,
+    /// The other one is gone, or no cell that can fuse.
+    NoPartner,
+    /// The world would hold too many particles.
+    WorldFull,
+}
+
+impl Refusal {
+    /// Name in output.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quarantined => "quarantined",
+            Self::Dividing => "dividing",
+            Self::Ingesting => "ingesting",
+            Self::TooSmall => "too_small",
+            Self::PreyInFurrow => "prey_in_furrow",
+            Self::FurrowOpen => "furrow_open",
+            Self::NotTouching => "not_touching",
+            Self::PlaceTaken => "place_taken",
+            Self::NoPartner => "no_partner",
+            Self::WorldFull => "world_full",
+        }
+    }
 }
 
 impl Event {
@@ -87,6 +174,12 @@ impl Event {
             Self::Ingested { .. } => "ingested",
             Self::Released { .. } => "released",
             Self::Consumed { .. } => "consumed",
+            Self::DivisionBegan { .. } => "division_began",
+            Self::DivisionRefused { .. } => "division_refused",
+            Self::DivisionAbandoned { .. } => "division_abandoned",
+            Self::Divided { .. } => "divided",
+            Self::FusionRefused { .. } => "fusion_refused",
+            Self::Fused { .. } => "fused",
             Self::Quarantined { .. } => "quarantined",
         }
     }
@@ -100,7 +193,14 @@ impl Event {
             | Self::Ingested { engulfer, prey }
             | Self::Released { engulfer, prey }
             | Self::Consumed { engulfer, prey, .. } => [Some(engulfer), Some(prey)],
-            Self::FrontSwitched { organism } | Self::Quarantined { organism } => [Some(organism), None],
+            Self::Divided { parent: a, daughter: b }
+            | Self::FusionRefused { organism: a, with: b, .. }
+            | Self::Fused { into: a, from: b } => [Some(a), Some(b)],
+            Self::FrontSwitched { organism }
+            | Self::DivisionBegan { organism }
+            | Self::DivisionRefused { organism, .. }
+            | Self::DivisionAbandoned { organism, .. }
+            | Self::Quarantined { organism } => [Some(organism), None],
         }
     }
 }

@@ -19,6 +19,11 @@ impl OrganismId {
     pub fn generation(self) -> u32 {
         self.generation
     }
+
+    /// Stream of its random numbers: its own, and no other organism's of this world.
+    pub(crate) fn stream(self) -> u64 {
+        (u64::from(self.generation) << 32) | u64::from(self.index)
+    }
 }
 
 /// Names a template that was added to a world; valid as long as the world.

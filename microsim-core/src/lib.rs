@@ -51,11 +51,12 @@ mod world;
 
 pub use behavior::crawl::MembraneRegion;
 pub use capability::controller::Controller;
-pub use capability::phagocytosis::{MealPhase, PhagocytosisParams, PreyClass};
+pub use capability::division::DivisionParams;
+pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
 pub use collision::obstacle::Obstacle;
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
-pub use event::Event;
+pub use event::{Event, Refusal};
 pub use id::{ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
 pub use kind::Kind;

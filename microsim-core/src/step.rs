@@ -1,13 +1,13 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{draw_in_prey, steer_organisms};
+use crate::behavior::{constrict, cup, draw_in_prey, steer_organisms};
 use crate::capability::controller;
 use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::solver::membrane::Membrane;
-use crate::solver::{contact, drive, integrate, obstacle, ring_contact};
+use crate::solver::{contact, contraction, drive, integrate, obstacle, ring_contact};
 use crate::world::World;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -29,13 +29,15 @@ pub enum Phase {
     UpdateVelocities,
     /// Prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
+    /// Furrows close, cells divide and fuse.
+    DivideAndFuse,
     /// Viscosity; contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
 impl Phase {
     /// All phases, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::SteerOrganisms,
         Self::FindPairs,
         Self::PredictPositions,
@@ -44,6 +46,7 @@ impl Phase {
         Self::ProjectContacts,
         Self::UpdateVelocities,
         Self::AdvancePhagocytosis,
+        Self::DivideAndFuse,
         Self::Conclude,
     ];
 
@@ -59,6 +62,7 @@ impl Phase {
             Self::ProjectContacts => "project_contacts",
             Self::UpdateVelocities => "update_velocities",
             Self::AdvancePhagocytosis => "advance_phagocytosis",
+            Self::DivideAndFuse => "divide_and_fuse",
             Self::Conclude => "conclude",
         }
     }
@@ -88,6 +92,8 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     catch_strays(world);
     world.advance_phagocytosis();
     finished(Phase::AdvancePhagocytosis);
+    world.divide_and_fuse();
+    finished(Phase::DivideAndFuse);
     conclude(world);
     finished(Phase::Conclude);
     world.step_index += 1;
@@ -98,6 +104,9 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let surroundings = controller::Surroundings { size: config.size, dt: config.dt };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
+    scratch.contractions.clear();
+    constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     for (_, organism) in organisms.iter_mut() {
         organism.relax_membrane(particles, fluids, config.dt);
     }
@@ -125,18 +134,19 @@ fn project_fluids(world: &mut World) {
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World { particles, templates, blocks, organisms, .. } = world;
+    let World { particles, templates, blocks, organisms, scratch, .. } = world;
     for block in blocks.iter().filter(|block| !block.is_empty()) {
         block.project(templates[block.template as usize].constraints(), particles, h);
     }
     for (membrane, ring) in membranes(organisms) {
         membrane.project(ring, particles, h);
     }
+    contraction::project(&scratch.contractions, particles, h);
 }
 
 /// All membranes with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    organisms.iter().filter_map(|(_, organism)| Some((organism.body.membrane()?, organism.outline.as_slice())))
+    organisms.iter().flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {
@@ -164,8 +174,8 @@ fn update_velocities(world: &mut World, h: f32) {
 /// The safety net: casts a ray from every disc near a membrane.
 fn catch_strays(world: &mut World) {
     let World { particles, organisms, guard, scratch, .. } = world;
-    for ring in organisms.rings() {
-        let caught = ring_contact::catch_strays(ring, &scratch.broad_phase.ring_contacts, particles);
+    for (place, ring) in organisms.rings().enumerate() {
+        let caught = ring_contact::catch_strays(ring, place, &scratch.broad_phase.ring_contacts, particles);
         guard.net_fired += u64::from(caught);
     }
 }

@@ -26,7 +26,20 @@ const LAYERS: &[(&str, &[&str])] = &[
         "organism",
         &["capability", "collision", "error", "geometry", "id", "kind", "particle", "rng", "solver", "template"],
     ),
-    ("behavior", &["capability", "event", "geometry", "id", "inputs", "organism", "particle", "solver::drive"]),
+    (
+        "behavior",
+        &[
+            "capability",
+            "event",
+            "geometry",
+            "id",
+            "inputs",
+            "organism",
+            "particle",
+            "solver::contraction",
+            "solver::drive",
+        ],
+    ),
     // The step takes the world apart and hands each phase what it needs, so these two know each other.
     (
         "step",

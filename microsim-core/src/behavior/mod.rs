@@ -1,6 +1,8 @@
 //! What organisms do, over the solver: how they choose a goal and how they move towards it.
 
+pub(crate) mod constrict;
 pub(crate) mod crawl;
+pub(crate) mod cup;
 pub(crate) mod front_pull;
 
 use crate::capability::phagocytosis::MealPhase;
@@ -43,9 +45,10 @@ pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives:
     for (_, organism) in organisms.iter() {
         let Some(engulfer) = &organism.engulfer else { continue };
         let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
-        for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
-            let way = place(organism, particles) - place(prey, particles);
-            let velocity = heading(way) * engulfer.params.pull_speed;
+        for meal in taken_in {
+            let Some(prey) = organisms.get(meal.prey) else { continue };
+            let inwards = heading(place(organism, particles) - place(prey, particles));
+            let velocity = if meal.is_expelled { -inwards } else { inwards } * engulfer.params.pull_speed;
             let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
             drives.extend(prey.particles().map(pull));
         }
@@ -89,7 +92,7 @@ pub(crate) fn heading(way: Vec2) -> Vec2 {
 }
 
 /// Where an organism is, for its controller: the mean of its outline, or its first particle.
-fn place(organism: &Organism, particles: &Particles) -> Vec2 {
+pub(crate) fn place(organism: &Organism, particles: &Particles) -> Vec2 {
     let count = organism.outline.len();
     if count == 0 {
         return organism.particles().next().map_or(organism.home, |i| particles.position(i as usize));

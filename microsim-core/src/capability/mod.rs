@@ -2,6 +2,7 @@
 //! act on the world is [`crate::behavior`] and the world's feeding.
 
 pub(crate) mod controller;
+pub(crate) mod division;
 pub(crate) mod phagocytosis;
 
 /// How an organism moves towards its goal, and what it remembers of it.

@@ -14,9 +14,21 @@
 use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
 
+/// How prey gets through the membrane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IngestionWay {
+    /// The seed's: the membrane next to the prey ignores it until it is inside.
+    Gate,
+    /// Real cells': the membrane folds around the prey, the lips of the fold meet, and the ring is re-wired. The arc that is
+    /// cut off encloses the prey inside the cell: the phagosome.
+    Cup,
+}
+
 /// What the seed leaves open about phagocytosis, as numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhagocytosisParams {
+    /// How prey gets through the membrane.
+    pub way: IngestionWay,
     /// Time for which all conditions must hold before ingestion starts, s, 0 to 10. Any failure starts it anew.
     pub hold_time: f32,
     /// Largest angle between the way to the goal and the way to the prey, as a cosine, -1 to 1.
@@ -25,13 +37,18 @@ pub struct PhagocytosisParams {
     pub soft_prey_contacts: u32,
     /// Area of the engulfer's cytoplasm over the prey's area when spawned that soft prey needs at least, 0.1 to 1000.
     pub size_ratio: f32,
-    /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn on
-    /// until it is inside. Soft prey has shrunk to its scale after a fixed share of this time.
+    /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn to
+    /// the side where its centre is, and after as much time again put there. Soft prey has shrunk to its scale after a fixed
+    /// share of this time.
     pub time_limit: f32,
     /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.
     pub pull_speed: f32,
     /// Acceleration with which it is drawn, units/s2, 1 to 100 000: times its mass, the force.
     pub pull_acceleration: f32,
+    /// Speed of each lip of a cup, units/s, 0.1 to 20.
+    pub lip_speed: f32,
+    /// Longest link that may close the ring behind prey in a cup, in rest lengths, 1 to 1.5.
+    pub closing_length: f32,
     /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
     pub soft_prey_scale: f32,
     /// Time of digestion of simple and of soft prey, s, 0.05 to 60.
@@ -45,6 +62,7 @@ pub struct PhagocytosisParams {
 impl Default for PhagocytosisParams {
     fn default() -> Self {
         Self {
+            way: IngestionWay::Gate,
             hold_time: 0.35,
             heading_cosine: 0.6,
             soft_prey_contacts: 2,
@@ -52,6 +70,8 @@ impl Default for PhagocytosisParams {
             time_limit: 3.0,
             pull_speed: 6.0,
             pull_acceleration: 4000.0,
+            lip_speed: 6.0,
+            closing_length: 1.35,
             soft_prey_scale: 0.5,
             digestion_time: [0.6, 2.0],
             digestion_speed: 0.35,
@@ -69,6 +89,8 @@ impl PhagocytosisParams {
         in_range("time_limit", self.time_limit, 0.1, 60.0)?;
         in_range("pull_speed", self.pull_speed, 0.1, 100.0)?;
         in_range("pull_acceleration", self.pull_acceleration, 1.0, 1e5)?;
+        in_range("lip_speed", self.lip_speed, 0.1, 20.0)?;
+        in_range("closing_length", self.closing_length, 1.0, 1.5)?;
         in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
         in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
         in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
@@ -115,6 +137,8 @@ pub(crate) struct Meal {
     pub phase: MealPhase,
     /// Membrane nodes that ignore the prey.
     pub gate: Vec<u32>,
+    /// Whether the time limit found it with its centre outside: it is driven out.
+    pub is_expelled: bool,
 }
 
 /// The capability to take others in.
@@ -127,6 +151,8 @@ pub(crate) struct Engulfer {
     pub digests: bool,
     /// Area of what it holds or takes in, square units.
     pub held_area: f32,
+    /// Length of membrane that the folds around prey need now, units.
+    pub fold_length: f32,
     /// Area that was digested and has not become cytoplasm yet, square units.
     pub pending_growth: f32,
 }
@@ -154,7 +180,7 @@ pub(crate) struct Encounter {
 
 impl Engulfer {
     pub(crate) fn new(params: PhagocytosisParams) -> Self {
-        Self { params, meals: Vec::new(), digests: false, held_area: 0.0, pending_growth: 0.0 }
+        Self { params, meals: Vec::new(), digests: false, held_area: 0.0, fold_length: 0.0, pending_growth: 0.0 }
     }
 
     /// Whether it must not move: soft prey is going in.
@@ -169,7 +195,7 @@ impl Engulfer {
     }
 
     /// Whether the one place for soft prey is taken.
-    fn slot_is_taken(&self) -> bool {
+    pub(crate) fn slot_is_taken(&self) -> bool {
         let takes = |meal: &Meal| meal.class == PreyClass::Soft && !matches!(meal.phase, MealPhase::Touching(_));
         self.meals.iter().any(takes)
     }
@@ -197,7 +223,13 @@ impl Engulfer {
         for (encounter, _) in encounters.iter().zip(&holds).filter(|(_, holds)| **holds) {
             if self.meals.iter().all(|meal| meal.prey != encounter.prey) {
                 let Encounter { prey, class, .. } = *encounter;
-                self.meals.push(Meal { prey, class, phase: MealPhase::Touching(0.0), gate: Vec::new() });
+                self.meals.push(Meal {
+                    prey,
+                    class,
+                    phase: MealPhase::Touching(0.0),
+                    gate: Vec::new(),
+                    is_expelled: false,
+                });
             }
         }
         let mut begun = Vec::new();

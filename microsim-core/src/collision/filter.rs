@@ -1,5 +1,7 @@
 //! Pairs of owners that do not collide, whatever their groups say, and the sides of rings on which owners stay.
 
+use super::ring::Ring;
+
 /// Where all particles of an owner are at home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Home {
@@ -21,13 +23,12 @@ pub(crate) enum Side {
 }
 
 /// On which side of a ring an owner's particles stay. `homes` is indexed by owner; who is not in it is free.
-pub(crate) fn side_of(owner: u32, ring: u32, homes: &[Home]) -> Side {
-    if owner == ring {
-        return Side::Inside;
-    }
+pub(crate) fn side_of(owner: u32, ring: Ring<'_>, homes: &[Home]) -> Side {
+    let is_inside = ring.holds.map_or(owner == ring.owner, |held| owner == held);
     match homes.get(owner as usize) {
-        Some(&Home::Inside(holder)) if holder == ring => Side::Inside,
-        Some(&Home::Passing(holder)) if holder == ring => Side::Either,
+        _ if is_inside => Side::Inside,
+        Some(&Home::Inside(holder)) if holder == ring.owner && ring.holds.is_none() => Side::Inside,
+        Some(&Home::Passing(holder)) if holder == ring.owner => Side::Either,
         _ => Side::Outside,
     }
 }
@@ -78,6 +79,13 @@ impl Exemptions {
     /// The open gates, ascending.
     pub(crate) fn gates(&self) -> &[(u32, u32)] {
         &self.gates
+    }
+
+    /// Exempts a new owner from what another one is exempt from.
+    pub(crate) fn inherit(&mut self, from: u32, to: u32) {
+        let others = self.pairs.iter().filter(|&&(a, b)| a == from || b == from);
+        let others: Vec<u32> = others.map(|&(a, b)| if a == from { b } else { a }).collect();
+        others.into_iter().for_each(|other| self.set(to, other, true));
     }
 
     /// Forgets every pair of an owner that is gone.

@@ -13,6 +13,8 @@ use std::ops::Range;
 pub(crate) struct Ring<'a> {
     pub owner: u32,
     pub nodes: &'a [u32],
+    /// The one owner whose particles are inside; otherwise those of the ring's own owner are, and those at home there.
+    pub holds: Option<u32>,
 }
 
 impl Ring<'_> {
@@ -33,8 +35,8 @@ pub(crate) struct Link {
 #[derive(Clone, Debug)]
 pub(crate) struct RingContact {
     pub particle: u32,
-    /// Owner of the ring.
-    pub ring: u32,
+    /// Place of the ring among those that were searched.
+    pub ring: usize,
     /// Where it has to stay.
     pub side: Side,
     pub friction: f32,
@@ -78,29 +80,29 @@ impl RingContacts {
     pub(crate) fn find(&mut self, rings: &[Ring<'_>], near: Nearby<'_>) {
         self.contacts.clear();
         self.links.clear();
-        for ring in rings {
+        for (k, ring) in rings.iter().enumerate() {
             self.found.clear();
-            for k in 0..ring.nodes.len() {
+            for link in 0..ring.nodes.len() {
                 for (grid, radius) in near.grids {
-                    find_near_link(*ring, k, grid, radius, near, &mut self.found);
+                    find_near_link(*ring, link, grid, radius, near, &mut self.found);
                 }
             }
             self.found.sort_unstable();
-            self.group(*ring, near);
+            self.group(*ring, k, near);
         }
     }
 
     /// Turns what was found near one ring into one contact for each disc.
-    fn group(&mut self, ring: Ring<'_>, near: Nearby<'_>) {
+    fn group(&mut self, ring: Ring<'_>, place: usize, near: Nearby<'_>) {
         let p = near.particles;
         for group in self.found.chunk_by(|a, b| a.0 == b.0) {
             let particle = group[0].0;
             let first = self.links.len() as u32;
             self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
             let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
-            let side = side_of(p.owner[particle as usize], ring.owner, near.homes);
+            let side = side_of(p.owner[particle as usize], ring, near.homes);
             let links = first..self.links.len() as u32;
-            self.contacts.push(RingContact { particle, ring: ring.owner, side, friction, touched: None, links });
+            self.contacts.push(RingContact { particle, ring: place, side, friction, touched: None, links });
         }
     }
 }
@@ -122,17 +124,17 @@ fn find_near_link(ring: Ring<'_>, k: usize, grid: &Grid, radius: f32, near: Near
         let at = p.position(i);
         let nearest = nearest_on_segment(ends[0], ends[1], at);
         let reach = p.radius[i] + p.radius[a as usize] + near.margin;
-        if (at - nearest).length_squared() < reach * reach && may_touch(p, i, [a, b], near.exemptions) {
+        if (at - nearest).length_squared() < reach * reach && may_touch(p, i, ring, [a, b], near.exemptions) {
             found.push((particle, k as u32));
         }
     }
 }
 
 /// Whether a disc collides with a link: not with its own ring's, whose nodes keep apart as discs, and not through a gate.
-pub(crate) fn may_touch(p: &Particles, i: usize, ends: [u32; 2], exemptions: &Exemptions) -> bool {
+pub(crate) fn may_touch(p: &Particles, i: usize, ring: Ring<'_>, ends: [u32; 2], exemptions: &Exemptions) -> bool {
     let a = ends[0] as usize;
     let owners = [p.owner[i], p.owner[a]];
-    let is_own_node = owners[0] == owners[1] && p.next_in_ring[i] != NO_OWNER;
+    let is_own_node = owners[0] == owners[1] && p.next_in_ring[i] != NO_OWNER && ring.nodes.contains(&(i as u32));
     !is_own_node
         && p.groups[i].meets(p.groups[a])
         && !exemptions.contains(owners[0], owners[1])

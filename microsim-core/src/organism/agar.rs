@@ -48,6 +48,7 @@ impl AgarSpec {
             area: std::f32::consts::PI * self.radius * self.radius,
             engulfer: None,
             prey: Some(PreyClass::Simple),
+            divider: None,
         })
     }
 }

@@ -9,6 +9,7 @@
 use super::fluid_block::hexagonal_fill;
 use super::{Blueprint, FluidPlan, OrganismSpec};
 use crate::capability::Locomotion;
+use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, in_range, out_of_range};
 use crate::geometry::polygon::{contains_point, perimeter};
@@ -41,6 +42,8 @@ pub struct AmoeboidCellSpec {
     pub speed: f32,
     /// How it takes in and digests prey.
     pub phagocytosis: PhagocytosisParams,
+    /// How it divides and fuses.
+    pub division: DivisionParams,
 }
 
 impl Default for AmoeboidCellSpec {
@@ -52,6 +55,7 @@ impl Default for AmoeboidCellSpec {
             viscosity: 25.0,
             speed: 8.0,
             phagocytosis: PhagocytosisParams::default(),
+            division: DivisionParams::default(),
         }
     }
 }
@@ -71,6 +75,7 @@ impl AmoeboidCellSpec {
         in_range("viscosity", self.viscosity, 0.0, 1000.0)?;
         in_range("speed", self.speed, 0.0, 1000.0)?;
         self.phagocytosis.validate().map_err(|error| error.within("phagocytosis"))?;
+        self.division.validate().map_err(|error| error.within("division"))?;
         let chain = self.chain()?;
         let cytoplasm = self.cytoplasm(&chain);
         if cytoplasm.points.len() < LEAST_CYTOPLASM {
@@ -89,6 +94,7 @@ impl AmoeboidCellSpec {
             area: std::f32::consts::PI * self.radii.x * self.radii.y,
             engulfer: Some(self.phagocytosis),
             prey: None,
+            divider: Some(self.division),
         })
     }
 

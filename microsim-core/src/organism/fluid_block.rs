@@ -73,6 +73,7 @@ impl FluidBlockSpec {
             area: self.size.x * self.size.y,
             engulfer: None,
             prey: None,
+            divider: None,
         })
     }
 }

@@ -6,11 +6,13 @@ pub(crate) mod filled_chain;
 pub(crate) mod fluid_block;
 pub(crate) mod platelet;
 pub(crate) mod probe;
+pub(crate) mod ring_surgery;
 pub(crate) mod soft_body;
 pub(crate) mod table;
 
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
+use crate::capability::division::{Divider, DivisionParams, Furrow};
 use crate::capability::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
@@ -156,6 +158,7 @@ pub(crate) struct Blueprint {
     pub area: f32,
     pub engulfer: Option<PhagocytosisParams>,
     pub prey: Option<PreyClass>,
+    pub divider: Option<DivisionParams>,
 }
 
 /// Fluid that comes with an organism.
@@ -201,12 +204,30 @@ impl Body {
         }
     }
 
+    pub(crate) fn membrane_mut(&mut self) -> Option<&mut Membrane> {
+        match self {
+            Self::Lane { .. } => None,
+            Self::Loose { membrane, .. } => membrane.as_mut(),
+        }
+    }
+
     pub(crate) fn membrane(&self) -> Option<&Membrane> {
         match self {
             Self::Lane { .. } => None,
             Self::Loose { membrane, .. } => membrane.as_ref(),
         }
     }
+}
+
+/// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Phagosome {
+    pub prey: OrganismId,
+    /// Particles, counter-clockwise.
+    pub ring: Vec<u32>,
+    pub membrane: Membrane,
+    /// Area that it has room for, square units.
+    pub area: f32,
 }
 
 /// One living organism.
@@ -234,6 +255,10 @@ pub(crate) struct Organism {
     pub engulfer: Option<Engulfer>,
     /// The capability to be taken in.
     pub prey: Option<Prey>,
+    /// What cups have cut off its membrane, around prey inside.
+    pub phagosomes: Vec<Phagosome>,
+    /// The capability to divide and to fuse.
+    pub divider: Option<Divider>,
     /// Where it wanted to go in the last step.
     pub goal: Option<Vec2>,
     /// Where it was spawned.
@@ -269,10 +294,16 @@ impl Organism {
 
     /// Takes note of the command to digest; returns whether it may move.
     pub(crate) fn obey(&mut self, digests: bool) -> bool {
-        self.engulfer.as_mut().is_none_or(|engulfer| {
+        let is_free = self.engulfer.as_mut().is_none_or(|engulfer| {
             engulfer.digests = digests;
             !engulfer.is_locked()
-        })
+        });
+        is_free && self.furrow().is_none()
+    }
+
+    /// Its furrow, if it is dividing.
+    pub(crate) fn furrow(&self) -> Option<Furrow> {
+        self.divider.as_ref().and_then(|divider| divider.furrow)
     }
 
     /// Speed when it moves, units/s: less while it digests.
@@ -288,12 +319,53 @@ impl Organism {
 
     /// Finds this step's tension of its membrane, if it has one.
     pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
-        let held_area = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area);
+        let (held_area, folds) =
+            self.engulfer.as_ref().map_or((0.0, 0.0), |engulfer| (engulfer.held_area, engulfer.fold_length));
         let is_driven = self.crawls();
+        let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
-        let content = Content { area: fluid::rest_area(self.fluid_particles.len(), spacing) + held_area, spacing };
+        let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
+        let content = Content { area, spacing, lobes, folds };
         membrane.relax(&self.outline, particles, content, is_driven, dt);
+        for phagosome in &mut self.phagosomes {
+            let content = Content { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
+        }
+    }
+
+    /// All membranes with their rings: its own, and those of its phagosomes.
+    pub(crate) fn membranes(&self) -> impl Iterator<Item = (&Membrane, &[u32])> {
+        let own = self.body.membrane().map(|membrane| (membrane, self.outline.as_slice()));
+        own.into_iter().chain(self.phagosomes.iter().map(|inner| (&inner.membrane, inner.ring.as_slice())))
+    }
+
+    /// What its membrane goes round, in particles of cytoplasm; prey inside and growth to come count by their area.
+    pub(crate) fn content(&self, fluids: &[Fluid]) -> f32 {
+        let each = self.fluid.map_or(1.0, |fluid| fluid::rest_area(1, fluids[fluid as usize].params.spacing));
+        let eaten = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area + engulfer.pending_growth);
+        self.fluid_particles.len() as f32 + eaten / each
+    }
+
+    /// Remembers how many nodes its membrane has for its content, so that it can have as many again.
+    pub(crate) fn note_nodes(&mut self, fluids: &[Fluid]) {
+        let nodes_per_root = self.outline.len() as f32 / self.content(fluids).sqrt();
+        self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
+    }
+
+    /// The same, unless it remembers a number already.
+    pub(crate) fn note_first_nodes(&mut self, fluids: &[Fluid]) {
+        if self.divider.as_ref().is_some_and(|divider| divider.nodes_per_root.is_none()) {
+            self.note_nodes(fluids);
+        }
+    }
+
+    /// Sends its membrane on the way to the number of nodes that suits its content.
+    pub(crate) fn adapt_nodes(&mut self, fluids: &[Fluid]) {
+        let root = self.content(fluids).sqrt();
+        if let Some(divider) = &mut self.divider {
+            divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
+        }
     }
 
     /// Nodes that its membrane lacks to go round its cytoplasm once.
@@ -301,6 +373,12 @@ impl Organism {
         let Some(membrane) = self.body.membrane() else { return 0 };
         let wanted = membrane.rest_perimeter() / membrane.rest_length;
         u32::from(wanted > self.outline.len() as f32 + 0.5)
+    }
+
+    /// Whether its membrane is so short that it goes round with a node less.
+    pub(crate) fn has_spare_node(&self) -> bool {
+        let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
+        wanted < self.outline.len() as f32 - 0.5
     }
 
     /// All its particles: those of the body by node, then the fluid.

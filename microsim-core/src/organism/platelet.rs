@@ -80,6 +80,7 @@ impl PlateletSpec {
             area: std::f32::consts::PI * self.radius * self.radius,
             engulfer: None,
             prey: None,
+            divider: None,
         })
     }
 

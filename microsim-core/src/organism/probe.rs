@@ -52,6 +52,7 @@ impl ProbeSpec {
             area: std::f32::consts::PI * self.radius * self.radius,
             engulfer: None,
             prey: None,
+            divider: None,
         })
     }
 }

@@ -86,6 +86,7 @@ impl RigidCellSpec {
             area: std::f32::consts::PI * self.radii.x * self.radii.y,
             engulfer: None,
             prey: Some(PreyClass::Soft),
+            divider: None,
         })
     }
 

@@ -76,11 +76,14 @@ impl Organisms {
         })
     }
 
-    /// The membranes of all organisms.
+    /// The membranes of all organisms, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
-        let has_membrane = |organism: &&Organism| organism.body.membrane().is_some();
-        let with_membrane = self.iter().filter(move |(_, organism)| has_membrane(organism));
-        with_membrane.map(|(id, organism)| Ring { owner: id.index, nodes: &organism.outline })
+        self.iter().flat_map(|(id, organism)| {
+            let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
+            let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
+            let inner = organism.phagosomes.iter().map(move |inner| ring(&inner.ring, Some(inner.prey.index)));
+            own.into_iter().chain(inner)
+        })
     }
 
     /// On which side of the membranes each organism is at home.

@@ -5,7 +5,10 @@ use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
-use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, PhagocytosisParams, PlateletSpec, ProbeSpec, RigidCellSpec};
+use crate::{
+    AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams, PlateletSpec,
+    ProbeSpec, RigidCellSpec,
+};
 use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.
@@ -117,11 +120,25 @@ fn amoeboid_cell(fields: &mut Fields<'_>) -> OrganismSpec {
         viscosity: fields.or("viscosity", default.viscosity),
         speed: fields.or("speed", default.speed),
         phagocytosis: phagocytosis(fields.table("phagocytosis"), default.phagocytosis),
+        division: division(fields.table("division"), default.division),
     })
+}
+
+fn division(mut fields: Fields<'_>, default: DivisionParams) -> DivisionParams {
+    let params = DivisionParams {
+        furrow_speed: fields.or("furrow_speed", default.furrow_speed),
+        closing_length: fields.or("closing_length", default.closing_length),
+        time_limit: fields.or("time_limit", default.time_limit),
+        least_particles: fields.or("least_particles", default.least_particles),
+        least_nodes: fields.or("least_nodes", default.least_nodes),
+    };
+    fields.finish();
+    params
 }
 
 fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> PhagocytosisParams {
     let params = PhagocytosisParams {
+        way: fields.or("way", default.way),
         hold_time: fields.or("hold_time", default.hold_time),
         heading_cosine: fields.or("heading_cosine", default.heading_cosine),
         soft_prey_contacts: fields.or("soft_prey_contacts", default.soft_prey_contacts),
@@ -129,6 +146,8 @@ fn phagocytosis(mut fields: Fields<'_>, default: PhagocytosisParams) -> Phagocyt
         time_limit: fields.or("time_limit", default.time_limit),
         pull_speed: fields.or("pull_speed", default.pull_speed),
         pull_acceleration: fields.or("pull_acceleration", default.pull_acceleration),
+        lip_speed: fields.or("lip_speed", default.lip_speed),
+        closing_length: fields.or("closing_length", default.closing_length),
         soft_prey_scale: fields.or("soft_prey_scale", default.soft_prey_scale),
         digestion_time: fields.or("digestion_time", default.digestion_time),
         digestion_speed: fields.or("digestion_speed", default.digestion_speed),
@@ -179,6 +198,20 @@ fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
             mode: fields.or("mode", default.fluid.mode),
         },
     })
+}
+
+impl Read for IngestionWay {
+    fn accepted() -> String {
+        "\"gate\" or \"cup\"".to_owned()
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        match value.get_ref().as_str() {
+            Some("gate") => Some(Self::Gate),
+            Some("cup") => Some(Self::Cup),
+            _ => super::fields::mismatch(value, path, report),
+        }
+    }
 }
 
 impl Read for FluidMode {

@@ -63,6 +63,8 @@ pub(crate) struct Membrane {
     /// Present total rest length of the links.
     rest_perimeter: f32,
     target_area: f32,
+    /// See [`Content::lobes`].
+    lobes: f32,
 }
 
 /// What a membrane holds.
@@ -72,17 +74,27 @@ pub(crate) struct Content {
     pub area: f32,
     /// Rest spacing of the fluid.
     pub spacing: f32,
+    /// Circles of equal size that it is to fill: 1, or up to 2 while a furrow closes.
+    pub lobes: f32,
+    /// Length that folds take beside that, units.
+    pub folds: f32,
 }
 
 impl Membrane {
     pub(crate) fn new(rest_length: f32, node_radius: f32, nodes: usize) -> Self {
         let rest_perimeter = rest_length * nodes as f32;
-        Self { rest_length, node_radius, activity: 0.0, rest_perimeter, target_area: f32::INFINITY }
+        Self { rest_length, node_radius, activity: 0.0, rest_perimeter, target_area: f32::INFINITY, lobes: 1.0 }
     }
 
     /// Present total rest length of its links.
     pub(crate) fn rest_perimeter(&self) -> f32 {
         self.rest_perimeter
+    }
+
+    /// The same for a part of its ring, or for more: `nodes` instead of `before`, under the same tension.
+    pub(crate) fn resized(&self, before: usize, nodes: usize) -> Self {
+        let rest_perimeter = self.rest_perimeter * nodes as f32 / before as f32;
+        Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
     }
 
     /// State for the digest.
@@ -94,9 +106,10 @@ impl Membrane {
     pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
         let drive = if is_driven { 1.0 } else { 0.0 };
         self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
-        let radius = (content.area / PI).sqrt() + self.node_radius + CLEARANCE * content.spacing;
-        self.target_area = PI * radius * radius;
-        let circle = TAU * radius;
+        let radius = (content.area / (PI * content.lobes)).sqrt() + self.node_radius + CLEARANCE * content.spacing;
+        self.target_area = content.lobes * PI * radius * radius;
+        let circle = content.lobes * TAU * radius;
+        self.lobes = content.lobes;
         let mut target = (PERIMETER_AT_REST + PERIMETER_DRIVEN * self.activity) * circle;
         let perimeter = perimeter(ring, particles);
         if perimeter > target {
@@ -104,6 +117,7 @@ impl Membrane {
             let excess = if accepted > target { accepted - target } else { 0.0 };
             target += EXCESS_ACCEPTED * self.activity * excess;
         }
+        target += content.folds;
         let time = if target > self.rest_perimeter { STRETCH_TIME } else { SHRINK_TIME };
         self.rest_perimeter += (target - self.rest_perimeter) * share(dt, time);
     }
@@ -112,10 +126,11 @@ impl Membrane {
     pub(crate) fn project(&self, ring: &[u32], particles: &mut Particles, h: f32) {
         let length = self.rest_perimeter / ring.len() as f32;
         tighten(ring, length, particles, h);
-        let step = unit_vector(PI / ring.len() as f32);
+        let around = ring.len() as f32 / self.lobes;
+        let step = unit_vector(PI / around);
         let radius = 0.5 * length / step.y;
         for (stride, share) in BENDING {
-            let cosine = unit_vector(TAU * stride as f32 / ring.len() as f32).x;
+            let cosine = unit_vector(TAU * stride as f32 / around).x;
             bend(ring, stride, radius * (1.0 - cosine), share, particles);
         }
         let polygon = Polygon::measure(ring, particles);
@@ -227,7 +242,7 @@ mod tests {
             p.x[i] *= 0.7;
         }
         let before = momentum(&p);
-        relaxed(&mut p, Content { area: 90.0, spacing: 0.8 }, 600);
+        relaxed(&mut p, Content { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let points = positions(&p);
         let centre = points.iter().sum::<glam::Vec2>() / 40.0;
         let radii: Vec<f32> = points.iter().map(|&at| (at - centre).length()).collect();
@@ -239,7 +254,7 @@ mod tests {
     #[test]
     fn perimeter_and_area_approach_the_circle_around_the_content() {
         let mut p = ring(40, 6.4);
-        relaxed(&mut p, Content { area: 80.0, spacing: 0.8 }, 600);
+        relaxed(&mut p, Content { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
         let area = signed_area(&positions(&p));
         assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");

@@ -7,6 +7,7 @@ pub(crate) mod anchor;
 pub(crate) mod area;
 pub(crate) mod block;
 pub(crate) mod contact;
+pub(crate) mod contraction;
 pub(crate) mod distance;
 pub(crate) mod drive;
 pub(crate) mod fluid;

@@ -89,11 +89,11 @@ pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
 }
 
 /// The safety net: casts a ray from every disc near a ring and takes those on the wrong side back to the nearest link.
-/// Returns how many there were.
-pub(crate) fn catch_strays(ring: Ring<'_>, rings: &RingContacts, p: &mut Particles) -> u32 {
+/// `place` is the ring's place among those that were searched. Returns how many there were.
+pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p: &mut Particles) -> u32 {
     let outline: Vec<Vec2> = ring.nodes.iter().map(|&node| p.position(node as usize)).collect();
     let mut caught = 0;
-    for contact in rings.contacts.iter().filter(|contact| contact.ring == ring.owner) {
+    for contact in rings.contacts.iter().filter(|contact| contact.ring == place) {
         let position = p.position(contact.particle as usize);
         let is_stray = match contact.side {
             Side::Inside => !contains_point(&outline, position),
@@ -221,7 +221,7 @@ mod tests {
             grids: [(&small, RADIUS), (&large, 0.0)],
             margin: 100.0,
         };
-        contacts.find(&[Ring { owner: 0, nodes: &nodes }], near);
+        contacts.find(&[Ring { owner: 0, nodes: &nodes, holds: None }], near);
         (p, contacts, nodes)
     }
 
@@ -268,7 +268,7 @@ mod tests {
     }
 
     fn may_pass(p: &Particles, exemptions: &Exemptions, ends: [u32; 2]) -> bool {
-        crate::collision::ring::may_touch(p, 4, ends, exemptions)
+        crate::collision::ring::may_touch(p, 4, Ring { owner: 0, nodes: &[0, 1, 2, 3], holds: None }, ends, exemptions)
     }
 
     #[test]
@@ -318,8 +318,8 @@ mod tests {
             let is_inside = contains_point(&outline, at);
             let (mut p, contacts, nodes) = scene(&outline, at, 0);
             prop_assume!(!contacts.contacts.is_empty());
-            let ring = Ring { owner: 0, nodes: &nodes };
-            prop_assert_eq!(catch_strays(ring, &contacts, &mut p), u32::from(!is_inside));
+            let ring = Ring { owner: 0, nodes: &nodes, holds: None };
+            prop_assert_eq!(catch_strays(ring, 0, &contacts, &mut p), u32::from(!is_inside));
             prop_assert_eq!(is_inside, p.position(contacts.contacts[0].particle as usize) == at);
         }
     }

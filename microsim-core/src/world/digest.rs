@@ -8,6 +8,7 @@
 use super::World;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
+use crate::capability::division::{Divider, Furrow, Order};
 use crate::capability::phagocytosis::{Engulfer, MealPhase};
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
@@ -153,6 +154,10 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     if let Some(membrane) = organism.body.membrane() {
         membrane.state().into_iter().for_each(|value| digest.float(value));
     }
+    for phagosome in &organism.phagosomes {
+        digest.words(phagosome.ring.iter().copied());
+        phagosome.membrane.state().into_iter().for_each(|value| digest.float(value));
+    }
     match organism.locomotion {
         Locomotion::None => digest.word(0),
         Locomotion::FrontPull { front } => digest.words([1, front]),
@@ -161,6 +166,7 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     }
     [organism.speed, organism.spawn_area, organism.spawn_scale].into_iter().for_each(|value| digest.float(value));
     organism.engulfer.iter().for_each(|engulfer| digest_engulfer(engulfer, digest));
+    organism.divider.iter().for_each(|divider| digest_divider(divider, digest));
     organism.prey.and_then(|prey| prey.held_by).into_iter().for_each(|id| digest.words([id.index, id.generation]));
     digest_controller(&organism.controller, digest);
     digest.long(organism.rng.state);
@@ -172,6 +178,7 @@ fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
     digest.text(&format!("{:?}", engulfer.params));
     digest.word(u32::from(engulfer.digests));
     digest.float(engulfer.held_area);
+    digest.float(engulfer.fold_length);
     digest.float(engulfer.pending_growth);
     for meal in &engulfer.meals {
         digest.words([meal.prey.index, meal.prey.generation]);
@@ -181,8 +188,28 @@ fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
             MealPhase::Ingested => digest.float(-1.0),
             MealPhase::Digesting(progress) => digest.float(-2.0 - progress),
         }
-        digest.words(meal.gate.iter().copied());
+        digest.words(meal.gate.iter().copied().chain(meal.is_expelled.then_some(u32::MAX)));
     }
+}
+
+/// Nothing for a cell that has never been told to divide or fuse.
+fn digest_divider(divider: &Divider, digest: &mut Digest) {
+    if *divider == Divider::new(divider.params) {
+        return;
+    }
+    match divider.order {
+        None => digest.word(0),
+        Some(Order::Divide { axis }) => digest.vector(axis.unwrap_or(Vec2::NAN)),
+        Some(Order::Fuse { with }) => digest.words([with.index, with.generation]),
+    }
+    if let Some(Furrow { nodes, width, elapsed }) = divider.furrow {
+        digest.words(nodes);
+        digest.float(width);
+        digest.float(elapsed);
+    }
+    digest.float(divider.lobes);
+    digest.float(divider.nodes_per_root.unwrap_or(f32::NAN));
+    digest.words(divider.wanted_nodes);
 }
 
 fn digest_controller(controller: &Controller, digest: &mut Digest) {

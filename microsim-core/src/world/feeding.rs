@@ -1,28 +1,24 @@
-//! Carries out what phagocytosis decides: encounters are counted, gates opened and closed, prey is drawn in, shrunk,
-//! digested and removed, and its engulfer grows.
+//! Carries out what phagocytosis decides: encounters are counted, prey is taken in (see [`super::ingestion`]), digested and
+//! removed, and its engulfer grows.
 
 use super::World;
 use super::touching::NearPair;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::behavior::heading;
 use crate::capability::Locomotion;
-use crate::capability::phagocytosis::{Encounter, Engulfer, Meal, MealPhase, PreyClass};
+use crate::capability::phagocytosis::{Encounter, Engulfer, IngestionWay, Meal, MealPhase};
 use crate::event::Event;
-use crate::geometry::polygon::{contains_point, nearest_on_segment};
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
 use crate::solver::fluid::rest_area;
 use crate::solver::lanes::LANES;
 use glam::Vec2;
+use std::f32::consts::PI;
 
-/// Prey has shrunk to its scale for ingestion at this share of the time limit.
-const SHRUNK_BY: f32 = 0.6;
 /// Size to which digestion shrinks prey before it is freed, relative to its size when it was taken in.
 const DIGESTED_SCALE: f32 = 0.25;
 /// Gap at which two discs still count as touching, as a share of the smaller one's radius.
 const TOUCH_GAP: f32 = 0.5;
-/// Share of a node's radius by which prey may still overlap the membrane when it counts as inside.
-const OVERLAP: f32 = 0.25;
 
 impl World {
     /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
@@ -37,13 +33,20 @@ impl World {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
             self.drop_lost_meals(&mut engulfer);
             for k in engulfer.touch(&self.encounters(id), self.config.dt) {
-                self.open_gate(id, &mut engulfer.meals[k]);
+                self.begin_ingestion(id, &mut engulfer.meals[k], engulfer.params.way);
             }
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
-            engulfer.held_area = self.held_area(&engulfer);
+            let is_folded = engulfer.fold_length > 0.0;
+            let is_rid = self.advance_phagosomes(id, &engulfer);
+            engulfer.held_area = self.held_area(id, &engulfer);
+            engulfer.fold_length = self.fold_length(id, &engulfer);
+            let has_spare_nodes = is_rid || (is_folded && engulfer.fold_length == 0.0);
             if let Some(organism) = self.organisms.get_mut(id) {
                 organism.engulfer = Some(engulfer);
+                if has_spare_nodes {
+                    organism.adapt_nodes(&self.fluids);
+                }
             }
             self.grow_pending(id);
         }
@@ -117,71 +120,7 @@ impl World {
     /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
     fn engulfer_area(&self, organism: &Organism) -> f32 {
         let radius = |&i: &u32| self.particles.radius[i as usize];
-        organism.fluid_particles.iter().map(radius).map(|r| std::f32::consts::PI * r * r).sum()
-    }
-
-    fn open_gate(&mut self, id: OrganismId, meal: &mut Meal) {
-        meal.gate = self.organisms.get(id).map_or(Vec::new(), front_nodes);
-        self.exemptions.open_gate(&meal.gate, meal.prey.index);
-        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(Some(id)));
-        self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
-    }
-
-    fn advance_ingestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
-        let Some(organism) = self.organisms.get(id) else { return };
-        let outline: Vec<Vec2> = organism.outline_particles().map(|i| self.particles.position(i as usize)).collect();
-        let node_radius = organism.body.membrane().map_or(0.0, |membrane| membrane.node_radius);
-        let clearance = node_radius * (1.0 - OVERLAP);
-        let params = engulfer.params;
-        engulfer.meals.retain_mut(|meal| {
-            let MealPhase::Ingesting(elapsed) = meal.phase else { return true };
-            let elapsed = elapsed + self.config.dt;
-            meal.phase = MealPhase::Ingesting(elapsed);
-            if meal.class == PreyClass::Soft {
-                let part = elapsed / (SHRUNK_BY * params.time_limit);
-                self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
-            }
-            self.widen_gate(id, meal);
-            match self.place_of_prey(meal.prey, &outline, clearance) {
-                Place::Inside => self.complete(id, meal),
-                Place::Outside if elapsed >= params.time_limit => {
-                    self.release(id, meal);
-                    return false;
-                }
-                Place::Outside | Place::Between => {}
-            }
-            true
-        });
-    }
-
-    /// Closes the gate behind prey that is inside.
-    fn complete(&mut self, id: OrganismId, meal: &mut Meal) {
-        self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        meal.gate.clear();
-        meal.phase = MealPhase::Ingested;
-        self.events.push(Event::Ingested { engulfer: id, prey: meal.prey });
-    }
-
-    /// Opens the gate to the nodes next to the prey: it may have slid along the membrane since the gate was opened.
-    fn widen_gate(&mut self, id: OrganismId, meal: &mut Meal) {
-        let (Some(engulfer), Some(prey)) = (self.organisms.get(id), self.organisms.get(meal.prey)) else { return };
-        let p = &self.particles;
-        let margin = 2.0 * self.config.reach();
-        let discs: Vec<usize> = prey.particles().map(|i| i as usize).filter(|&i| p.inv_mass[i] > 0.0).collect();
-        let is_near =
-            |node: usize| discs.iter().any(|&i| p.between(node, i).length() < p.radius[node] + p.radius[i] + margin);
-        let nodes = engulfer.outline_particles().filter(|node| !meal.gate.contains(node) && is_near(*node as usize));
-        let nodes: Vec<u32> = nodes.collect();
-        self.exemptions.open_gate(&nodes, meal.prey.index);
-        meal.gate.extend(nodes);
-    }
-
-    /// Closes the gate behind prey that stayed outside.
-    fn release(&mut self, id: OrganismId, meal: &Meal) {
-        self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        self.set_scale(meal.prey, 1.0);
-        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(None));
-        self.events.push(Event::Released { engulfer: id, prey: meal.prey });
+        organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()
     }
 
     fn advance_digestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
@@ -191,16 +130,14 @@ impl World {
         let params = engulfer.params;
         let mut eaten = 0.0;
         for meal in &mut engulfer.meals {
-            let (progress, time) = match (meal.phase, meal.class) {
-                (MealPhase::Ingested, class) => (0.0, params.digestion_time[class as usize]),
-                (MealPhase::Digesting(progress), class) => (progress, params.digestion_time[class as usize]),
-                _ => continue,
+            let before = match meal.phase {
+                MealPhase::Ingested => 0.0,
+                MealPhase::Digesting(progress) => progress,
+                MealPhase::Touching(_) | MealPhase::Ingesting(_) => continue,
             };
-            let progress = progress + self.config.dt / time;
+            let progress = before + self.config.dt / params.digestion_time[meal.class as usize];
             meal.phase = MealPhase::Digesting(progress);
-            let full = if meal.class == PreyClass::Soft { params.soft_prey_scale } else { 1.0 };
-            let part = if progress < 1.0 { progress } else { 1.0 };
-            self.set_scale(meal.prey, full * (1.0 + (DIGESTED_SCALE - 1.0) * part));
+            self.shrink(meal.prey, digested_scale(progress) / digested_scale(before));
             if progress >= 1.0 {
                 eaten += self.consume(id, meal.prey);
             }
@@ -209,14 +146,21 @@ impl World {
         engulfer.pending_growth += eaten * params.growth_yield;
     }
 
-    /// Area of everything that an engulfer holds or takes in.
-    fn held_area(&self, engulfer: &Engulfer) -> f32 {
-        let held = engulfer.meals.iter().filter(|meal| !matches!(meal.phase, MealPhase::Touching(_)));
-        held.filter_map(|meal| self.organisms.get(meal.prey)).map(|prey| prey.spawn_area * self.shrinkage(prey)).sum()
+    /// Area of everything that an engulfer holds, phagosomes included, or lets through its gate.
+    pub(super) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
+        let is_gate = engulfer.params.way == IngestionWay::Gate;
+        let goes_in = |meal: &&Meal| is_gate && matches!(meal.phase, MealPhase::Ingesting(_));
+        let held = engulfer.meals.iter().filter(|meal| meal.phase.is_inside() || goes_in(meal));
+        let areas = held.map(|meal| self.area_of(meal.prey));
+        if is_gate {
+            return areas.sum();
+        }
+        let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
+        areas.map(|area| (area / PI).sqrt() + 2.0 * node_radius).map(|radius| PI * radius * radius).sum()
     }
 
     /// Present area of an organism over its area when spawned.
-    fn shrinkage(&self, organism: &Organism) -> f32 {
+    pub(super) fn shrinkage(&self, organism: &Organism) -> f32 {
         let factor = self.scale_of(organism) / organism.spawn_scale;
         factor * factor
     }
@@ -246,25 +190,20 @@ impl World {
         let _ = self.grow(id, nodes, 1);
     }
 
-    /// Where all discs of prey lie with respect to an outline whose inner edge is `clearance` inside its line.
-    fn place_of_prey(&self, prey: OrganismId, outline: &[Vec2], clearance: f32) -> Place {
-        let Some(organism) = self.organisms.get(prey) else { return Place::Outside };
-        let (mut inside, mut outside) = (true, true);
-        for i in organism.particles().map(|i| i as usize).filter(|&i| self.particles.inv_mass[i] > 0.0) {
-            let position = self.particles.position(i);
-            let is_within = contains_point(outline, position);
-            inside &= is_within && gap(outline, position) >= self.particles.radius[i] + clearance;
-            outside &= !is_within;
-        }
-        match (inside, outside) {
-            (true, _) => Place::Inside,
-            (_, true) => Place::Outside,
-            _ => Place::Between,
-        }
+    /// The discs of an organism that can move.
+    pub(super) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
+        let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
+        particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
+    }
+
+    /// Multiplies the present size of a templated organism.
+    fn shrink(&mut self, id: OrganismId, factor: f32) {
+        let present = self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale);
+        self.set_scale(id, present * factor);
     }
 
     /// Sets the size of a templated organism relative to its size when spawned.
-    fn set_scale(&mut self, id: OrganismId, factor: f32) {
+    pub(super) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
         let Body::Lane { block, first } = organism.body else { return };
         let block = &mut self.blocks[block as usize];
@@ -276,25 +215,13 @@ impl World {
     }
 }
 
-/// Where prey is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
-    Inside,
-    Outside,
-    Between,
-}
-
-/// Distance of a point from a polygon's edges.
-fn gap(outline: &[Vec2], point: Vec2) -> f32 {
-    let edge = |k: usize| nearest_on_segment(outline[k], outline[(k + 1) % outline.len()], point);
-    (0..outline.len()).fold(f32::INFINITY, |least, k| {
-        let distance = (edge(k) - point).length();
-        if distance < least { distance } else { least }
-    })
+/// Size of prey that is digested so far, relative to its size when it was taken in.
+fn digested_scale(progress: f32) -> f32 {
+    1.0 + (DIGESTED_SCALE - 1.0) * if progress < 1.0 { progress } else { 1.0 }
 }
 
 /// Particles of the front, sorted; none at rest.
-fn front_nodes(organism: &Organism) -> Vec<u32> {
+pub(super) fn front_nodes(organism: &Organism) -> Vec<u32> {
     let Locomotion::Crawl { front_centre: Some(front) } = organism.locomotion else { return Vec::new() };
     let count = organism.outline.len() as u32;
     let is_front = |k: u32| region(k, front, count) == MembraneRegion::Front;

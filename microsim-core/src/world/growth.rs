@@ -5,10 +5,11 @@ use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::contains_point;
 use crate::geometry::ring::unit_vector;
 use crate::id::OrganismId;
-use crate::organism::{Body, Organism};
+use crate::organism::Organism;
+use crate::organism::ring_surgery::insert_node;
 use crate::particle::{Particle, Particles};
 use crate::solver::fluid::rest_area;
-use crate::solver::membrane::{STRAIN_LIMIT, links};
+use crate::solver::membrane::STRAIN_LIMIT;
 use crate::template::Role;
 use glam::Vec2;
 
@@ -39,6 +40,9 @@ impl World {
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
         }
+        if let Some(wanted) = organism.divider.as_mut().and_then(|divider| divider.wanted_nodes.as_mut()) {
+            *wanted += nodes;
+        }
         let fluid = &mut self.fluids[fluid as usize];
         let added = inject(organism, particles, fluid.params.spacing, &mut self.particles);
         fluid.particles.extend(added);
@@ -55,27 +59,6 @@ fn check_room(organism: &Organism, spacing: f32, nodes: u32, particles: u32) -> 
     let count = organism.fluid_particles.len() as f32 + particles as f32;
     let accepted = || format!("at most {} in all with {nodes} new nodes", most as u32);
     (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
-}
-
-/// Puts a node like its neighbours into the longest link. The link is replaced by two of the same rest length.
-fn insert_node(organism: &mut Organism, p: &mut Particles) {
-    let length = |(a, b): (u32, u32)| p.between(a as usize, b as usize).length_squared();
-    let longest = links(&organism.outline)
-        .enumerate()
-        .fold((0, 0.0), |best, (k, link)| if length(link) > best.1 { (k, length(link)) } else { best });
-    let k = longest.0;
-    let (a, b) = (organism.outline[k] as usize, organism.outline[(k + 1) % organism.outline.len()] as usize);
-    let like = p.get(a);
-    let node = p.insert(&Particle {
-        offset: like.offset + p.between(a, b) * 0.5,
-        velocity: (p.velocity(a) + p.velocity(b)) * 0.5,
-        ..like
-    });
-    organism.outline.insert(k + 1, node);
-    if let Body::Loose { particles, .. } = &mut organism.body {
-        particles.push(node);
-    }
-    p.link_ring(&organism.outline);
 }
 
 /// Puts new cytoplasm near the centroid and returns its particles.

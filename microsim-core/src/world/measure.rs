@@ -125,7 +125,7 @@ impl World {
     }
 
     /// Position of the nucleus, or of the first particle.
-    fn centre_of(&self, organism: &Organism) -> Vec2 {
+    pub(super) fn centre_of(&self, organism: &Organism) -> Vec2 {
         let is_nucleus = |&i: &usize| self.particles.role[i] == Role::Nucleus as u8;
         let mut particles = organism.particles().map(|i| i as usize);
         let first = organism.first_node().map_or(0, |i| i as usize);

@@ -1,9 +1,13 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+mod cup;
 pub(crate) mod digest;
+mod division;
 mod feeding;
+mod fusion;
 mod growth;
+mod ingestion;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
 pub(crate) mod named_measure;
@@ -11,6 +15,7 @@ pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
+mod rewire;
 mod spawn;
 pub(crate) mod touching;
 pub(crate) mod view;
@@ -28,6 +33,7 @@ use crate::organism::table::Organisms;
 use crate::particle::{Material, Particles};
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
+use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::Fluid;
 use crate::step::{self, Phase};
@@ -74,6 +80,7 @@ pub(crate) struct Guard {
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
     pub drives: Vec<Drive>,
+    pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
 }
 

@@ -1,6 +1,7 @@
 //! Putting organisms into the world and taking them out. Everything is checked before anything changes.
 
 use super::World;
+use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
@@ -9,7 +10,7 @@ use crate::organism::{Blueprint, Body, FluidPlan, Organism, OrganismSpec, Placem
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
-use crate::solver::fluid::Fluid;
+use crate::solver::fluid::{Fluid, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
 use crate::template::{Node, Role, Template};
@@ -102,11 +103,13 @@ impl World {
             locomotion: blueprint.locomotion,
             speed: blueprint.speed,
             controller: placement.controller,
-            rng: Rng::new(self.config.seed, (u64::from(id.generation) << 32) | u64::from(id.index)),
+            rng: Rng::new(self.config.seed, id.stream()),
             spawn_area: blueprint.area * placement.scale * placement.scale,
             spawn_scale: scale,
             engulfer: blueprint.engulfer.map(Engulfer::new),
             prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
+            phagosomes: Vec::new(),
+            divider: blueprint.divider.map(Divider::new),
             goal: None,
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
@@ -208,20 +211,26 @@ impl World {
         let Some(plan) = plan else {
             return (None, Vec::new());
         };
-        let mixes = |fluid: &Fluid| {
-            let is_same = !plan.is_enclosed && fluid.params == plan.params && !fluid.is_enclosed;
-            is_same || fluid.particles.is_empty()
-        };
-        let index = self.fluids.iter().position(mixes).unwrap_or(self.fluids.len());
-        if index == self.fluids.len() {
-            self.fluids.push(Fluid::new(plan.params, plan.is_enclosed));
-        } else if self.fluids[index].particles.is_empty() {
-            self.fluids[index] = Fluid::new(plan.params, plan.is_enclosed);
-        }
+        let index = self.fluid_for(plan.params, plan.is_enclosed);
         let in_fluid = |particle: &Particle| Particle { fluid: index as u32 + 1, ..*particle };
         let particles: Vec<u32> = planned.iter().map(|p| self.particles.insert(&in_fluid(p))).collect();
         self.fluids[index].particles.extend(&particles);
         (Some(index as u32), particles)
+    }
+
+    /// The fluid that new particles mix with, or an empty one of their own.
+    pub(super) fn fluid_for(&mut self, params: FluidParams, is_enclosed: bool) -> usize {
+        let mixes = |fluid: &Fluid| {
+            let is_same = !is_enclosed && fluid.params == params && !fluid.is_enclosed;
+            is_same || fluid.particles.is_empty()
+        };
+        let index = self.fluids.iter().position(mixes).unwrap_or(self.fluids.len());
+        if index == self.fluids.len() {
+            self.fluids.push(Fluid::new(params, is_enclosed));
+        } else if self.fluids[index].particles.is_empty() {
+            self.fluids[index] = Fluid::new(params, is_enclosed);
+        }
+        index
     }
 }
 
@@ -233,6 +242,7 @@ impl Blueprint {
             area: crate::geometry::polygon::signed_area(&outline),
             engulfer: None,
             prey: None,
+            divider: None,
             kind: Kind::Custom,
             template: Some(template),
             scale: 1.0,

@@ -113,6 +113,19 @@ impl<'a> OrganismView<'a> {
         self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
     }
 
+    /// Its phagosomes: the prey in each, and the centres of the membrane around it, counter-clockwise. Only cups make them,
+    /// see [`crate::IngestionWay`].
+    pub fn phagosomes(self) -> impl Iterator<Item = (OrganismId, Vec<Vec2>)> + 'a {
+        let at = move |&i: &u32| self.world.particles.position(i as usize);
+        self.organism.phagosomes.iter().map(move |inner| (inner.prey, inner.ring.iter().map(at).collect()))
+    }
+
+    /// How far its division has come: time since the furrow began, s; `None` if it is not dividing.
+    #[must_use]
+    pub fn dividing_for(self) -> Option<f32> {
+        self.organism.furrow().map(|furrow| furrow.elapsed)
+    }
+
     /// Who has taken it in, or is about to.
     #[must_use]
     pub fn held_by(self) -> Option<OrganismId> {

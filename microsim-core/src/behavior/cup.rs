@@ -1,0 +1,155 @@
+//! The phagocytic cup: the membrane folds around prey that is drawn in, and its lips close behind it.
+//!
+//! ```text
+//!        lip  \           / lip          lips are driven around the prey until they are past it,
+//!              \  (prey) /               then drawn together across the mouth
+//!     cell      \_______/      cell
+//!                bottom
+//! ```
+
+use super::{heading, place};
+use crate::capability::phagocytosis::{Engulfer, IngestionWay, MealPhase};
+use crate::organism::Organism;
+use crate::organism::table::Organisms;
+use crate::particle::Particles;
+use crate::solver::contraction::Contraction;
+use crate::solver::drive::Drive;
+use glam::Vec2;
+
+/// Gap up to which a node counts as lying against the prey, in node radii.
+const GRIP: f32 = 0.9;
+/// Nodes of each lip that are driven, from the last that lies against the prey outwards.
+const LIP: usize = 5;
+/// Lips closer than this, in rest lengths, close pair by pair from the prey outwards.
+const NARROW: f32 = 3.0;
+
+/// Where a membrane lies around prey: positions in the outline, counted on beyond its end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fold {
+    /// The deepest node.
+    pub bottom: usize,
+    /// Last nodes that lie against the prey, before and after the bottom: so many places away from it.
+    pub before: usize,
+    pub after: usize,
+    /// Out of the cell.
+    pub mouth: Vec2,
+}
+
+impl Fold {
+    /// The fold of a membrane around prey.
+    pub(crate) fn find(organism: &Organism, prey: &Organism, p: &Particles) -> Option<Self> {
+        let (ring, count) = (&organism.outline, organism.outline.len());
+        let mouth = heading(place(prey, p) - place(organism, p));
+        let deepest = |&(best, least): &(usize, f32), k: usize| {
+            let (gap, away) = nearest(prey, ring[k] as usize, p);
+            // What lies on the cell's side of the prey comes before what lies beside it.
+            let depth = gap + away.dot(mouth) * p.radius[ring[k] as usize];
+            if depth < least { (k, depth) } else { (best, least) }
+        };
+        let (bottom, _) = (0..count).fold((0, f32::INFINITY), |best, k| deepest(&best, k));
+        let lies_against = |k: usize| {
+            let node = ring[k % count] as usize;
+            nearest(prey, node, p).0 < GRIP * p.radius[node]
+        };
+        let most = count / 3;
+        let before = (1..most).take_while(|&step| lies_against(bottom + count - step)).count();
+        let after = (1..most).take_while(|&step| lies_against(bottom + step)).count();
+        Some(Self { bottom, before, after, mouth })
+    }
+}
+
+/// Gap between a node and the nearest disc of prey, and the unit vector from that disc to the node.
+fn nearest(prey: &Organism, node: usize, p: &Particles) -> (f32, Vec2) {
+    let mut best = (f32::INFINITY, Vec2::ZERO);
+    for i in prey.particles().map(|i| i as usize).filter(|&i| p.inv_mass[i] > 0.0) {
+        let away = p.between(i, node);
+        let gap = away.length() - p.radius[i] - p.radius[node];
+        if gap < best.0 {
+            best = (gap, away);
+        }
+    }
+    (best.0, heading(best.1))
+}
+
+/// Drives the lips of every cup.
+pub(crate) fn drive_lips(
+    organisms: &Organisms,
+    particles: &Particles,
+    drives: &mut Vec<Drive>,
+    contractions: &mut Vec<Contraction>,
+) {
+    for (_, organism) in organisms.iter() {
+        let Some(engulfer) = organism.engulfer.as_ref().filter(|e| e.params.way == IngestionWay::Cup) else { continue };
+        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
+        for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
+            let Some(fold) = Fold::find(organism, prey, particles) else { continue };
+            let cup = Cup { organism, engulfer, prey, particles, fold };
+            if cup.is_past_prey() {
+                cup.close(contractions);
+            } else {
+                cup.advance(drives);
+            }
+        }
+    }
+}
+
+/// One cup in one step.
+struct Cup<'a> {
+    organism: &'a Organism,
+    engulfer: &'a Engulfer,
+    prey: &'a Organism,
+    particles: &'a Particles,
+    fold: Fold,
+}
+
+impl Cup<'_> {
+    /// The node so many places beyond the last one that lies against the prey, on either side.
+    fn lip(&self, is_after: bool, step: usize) -> u32 {
+        let count = self.organism.outline.len();
+        let Fold { bottom, before, after, .. } = self.fold;
+        let k = if is_after { bottom + after + step } else { bottom + 2 * count - before - step };
+        self.organism.outline[k % count]
+    }
+
+    /// Whether both lips have passed the prey's widest place.
+    fn is_past_prey(&self) -> bool {
+        [false, true].into_iter().all(|is_after| {
+            let (_, away) = nearest(self.prey, self.lip(is_after, 0) as usize, self.particles);
+            away.dot(self.fold.mouth) > 0.0
+        })
+    }
+
+    /// Moves the lips along the prey's surface towards the mouth.
+    fn advance(&self, drives: &mut Vec<Drive>) {
+        let (ring, Fold { bottom, before, after, mouth }) = (&self.organism.outline, self.fold);
+        let inwards = -mouth * self.engulfer.params.pull_speed;
+        for k in bottom + ring.len() - before..=bottom + ring.len() + after {
+            let particle = ring[k % ring.len()];
+            drives.push(Drive { particle, velocity: inwards, max_acceleration: f32::INFINITY });
+        }
+        for (is_after, step) in [false, true].into_iter().flat_map(|side| (0..LIP).map(move |step| (side, step))) {
+            let particle = self.lip(is_after, step);
+            let (gap, away) = nearest(self.prey, particle as usize, self.particles);
+            // Counter-clockwise around the prey before the bottom of the fold, clockwise after it.
+            let along = if is_after { -away.perp() } else { away.perp() };
+            let nearer = gap / self.particles.radius[particle as usize];
+            let way = along - away * if nearer < 1.0 { nearer } else { 1.0 };
+            let velocity = heading(way) * self.engulfer.params.lip_speed;
+            drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
+        }
+    }
+
+    /// Draws the lips together: all pairs across a wide mouth, in a narrow one each when the pair before it is shut.
+    fn close(&self, contractions: &mut Vec<Contraction>) {
+        let rest_length = self.organism.body.membrane().map_or(1.0, |membrane| membrane.rest_length);
+        let mut inner = 0.0;
+        for step in 0..LIP {
+            let (a, b) = (self.lip(false, step), self.lip(true, step));
+            let width = self.particles.between(a as usize, b as usize).length() / rest_length;
+            if width > NARROW || inner < self.engulfer.params.closing_length {
+                contractions.push(Contraction { a, b, speed: 2.0 * self.engulfer.params.lip_speed });
+            }
+            inner = width;
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Division and fusion of cells with a membrane, as what a cell carries: parameters, the state machine's place, and how
+//! many nodes its membrane should have.
+//!
+//! ```text
+//!            asked, nothing against it                    furrow closed
+//!   (rest) ------------------------> furrow closes ---------------------> two cells at rest
+//!      ^ refused                         |
+//!      +---------------------------------+ time limit over, or frozen: abandoned
+//! ```
+
+use crate::error::{Error, count_in_range, in_range};
+use crate::id::OrganismId;
+use glam::Vec2;
+
+/// Circles that a membrane can go round at most while its furrow closes: the neck takes more than two circles need.
+const LOBES_AT_CLOSING: f32 = 3.0;
+/// Time in which the membrane of two fused cells shortens from two circles to one, s.
+const ROUNDING_TIME: f32 = 2.0;
+
+/// How an amoeboid cell divides and fuses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DivisionParams {
+    /// Speed with which each side of the furrow moves towards the other, units/s, 0.1 to 20.
+    pub furrow_speed: f32,
+    /// Longest link that may close a ring when two links are swapped, in rest lengths, 1 to 1.5. Two cells fuse when their
+    /// membranes are that near.
+    pub closing_length: f32,
+    /// Time after which a furrow that has not closed is abandoned, s, 0.1 to 600.
+    pub time_limit: f32,
+    /// Fewest particles of cytoplasm that a lobe must hold, 7 to 1 000 000.
+    pub least_particles: u32,
+    /// Fewest membrane nodes of a lobe, 8 to 4096.
+    pub least_nodes: u32,
+}
+
+impl Default for DivisionParams {
+    fn default() -> Self {
+        Self { furrow_speed: 3.0, closing_length: 1.4, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
+    }
+}
+
+impl DivisionParams {
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        in_range("furrow_speed", self.furrow_speed, 0.1, 20.0)?;
+        in_range("closing_length", self.closing_length, 1.0, 1.5)?;
+        in_range("time_limit", self.time_limit, 0.1, 600.0)?;
+        count_in_range("least_particles", self.least_particles, 7, 1_000_000)?;
+        count_in_range("least_nodes", self.least_nodes, 8, 4096)
+    }
+}
+
+/// What a cell is told to do with the next step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Order {
+    /// Divide along this axis, or along its longest one.
+    Divide { axis: Option<Vec2> },
+    /// Fuse with another cell.
+    Fuse { with: OrganismId },
+}
+
+/// A furrow that is closing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Furrow {
+    /// The membrane nodes at its bottom, on both sides.
+    pub nodes: [u32; 2],
+    /// How far they were apart when it began.
+    pub width: f32,
+    /// For so long, s.
+    pub elapsed: f32,
+}
+
+/// The capability to divide and to fuse.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Divider {
+    pub params: DivisionParams,
+    pub order: Option<Order>,
+    pub furrow: Option<Furrow>,
+    /// Circles that the membrane is to go round: 1 at rest, more while a furrow closes and for a while after a fusion.
+    pub lobes: f32,
+    /// Membrane nodes over the square root of the content in particles of cytoplasm, once a division, fusion or cup has made
+    /// it necessary: what both cells of a division need, and what makes their fusion give the first count back.
+    pub nodes_per_root: Option<f32>,
+    /// Number of nodes that the membrane is on its way to, one a step.
+    pub wanted_nodes: Option<u32>,
+}
+
+impl Divider {
+    pub(crate) fn new(params: DivisionParams) -> Self {
+        Self { params, order: None, furrow: None, lobes: 1.0, nodes_per_root: None, wanted_nodes: None }
+    }
+
+    /// Moves the membrane's length towards what the furrow needs, or back to one circle.
+    pub(crate) fn relax(&mut self, dt: f32) {
+        let (target, rate) = match self.furrow {
+            Some(furrow) => (LOBES_AT_CLOSING, 2.0 * self.params.furrow_speed / furrow.width),
+            None => (1.0, 1.0 / ROUNDING_TIME),
+        };
+        let way = target - self.lobes;
+        let most = rate * dt;
+        self.lobes = if way.abs() <= most { target } else { self.lobes + most.copysign(way) };
+    }
+
+    /// Forgets the furrow that has closed; each lobe has half of the membrane.
+    pub(crate) fn end(&mut self) {
+        self.furrow = None;
+        self.lobes = if self.lobes > 2.0 { 0.5 * self.lobes } else { 1.0 };
+    }
+}
