@@ -61,7 +61,7 @@
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
 //! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
-//! place of what its controller wants.
+//! place of what its controller wants; what follows another one rests when somebody takes that in.
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 

@@ -57,7 +57,7 @@ enum Action {
 enum Goal {
     Rest,
     Point(Vec2),
-    /// Wherever this one is, as long as there is one.
+    /// Wherever this one is, until somebody takes it in.
     Organism(String),
 }
 
@@ -108,7 +108,9 @@ impl Script {
             let place = match goal {
                 Goal::Rest => None,
                 Goal::Point(point) => Some(*point),
-                Goal::Organism(name) => self.organism(name).and_then(|id| world.centroid(id)),
+                Goal::Organism(name) => {
+                    self.organism(name).filter(|&id| is_free(id, world)).and_then(|id| world.centroid(id))
+                }
             };
             let way = place.and_then(|place| Intent::toward(place).ok());
             self.inputs.set(*organism, way.unwrap_or(Intent::REST).digesting(*digests));
@@ -153,6 +155,10 @@ impl Script {
             self.refusals.push(Refusal { command, step, time, error });
         }
     }
+}
+
+fn is_free(id: OrganismId, world: &World) -> bool {
+    world.view().organism(id).is_some_and(|organism| organism.held_by().is_none())
 }
 
 impl Command {
