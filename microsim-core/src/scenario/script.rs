@@ -194,7 +194,7 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Ve
 fn read_command(fields: &mut Fields<'_>, named: &[(&str, &Group)], duration: f32) -> Option<Command> {
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
-    let every = fields.has("every").then(|| fields.number("every", 1.0, [0.001, 1e6]));
+    let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
     let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
     let path = fields.path.clone();
     let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
@@ -245,13 +245,11 @@ fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
 }
 
 fn grow(fields: &mut Fields<'_>) -> Option<Action> {
-    if !fields.has("grow") {
-        return None;
-    }
+    let is_asked = fields.has("grow");
     let mut amount = fields.table("grow");
     let (nodes, particles) = (amount.or("nodes", 0), amount.or("particles", 0));
     amount.finish();
-    Some(Action::Grow { nodes, particles })
+    is_asked.then_some(Action::Grow { nodes, particles })
 }
 
 /// `true`, the only value of a field that stands for an action without more to say.
