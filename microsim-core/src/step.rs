@@ -1,6 +1,6 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{constrict, cup, draw_in_prey, steer_organisms};
+use crate::behavior::{constrict, cup, draw_in_prey, engulfers, steer_organisms};
 use crate::capability::controller;
 use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
@@ -101,7 +101,8 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
 
 fn steer(world: &mut World, inputs: &Inputs) {
     let World { config, particles, organisms, fluids, events, scratch, .. } = world;
-    let surroundings = controller::Surroundings { size: config.size, dt: config.dt };
+    let engulfers = engulfers(organisms, particles);
+    let surroundings = controller::Surroundings { size: config.size, dt: config.dt, engulfers };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();

@@ -5,7 +5,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 #![cfg(feature = "scenario")]
 
-use microsim_core::scenario::{Scenario, builtin, builtins};
+use microsim_core::scenario::{Built, Scenario, builtin, builtins};
 use microsim_core::{Inputs, World};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -24,11 +24,13 @@ fn golden_file(name: &str) -> PathBuf {
 
 /// Digests and counts after some numbers of steps, a line each.
 fn history(name: &str) -> String {
-    let mut world = build(name, None);
+    let scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+    let Built { mut world, mut script, .. } = scenario.build().unwrap();
     let mut lines = String::new();
     for steps in STEPS {
         while world.step_index() < u64::from(steps) {
-            world.step(&Inputs::new());
+            let inputs = script.before_step(&mut world);
+            world.step(inputs);
         }
         let census = world.census();
         writeln!(lines, "step {steps} particles {} digest {:016x}", census.particles, world.digest()).unwrap();

@@ -330,8 +330,8 @@ fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
 #[test]
 fn t44_retreat_and_another_try_take_it_in() {
     let weak = PhagocytosisParams {
-        pull_speed: 0.1,
-        pull_acceleration: 1.0,
+        pull_speed: 2.0,
+        pull_acceleration: 50.0,
         time_limit: 0.5,
         ..PhagocytosisParams::default()
     };

@@ -121,7 +121,7 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
         "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\nrest = true\ngole = [1, 1]",
         15,
         "command.0.gole",
-        "goal, follow, rest, digest, grow",
+        "at, of, every, until, goal, follow, rest, digest, grow",
     ),
     // Checks and commands that mean nothing.
     ("[invariants]\nleaks = 'none'", 10, "invariants.leaks", "the most that it may be, or [least, most]"),

@@ -31,13 +31,19 @@ pub(crate) fn steer_organisms(
             continue;
         }
         let at = place(organism, particles);
-        let own = organism.controller.advance(at, &mut organism.rng, surroundings);
+        let own = organism.controller.advance(id, at, &mut organism.rng, surroundings);
         let intent = inputs.get(id);
         let goal = intent.map_or(own, |intent| intent.goal());
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
         organism.goal = goal.filter(|_| may_move);
         move_towards(id, organism, particles, drives, events);
     }
+}
+
+/// All organisms that take others in, and where they are.
+pub(crate) fn engulfers(organisms: &Organisms, particles: &Particles) -> Vec<(OrganismId, Vec2)> {
+    let engulfers = organisms.iter().filter(|(_, organism)| organism.engulfer.is_some());
+    engulfers.map(|(id, organism)| (id, place(organism, particles))).collect()
 }
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).

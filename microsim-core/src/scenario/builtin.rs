@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 4] = [
+const BUILTINS: [Builtin; 10] = [
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
@@ -31,6 +31,36 @@ const BUILTINS: [Builtin; 4] = [
         name: "empty",
         summary: "an empty room, to start from",
         text: include_str!("../../scenarios/empty.toml"),
+    },
+    Builtin {
+        name: "absorb-agar",
+        summary: "a cell hunts down agar among platelets and takes it in",
+        text: include_str!("../../scenarios/absorb-agar.toml"),
+    },
+    Builtin {
+        name: "absorb-rigid",
+        summary: "a cell hunts down a rigid cell among platelets and takes it in",
+        text: include_str!("../../scenarios/absorb-rigid.toml"),
+    },
+    Builtin {
+        name: "grow",
+        summary: "a cell eats agar, digests it and grows",
+        text: include_str!("../../scenarios/grow.toml"),
+    },
+    Builtin {
+        name: "squeeze",
+        summary: "a cell squeezes through a gap of half its diameter",
+        text: include_str!("../../scenarios/squeeze.toml"),
+    },
+    Builtin {
+        name: "leak-stress",
+        summary: "a growing cell thrashes about among platelets and must not leak",
+        text: include_str!("../../scenarios/leak-stress.toml"),
+    },
+    Builtin {
+        name: "ram-stress",
+        summary: "rigid cells and probes ram a cell from all sides; nothing gets in but by ingestion",
+        text: include_str!("../../scenarios/ram-stress.toml"),
     },
 ];
 

@@ -5,6 +5,7 @@ use super::source::{Value, unknown};
 use crate::event::Event;
 use crate::{Measure, World};
 use std::fmt;
+use toml::de::DeValue;
 
 /// What must hold while a scenario runs. Show it the world after every step.
 ///
@@ -179,10 +180,10 @@ impl Read for Range {
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        let range = if value.get_ref().is_array() {
-            <[f32; 2]>::read(value, path, report)?.map(f64::from)
-        } else {
-            [f64::NEG_INFINITY, f32::read(value, path, report)?.into()]
+        let range = match value.get_ref() {
+            DeValue::Array(_) => <[f32; 2]>::read(value, path, report)?.map(f64::from),
+            DeValue::Integer(_) | DeValue::Float(_) => [f64::NEG_INFINITY, f32::read(value, path, report)?.into()],
+            _ => return mismatch(value, path, report),
         };
         if range[0] <= range[1] { Some(Self(range)) } else { mismatch(value, path, report) }
     }

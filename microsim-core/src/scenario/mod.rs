@@ -47,6 +47,8 @@
 //! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
 //! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
+//! | `[thrash.NAME]` | `interval`, `reversal = 1.0` (see [`Controller::Thrash`](crate::Controller)) |
+//! | `[ram.NAME]` | `charge`, `retreat`, `distance` (see [`Controller::Ram`](crate::Controller)) |
 //! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false` |
 //! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
 //! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
@@ -59,7 +61,7 @@
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
 //! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
-//! place of what its controller wants.
+//! place of what its controller wants; what follows another one rests when somebody takes that in.
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 

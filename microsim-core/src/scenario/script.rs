@@ -57,7 +57,7 @@ enum Action {
 enum Goal {
     Rest,
     Point(Vec2),
-    /// Wherever this one is, as long as there is one.
+    /// Wherever this one is, until somebody takes it in.
     Organism(String),
 }
 
@@ -108,7 +108,9 @@ impl Script {
             let place = match goal {
                 Goal::Rest => None,
                 Goal::Point(point) => Some(*point),
-                Goal::Organism(name) => self.organism(name).and_then(|id| world.centroid(id)),
+                Goal::Organism(name) => {
+                    self.organism(name).filter(|&id| is_free(id, world)).and_then(|id| world.centroid(id))
+                }
             };
             let way = place.and_then(|place| Intent::toward(place).ok());
             self.inputs.set(*organism, way.unwrap_or(Intent::REST).digesting(*digests));
@@ -155,6 +157,10 @@ impl Script {
     }
 }
 
+fn is_free(id: OrganismId, world: &World) -> bool {
+    world.view().organism(id).is_some_and(|organism| organism.held_by().is_none())
+}
+
 impl Command {
     /// Whether it is to be done before the world's next step.
     fn is_due(&self, world: &World) -> bool {
@@ -188,7 +194,7 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Ve
 fn read_command(fields: &mut Fields<'_>, named: &[(&str, &Group)], duration: f32) -> Option<Command> {
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
-    let every = fields.has("every").then(|| fields.number("every", 1.0, [0.001, 1e6]));
+    let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
     let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
     let path = fields.path.clone();
     let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
@@ -239,13 +245,11 @@ fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
 }
 
 fn grow(fields: &mut Fields<'_>) -> Option<Action> {
-    if !fields.has("grow") {
-        return None;
-    }
+    let is_asked = fields.has("grow");
     let mut amount = fields.table("grow");
     let (nodes, particles) = (amount.or("nodes", 0), amount.or("particles", 0));
     amount.finish();
-    Some(Action::Grow { nodes, particles })
+    is_asked.then_some(Action::Grow { nodes, particles })
 }
 
 /// `true`, the only value of a field that stands for an action without more to say.

@@ -1,4 +1,4 @@
-//! Controllers: the tables `[wander.NAME]` and `[patrol.NAME]`.
+//! Controllers: the tables `[wander.NAME]`, `[patrol.NAME]` and so on.
 
 use super::fields::{Fields, Read, Report, mismatch};
 use super::source::Value;
@@ -9,26 +9,31 @@ use std::collections::BTreeMap;
 /// Controllers by name.
 pub(super) type Controllers = BTreeMap<String, Controller>;
 
+type ReadController = fn(&mut Fields<'_>, size: Vec2) -> Option<Controller>;
+
+/// Tables of controllers and how they are read.
+const KINDS: [(&str, ReadController); 4] = [
+    ("wander", |fields, _| wander(fields)),
+    ("patrol", patrol),
+    ("thrash", |fields, _| thrash(fields)),
+    ("ram", |fields, _| ram(fields)),
+];
+
 /// Reads all controllers of a file for a room of this size.
 pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Controllers {
     let mut controllers = Controllers::new();
-    let wanders = root.named("wander").into_iter().map(|(name, fields)| (name, fields, None));
-    let patrols = root.named("patrol");
-    let patrols = patrols.into_iter().map(|(name, fields)| (name, fields, Some(size)));
-    for (name, mut fields, patrolled) in wanders.chain(patrols).collect::<Vec<_>>() {
-        let controller = match patrolled {
-            None => wander(&mut fields),
-            Some(size) => patrol(&mut fields, size),
-        };
-        let (path, report) = (fields.path.clone(), fields.report);
-        fields.finish();
-        if controllers.contains_key(&name) {
-            let accepted = "a name that no other controller has".to_owned();
-            report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
+    for (kind, read) in KINDS {
+        for (name, mut fields) in root.named(kind) {
+            let controller = read(&mut fields, size).unwrap_or_default();
+            let (path, report) = (fields.path.clone(), fields.report);
+            fields.finish();
+            if controllers.contains_key(&name) {
+                let accepted = "a name that no other controller has".to_owned();
+                report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
+            }
+            report.check(&path, controller.validate());
+            controllers.insert(name, controller);
         }
-        let controller = controller.unwrap_or_default();
-        report.check(&path, controller.validate());
-        controllers.insert(name, controller);
     }
     controllers
 }
@@ -55,6 +60,17 @@ fn patrol(fields: &mut Fields<'_>, size: Vec2) -> Option<Controller> {
         }
     }
     Some(Controller::patrol(through, repeats))
+}
+
+fn thrash(fields: &mut Fields<'_>) -> Option<Controller> {
+    let interval = fields.required("interval");
+    let reversal = fields.or("reversal", 1.0);
+    Some(Controller::thrash(interval?, reversal))
+}
+
+fn ram(fields: &mut Fields<'_>) -> Option<Controller> {
+    let [charge, retreat, distance] = ["charge", "retreat", "distance"].map(|field| fields.required(field));
+    Some(Controller::ram(charge?, retreat?, distance?))
 }
 
 /// What the numbers of a patrol's points count.

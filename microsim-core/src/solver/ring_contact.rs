@@ -60,13 +60,17 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     wrong
 }
 
-/// The nearer node of the link nearest to a disc, and how far their surfaces are apart.
-pub(crate) fn gap(contact: &RingContact, rings: &RingContacts, p: &Particles) -> Option<(u32, f32)> {
-    let (link, relation) = nearest_link(contact.particle, rings.links_of(contact), p)?;
-    let length = relation.squared.sqrt();
-    let height = if is_wrong(contact.side, &relation) { -length } else { length };
-    let reach = p.radius[contact.particle as usize] + p.radius[link.a as usize];
-    Some((if relation.t < 0.5 { link.a } else { link.b }, height - reach))
+/// The nearer node of each link that a disc may touch, and how far their surfaces are apart.
+pub(crate) fn gaps<'a>(
+    contact: &'a RingContact,
+    rings: &'a RingContacts,
+    p: &'a Particles,
+) -> impl Iterator<Item = (u32, f32)> + 'a {
+    rings.links_of(contact).iter().map(|&link| {
+        let relation = relate(contact.particle, link, p);
+        let reach = p.radius[contact.particle as usize] + p.radius[link.a as usize];
+        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - reach)
+    })
 }
 
 /// The last word in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away by itself.

@@ -224,6 +224,16 @@ fn digest_controller(controller: &Controller, digest: &mut Digest) {
             digest.words([2, u32::from(*repeats), *next]);
             through.iter().for_each(|&point| digest.vector(point));
         }
+        Controller::Thrash { interval, reversal, direction, remaining } => {
+            digest.word(3);
+            [*interval, *reversal, *remaining].into_iter().for_each(|value| digest.float(value));
+            digest.vector(*direction);
+        }
+        Controller::Ram { charge, retreat, distance, aside, remaining } => {
+            digest.word(4);
+            [*charge, *retreat, *distance, *remaining].into_iter().for_each(|value| digest.float(value));
+            digest.vector(aside.unwrap_or(Vec2::NAN));
+        }
     }
 }
 

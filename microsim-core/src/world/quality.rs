@@ -3,6 +3,7 @@
 use super::World;
 use super::membrane_quality::CrawlQuality;
 use super::touching::NearPair;
+use crate::capability::phagocytosis::MealPhase;
 use crate::organism::{Body, Organism};
 use crate::solver::Distance;
 use crate::solver::lanes::ratio;
@@ -34,6 +35,8 @@ pub struct Quality {
     pub width_ratio_mean: f32,
     /// Mean of [`CrawlQuality::speed_kept`] over the cells that crawl; 0 when none does.
     pub speed_kept_mean: f32,
+    /// Longest time since the conditions of an ingestion began to hold that is not over yet, s.
+    pub ingestion_time_max: f32,
 }
 
 impl World {
@@ -53,6 +56,7 @@ impl World {
             excess_turning_max: self.excess_turning_max(),
             width_ratio_mean: self.width_ratio_mean(),
             speed_kept_mean: self.speed_kept_mean(),
+            ingestion_time_max: self.ingestion_time_max(),
         }
     }
 
@@ -90,6 +94,17 @@ impl World {
 
     pub(super) fn speed_kept_mean(&self) -> f32 {
         mean(self.crawls().map(|crawl| crawl.speed_kept))
+    }
+
+    pub(super) fn ingestion_time_max(&self) -> f32 {
+        let engulfers = self.organisms.iter().filter_map(|(_, organism)| organism.engulfer.as_ref());
+        largest(engulfers.flat_map(|engulfer| {
+            engulfer.meals.iter().map(|meal| match meal.phase {
+                MealPhase::Touching(time) => time,
+                MealPhase::Ingesting(time) => engulfer.params.hold_time + time,
+                MealPhase::Ingested | MealPhase::Digesting(_) => 0.0,
+            })
+        }))
     }
 
     fn crawls(&self) -> impl Iterator<Item = CrawlQuality> + '_ {

@@ -19,7 +19,7 @@ pub(crate) struct Touching {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearPair {
     pub i: u32,
-    /// The other disc; of a link of a membrane the node that is nearer.
+    /// The other disc; of a link of a membrane the node that is nearer. Each link makes a pair of its own.
     pub j: u32,
     /// Distance of the surfaces now, negative where they overlap.
     pub gap: f32,
@@ -34,9 +34,13 @@ impl World {
             let (a, b) = (i as usize, j as usize);
             NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
         });
-        let links = near.ring_contacts.contacts.iter().filter_map(|contact| {
-            let (j, gap) = ring_contact::gap(contact, &near.ring_contacts, p)?;
-            Some(NearPair { i: contact.particle, j, gap, touched: contact.touched.is_some() })
+        let links = near.ring_contacts.contacts.iter().flat_map(|contact| {
+            ring_contact::gaps(contact, &near.ring_contacts, p).map(|(j, gap)| NearPair {
+                i: contact.particle,
+                j,
+                gap,
+                touched: contact.touched == Some(j),
+            })
         });
         discs.chain(links).filter(|pair| p.is_live(pair.i as usize) && p.is_live(pair.j as usize))
     }

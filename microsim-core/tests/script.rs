@@ -1,0 +1,174 @@
+//! Commands and checks in scenario files, and the built-in scenarios that have them.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+#![cfg(feature = "scenario")]
+
+use microsim_core::glam::Vec2;
+use microsim_core::scenario::{Built, Scenario, Violation, builtin};
+use microsim_core::{Event, OrganismId};
+
+const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
+    [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
+    [[spawn]]\nof = 'c'\nat = [30, 30]\nname = 'cell'\ncontroller = 'w'\n[[spawn]]\nof = 'a'\nat = [60, 30]\nname = 'prey'\n";
+
+fn built(more: &str) -> Built {
+    let scenario = Scenario::parse(&format!("{FILE}{more}"), &[]);
+    scenario.and_then(|scenario| scenario.build()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Takes so many steps; returns what broke first.
+fn play(built: &mut Built, steps: u32) -> Option<Violation> {
+    let Built { world, script, checks, .. } = built;
+    let mut broken = None;
+    for _ in 0..steps {
+        let inputs = script.before_step(world);
+        world.step(inputs);
+        broken = broken.or(checks.after_step(world).first().copied());
+    }
+    broken
+}
+
+fn cell(built: &Built) -> OrganismId {
+    built.named.iter().find(|(name, _)| name == "cell").unwrap().1
+}
+
+fn nodes(built: &Built) -> usize {
+    built.world.view().organism(cell(built)).unwrap().outline().len()
+}
+
+fn at(built: &Built) -> Vec2 {
+    built.world.centroid(cell(built)).unwrap()
+}
+
+#[test]
+fn a_command_is_done_once_in_its_step_or_repeated_as_long_as_it_says() {
+    let mut once = built("[[command]]\nof = 'cell'\nat = 0.5\ngrow = { nodes = 2 }\n");
+    let before = nodes(&once);
+    play(&mut once, 30);
+    assert_eq!(nodes(&once), before);
+    play(&mut once, 1);
+    assert_eq!(nodes(&once), before + 2);
+    play(&mut once, 60);
+    assert_eq!(nodes(&once), before + 2);
+
+    let repeated = "[[command]]\nof = 'cell'\nat = 0.5\nevery = 0.25\nuntil = 1.0\ngrow = { nodes = 1 }\n";
+    let mut repeated = built(repeated);
+    let counts: Vec<usize> = (0..5).map(|_| (play(&mut repeated, 18), nodes(&repeated) - before).1).collect();
+    assert_eq!(counts, [0, 1, 2, 3, 3], "after 0.3, 0.6, 0.9, 1.2 and 1.5 s; done at 0.5, 0.75 and 1 s");
+    assert!(repeated.script.refusals().is_empty());
+}
+
+#[test]
+fn goals_hold_until_the_next_one_and_come_before_controllers() {
+    let mut built = built(
+        "[[command]]\nof = 'cell'\ngoal = [30, 1000]\n[[command]]\nof = 'cell'\nat = 1.0\nrest = true\n\
+         [[command]]\nof = 'cell'\nat = 4.0\ngoal = [30, -1000]\n",
+    );
+    let start = at(&built);
+    play(&mut built, 60);
+    let up = at(&built);
+    assert!(up.y > start.y + 4.0 && (up.x - start.x).abs() < 1.0, "{start} to {up}");
+    play(&mut built, 120);
+    let slowed = at(&built);
+    play(&mut built, 60);
+    let rested = at(&built);
+    assert!((rested - slowed).length() < 2.5, "{up}, {slowed}, {rested}");
+    play(&mut built, 90);
+    assert!(at(&built).y < rested.y - 4.0, "{rested} to {}", at(&built));
+}
+
+#[test]
+fn a_follower_takes_its_prey_in_and_rests_then_and_digests_on_command() {
+    let more = "[[command]]\nof = 'cell'\nfollow = 'prey'\n[[command]]\nof = 'cell'\nat = 8.0\ndigest = true\n\
+                [[command]]\nof = 'cell'\nat = 14.0\nfollow = 'prey'\n\
+                [invariants]\nleaks = 0\nimproper_absorptions = 0\ningested = [0, 1]\n\
+                [[expect]]\nmeasure = 'ingested'\nby = 7.0\nmin = 1\n[[expect]]\nmeasure = 'consumed'\nby = 12.0\nmin = 1\n";
+    let mut built = built(more);
+    assert_eq!(play(&mut built, 7 * 60), None);
+    let there = at(&built);
+    assert_eq!(play(&mut built, 60), None);
+    assert!((at(&built) - there).length() < 0.5);
+    assert_eq!(play(&mut built, 7 * 60), None);
+    assert!(built.script.refusals().is_empty(), "nobody is left to follow, but the cell is there to be told");
+}
+
+#[test]
+fn what_is_no_longer_there_cannot_be_told_anything() {
+    let more = "[[command]]\nof = 'cell'\nevery = 0.1\nuntil = 5.0\ngoal = [90, 30]\n";
+    let mut built = built(more);
+    play(&mut built, 60);
+    let lost = cell(&built);
+    built.world.remove(lost).unwrap();
+    play(&mut built, 60);
+    let [refusal] = built.script.refusals() else { panic!("{:?}", built.script.refusals()) };
+    assert_eq!((refusal.command.as_str(), refusal.step), ("command.0", 60));
+}
+
+#[test]
+fn invariants_are_ranges_of_measures_and_counts() {
+    let broken = |more: &str, steps| play(&mut built(more), steps).map(|violation| violation.to_string());
+    assert_eq!(broken("[invariants]\nleaks = 0\norganisms = [2, 2]\nspeed_kept_mean = [-1, 2]\n", 30), None);
+    let after_first = "organisms is 2 after step 1 (0.02 s), accepted: 3 to 4";
+    assert_eq!(broken("[invariants]\norganisms = [3, 4]\n", 5).as_deref(), Some(after_first));
+    let follow = "[[command]]\nof = 'cell'\nfollow = 'prey'\n[invariants]\ncontact_began = 0\n";
+    let contact = broken(follow, 400).unwrap();
+    assert!(contact.starts_with("contact_began is 1 after step "), "{contact}");
+    let violation = play(&mut built("[[expect]]\nmeasure = 'ingested'\nby = 0.5\nmin = 1\n"), 60).unwrap();
+    assert_eq!((violation.measure, violation.step, violation.accepted), ("ingested", 30, [1.0, f64::INFINITY]));
+}
+
+#[test]
+fn every_kind_of_event_has_its_name_in_the_list() {
+    let id = cell(&built(""));
+    let kind = microsim_core::Kind::Agar;
+    let events = [
+        Event::ContactBegan { a: id, b: id },
+        Event::ContactEnded { a: id, b: id },
+        Event::FrontSwitched { organism: id },
+        Event::IngestionBegan { engulfer: id, prey: id },
+        Event::Ingested { engulfer: id, prey: id },
+        Event::Released { engulfer: id, prey: id },
+        Event::Consumed { engulfer: id, prey: id, kind },
+        Event::Quarantined { organism: id },
+    ];
+    assert_eq!(events.map(|event| event.name()), Event::NAMES);
+}
+
+/// Plays a built-in scenario for so many seconds with each of some seeds and expects nothing to break.
+fn assert_keeps_its_checks(name: &str, seconds: u32, seeds: std::ops::Range<u64>) {
+    let mut scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+    for seed in seeds {
+        scenario.set_seed(seed);
+        let mut built = scenario.build().unwrap_or_else(|errors| panic!("{name}, seed {seed}: {errors}"));
+        let broken = play(&mut built, seconds * 60);
+        assert!(broken.is_none(), "{name}, seed {seed}: {}", broken.unwrap());
+        assert!(built.script.refusals().is_empty(), "{name}, seed {seed}: {:?}", built.script.refusals());
+    }
+}
+
+#[test]
+fn prey_is_absorbed_from_any_direction_among_platelets() {
+    assert_keeps_its_checks("absorb-agar", 15, 0..3);
+    assert_keeps_its_checks("absorb-rigid", 15, 0..3);
+}
+
+#[test]
+fn a_cell_grows_by_what_it_digests() {
+    let mut scenario = Scenario::parse(builtin("grow").unwrap().text, &[]).unwrap();
+    scenario.set_seed(3);
+    let mut built = scenario.build().unwrap();
+    let cytoplasm = |built: &Built| built.world.view().organism(cell(built)).unwrap().particles().count();
+    let before = cytoplasm(&built);
+    assert_eq!(play(&mut built, 40 * 60), None);
+    assert!(cytoplasm(&built) > before + 15, "{before} to {}", cytoplasm(&built));
+}
+
+#[test]
+fn a_cell_gets_through_a_gap_of_half_its_diameter() {
+    assert_keeps_its_checks("squeeze", 25, 0..1);
+}
+
+#[test]
+fn the_stress_scenarios_hold_for_a_while() {
+    assert_keeps_its_checks("leak-stress", 10, 0..1);
+    assert_keeps_its_checks("ram-stress", 10, 0..1);
+}
