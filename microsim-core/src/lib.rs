@@ -69,6 +69,7 @@ pub use organism::{OrganismSpec, Placement};
 pub use particle::{CollisionGroups, Material};
 pub use rng::Rng;
 pub use solver::fluid::{FluidMode, FluidParams};
+pub use solver::instruction_set::InstructionSet;
 pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};

@@ -6,7 +6,7 @@ use crate::collision::broad_phase::Surroundings;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::solver::membrane::Membrane;
-use crate::solver::{contact, drive, integrate, obstacle};
+use crate::solver::{block, contact, drive, integrate, obstacle};
 use crate::world::World;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -14,11 +14,11 @@ use crate::world::World;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found, and neighbours in fluid.
+    /// Pairs that may touch before the next step are found.
     FindPairs,
     /// Velocities are applied and limited, positions predicted.
     PredictPositions,
-    /// Fluid returns to its density.
+    /// Fluid returns to its density; viscosity.
     ProjectFluids,
     /// Constraints: blocks in lanes, then loose bodies.
     ProjectConstraints,
@@ -28,7 +28,7 @@ pub enum Phase {
     UpdateVelocities,
     /// Prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
-    /// Viscosity; contacts become events, and what is no longer finite is frozen.
+    /// Contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         predict_positions(world, h);
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
-        project_fluids(world);
+        project_fluids(world, h);
         finished(Phase::ProjectFluids);
         project_constraints(world, h);
         finished(Phase::ProjectConstraints);
@@ -102,29 +102,30 @@ fn steer(world: &mut World, inputs: &Inputs) {
 }
 
 fn find_pairs(world: &mut World) {
-    let World { config, particles, fluids, obstacles, exemptions, scratch, .. } = world;
+    let World { config, particles, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
-    fluids.iter_mut().for_each(|fluid| fluid.find_neighbours(particles));
     scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, size, reach });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
-    let World { config, particles, scratch, .. } = world;
+    let World { config, particles, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
-    integrate::predict_positions(particles, config.gravity, config.max_speed, h);
+    dispatch.run(
+        #[inline(always)]
+        || integrate::predict_positions(particles, config.gravity, config.max_speed, h),
+    );
 }
 
-fn project_fluids(world: &mut World) {
-    for fluid in &mut world.fluids {
-        fluid.project(&mut world.particles);
+fn project_fluids(world: &mut World, h: f32) {
+    for fluid in world.fluids.iter_mut().filter(|fluid| !fluid.particles.is_empty()) {
+        fluid.project(&mut world.particles, h, world.dispatch);
     }
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World { particles, templates, blocks, organisms, .. } = world;
-    for block in blocks.iter().filter(|block| !block.is_empty()) {
-        block.project(templates[block.template as usize].constraints(), particles, h);
-    }
+    let World { particles, templates, blocks, organisms, dispatch, .. } = world;
+    let constraints = |template: u32| templates[template as usize].constraints();
+    block::project(blocks, constraints, particles, h, *dispatch);
     for (membrane, ring) in membranes(organisms) {
         membrane.project(ring, particles, h);
     }
@@ -146,14 +147,16 @@ fn project_contacts(world: &mut World) {
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, scratch, .. } = world;
-    integrate::update_velocities(particles, config.damping, config.max_speed, h);
+    let World { config, particles, scratch, dispatch, .. } = world;
+    dispatch.run(
+        #[inline(always)]
+        || integrate::update_velocities(particles, config.damping, config.max_speed, h),
+    );
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
 fn conclude(world: &mut World) {
-    let World { config, particles, fluids, organisms, touching, events, scratch, .. } = world;
-    fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles, config.dt));
+    let World { particles, organisms, touching, events, scratch, .. } = world;
     touching.update(&scratch.broad_phase.contacts, particles, organisms, events);
     world.quarantine();
     world.rebase();

@@ -6,7 +6,7 @@
 #![cfg(feature = "scenario")]
 
 use microsim_core::scenario::{Scenario, builtin, builtins};
-use microsim_core::{Inputs, World};
+use microsim_core::{Inputs, InstructionSet, World};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -83,5 +83,23 @@ fn nothing_leaks_or_is_lost_in_the_demonstration() {
         let census = world.census();
         assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0), "step {step}");
         assert_eq!((census.bodies, census.particles), (before.bodies, before.particles), "step {step}");
+    }
+}
+
+#[test]
+fn digests_do_not_depend_on_the_instruction_set() {
+    for scenario in builtins() {
+        let mut worlds = [InstructionSet::Baseline, InstructionSet::Best].map(|set| {
+            let mut world = build(scenario.name, None);
+            world.set_instruction_set(set);
+            world
+        });
+        for step in 0..30 {
+            let [baseline, best] = worlds.each_mut().map(|world| {
+                world.step(&Inputs::new());
+                world.digest()
+            });
+            assert_eq!(baseline, best, "{} at step {step}", scenario.name);
+        }
     }
 }

@@ -41,15 +41,14 @@ impl BroadPhase {
         let (small_radius, large_radius) = self.sort_by_size(around.particles);
         let margin = 2.0 * around.reach;
         let fill = |grid: &mut Grid, radius: f32, entries: &[u32]| {
-            grid.fill(Vec2::ZERO, around.size, 2.0 * radius + margin, entries, |e| {
-                around.particles.position(e as usize)
-            });
+            let position = |e: usize| around.particles.position(entries[e] as usize);
+            grid.fill(Vec2::ZERO, around.size, Vec2::splat(2.0 * radius + margin), entries.len(), position);
         };
         fill(&mut self.fine, small_radius, &self.small);
         fill(&mut self.coarse, large_radius, &self.large);
         self.contacts.clear();
-        pairs_within(&self.fine, around, margin, &mut self.contacts);
-        pairs_within(&self.coarse, around, margin, &mut self.contacts);
+        pairs_within(&self.fine, &self.small, around, margin, &mut self.contacts);
+        pairs_within(&self.coarse, &self.large, around, margin, &mut self.contacts);
         self.pairs_across(around, small_radius, margin);
         self.find_obstacle_contacts(around, small_radius);
     }
@@ -84,7 +83,7 @@ impl BroadPhase {
             let position = around.particles.position(i as usize);
             let reach = Vec2::splat(around.particles.radius[i as usize] + small_radius + margin);
             for j in self.fine.in_box(position - reach, position + reach) {
-                consider(i, j, around, margin, &mut self.contacts);
+                consider(i, self.small[j as usize], around, margin, &mut self.contacts);
             }
         }
     }
@@ -94,7 +93,7 @@ impl BroadPhase {
         for (k, obstacle) in around.obstacles.iter().enumerate() {
             let bounds = obstacle.bounds().loosened(around.reach);
             let reach = Vec2::splat(small_radius);
-            let small = self.fine.in_box(bounds.mins - reach, bounds.maxs + reach);
+            let small = self.fine.in_box(bounds.mins - reach, bounds.maxs + reach).map(|e| self.small[e as usize]);
             for particle in small.chain(self.large.iter().copied()) {
                 let i = particle as usize;
                 let near = bounds.loosened(around.particles.radius[i]);
@@ -110,8 +109,8 @@ impl BroadPhase {
 }
 
 /// Pairs of one grid: within a cell, with the cell to the right, and with the three cells above.
-fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
-    let entries = grid.entries();
+fn pairs_within(grid: &Grid, list: &[u32], around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
+    let entries = grid.order();
     for row in 0..grid.rows() {
         for column in 0..grid.columns() {
             let cell = grid.row_range(row, column..column + 1);
@@ -119,7 +118,7 @@ fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &m
             let above = grid.row_range(row + 1, column.saturating_sub(1)..column + 2);
             for k in cell {
                 for &j in entries[k + 1..right.end].iter().chain(&entries[above.clone()]) {
-                    consider(entries[k], j, around, margin, contacts);
+                    consider(list[entries[k] as usize], list[j as usize], around, margin, contacts);
                 }
             }
         }

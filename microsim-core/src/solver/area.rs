@@ -20,6 +20,7 @@ pub struct Area {
     pub is_upper_bound: bool,
 }
 
+#[inline(always)]
 pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &mut Particles, h: f32) {
     for c in list {
         for lane in 0..L {

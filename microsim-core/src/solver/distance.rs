@@ -6,7 +6,7 @@
 //! `lambda = (-C - g n.(dx_b - dx_a)) / ((1 + g)(w_a + w_b) + alpha / h^2)`, with `g = tau / h`,
 //! where `dx` is the move since the substep began.
 
-use super::lanes::{Pair, Span, ratio};
+use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Particles;
 
 /// Two nodes at a fixed distance.
@@ -31,7 +31,7 @@ pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particle
         let gamma = c.damping / h;
         let resisted = if c.damping > 0.0 { pair.opening(particles) } else { [0.0; L] };
         let alpha = c.compliance / (h * h);
-        let multiplier = std::array::from_fn(|l| {
+        let multiplier = each(|l| {
             let error = pair.length[l] - c.rest_length * span.scale[l];
             ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha)
         });

@@ -5,6 +5,7 @@ use crate::particle::Particles;
 use glam::Vec2;
 
 /// `v += h g`, limited to the speed limit; `x += h v`, for everything that can move.
+#[inline(always)]
 pub(crate) fn predict_positions(particles: &mut Particles, gravity: Vec2, max_speed: f32, h: f32) {
     let Particles { x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = particles;
     let columns = x.iter_mut().zip(y).zip(prev_x.iter_mut().zip(prev_y)).zip(vx.iter_mut().zip(vy)).zip(inv_mass);
@@ -24,6 +25,7 @@ pub(crate) fn predict_positions(particles: &mut Particles, gravity: Vec2, max_sp
 
 /// `v = (x - x_prev) / h`, damped. A particle that the projections moved farther than the speed limit allows is moved
 /// back along its way, so that nothing travels farther in a step than pairs were searched for.
+#[inline(always)]
 pub(crate) fn update_velocities(particles: &mut Particles, damping: f32, max_speed: f32, h: f32) {
     let keep = 1.0 / (1.0 + damping * h);
     let (longest, inverse) = (max_speed * h, 1.0 / h);

@@ -30,6 +30,7 @@ impl Span<1> {
 }
 
 impl<const L: usize> Span<L> {
+    #[inline(always)]
     pub(crate) fn at(&self, slot: u32) -> usize {
         self.base + slot as usize * L
     }
@@ -40,6 +41,17 @@ impl<const L: usize> Span<L> {
 pub(crate) fn load<const L: usize>(column: &[f32], at: usize) -> [f32; L] {
     let mut lanes = [0.0; L];
     lanes.copy_from_slice(&column[at..at + L]);
+    lanes
+}
+
+/// A value for each lane. (`std::array::from_fn` is not always inlined, and what is not inlined is not compiled for the
+/// instructions of [`super::instruction_set`].)
+#[inline(always)]
+pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
+    let mut lanes = [0.0; L];
+    for (l, lane) in lanes.iter_mut().enumerate() {
+        *lane = value(l);
+    }
     lanes
 }
 
@@ -96,13 +108,17 @@ impl<const L: usize> Pair<L> {
     /// How far the two slots have moved apart, along the line between them, since the substep began.
     #[inline(always)]
     pub(crate) fn opening(&self, particles: &Particles) -> [f32; L] {
-        let moved = |column: &[f32], prev: &[f32]| {
-            let (at, bt) = (load::<L>(column, self.a), load::<L>(column, self.b));
-            let (ap, bp) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
-            std::array::from_fn::<f32, L, _>(|l| (bt[l] - bp[l]) - (at[l] - ap[l]))
-        };
-        let (dx, dy) = (moved(&particles.x, &particles.prev_x), moved(&particles.y, &particles.prev_y));
-        std::array::from_fn(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+        let dx = self.parted(&particles.x, &particles.prev_x);
+        let dy = self.parted(&particles.y, &particles.prev_y);
+        each(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+    }
+
+    /// How far the two slots have moved apart in one coordinate.
+    #[inline(always)]
+    fn parted(&self, column: &[f32], prev: &[f32]) -> [f32; L] {
+        let (a, b) = (load::<L>(column, self.a), load::<L>(column, self.b));
+        let (a_prev, b_prev) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
+        each(|l| (b[l] - b_prev[l]) - (a[l] - a_prev[l]))
     }
 
     /// Moves both slots apart by `multiplier` times their inverse masses (together if it is negative).

@@ -3,7 +3,7 @@
 //! `C = l_min - |x_b - x_a| <= 0`, projected rigidly when violated. Keeps a ring off its interlayer and a membrane from
 //! folding (nodes `i` and `i + 2`).
 
-use super::lanes::{Pair, Span, ratio};
+use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Particles;
 
 /// Two nodes at least so far apart.
@@ -21,7 +21,7 @@ pub struct MinDistance {
 pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Particles) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let multiplier = std::array::from_fn(|l| {
+        let multiplier = each(|l| {
             let deficit = c.min_length * span.scale[l] - pair.length[l];
             let active = if deficit > 0.0 { deficit } else { 0.0 };
             ratio(active, pair.weight(l))

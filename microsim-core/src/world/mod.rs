@@ -27,6 +27,7 @@ use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::Fluid;
+use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::step::{self, Phase};
 use crate::template::Template;
 use glam::Vec2;
@@ -54,6 +55,7 @@ pub struct World {
     pub(crate) events: Vec<Event>,
     pub(crate) step_index: u64,
     pub(crate) scratch: Scratch,
+    pub(crate) dispatch: Dispatch,
 }
 
 /// What a step works with and the next one does not need.
@@ -86,6 +88,7 @@ impl World {
             events: Vec::new(),
             step_index: 0,
             scratch: Scratch::default(),
+            dispatch: Dispatch::default(),
         })
     }
 
@@ -98,6 +101,11 @@ impl World {
     /// measuring: the core itself reads no clock.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase)) {
         step::advance(self, inputs, &mut finished);
+    }
+
+    /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
+    pub fn set_instruction_set(&mut self, set: InstructionSet) {
+        self.dispatch = Dispatch::new(set);
     }
 
     /// What happened in the last step.
