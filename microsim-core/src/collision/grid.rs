@@ -101,10 +101,30 @@ impl Grid {
         self.starts[base + columns.start] as usize..self.starts[base + last] as usize
     }
 
-    /// Entries of the cells that a box touches, row by row.
-    pub(crate) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = u32> + '_ {
+    /// Entries of the cells that a box touches, row by row, as ranges of [`Grid::order`].
+    pub(crate) fn ranges_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = Range<usize>> {
         let ((c0, r0), (c1, r1)) = (self.cell_of(low), self.cell_of(high));
-        (r0..=r1).flat_map(move |row| self.order[self.row_range(row, c0..c1 + 1)].iter().copied())
+        (r0..=r1).map(move |row| self.row_range(row, c0..c1 + 1))
+    }
+
+    /// Calls `visit` once for each two places in [`Grid::order`] in the same or neighbouring cells: within a cell, with the
+    /// cell to the right, and with the three cells above.
+    #[inline(always)]
+    pub(crate) fn pairs(&self, mut visit: impl FnMut(usize, usize)) {
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let cell = self.row_range(row, column..column + 1);
+                if cell.is_empty() {
+                    continue;
+                }
+                let right = self.row_range(row, column..column + 2);
+                let above = self.row_range(row + 1, column.saturating_sub(1)..column + 2);
+                for k in cell {
+                    (k + 1..right.end).for_each(|other| visit(k, other));
+                    above.clone().for_each(|other| visit(k, other));
+                }
+            }
+        }
     }
 }
 
@@ -138,7 +158,8 @@ mod tests {
             }
         }
         let (low, high) = (Vec2::new(3.0, 2.0), Vec2::new(7.0, 9.0));
-        let found: Vec<u32> = grid.in_box(low, high).collect();
+        let ranges = grid.ranges_in_box(low, high);
+        let found: Vec<u32> = ranges.flat_map(|range| grid.order()[range].to_vec()).collect();
         for (e, p) in points.iter().enumerate() {
             let is_inside = p.cmpge(low).all() && p.cmple(high).all();
             assert!(!is_inside || found.contains(&(e as u32)), "{p} missing");
@@ -151,6 +172,6 @@ mod tests {
         grid.fill(Vec2::ZERO, Vec2::ONE, Vec2::splat(0.1), 2, |_| Vec2::NAN);
         assert_eq!(grid.order().len(), 2);
         grid.fill(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 0, |_| Vec2::ZERO);
-        assert_eq!(grid.in_box(Vec2::ZERO, Vec2::ONE).count(), 0);
+        assert_eq!(grid.ranges_in_box(Vec2::ZERO, Vec2::ONE).flatten().count(), 0);
     }
 }
