@@ -118,7 +118,7 @@ fn predict_positions(world: &mut World, h: f32) {
 
 fn project_fluids(world: &mut World, h: f32) {
     for fluid in world.fluids.iter_mut().filter(|fluid| !fluid.particles.is_empty()) {
-        fluid.project(&mut world.particles, h, world.dispatch);
+        fluid.project(&mut world.particles, world.config.size, h, world.dispatch);
     }
 }
 

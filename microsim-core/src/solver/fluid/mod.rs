@@ -15,7 +15,8 @@ mod neighbours;
 use super::instruction_set::Dispatch;
 use crate::error::{Error, in_range};
 use crate::particle::Particles;
-use density::{SUPPORT, Sums};
+use density::{SUPPORT, Shares, Sums};
+use glam::Vec2;
 use neighbours::{Lanes, Sorted};
 
 /// How the particles of a fluid keep apart.
@@ -88,17 +89,20 @@ impl Fluid {
         }
     }
 
-    /// One iteration of the density constraint (or of the grains' contacts), and the viscosity of a substep of `h`.
-    pub(crate) fn project(&mut self, particles: &mut Particles, h: f32, dispatch: Dispatch) {
+    /// One iteration of the density constraint (or of the grains' contacts) in a room of this size, and the viscosity of a
+    /// substep of `h`.
+    pub(crate) fn project(&mut self, particles: &mut Particles, size: Vec2, h: f32, dispatch: Dispatch) {
         let reach = self.reach();
-        self.sorted.sort(&self.particles, particles, reach);
+        self.sorted.sort(&self.particles, particles, size, reach);
         self.sums.resize(self.sorted.groups.len(), Sums::default());
         self.shifts.resize(self.sorted.groups.len(), Default::default());
         let viscosity = self.params.viscosity * h / (1.0 + self.params.viscosity * h);
         match self.params.mode {
             FluidMode::Density => {
                 self.find_multipliers(dispatch);
-                self.find_density_shifts(viscosity, dispatch);
+                // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
+                let spacing = if self.is_enclosed { 0.25 } else { 0.0 };
+                self.find_density_shifts(Shares { viscosity, spacing }, dispatch);
             }
             FluidMode::Granular => self.find_granular_shifts(viscosity, dispatch),
         }
@@ -112,12 +116,13 @@ impl Fluid {
     }
 
     fn find_multipliers(&mut self, dispatch: Dispatch) {
-        let Self { sorted: Sorted { groups, sources, .. }, sums, rest_density, .. } = self;
+        let Self { sorted: Sorted { groups, sources, walls, .. }, sums, rest_density, .. } = self;
         dispatch.run(
             #[inline(always)]
             || {
                 for (group, sums) in groups.iter().zip(&mut *sums) {
                     *sums = density::sum(group, sources);
+                    sums.add_walls(group, sources, walls);
                 }
                 for (group, sums) in groups.iter().zip(sums) {
                     let multipliers = sums.multipliers(*rest_density);
@@ -129,14 +134,14 @@ impl Fluid {
         );
     }
 
-    fn find_density_shifts(&mut self, viscosity: f32, dispatch: Dispatch) {
+    fn find_density_shifts(&mut self, shares: Shares, dispatch: Dispatch) {
         let Self { sorted: Sorted { groups, sources, .. }, sums, shifts, .. } = self;
         let pairs = groups.iter().zip(sums.iter());
         dispatch.run(
             #[inline(always)]
             || {
                 for ((group, sums), shifts) in pairs.zip(shifts) {
-                    *shifts = density::shifts(group, sources, sums, viscosity);
+                    *shifts = density::shifts(group, sources, sums, shares);
                 }
             },
         );
@@ -157,7 +162,7 @@ impl Fluid {
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
-        sorted.sort(&self.particles, particles, SUPPORT * self.params.spacing);
+        sorted.sort(&self.particles, particles, Vec2::ZERO, SUPPORT * self.params.spacing);
         let mut sum = 0.0;
         for group in &sorted.groups {
             let compression = density::sum(group, &sorted.sources).compression(self.rest_density);
@@ -177,7 +182,6 @@ mod tests {
     use super::*;
     use crate::rng::Rng;
     use crate::solver::testing::disc;
-    use glam::Vec2;
 
     fn block(mode: FluidMode, spacing: f32) -> (Fluid, Particles) {
         let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() }, false);
@@ -185,7 +189,7 @@ mod tests {
         let mut rng = Rng::new(1, 1);
         for k in 0..200 {
             let jitter = Vec2::new(rng.range(-0.1, 0.1), rng.range(-0.1, 0.1));
-            let at = Vec2::new((k % 20) as f32, (k / 20) as f32) * spacing + jitter;
+            let at = Vec2::new((k % 20) as f32, (k / 20) as f32) * spacing + jitter + 50.0; // far from walls
             fluid.particles.push(particles.insert(&disc(at, 1.0)));
         }
         (fluid, particles)
@@ -195,7 +199,7 @@ mod tests {
     fn project(fluid: &mut Fluid, particles: &mut Particles) {
         particles.prev_x.clone_from(&particles.x);
         particles.prev_y.clone_from(&particles.y);
-        fluid.project(particles, 1.0 / 480.0, Dispatch::default());
+        fluid.project(particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
     }
 
     fn centre(particles: &Particles) -> Vec2 {
@@ -212,6 +216,25 @@ mod tests {
         let after = fluid.mean_compression(&particles);
         assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
         assert!((centre(&particles) - start).length() < 1e-3, "momentum");
+    }
+
+    #[test]
+    fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
+        // A lattice row at half a spacing from the wall is as dense as one inside: nothing moves.
+        let (mut fluid, mut particles) = block(FluidMode::Density, 1.0);
+        for i in 0..200 {
+            particles.x[i] = (i % 20) as f32 + 0.5 * (i / 20 % 2) as f32 + 0.5;
+            particles.y[i] = (i / 20) as f32 * 0.866 + 0.5;
+        }
+        let at_rest = particles.clone();
+        let shift = |fluid: &mut Fluid, lower: f32| {
+            let mut moved = at_rest.clone();
+            moved.y.iter_mut().for_each(|y| *y -= lower);
+            fluid.project(&mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
+            moved.y[10] - (at_rest.y[10] - lower)
+        };
+        assert!(shift(&mut fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&mut fluid, 0.0));
+        assert!(shift(&mut fluid, 0.2) > 0.02, "nearer: {}", shift(&mut fluid, 0.2));
     }
 
     #[test]
@@ -249,7 +272,7 @@ mod tests {
                     particles.prev_x[i] = still.x[i];
                     (particles.x[i], particles.y[i]) = (still.x[i] + way, still.y[i]);
                 }
-                fluid.project(&mut particles, 1.0 / 480.0, Dispatch::default());
+                fluid.project(&mut particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
                 (0..200).map(|i| particles.x[i] - still.x[i]).collect()
             };
             let (free, viscous) = (ways_taken(0.0), ways_taken(1000.0));
@@ -264,12 +287,12 @@ mod tests {
         let mut fluid = Fluid::new(FluidParams::default(), false);
         let mut particles = Particles::default();
         for _ in 0..4 {
-            fluid.particles.push(particles.insert(&disc(Vec2::ONE, 1.0)));
+            fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
         }
         for _ in 0..20 {
             project(&mut fluid, &mut particles);
         }
-        let spread = (0..4).map(|i| (particles.position(i) - Vec2::ONE).length()).sum::<f32>();
+        let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
         assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
     }
 }

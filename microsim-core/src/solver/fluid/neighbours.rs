@@ -53,15 +53,24 @@ pub(super) struct Sorted {
     /// In cell order, and some that are nowhere so that eight can be read from anywhere.
     pub sources: Vec<Source>,
     pub groups: Vec<Group>,
+    pub walls: Walls,
+}
+
+/// The room, as the sources see it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Walls {
+    pub low: Vec2,
+    pub high: Vec2,
 }
 
 impl Sorted {
-    /// Sorts particles for searches within `reach`.
-    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, reach: f32) {
+    /// Sorts particles in a room of this size for searches within `reach`.
+    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, reach: f32) {
         let (low, high) = bounds(indices, particles);
         let inverse = 1.0 / reach;
         self.unsorted.clear();
         self.unsorted.extend(indices.iter().map(|&i| source(particles, i as usize, low, inverse)));
+        self.walls = Walls { low: -low * inverse, high: (size - low) * inverse };
         let extent = (high - low) * inverse;
         self.grid.fill(Vec2::ZERO, extent, Vec2::new(0.5, 1.0), self.unsorted.len(), |k| self.unsorted[k].position());
         self.sources.clear();
