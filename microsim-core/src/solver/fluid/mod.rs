@@ -230,6 +230,8 @@ mod tests {
         let shift = |fluid: &mut Fluid, lower: f32| {
             let mut moved = at_rest.clone();
             moved.y.iter_mut().for_each(|y| *y -= lower);
+            moved.prev_x.clone_from(&moved.x);
+            moved.prev_y.clone_from(&moved.y);
             fluid.project(&mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
             moved.y[10] - (at_rest.y[10] - lower)
         };
