@@ -110,9 +110,11 @@ fn find_pairs(world: &mut World) {
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
-    dispatch.run(
+    integrate::in_stretches(
+        particles,
+        *dispatch,
         #[inline(always)]
-        || integrate::predict_positions(particles, config.gravity, config.max_speed, h),
+        |stretch| integrate::predict_positions(stretch, config.gravity, config.max_speed, h),
     );
 }
 
@@ -148,9 +150,11 @@ fn project_contacts(world: &mut World) {
 
 fn update_velocities(world: &mut World, h: f32) {
     let World { config, particles, scratch, dispatch, .. } = world;
-    dispatch.run(
+    integrate::in_stretches(
+        particles,
+        *dispatch,
         #[inline(always)]
-        || integrate::update_velocities(particles, config.damping, config.max_speed, h),
+        |stretch| integrate::update_velocities(stretch, config.damping, config.max_speed, h),
     );
     contact::apply_restitution(&mut scratch.impacts, particles);
 }

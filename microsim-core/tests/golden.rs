@@ -103,3 +103,21 @@ fn digests_do_not_depend_on_the_instruction_set() {
         }
     }
 }
+
+#[cfg(feature = "parallel")]
+#[test]
+fn digests_do_not_depend_on_the_number_of_threads() {
+    // Enough platelets for several strips, batches and stretches, all stirred.
+    let crowded = Scenario::parse(builtin("platelets").unwrap().text, &[("count".into(), "400".into())]).unwrap();
+    let worlds = [crowded.build().unwrap().world, build("demo", None), build("dam-break", None)];
+    for (which, world) in worlds.iter().enumerate() {
+        let digest = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut world = world.clone();
+            pool.install(|| (0..30).for_each(|_| world.step(&Inputs::new())));
+            world.digest()
+        };
+        let alone = digest(1);
+        assert!([2, 3, 8].into_iter().all(|threads| digest(threads) == alone), "world {which}");
+    }
+}

@@ -6,8 +6,12 @@
 
 use super::crowd::{Crowd, Disc};
 use super::grid::Grid;
+use crate::parallel;
 use glam::Vec2;
 use std::ops::Range;
+
+/// Rows of cells that are searched at a time, a fixed number whatever the number of threads.
+const STRIP: usize = 4;
 
 /// A body: its discs, and the box around what they can reach in the step.
 #[derive(Clone, Debug)]
@@ -92,23 +96,32 @@ impl Bodies {
         self.small.in_box(low, high).chain(self.large.in_box(low, high))
     }
 
-    /// Calls `visit` once for each two discs of different bodies that may touch.
-    pub(super) fn pairs(&self, mut visit: impl FnMut(&Disc, &Disc)) {
-        let mut near = Vec::new();
-        let mut meet = |a: &Body, b: &Body| {
-            if a.meets(b.low, b.high) {
-                near.clear();
-                near.extend(self.discs_of(b).iter().filter(|disc| disc.meets(a)));
-                for disc in self.discs_of(a).iter().filter(|disc| disc.meets(b)) {
-                    near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
-                }
-            }
+    /// What `find` gives for each two discs of different bodies that may touch.
+    pub(super) fn pairs<R: Send>(&self, find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync) -> Vec<R> {
+        let strips = |layer: &Layer| (0..layer.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP).collect();
+        let within = |layer: &Layer, rows| {
+            let mut found = Vec::new();
+            layer.grid.pairs(rows, |a, b| self.pairs_between(&layer.bodies[a], &layer.bodies[b], &find, &mut found));
+            found
         };
-        for layer in [&self.small, &self.large] {
-            layer.grid.pairs(|a, b| meet(&layer.bodies[a], &layer.bodies[b]));
-        }
+        let mut found = parallel::map(strips(&self.small), |rows| within(&self.small, rows))
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>();
+        found.extend(within(&self.large, 0..self.large.grid.rows()));
         for body in &self.large.bodies {
-            self.small.in_box(body.low, body.high).for_each(|other| meet(body, other));
+            let near = self.small.in_box(body.low, body.high);
+            near.for_each(|other| self.pairs_between(body, other, &find, &mut found));
+        }
+        found
+    }
+
+    fn pairs_between<R>(&self, a: &Body, b: &Body, find: &impl Fn(&Disc, &Disc) -> Option<R>, found: &mut Vec<R>) {
+        if a.meets(b.low, b.high) {
+            for disc in self.discs_of(a).iter().filter(|disc| disc.meets(b)) {
+                let near = self.discs_of(b).iter().filter(|other| disc.is_near(other));
+                found.extend(near.filter_map(|other| find(disc, other)));
+            }
         }
     }
 }

@@ -71,7 +71,7 @@ impl Crowd {
 
     /// Calls `visit` once for each two discs that may touch.
     pub(super) fn pairs(&self, mut visit: impl FnMut(&Disc, &Disc)) {
-        self.grid.pairs(|a, b| {
+        self.grid.pairs(0..self.grid.rows(), |a, b| {
             let (a, b) = (&self.discs[a], &self.discs[b]);
             if a.is_near(b) {
                 visit(a, b);

@@ -107,11 +107,11 @@ impl Grid {
         (r0..=r1).map(move |row| self.row_range(row, c0..c1 + 1))
     }
 
-    /// Calls `visit` once for each two places in [`Grid::order`] in the same or neighbouring cells: within a cell, with the
-    /// cell to the right, and with the three cells above.
+    /// Calls `visit` once for each two places in [`Grid::order`] in the same or neighbouring cells, the first of them in
+    /// these rows: within a cell, with the cell to the right, and with the three cells above.
     #[inline(always)]
-    pub(crate) fn pairs(&self, mut visit: impl FnMut(usize, usize)) {
-        for row in 0..self.rows {
+    pub(crate) fn pairs(&self, rows: Range<usize>, mut visit: impl FnMut(usize, usize)) {
+        for row in rows.start..rows.end.min(self.rows) {
             for column in 0..self.columns {
                 let cell = self.row_range(row, column..column + 1);
                 if cell.is_empty() {

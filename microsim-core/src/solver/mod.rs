@@ -21,7 +21,7 @@ pub(crate) mod rope;
 pub(crate) mod testing;
 
 use crate::error::{Error, in_range};
-use crate::particle::Particles;
+use crate::particle::Columns;
 pub use anchor::Anchor;
 pub use area::Area;
 pub use distance::Distance;
@@ -66,7 +66,7 @@ impl ConstraintSet {
     /// Each constraint is projected in all spans before the next one: those of one body share nodes and have to wait for
     /// each other, those of different bodies do not, so the processor can overlap them.
     #[inline(always)]
-    pub(crate) fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Particles, h: f32) {
+    pub(crate) fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
         let Self { distances, min_distances, areas, anchors, ropes } = self;
         for c in distances.chunks(1) {
             for &span in spans {

@@ -14,10 +14,14 @@ mod neighbours;
 
 use super::instruction_set::Dispatch;
 use crate::error::{Error, in_range};
+use crate::parallel;
 use crate::particle::Particles;
 use density::{SUPPORT, Shares, Sums};
 use glam::Vec2;
-use neighbours::{Lanes, Sorted};
+use neighbours::{Group, Lanes, Sorted};
+
+/// Groups that are worked on at a time, a fixed number whatever the number of threads.
+const PORTION: usize = 64;
 
 /// How the particles of a fluid keep apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,46 +121,52 @@ impl Fluid {
 
     fn find_multipliers(&mut self, dispatch: Dispatch) {
         let Self { sorted: Sorted { groups, sources, walls, .. }, sums, rest_density, .. } = self;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for (group, sums) in groups.iter().zip(&mut *sums) {
-                    *sums = density::sum(group, sources);
-                    sums.add_walls(group, sources, walls);
-                }
-                for (group, sums) in groups.iter().zip(sums) {
-                    let multipliers = sums.multipliers(*rest_density);
-                    for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(multipliers) {
-                        source.multiplier = multiplier;
+        parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for (group, sums) in groups.iter().zip(sums) {
+                        *sums = density::sum(group, sources);
+                        sums.add_walls(group, sources, walls);
                     }
-                }
-            },
-        );
+                },
+            );
+        });
+        for (group, sums) in groups.iter().zip(sums) {
+            let multipliers = sums.multipliers(*rest_density);
+            for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(multipliers) {
+                source.multiplier = multiplier;
+            }
+        }
     }
 
     fn find_density_shifts(&mut self, shares: Shares, dispatch: Dispatch) {
         let Self { sorted: Sorted { groups, sources, .. }, sums, shifts, .. } = self;
-        let pairs = groups.iter().zip(sums.iter());
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for ((group, sums), shifts) in pairs.zip(shifts) {
-                    *shifts = density::shifts(group, sources, sums, shares);
-                }
-            },
-        );
+        let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
+        parallel::for_each(portions, |((groups, shifts), sums)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
+                        *shifts = density::shifts(group, sources, sums, shares);
+                    }
+                },
+            );
+        });
     }
 
     fn find_granular_shifts(&mut self, viscosity: f32, dispatch: Dispatch) {
         let Self { sorted: Sorted { groups, sources, .. }, shifts, .. } = self;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for (group, shifts) in groups.iter().zip(shifts) {
-                    *shifts = granular::shifts(group, sources, viscosity);
-                }
-            },
-        );
+        parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for (group, shifts) in groups.iter().zip(shifts) {
+                        *shifts = granular::shifts(group, sources, viscosity);
+                    }
+                },
+            );
+        });
     }
 
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
@@ -170,6 +180,11 @@ impl Fluid {
         }
         if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
     }
+}
+
+/// Groups and what is found for them, some at a time.
+fn in_portions<'a, T>(groups: &'a [Group], found: &'a mut [T]) -> Vec<(&'a [Group], &'a mut [T])> {
+    groups.chunks(PORTION).zip(found.chunks_mut(PORTION)).collect()
 }
 
 /// Area that a number of particles take up at rest: each has its share of a hexagonal lattice.
