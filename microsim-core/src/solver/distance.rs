@@ -52,7 +52,7 @@ mod tests {
     fn obeys_the_laws_of_a_pair_constraint() {
         for compliance in [0.0, 1e-3] {
             assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
-                project(&[constraint(compliance)], Span::LOOSE, &mut p.columns(), 0.01)
+                project(&[constraint(compliance)], Span::LOOSE, &mut p.columns(), 0.01);
             });
         }
     }

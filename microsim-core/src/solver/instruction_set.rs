@@ -22,12 +22,14 @@ pub(crate) struct Dispatch {
 }
 
 impl Dispatch {
+    #[cfg(target_arch = "x86_64")]
     pub(crate) fn new(set: InstructionSet) -> Self {
-        #[cfg(target_arch = "x86_64")]
-        let has_avx2 = set == InstructionSet::Best && std::arch::is_x86_feature_detected!("avx2");
-        #[cfg(not(target_arch = "x86_64"))]
-        let has_avx2 = set == InstructionSet::Best && false;
-        Self { has_avx2 }
+        Self { has_avx2: set == InstructionSet::Best && std::arch::is_x86_feature_detected!("avx2") }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    pub(crate) fn new(_: InstructionSet) -> Self {
+        Self { has_avx2: false }
     }
 
     /// Runs a kernel: a closure marked `#[inline(always)]`.
@@ -59,4 +61,35 @@ fn with_avx2<R>(kernel: impl FnOnce() -> R) -> R {
 #[cfg(not(target_arch = "x86_64"))]
 fn with_avx2<R>(kernel: impl FnOnce() -> R) -> R {
     kernel()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+
+    #[test]
+    fn each_set_gives_the_same_bits() {
+        let mut rng = Rng::new(1, 2);
+        let [a, b, c] = [(); 3].map(|()| [(); 64].map(|()| rng.range(-1e3, 1e3)));
+        let of = |set| {
+            let mut out = [0.0f32; 64];
+            Dispatch::new(set).run(
+                #[inline(always)]
+                || {
+                    // A contracted product and sum would round once instead of twice.
+                    for k in 0..64 {
+                        out[k] = (a[k] * b[k] + c[k]).abs().sqrt() / (c[k] * c[k] - a[k]);
+                    }
+                },
+            );
+            out.map(f32::to_bits)
+        };
+        assert_eq!(of(InstructionSet::Baseline), of(InstructionSet::Best));
+    }
+
+    #[test]
+    fn the_baseline_never_runs_avx2() {
+        assert!(!Dispatch::new(InstructionSet::Baseline).has_avx2);
+    }
 }
