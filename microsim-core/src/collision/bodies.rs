@@ -55,7 +55,7 @@ struct Layer {
 }
 
 /// All bodies.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Bodies {
     /// Body by body.
     pub discs: Vec<Disc>,
@@ -96,33 +96,43 @@ impl Bodies {
         self.small.in_box(low, high).chain(self.large.in_box(low, high))
     }
 
-    /// What `find` gives for each two discs of different bodies that may touch.
-    pub(super) fn pairs<R: Send>(&self, find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync) -> Vec<R> {
-        let strips = |layer: &Layer| (0..layer.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP).collect();
-        let within = |layer: &Layer, rows| {
-            let mut found = Vec::new();
-            layer.grid.pairs(rows, |a, b| self.pairs_between(&layer.bodies[a], &layer.bodies[b], &find, &mut found));
+    /// Adds what `find` gives for each two discs of different bodies that may touch.
+    pub(super) fn pairs<R: Send>(&self, find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync, found: &mut Vec<R>) {
+        let within = |layer: &Layer, rows: Range<usize>| {
+            let (mut near, mut found) = (Vec::new(), Vec::new());
+            layer.grid.pairs(rows, |a, b| {
+                self.pairs_between(&layer.bodies[a], &layer.bodies[b], &mut near, |a, b| found.extend(find(a, b)));
+            });
             found
         };
-        let mut found = parallel::map(strips(&self.small), |rows| within(&self.small, rows))
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>();
-        found.extend(within(&self.large, 0..self.large.grid.rows()));
-        for body in &self.large.bodies {
-            let near = self.small.in_box(body.low, body.high);
-            near.for_each(|other| self.pairs_between(body, other, &find, &mut found));
+        let strips = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP).collect();
+        for strip in parallel::map(strips, |rows| within(&self.small, rows)) {
+            found.extend(strip);
         }
-        found
-    }
-
-    fn pairs_between<R>(&self, a: &Body, b: &Body, find: &impl Fn(&Disc, &Disc) -> Option<R>, found: &mut Vec<R>) {
-        if a.meets(b.low, b.high) {
-            for disc in self.discs_of(a).iter().filter(|disc| disc.meets(b)) {
-                let near = self.discs_of(b).iter().filter(|other| disc.is_near(other));
-                found.extend(near.filter_map(|other| find(disc, other)));
+        found.extend(within(&self.large, 0..self.large.grid.rows()));
+        let mut near = Vec::new();
+        for body in &self.large.bodies {
+            for other in self.small.in_box(body.low, body.high) {
+                self.pairs_between(body, other, &mut near, |a, b| found.extend(find(a, b)));
             }
         }
+    }
+
+    fn pairs_between(&self, a: &Body, b: &Body, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
+        if a.meets(b.low, b.high) {
+            near.clear();
+            near.extend(self.discs_of(b).iter().filter(|disc| disc.meets(a)));
+            for disc in self.discs_of(a).iter().filter(|disc| disc.meets(b)) {
+                near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
+            }
+        }
+    }
+}
+
+/// Found anew in each step: a clone starts without.
+impl Clone for Bodies {
+    fn clone(&self) -> Self {
+        Self::default()
     }
 }
 

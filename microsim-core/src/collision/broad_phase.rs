@@ -45,7 +45,8 @@ impl BroadPhase {
     pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>) {
         self.sort(around);
         let Self { contacts, bodies, membranes, fluid, .. } = self;
-        *contacts = bodies.pairs(|a, b| contact(a, b, around));
+        contacts.clear();
+        bodies.pairs(|a, b| contact(a, b, around), contacts);
         let mut consider = |a: &Disc, b: &Disc| contacts.extend(contact(a, b, around));
         for crowd in [&*membranes, &*fluid].into_iter().filter(|crowd| !crowd.is_empty()) {
             bodies.pairs_with(crowd, &mut consider);

@@ -29,7 +29,7 @@ impl Disc {
 }
 
 /// Discs in cell order.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Crowd {
     /// Not yet sorted.
     pub found: Vec<Disc>,
@@ -37,6 +37,13 @@ pub(super) struct Crowd {
     grid: Grid,
     /// The largest reach of a disc.
     reach: f32,
+}
+
+/// Found anew in each step: a clone starts without.
+impl Clone for Crowd {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl Crowd {

@@ -45,7 +45,7 @@ pub(super) struct Group {
 }
 
 /// A fluid's particles sorted by cell.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Sorted {
     grid: Grid,
     /// In the order of the fluid.
@@ -61,6 +61,13 @@ pub(super) struct Sorted {
 pub(super) struct Walls {
     pub low: Vec2,
     pub high: Vec2,
+}
+
+/// Sorted anew in each substep: a clone starts without.
+impl Clone for Sorted {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl Sorted {
