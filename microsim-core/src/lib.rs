@@ -23,7 +23,8 @@
 //! # Ok::<(), microsim_core::Error>(())
 //! ```
 //!
-//! The library does no input or output, reads no clock, prints nothing and has no threads and no global state. Stepping
+//! The library does no input or output, reads no clock, prints nothing and has no threads of its own (feature `parallel`
+//! uses rayon's current pool) and no global state. Stepping
 //! cannot fail; everything handed in is checked when it is handed in. Equal configuration, seed and inputs give equal
 //! bits on every platform ([`World::digest`]).
 
@@ -40,6 +41,7 @@ mod id;
 mod inputs;
 mod kind;
 mod organism;
+mod parallel;
 mod particle;
 mod rng;
 #[cfg(feature = "scenario")]
@@ -70,6 +72,7 @@ pub use organism::{OrganismSpec, Placement};
 pub use particle::{CollisionGroups, Material};
 pub use rng::Rng;
 pub use solver::fluid::{FluidMode, FluidParams};
+pub use solver::instruction_set::InstructionSet;
 pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};

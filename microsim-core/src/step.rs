@@ -7,7 +7,7 @@ use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::solver::membrane::Membrane;
-use crate::solver::{contact, contraction, drive, integrate, obstacle, ring_contact};
+use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact};
 use crate::world::World;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -15,11 +15,11 @@ use crate::world::World;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found, and neighbours in fluid.
+    /// Pairs that may touch before the next step are found.
     FindPairs,
     /// Velocities are applied and limited, positions predicted.
     PredictPositions,
-    /// Fluid returns to its density.
+    /// Fluid returns to its density; viscosity.
     ProjectFluids,
     /// Constraints: blocks in lanes, then loose bodies.
     ProjectConstraints,
@@ -31,7 +31,7 @@ pub enum Phase {
     AdvancePhagocytosis,
     /// Furrows close, cells divide and fuse.
     DivideAndFuse,
-    /// Viscosity; contacts become events, and what is no longer finite is frozen.
+    /// Contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         predict_positions(world, h);
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
-        project_fluids(world);
+        project_fluids(world, h);
         finished(Phase::ProjectFluids);
         project_constraints(world, h);
         finished(Phase::ProjectConstraints);
@@ -114,31 +114,34 @@ fn steer(world: &mut World, inputs: &Inputs) {
 }
 
 fn find_pairs(world: &mut World) {
-    let World { config, particles, organisms, fluids, obstacles, exemptions, scratch, .. } = world;
+    let World { config, particles, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
-    fluids.iter_mut().for_each(|fluid| fluid.find_neighbours(particles));
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
     let (rings, homes) = (rings.as_slice(), &organisms.homes());
     scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, rings, homes, size, reach });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
-    let World { config, particles, scratch, .. } = world;
+    let World { config, particles, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
-    integrate::predict_positions(particles, config.gravity, config.speed_limit(), h);
+    integrate::in_stretches(
+        particles,
+        *dispatch,
+        #[inline(always)]
+        |stretch| integrate::predict_positions(stretch, config.gravity, config.speed_limit(), h),
+    );
 }
 
-fn project_fluids(world: &mut World) {
-    for fluid in &mut world.fluids {
-        fluid.project(&mut world.particles);
+fn project_fluids(world: &mut World, h: f32) {
+    for fluid in world.fluids.iter_mut().filter(|fluid| !fluid.particles.is_empty()) {
+        fluid.project(&mut world.particles, world.config.size, h, world.dispatch);
     }
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World { particles, templates, blocks, organisms, scratch, .. } = world;
-    for block in blocks.iter().filter(|block| !block.is_empty()) {
-        block.project(templates[block.template as usize].constraints(), particles, h);
-    }
+    let World { particles, templates, blocks, organisms, scratch, dispatch, .. } = world;
+    let constraints = |template: u32| templates[template as usize].constraints();
+    block::project(blocks, constraints, particles, h, *dispatch);
     for (membrane, ring) in membranes(organisms) {
         membrane.project(ring, particles, h);
     }
@@ -162,8 +165,13 @@ fn project_contacts(world: &mut World) {
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, organisms, guard, scratch, .. } = world;
-    integrate::update_velocities(particles, config.damping, config.speed_limit(), h);
+    let World { config, particles, organisms, guard, scratch, dispatch, .. } = world;
+    integrate::in_stretches(
+        particles,
+        *dispatch,
+        #[inline(always)]
+        |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
+    );
     // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
     for (_, cell) in organisms.iter().filter(|(_, organism)| organism.crawls()) {
         integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
@@ -182,8 +190,7 @@ fn catch_strays(world: &mut World) {
 }
 
 fn conclude(world: &mut World) {
-    let World { config, particles, fluids, organisms, touching, events, scratch, .. } = world;
-    fluids.iter_mut().for_each(|fluid| fluid.apply_viscosity(particles, config.dt));
+    let World { particles, organisms, touching, events, scratch, .. } = world;
     touching.update(scratch.broad_phase.touched(), particles, organisms, events);
     world.quarantine();
     world.rebase();

@@ -6,7 +6,7 @@
 #![cfg(feature = "scenario")]
 
 use microsim_core::scenario::{Built, Scenario, builtin, builtins};
-use microsim_core::{Inputs, World};
+use microsim_core::{Inputs, InstructionSet, World};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -85,5 +85,41 @@ fn nothing_leaks_or_is_lost_in_the_demonstration() {
         let census = world.census();
         assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0), "step {step}");
         assert_eq!((census.bodies, census.particles), (before.bodies, before.particles), "step {step}");
+    }
+}
+
+#[test]
+fn digests_do_not_depend_on_the_instruction_set() {
+    for scenario in builtins() {
+        let mut worlds = [InstructionSet::Baseline, InstructionSet::Best].map(|set| {
+            let mut world = build(scenario.name, None);
+            world.set_instruction_set(set);
+            world
+        });
+        for step in 0..30 {
+            let [baseline, best] = worlds.each_mut().map(|world| {
+                world.step(&Inputs::new());
+                world.digest()
+            });
+            assert_eq!(baseline, best, "{} at step {step}", scenario.name);
+        }
+    }
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn digests_do_not_depend_on_the_number_of_threads() {
+    // Enough platelets for several strips, batches and stretches, all stirred.
+    let crowded = Scenario::parse(builtin("platelets").unwrap().text, &[("count".into(), "400".into())]).unwrap();
+    let worlds = [crowded.build().unwrap().world, build("demo", None), build("dam-break", None)];
+    for (which, world) in worlds.iter().enumerate() {
+        let digest = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut world = world.clone();
+            pool.install(|| (0..30).for_each(|_| world.step(&Inputs::new())));
+            world.digest()
+        };
+        let alone = digest(1);
+        assert!([2, 3, 8].into_iter().all(|threads| digest(threads) == alone), "world {which}");
     }
 }

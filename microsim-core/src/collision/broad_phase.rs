@@ -1,11 +1,15 @@
 //! Broad phase, once per step: pairs that may touch before the next one.
 //!
-//! Two grids, because discs differ in size by a factor of ten and more: small discs in a fine grid, large ones (nuclei,
-//! interlayers, probes) in a coarse one, and large ones also look through the fine grid. Nothing moves farther in a step
-//! than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can touch.
+//! Nothing moves farther in a step than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can
+//! touch. They are looked for in the way that suits them: soft bodies and single discs by their boxes first ([`bodies`]),
+//! membranes and fluid disc by disc ([`crowd`]).
+//!
+//! [`bodies`]: super::bodies
+//! [`crowd`]: super::crowd
 
+use super::bodies::Bodies;
+use super::crowd::{Crowd, Disc};
 use super::filter::{Exemptions, Home};
-use super::grid::Grid;
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, ObstacleContact, combine};
@@ -13,16 +17,17 @@ use crate::particle::{NO_OWNER, Particles};
 use glam::Vec2;
 use parry2d::bounding_volume::BoundingVolume;
 
-/// The pairs of this step, and the grids that found them.
+/// The pairs of this step, and what found them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BroadPhase {
     pub contacts: Vec<Contact>,
     pub obstacle_contacts: Vec<ObstacleContact>,
     pub ring_contacts: RingContacts,
-    fine: Grid,
-    coarse: Grid,
-    small: Vec<u32>,
-    large: Vec<u32>,
+    bodies: Bodies,
+    membranes: Crowd,
+    fluid: Crowd,
+    /// First disc of each owner in the bodies, and one past the last one's.
+    starts: Vec<u32>,
 }
 
 /// What a pair search needs to know of the world.
@@ -44,23 +49,33 @@ pub(crate) struct Surroundings<'a> {
 impl BroadPhase {
     /// Finds the pairs of the step that begins.
     pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>) {
-        let (small_radius, large_radius) = self.sort_by_size(around.particles);
-        let margin = 2.0 * around.reach;
-        let fill = |grid: &mut Grid, radius: f32, entries: &[u32]| {
-            grid.fill(Vec2::ZERO, around.size, 2.0 * radius + margin, entries, |e| {
-                around.particles.position(e as usize)
-            });
-        };
-        fill(&mut self.fine, small_radius, &self.small);
-        fill(&mut self.coarse, large_radius, &self.large);
-        self.contacts.clear();
-        pairs_within(&self.fine, around, margin, &mut self.contacts);
-        pairs_within(&self.coarse, around, margin, &mut self.contacts);
-        self.pairs_across(around, small_radius, margin);
-        self.find_obstacle_contacts(around, small_radius);
-        let Surroundings { particles, exemptions, homes, rings, .. } = around;
-        let grids = [(&self.fine, small_radius), (&self.coarse, large_radius)];
-        self.ring_contacts.find(rings, Nearby { particles, exemptions, homes, grids, margin });
+        self.sort(around);
+        let Self { contacts, bodies, membranes, fluid, .. } = self;
+        contacts.clear();
+        bodies.pairs(|a, b| contact(a, b, around), contacts);
+        let mut consider = |a: &Disc, b: &Disc| contacts.extend(contact(a, b, around));
+        membranes.pairs(&mut consider);
+        if !fluid.is_empty() {
+            bodies.pairs_with(fluid, &mut consider);
+        }
+        if around.rings.is_empty() {
+            bodies.pairs_with(membranes, &mut consider);
+            for node in membranes.iter() {
+                fluid.near(node).for_each(|other| consider(node, other));
+            }
+        }
+        if fluid.iter().any(|disc| is_of_another_fluid(disc, fluid, around.particles)) {
+            fluid.pairs(consider);
+        }
+        self.find_obstacle_contacts(around);
+        self.find_ring_contacts(around);
+    }
+
+    fn find_ring_contacts(&mut self, around: Surroundings<'_>) {
+        let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
+        let Surroundings { particles, exemptions, homes, rings, reach, .. } = around;
+        let crowds = [&*membranes, &*fluid];
+        ring_contacts.find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach });
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -70,98 +85,77 @@ impl BroadPhase {
         discs.chain(links.filter_map(|contact| Some((contact.particle, contact.touched?))))
     }
 
-    /// Splits the colliding particles at twice their mean radius; returns the largest radius on both sides.
-    fn sort_by_size(&mut self, particles: &Particles) -> (f32, f32) {
-        let collides = |&i: &usize| particles.groups[i].memberships != 0 && particles.is_live(i);
-        let (mut sum, mut count) = (0.0, 0.0);
-        for i in (0..particles.len()).filter(collides) {
-            sum += particles.radius[i];
-            count += 1.0;
-        }
-        let threshold = if count > 0.0 { 2.0 * sum / count } else { 0.0 };
-        let (mut small_radius, mut large_radius) = (0.0, 0.0);
-        self.small.clear();
-        self.large.clear();
-        for i in (0..particles.len()).filter(collides) {
-            let radius = particles.radius[i];
-            let (list, largest) = if radius <= threshold {
-                (&mut self.small, &mut small_radius)
+    /// Sorts the colliding particles into bodies, membranes and fluid.
+    fn sort(&mut self, around: Surroundings<'_>) {
+        let Surroundings { particles: p, size, reach, .. } = around;
+        let Self { bodies, membranes, fluid, starts, .. } = self;
+        membranes.found.clear();
+        fluid.found.clear();
+        starts.clear();
+        let colliding = || (0..p.len()).filter(|&i| p.groups[i].memberships != 0 && p.is_live(i));
+        let is_in_body = |i: usize| p.fluid[i] == 0 && p.next_in_ring[i] == NO_OWNER;
+        for i in colliding() {
+            if is_in_body(i) {
+                let owner = p.owner[i] as usize;
+                starts.resize(starts.len().max(owner + 2), 0);
+                starts[owner] += 1;
             } else {
-                (&mut self.large, &mut large_radius)
-            };
-            list.push(i as u32);
-            *largest = if radius > *largest { radius } else { *largest };
-        }
-        (small_radius, large_radius)
-    }
-
-    fn pairs_across(&mut self, around: Surroundings<'_>, small_radius: f32, margin: f32) {
-        for &i in &self.large {
-            let position = around.particles.position(i as usize);
-            let reach = Vec2::splat(around.particles.radius[i as usize] + small_radius + margin);
-            for j in self.fine.in_box(position - reach, position + reach) {
-                consider(i, j, around, margin, &mut self.contacts);
+                let crowd = if p.fluid[i] == 0 { &mut *membranes } else { &mut *fluid };
+                crowd.found.push(Disc::of(p, i, reach));
             }
         }
+        let mut end = 0;
+        for start in &mut *starts {
+            end += *start;
+            *start = end;
+        }
+        bodies.discs.resize(end as usize, Disc::default());
+        // Each start is the end of its body so far; filling backwards turns it into the first disc and keeps the order.
+        for i in colliding().rev().filter(|&i| is_in_body(i)) {
+            let start = &mut starts[p.owner[i] as usize];
+            *start -= 1;
+            bodies.discs[*start as usize] = Disc::of(p, i, reach);
+        }
+        bodies.sort(starts.windows(2).map(|pair| pair[0] as usize..pair[1] as usize), size);
+        membranes.sort(size);
+        fluid.sort(size);
     }
 
-    fn find_obstacle_contacts(&mut self, around: Surroundings<'_>, small_radius: f32) {
-        self.obstacle_contacts.clear();
-        for (k, obstacle) in around.obstacles.iter().enumerate() {
-            let bounds = obstacle.bounds().loosened(around.reach);
-            let reach = Vec2::splat(small_radius);
-            let small = self.fine.in_box(bounds.mins - reach, bounds.maxs + reach);
-            for particle in small.chain(self.large.iter().copied()) {
-                let i = particle as usize;
-                let near = bounds.loosened(around.particles.radius[i]);
-                if around.particles.inv_mass[i] > 0.0
-                    && near.contains_local_point(around.particles.position(i))
+    fn find_obstacle_contacts(&mut self, around: Surroundings<'_>) {
+        let Self { obstacle_contacts, bodies, membranes, fluid, .. } = self;
+        obstacle_contacts.clear();
+        for (obstacle, k) in around.obstacles.iter().zip(0..) {
+            let bounds = obstacle.bounds();
+            let (low, high) = (bounds.mins, bounds.maxs);
+            let is_near = |disc: &&Disc| {
+                let i = disc.index as usize;
+                let near = bounds.loosened(disc.reach);
+                near.contains_local_point(disc.at)
+                    && around.particles.inv_mass[i] > 0.0
                     && around.particles.groups[i].meets(obstacle.groups)
-                {
-                    self.obstacle_contacts.push(ObstacleContact { particle, obstacle: k as u32 });
-                }
-            }
+            };
+            let of_bodies = bodies.in_box(low, high).flat_map(|body| bodies.discs_of(body));
+            let of_crowds = [&*membranes, &*fluid].into_iter().flat_map(|crowd| crowd.in_box(low, high));
+            let near = of_bodies.chain(of_crowds).filter(is_near);
+            obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
         }
     }
 }
 
-/// Pairs of one grid: within a cell, with the cell to the right, and with the three cells above.
-fn pairs_within(grid: &Grid, around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
-    let entries = grid.entries();
-    for row in 0..grid.rows() {
-        for column in 0..grid.columns() {
-            let cell = grid.row_range(row, column..column + 1);
-            let right = grid.row_range(row, column..column + 2);
-            let above = grid.row_range(row + 1, column.saturating_sub(1)..column + 2);
-            for k in cell {
-                for &j in entries[k + 1..right.end].iter().chain(&entries[above.clone()]) {
-                    consider(entries[k], j, around, margin, contacts);
-                }
-            }
-        }
-    }
+/// Whether a disc's fluid is not that of the first disc: then there are several.
+fn is_of_another_fluid(disc: &Disc, fluid: &Crowd, p: &Particles) -> bool {
+    let first = fluid.iter().next();
+    first.is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }
 
-fn consider(i: u32, j: u32, around: Surroundings<'_>, margin: f32, contacts: &mut Vec<Contact>) {
-    let p = around.particles;
-    let (a, b) = (i as usize, j as usize);
-    // First what is cheapest and by far the most frequent.
-    if keep_apart_themselves(p, a, b) {
-        return;
-    }
-    let reach = p.radius[a] + p.radius[b] + margin;
-    let is_for_rings = !around.rings.is_empty() && is_for_rings(p, a, b);
-    if p.between(a, b).length_squared() < reach * reach && !is_for_rings && may_collide(p, a, b, around.exemptions) {
-        let (friction, restitution) = combine(p.material[a], p.material[b]);
-        contacts.push(Contact { i, j, friction, restitution, touched: false });
-    }
-}
-
-/// Whether two particles belong to one fluid, which keeps its particles apart by itself, or to one soft body, whose
-/// constraints do.
-fn keep_apart_themselves(p: &Particles, a: usize, b: usize) -> bool {
-    let in_one_body = p.owner[a] == p.owner[b] && p.next_in_ring[a] == NO_OWNER && p.next_in_ring[b] == NO_OWNER;
-    p.fluid[a] == p.fluid[b] && (p.fluid[a] != 0 || in_one_body)
+/// The contact of two discs that are near each other, if they collide at all.
+fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
+    let (p, i, j) = (around.particles, a.index as usize, b.index as usize);
+    let is_for_rings = !around.rings.is_empty() && is_for_rings(p, i, j);
+    (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| {
+        let (friction, restitution) = combine(p.material[i], p.material[j]);
+        Contact { i: a.index, j: b.index, friction, restitution, touched: false }
+    })
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
@@ -178,6 +172,9 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
         // Within one owner a membrane holds its cytoplasm and does not pass through itself; nothing else collides.
         let in_membrane = p.next_in_ring[a] != NO_OWNER && p.next_in_ring[b] != NO_OWNER;
         return p.fluid[a] != p.fluid[b] || (in_membrane && !p.are_ring_neighbours(a, b));
+    }
+    if p.fluid[a] == p.fluid[b] && p.fluid[a] != 0 {
+        return false; // A fluid keeps its particles apart by itself.
     }
     let owners = [p.owner[a], p.owner[b]];
     !exemptions.contains(owners[0], owners[1]) && !exemptions.gate_is_open([a as u32, b as u32], owners)
@@ -198,9 +195,11 @@ mod tests {
             let mut particle = disc(position, 1.0);
             particle.radius = if owner % 13 == 0 { rng.range(2.0, 4.0) } else { rng.range(0.2, 0.5) };
             particle.owner = owner / 3;
-            particle.fluid = u32::from(owner % 5 == 0);
+            particle.fluid = u32::from(owner % 5 == 0) + u32::from(owner % 10 == 0);
             particles.insert(&particle);
         }
+        let ring: Vec<u32> = (0..count).filter(|&i| i % 7 == 0 && particles.fluid[i as usize] == 0).collect();
+        particles.link_ring(&ring);
         particles
     }
 
@@ -232,8 +231,7 @@ mod tests {
                 for j in i + 1..particles.len() {
                     let gap = (particles.position(i) - particles.position(j)).length();
                     let is_near = gap < particles.radius[i] + particles.radius[j] + 0.2;
-                    if is_near && !keep_apart_themselves(&particles, i, j) && may_collide(&particles, i, j, &exemptions)
-                    {
+                    if is_near && may_collide(&particles, i, j, &exemptions) {
                         expected.push((i as u32, j as u32));
                     }
                 }

@@ -10,58 +10,66 @@ const MAX_CELLS: f32 = 2048.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
     origin: Vec2,
-    inverse_cell: f32,
+    inverse_cell: Vec2,
     columns: usize,
     rows: usize,
     /// First entry of each cell, and one past the last entry of the last cell.
     starts: Vec<u32>,
     /// What was sorted, in cell order; within a cell in the order given.
-    entries: Vec<u32>,
+    order: Vec<u32>,
     cells: Vec<u32>,
 }
 
 impl Grid {
-    /// Sorts `entries` by the cell of their position. `low..high` is the area to cover; what lies outside it is put into
-    /// the border cells.
-    pub(crate) fn fill(&mut self, low: Vec2, high: Vec2, cell: f32, entries: &[u32], position: impl Fn(u32) -> Vec2) {
-        self.resize(low, high, cell, entries.len());
+    /// Sorts entries `0..count` by the cell of their position. `low..high` is the area to cover; what lies outside it is
+    /// put into the border cells. Cells have at least the size `cell`.
+    pub(crate) fn fill(&mut self, low: Vec2, high: Vec2, cell: Vec2, count: usize, position: impl Fn(usize) -> Vec2) {
+        self.resize(low, high, cell, count);
         let mut cells = std::mem::take(&mut self.cells);
         cells.clear();
-        cells.extend(entries.iter().map(|&e| self.cell_index(position(e)) as u32));
+        cells.extend((0..count).map(|e| self.cell_index(position(e)) as u32));
         self.cells = cells;
         self.starts.clear();
         self.starts.resize(self.columns * self.rows + 1, 0);
         for &cell in &self.cells {
             self.starts[cell as usize] += 1;
         }
-        for k in 1..self.starts.len() {
-            self.starts[k] += self.starts[k - 1];
+        let mut end = 0;
+        for start in &mut self.starts {
+            end += *start;
+            *start = end;
         }
-        self.entries.clear();
-        self.entries.resize(entries.len(), 0);
+        self.order.clear();
+        self.order.resize(count, 0);
         // Each start is the end of its cell so far; filling backwards turns it into the first entry and keeps the order.
-        for (&entry, &cell) in entries.iter().zip(&self.cells).rev() {
+        for (entry, &cell) in self.cells.iter().enumerate().rev() {
             let end = &mut self.starts[cell as usize];
             *end -= 1;
-            self.entries[*end as usize] = entry;
+            self.order[*end as usize] = entry as u32;
         }
     }
 
-    fn resize(&mut self, low: Vec2, high: Vec2, cell: f32, count: usize) {
+    fn resize(&mut self, low: Vec2, high: Vec2, cell: Vec2, count: usize) {
         let extent = high - low;
-        let longest = if extent.x > extent.y { extent.x } else { extent.y };
         let budget = (4 * count + 1024) as f32;
-        let bounds = [cell, longest / MAX_CELLS, (extent.x * extent.y / budget).sqrt()];
-        let cell = bounds.into_iter().fold(0.0, |largest, bound| if bound > largest { bound } else { largest });
+        let coarser = largest([1.0, extent.x / (cell.x * MAX_CELLS), extent.y / (cell.y * MAX_CELLS)]);
+        let crowded = (extent.x * extent.y / (cell.x * cell.y * budget)).sqrt();
+        let cell = cell * largest([coarser, crowded]);
+        let inverse = |size: f32| if size > 0.0 { 1.0 / size } else { 0.0 };
         self.origin = low;
-        self.inverse_cell = if cell > 0.0 { 1.0 / cell } else { 0.0 };
-        self.columns = (extent.x * self.inverse_cell) as usize + 1;
-        self.rows = (extent.y * self.inverse_cell) as usize + 1;
+        self.inverse_cell = Vec2::new(inverse(cell.x), inverse(cell.y));
+        self.columns = (extent.x * self.inverse_cell.x) as usize + 1;
+        self.rows = (extent.y * self.inverse_cell.y) as usize + 1;
     }
 
     /// All entries, in cell order.
-    pub(crate) fn entries(&self) -> &[u32] {
-        &self.entries
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// How many columns away something within this distance can be.
+    pub(crate) fn columns_within(&self, distance: f32) -> usize {
+        (distance * self.inverse_cell.x) as usize + 1
     }
 
     pub(crate) fn columns(&self) -> usize {
@@ -83,7 +91,7 @@ impl Grid {
         row * self.columns + column
     }
 
-    /// Entries of the cells `columns` of one row, as a range of [`Grid::entries`].
+    /// Entries of the cells `columns` of one row, as a range of [`Grid::order`].
     pub(crate) fn row_range(&self, row: usize, columns: Range<usize>) -> Range<usize> {
         if columns.is_empty() || row >= self.rows {
             return 0..0;
@@ -93,11 +101,36 @@ impl Grid {
         self.starts[base + columns.start] as usize..self.starts[base + last] as usize
     }
 
-    /// Entries of the cells that a box touches, row by row.
-    pub(crate) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = u32> + '_ {
+    /// Entries of the cells that a box touches, row by row, as ranges of [`Grid::order`].
+    pub(crate) fn ranges_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = Range<usize>> {
         let ((c0, r0), (c1, r1)) = (self.cell_of(low), self.cell_of(high));
-        (r0..=r1).flat_map(move |row| self.entries[self.row_range(row, c0..c1 + 1)].iter().copied())
+        (r0..=r1).map(move |row| self.row_range(row, c0..c1 + 1))
     }
+
+    /// Calls `visit` once for each two places in [`Grid::order`] in the same or neighbouring cells, the first of them in
+    /// these rows: within a cell, with the cell to the right, and with the three cells above.
+    #[inline(always)]
+    pub(crate) fn pairs(&self, rows: Range<usize>, mut visit: impl FnMut(usize, usize)) {
+        for row in rows.start..rows.end.min(self.rows) {
+            for column in 0..self.columns {
+                let cell = self.row_range(row, column..column + 1);
+                if cell.is_empty() {
+                    continue;
+                }
+                let right = self.row_range(row, column..column + 2);
+                let above = self.row_range(row + 1, column.saturating_sub(1)..column + 2);
+                for k in cell {
+                    (k + 1..right.end).for_each(|other| visit(k, other));
+                    above.clone().for_each(|other| visit(k, other));
+                }
+            }
+        }
+    }
+}
+
+/// The largest of some numbers; NaN counts as none.
+fn largest<const N: usize>(numbers: [f32; N]) -> f32 {
+    numbers.into_iter().fold(0.0, |most, number| if number > most { number } else { most })
 }
 
 #[cfg(test)]
@@ -112,20 +145,21 @@ mod tests {
         let entries: Vec<u32> = (0..500).collect();
         let mut grid = Grid::default();
         for _ in 0..2 {
-            grid.fill(Vec2::ZERO, Vec2::new(20.0, 10.0), 1.5, &entries, |e| points[e as usize]);
+            grid.fill(Vec2::ZERO, Vec2::new(20.0, 10.0), Vec2::splat(1.5), points.len(), |e| points[e]);
         }
-        let mut seen = grid.entries().to_vec();
+        let mut seen = grid.order().to_vec();
         seen.sort_unstable();
         assert_eq!(seen, entries);
         for row in 0..grid.rows() {
             for column in 0..grid.columns() {
-                for &e in &grid.entries()[grid.row_range(row, column..column + 1)] {
+                for &e in &grid.order()[grid.row_range(row, column..column + 1)] {
                     assert_eq!(grid.cell_of(points[e as usize]), (column, row));
                 }
             }
         }
         let (low, high) = (Vec2::new(3.0, 2.0), Vec2::new(7.0, 9.0));
-        let found: Vec<u32> = grid.in_box(low, high).collect();
+        let ranges = grid.ranges_in_box(low, high);
+        let found: Vec<u32> = ranges.flat_map(|range| grid.order()[range].to_vec()).collect();
         for (e, p) in points.iter().enumerate() {
             let is_inside = p.cmpge(low).all() && p.cmple(high).all();
             assert!(!is_inside || found.contains(&(e as u32)), "{p} missing");
@@ -135,9 +169,9 @@ mod tests {
     #[test]
     fn non_finite_points_and_empty_grids_are_harmless() {
         let mut grid = Grid::default();
-        grid.fill(Vec2::ZERO, Vec2::ONE, 0.1, &[0, 1], |_| Vec2::NAN);
-        assert_eq!(grid.entries().len(), 2);
-        grid.fill(Vec2::ZERO, Vec2::ZERO, 0.0, &[], |_| Vec2::ZERO);
-        assert_eq!(grid.in_box(Vec2::ZERO, Vec2::ONE).count(), 0);
+        grid.fill(Vec2::ZERO, Vec2::ONE, Vec2::splat(0.1), 2, |_| Vec2::NAN);
+        assert_eq!(grid.order().len(), 2);
+        grid.fill(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 0, |_| Vec2::ZERO);
+        assert_eq!(grid.ranges_in_box(Vec2::ZERO, Vec2::ONE).flatten().count(), 0);
     }
 }

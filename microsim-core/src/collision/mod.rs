@@ -1,6 +1,8 @@
 //! Which particles may touch during a step: broad phase and filters. Knows no constraints.
 
+mod bodies;
 pub(crate) mod broad_phase;
+mod crowd;
 pub(crate) mod filter;
 pub(crate) mod grid;
 pub(crate) mod obstacle;

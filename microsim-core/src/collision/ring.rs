@@ -1,11 +1,11 @@
 //! Discs near rings of linked particles: which links each may touch during a step, and on which side it is at home.
 
+use super::bodies::Bodies;
 use super::combine;
+use super::crowd::{Crowd, Disc};
 use super::filter::{Exemptions, Home, Side, side_of};
-use super::grid::Grid;
 use crate::geometry::polygon::nearest_on_segment;
 use crate::particle::{NO_OWNER, Particles};
-use glam::Vec2;
 use std::ops::Range;
 
 /// A closed ring of linked particles, counter-clockwise: what is to the left of its links is inside.
@@ -55,12 +55,12 @@ pub(crate) struct RingContacts {
 
 /// What the search needs to know.
 #[derive(Clone, Copy)]
-pub(crate) struct Nearby<'a> {
+pub(super) struct Nearby<'a> {
     pub particles: &'a Particles,
     pub exemptions: &'a Exemptions,
     pub homes: &'a [Home],
-    /// Grids over everything that collides, and the largest radius in each.
-    pub grids: [(&'a Grid, f32); 2],
+    pub bodies: &'a Bodies,
+    pub crowds: [&'a Crowd; 2],
     /// How much the gap between two particles may close in one step.
     pub margin: f32,
 }
@@ -77,15 +77,13 @@ impl RingContacts {
     }
 
     /// Finds the discs near some rings.
-    pub(crate) fn find(&mut self, rings: &[Ring<'_>], near: Nearby<'_>) {
+    pub(super) fn find(&mut self, rings: &[Ring<'_>], near: Nearby<'_>) {
         self.contacts.clear();
         self.links.clear();
         for (k, ring) in rings.iter().enumerate() {
             self.found.clear();
             for link in 0..ring.nodes.len() {
-                for (grid, radius) in near.grids {
-                    find_near_link(*ring, link, grid, radius, near, &mut self.found);
-                }
+                find_near_link(*ring, link, near, &mut self.found);
             }
             self.found.sort_unstable();
             self.group(*ring, k, near);
@@ -114,20 +112,21 @@ impl RingContact {
     }
 }
 
-fn find_near_link(ring: Ring<'_>, k: usize, grid: &Grid, radius: f32, near: Nearby<'_>, found: &mut Vec<(u32, u32)>) {
+fn find_near_link(ring: Ring<'_>, k: usize, near: Nearby<'_>, found: &mut Vec<(u32, u32)>) {
     let p = near.particles;
     let Link { a, b } = ring.link(k);
     let ends = [p.position(a as usize), p.position(b as usize)];
-    let reach = Vec2::splat(p.radius[a as usize] + radius + near.margin);
-    for particle in grid.in_box(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach) {
-        let i = particle as usize;
-        let at = p.position(i);
-        let nearest = nearest_on_segment(ends[0], ends[1], at);
-        let reach = p.radius[i] + p.radius[a as usize] + near.margin;
-        if (at - nearest).length_squared() < reach * reach && may_touch(p, i, ring, [a, b], near.exemptions) {
-            found.push((particle, k as u32));
-        }
-    }
+    let half_width = p.radius[a as usize] + 0.5 * near.margin;
+    let (low, high) = (ends[0].min(ends[1]) - half_width, ends[0].max(ends[1]) + half_width);
+    let is_near = |disc: &&Disc| {
+        let reach = disc.reach + half_width;
+        (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < reach * reach
+    };
+    let in_bodies = near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body));
+    let in_crowds = near.crowds.into_iter().flat_map(|crowd| crowd.in_box(low, high));
+    let discs = in_bodies.chain(in_crowds).filter(is_near);
+    let touching = discs.filter(|disc| may_touch(p, disc.index as usize, ring, [a, b], near.exemptions));
+    found.extend(touching.map(|disc| (disc.index, k as u32)));
 }
 
 /// Whether a disc collides with a link: not with its own ring's, whose nodes keep apart as discs, and not through a gate.

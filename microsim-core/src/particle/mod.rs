@@ -16,6 +16,9 @@
 //!
 //! A dead entry (an empty lane, a freed index) has inverse mass 0, owner [`NO_OWNER`] and belongs to no collision group.
 
+mod columns;
+
+pub(crate) use columns::Columns;
 use glam::Vec2;
 
 /// Owner of an entry that holds no live particle.
@@ -123,6 +126,12 @@ impl Particles {
     /// Number of live particles.
     pub(crate) fn live_count(&self) -> usize {
         self.live_count
+    }
+
+    /// What of all particles moves.
+    pub(crate) fn columns(&mut self) -> Columns<'_> {
+        let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = self;
+        Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
     }
 
     /// Whether entry `i` holds a live particle.

@@ -3,8 +3,8 @@
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
 
-use super::lanes::{Pair, Span, ratio};
-use crate::particle::Particles;
+use super::lanes::{Pair, Span, each, ratio};
+use crate::particle::Columns;
 
 /// A node held to a static anchor by a contracting rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Anchor {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles: &mut Particles, h: f32) {
+pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
     for c in list {
         let alpha = c.compliance / (h * h);
         contract(c, c.rest_length, alpha, span, particles);
@@ -31,9 +31,9 @@ pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles:
 }
 
 #[inline(always)]
-fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Particles) {
+fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Columns<'_>) {
     let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
-    let multiplier = std::array::from_fn(|l| {
+    let multiplier = each(|l| {
         let excess = pair.length[l] - length * span.scale[l];
         let active = if excess > 0.0 { excess } else { 0.0 };
         ratio(-active, pair.weight(l) + alpha)
@@ -51,17 +51,17 @@ mod tests {
     #[test]
     fn pulls_home_softly_and_stops_hard() {
         let mut p = line(1.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p, 0.01);
+        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!((p.x[0], p.x[1]), (0.0, 0.5));
         let mut p = line(100.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p, 0.001);
+        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.001);
         assert_eq!(p.x[1], 2.0);
     }
 
     #[test]
     fn node_at_its_anchor_stays() {
         let mut p = line(0.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p, 0.01);
+        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!((p.x[1], p.y[1]), (0.0, 0.0));
     }
 }

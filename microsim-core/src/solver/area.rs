@@ -4,7 +4,7 @@
 //! (Mueller et al. 2007, section 4.3, volume conservation, in two dimensions).
 
 use super::lanes::{Span, ratio};
-use crate::particle::Particles;
+use crate::particle::Columns;
 use glam::Vec2;
 
 /// A ring of nodes around a given area.
@@ -20,7 +20,8 @@ pub struct Area {
     pub is_upper_bound: bool,
 }
 
-pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &mut Particles, h: f32) {
+#[inline(always)]
+pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
     for c in list {
         for lane in 0..L {
             project_lane(c, |slot| span.at(slot) + lane, span.scale[lane], particles, h);
@@ -28,7 +29,7 @@ pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &
     }
 }
 
-fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Particles, h: f32) {
+fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Columns<'_>, h: f32) {
     let ring: Vec<u32> = c.ring.iter().map(|&slot| at(slot) as u32).collect();
     let polygon = Polygon::measure(&ring, particles);
     let error = polygon.area - c.rest_area * scale * scale;
@@ -46,7 +47,7 @@ pub(crate) struct Polygon {
 }
 
 impl Polygon {
-    pub(crate) fn measure(ring: &[u32], particles: &Particles) -> Self {
+    pub(crate) fn measure(ring: &[u32], particles: &Columns<'_>) -> Self {
         let count = ring.len();
         let node = |k: usize| ring[k % count] as usize;
         let (mut twice_area, mut weight) = (0.0, 0.0);
@@ -60,9 +61,9 @@ impl Polygon {
 }
 
 /// Corrects an area error: moves every node along its gradient, as the ring was when it was measured.
-pub(crate) fn enforce(polygon: &Polygon, ring: &[u32], error: f32, alpha: f32, particles: &mut Particles) {
+pub(crate) fn enforce(polygon: &Polygon, ring: &[u32], error: f32, alpha: f32, particles: &mut Columns<'_>) {
     let count = ring.len();
-    let offset = |particles: &Particles, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
+    let offset = |particles: &Columns<'_>, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
     let multiplier = ratio(-error, polygon.weight + alpha);
     // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
     let mut before = offset(particles, count - 1);
@@ -91,6 +92,7 @@ mod tests {
     use super::super::testing::{momentum, ring};
     use super::*;
     use crate::geometry::polygon::signed_area;
+    use crate::particle::Particles;
 
     fn area_of(p: &Particles) -> f32 {
         signed_area(&(0..p.len()).map(|i| p.position(i)).collect::<Vec<_>>())
@@ -106,7 +108,7 @@ mod tests {
             let mut p = ring(12, 1.1);
             let before = momentum(&p);
             for _ in 0..8 {
-                project(&[constraint(12, target, false)], Span::LOOSE, &mut p, 0.01);
+                project(&[constraint(12, target, false)], Span::LOOSE, &mut p.columns(), 0.01);
             }
             assert!((area_of(&p) - target).abs() < 1e-3, "area {} for {target}", area_of(&p));
             assert!((momentum(&p) - before).length() < 1e-4);
@@ -117,10 +119,10 @@ mod tests {
     fn rest_state_is_a_fixed_point_and_degenerate_rings_stay_finite() {
         let mut p = ring(12, 1.0);
         let (rest, before) = (area_of(&p), p.clone());
-        project(&[constraint(12, rest, false)], Span::LOOSE, &mut p, 0.01);
+        project(&[constraint(12, rest, false)], Span::LOOSE, &mut p.columns(), 0.01);
         assert!((0..12).all(|i| (p.position(i) - before.position(i)).length() < 1e-6));
         let mut point = ring(12, 0.0);
-        project(&[constraint(12, 1.0, false)], Span::LOOSE, &mut point, 0.01);
+        project(&[constraint(12, 1.0, false)], Span::LOOSE, &mut point.columns(), 0.01);
         assert!((0..12).all(|i| point.position(i).is_finite()));
     }
 
@@ -128,7 +130,7 @@ mod tests {
     fn upper_bound_lets_the_ring_shrink() {
         let mut p = ring(12, 0.5);
         let before = area_of(&p);
-        project(&[constraint(12, 6.0, true)], Span::LOOSE, &mut p, 0.01);
+        project(&[constraint(12, 6.0, true)], Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!(area_of(&p), before);
     }
 }

@@ -1,8 +1,13 @@
 //! Blocks: eight instances of one template side by side in the particle store, solved in lanes.
 
 use super::ConstraintSet;
+use super::instruction_set::Dispatch;
 use super::lanes::{LANES, Span};
+use crate::parallel;
 use crate::particle::{NO_OWNER, Particles};
+
+/// Blocks that are projected side by side.
+const BATCH: usize = 4;
 
 /// Eight instances of a template; empty lanes hold dead particles.
 #[derive(Clone, Debug)]
@@ -39,10 +44,44 @@ impl Block {
         self.owner.iter().all(|&owner| owner == NO_OWNER)
     }
 
-    /// Projects the template's constraints in all eight lanes.
-    pub(crate) fn project(&self, constraints: &ConstraintSet, particles: &mut Particles, h: f32) {
-        constraints.project(Span { base: self.base as usize, scale: self.scale }, particles, h);
+    /// Where it lies in a stretch of the store that begins at `start`.
+    fn span(&self, start: usize) -> Span<LANES> {
+        Span { base: self.base as usize - start, scale: self.scale }
     }
+
+    /// One past its last particle.
+    fn end(&self) -> usize {
+        self.base as usize + self.slots as usize * LANES
+    }
+}
+
+/// Projects all constraints of all blocks, [`BATCH`] blocks of one template at a time.
+pub(crate) fn project<'a>(
+    blocks: &[Block],
+    constraints: impl Fn(u32) -> &'a ConstraintSet + Sync + Send,
+    particles: &mut Particles,
+    h: f32,
+    dispatch: Dispatch,
+) {
+    let mut batches = Vec::with_capacity(blocks.len());
+    let (mut rest, mut start) = (particles.columns(), 0);
+    for of_template in blocks.chunk_by(|a, b| a.template == b.template) {
+        for batch in of_template.chunks(BATCH) {
+            let end = batch.iter().map(Block::end).max().unwrap_or(start);
+            let (stretch, others) = rest.split_at(end - start);
+            batches.push((batch, start, stretch));
+            (rest, start) = (others, end);
+        }
+    }
+    parallel::for_each(batches, |(batch, start, mut stretch)| {
+        let live = batch.iter().filter(|block| !block.is_empty());
+        let spans: Vec<_> = live.map(|block| block.span(start)).collect();
+        let constraints = constraints(batch[0].template);
+        dispatch.run(
+            #[inline(always)]
+            || constraints.project(&spans, &mut stretch, h),
+        );
+    });
 }
 
 #[cfg(test)]
@@ -75,8 +114,8 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            block.project(&constraints, &mut in_lanes, 0.01);
-            loose.iter_mut().for_each(|p| constraints.project(Span::LOOSE, p, 0.01));
+            project(std::slice::from_ref(&block), |_| &constraints, &mut in_lanes, 0.01, Dispatch::default());
+            loose.iter_mut().for_each(|p| constraints.project(&[Span::LOOSE], &mut p.columns(), 0.01));
         }
         for (lane, loose) in loose.iter().enumerate() {
             for slot in 0..5 {
@@ -90,7 +129,8 @@ mod tests {
     fn an_empty_lane_stays_as_it_is() {
         let mut particles = Particles::default();
         let block = Block::new(0, 5, &mut particles);
-        block.project(&spring_chain(5), &mut particles, 0.01);
+        let constraints = spring_chain(5);
+        constraints.project(&[block.span(0)], &mut particles.columns(), 0.01);
         assert!(block.is_empty() && (0..particles.len()).all(|i| particles.position(i) == Vec2::ZERO));
     }
 }

@@ -6,8 +6,8 @@
 //! `lambda = (-C - g n.(dx_b - dx_a)) / ((1 + g)(w_a + w_b) + alpha / h^2)`, with `g = tau / h`,
 //! where `dx` is the move since the substep began.
 
-use super::lanes::{Pair, Span, ratio};
-use crate::particle::Particles;
+use super::lanes::{Pair, Span, each, ratio};
+use crate::particle::Columns;
 
 /// Two nodes at a fixed distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,13 +25,13 @@ pub struct Distance {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particles: &mut Particles, h: f32) {
+pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
         let gamma = c.damping / h;
         let resisted = if c.damping > 0.0 { pair.opening(particles) } else { [0.0; L] };
         let alpha = c.compliance / (h * h);
-        let multiplier = std::array::from_fn(|l| {
+        let multiplier = each(|l| {
             let error = pair.length[l] - c.rest_length * span.scale[l];
             ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha)
         });
@@ -51,14 +51,16 @@ mod tests {
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         for compliance in [0.0, 1e-3] {
-            assert_pair_laws(&[0.5, 1.7], 1.0, |p| project(&[constraint(compliance)], Span::LOOSE, p, 0.01));
+            assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
+                project(&[constraint(compliance)], Span::LOOSE, &mut p.columns(), 0.01);
+            });
         }
     }
 
     #[test]
     fn rigid_is_satisfied_at_once_and_shared_by_mass() {
         let mut p = line(2.0, [1.0, 0.5]);
-        project(&[constraint(0.0)], Span::LOOSE, &mut p, 0.01);
+        project(&[constraint(0.0)], Span::LOOSE, &mut p.columns(), 0.01);
         assert!((p.x[1] - p.x[0] - 1.0).abs() < 1e-6);
         assert!((p.x[0] - 2.0 / 3.0).abs() < 1e-6, "the light one moves twice as far, got {}", p.x[0]);
     }
@@ -66,7 +68,7 @@ mod tests {
     #[test]
     fn compliance_leaves_the_error_that_the_formula_says() {
         let mut p = line(2.0, [1.0, 1.0]);
-        project(&[constraint(1e-4)], Span::LOOSE, &mut p, 0.01);
+        project(&[constraint(1e-4)], Span::LOOSE, &mut p.columns(), 0.01);
         // alpha / h^2 = 1, so a third of the error stays.
         assert!((p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6, "length {}", p.x[1] - p.x[0]);
     }
@@ -77,8 +79,8 @@ mod tests {
         free.prev_x[1] = 1.9;
         let mut damped = free.clone();
         let soft = Distance { rest_length: 2.0, ..constraint(1e-4) };
-        project(&[soft], Span::LOOSE, &mut free, 0.01);
-        project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped, 0.01);
+        project(&[soft], Span::LOOSE, &mut free.columns(), 0.01);
+        project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped.columns(), 0.01);
         assert_eq!(free.x[1], 2.0);
         assert!(damped.x[1] < 2.0 && damped.x[1] > 1.9);
     }

@@ -8,7 +8,7 @@
 //!
 //! The number of lanes is fixed here and never taken from the CPU: results do not depend on it.
 
-use crate::particle::Particles;
+use crate::particle::Columns;
 
 /// Instances of a template in one block.
 pub(crate) const LANES: usize = 8;
@@ -30,6 +30,7 @@ impl Span<1> {
 }
 
 impl<const L: usize> Span<L> {
+    #[inline(always)]
     pub(crate) fn at(&self, slot: u32) -> usize {
         self.base + slot as usize * L
     }
@@ -40,6 +41,17 @@ impl<const L: usize> Span<L> {
 pub(crate) fn load<const L: usize>(column: &[f32], at: usize) -> [f32; L] {
     let mut lanes = [0.0; L];
     lanes.copy_from_slice(&column[at..at + L]);
+    lanes
+}
+
+/// A value for each lane. (`std::array::from_fn` is not always inlined, and what is not inlined is not compiled for the
+/// instructions of [`super::instruction_set`].)
+#[inline(always)]
+pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
+    let mut lanes = [0.0; L];
+    for (l, lane) in lanes.iter_mut().enumerate() {
+        *lane = value(l);
+    }
     lanes
 }
 
@@ -64,16 +76,16 @@ pub(crate) struct Pair<const L: usize> {
 
 impl<const L: usize> Pair<L> {
     #[inline(always)]
-    pub(crate) fn load(particles: &Particles, a: usize, b: usize) -> Self {
-        let (ax, ay) = (load::<L>(&particles.x, a), load::<L>(&particles.y, a));
-        let (bx, by) = (load::<L>(&particles.x, b), load::<L>(&particles.y, b));
+    pub(crate) fn load(particles: &Columns<'_>, a: usize, b: usize) -> Self {
+        let (ax, ay) = (load::<L>(particles.x, a), load::<L>(particles.y, a));
+        let (bx, by) = (load::<L>(particles.x, b), load::<L>(particles.y, b));
         let mut pair = Self {
             a,
             b,
             normal_x: [0.0; L],
             normal_y: [0.0; L],
-            inv_mass_a: load(&particles.inv_mass, a),
-            inv_mass_b: load(&particles.inv_mass, b),
+            inv_mass_a: load(particles.inv_mass, a),
+            inv_mass_b: load(particles.inv_mass, b),
             length: [0.0; L],
         };
         for l in 0..L {
@@ -95,19 +107,23 @@ impl<const L: usize> Pair<L> {
 
     /// How far the two slots have moved apart, along the line between them, since the substep began.
     #[inline(always)]
-    pub(crate) fn opening(&self, particles: &Particles) -> [f32; L] {
-        let moved = |column: &[f32], prev: &[f32]| {
-            let (at, bt) = (load::<L>(column, self.a), load::<L>(column, self.b));
-            let (ap, bp) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
-            std::array::from_fn::<f32, L, _>(|l| (bt[l] - bp[l]) - (at[l] - ap[l]))
-        };
-        let (dx, dy) = (moved(&particles.x, &particles.prev_x), moved(&particles.y, &particles.prev_y));
-        std::array::from_fn(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+    pub(crate) fn opening(&self, particles: &Columns<'_>) -> [f32; L] {
+        let dx = self.parted(particles.x, particles.prev_x);
+        let dy = self.parted(particles.y, particles.prev_y);
+        each(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+    }
+
+    /// How far the two slots have moved apart in one coordinate.
+    #[inline(always)]
+    fn parted(&self, column: &[f32], prev: &[f32]) -> [f32; L] {
+        let (a, b) = (load::<L>(column, self.a), load::<L>(column, self.b));
+        let (a_prev, b_prev) = (load::<L>(prev, self.a), load::<L>(prev, self.b));
+        each(|l| (b[l] - b_prev[l]) - (a[l] - a_prev[l]))
     }
 
     /// Moves both slots apart by `multiplier` times their inverse masses (together if it is negative).
     #[inline(always)]
-    pub(crate) fn push(&self, particles: &mut Particles, multiplier: [f32; L]) {
+    pub(crate) fn push(&self, particles: &mut Columns<'_>, multiplier: [f32; L]) {
         let mut shift = [[0.0; L]; 4];
         for l in 0..L {
             let (ma, mb) = (-multiplier[l] * self.inv_mass_a[l], multiplier[l] * self.inv_mass_b[l]);
@@ -116,10 +132,10 @@ impl<const L: usize> Pair<L> {
             shift[2][l] = mb * self.normal_x[l];
             shift[3][l] = mb * self.normal_y[l];
         }
-        add(&mut particles.x, self.a, shift[0]);
-        add(&mut particles.y, self.a, shift[1]);
-        add(&mut particles.x, self.b, shift[2]);
-        add(&mut particles.y, self.b, shift[3]);
+        add(particles.x, self.a, shift[0]);
+        add(particles.y, self.a, shift[1]);
+        add(particles.x, self.b, shift[2]);
+        add(particles.y, self.b, shift[3]);
     }
 }
 

@@ -133,6 +133,7 @@ impl Membrane {
             let cosine = unit_vector(TAU * stride as f32 / around).x;
             bend(ring, stride, radius * (1.0 - cosine), share, particles);
         }
+        let particles = &mut particles.columns();
         let polygon = Polygon::measure(ring, particles);
         let excess = polygon.area - self.target_area;
         if excess > 0.0 {
@@ -144,6 +145,7 @@ impl Membrane {
 
     /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows, in sweeps forwards and backwards.
     pub(crate) fn limit_strain(&self, ring: &[u32], particles: &mut Particles) {
+        let particles = &mut particles.columns();
         let max_length = TAUT * self.rest_length;
         let mut shorten = |k: usize| {
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
@@ -178,6 +180,7 @@ fn share(dt: f32, time: f32) -> f32 {
 }
 
 fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
+    let particles = &mut particles.columns();
     let alpha = TENSION_COMPLIANCE / (h * h);
     for (a, b) in links(ring) {
         let pair = Pair::<1>::load(particles, a as usize, b as usize);

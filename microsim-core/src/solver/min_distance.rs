@@ -3,8 +3,8 @@
 //! `C = l_min - |x_b - x_a| <= 0`, projected rigidly when violated. Keeps a ring off its interlayer and a membrane from
 //! folding (nodes `i` and `i + 2`).
 
-use super::lanes::{Pair, Span, ratio};
-use crate::particle::Particles;
+use super::lanes::{Pair, Span, each, ratio};
+use crate::particle::Columns;
 
 /// Two nodes at least so far apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,10 +18,10 @@ pub struct MinDistance {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Particles) {
+pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Columns<'_>) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let multiplier = std::array::from_fn(|l| {
+        let multiplier = each(|l| {
             let deficit = c.min_length * span.scale[l] - pair.length[l];
             let active = if deficit > 0.0 { deficit } else { 0.0 };
             ratio(active, pair.weight(l))
@@ -39,16 +39,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.5], 1.0, |p| project(&[STANDOFF], Span::LOOSE, p));
+        assert_pair_laws(&[0.5], 1.0, |p| project(&[STANDOFF], Span::LOOSE, &mut p.columns()));
     }
 
     #[test]
     fn acts_only_when_too_near() {
         let mut far = line(1.5, [1.0, 1.0]);
-        project(&[STANDOFF], Span::LOOSE, &mut far);
+        project(&[STANDOFF], Span::LOOSE, &mut far.columns());
         assert_eq!(far.x[1], 1.5);
         let mut near = line(0.5, [1.0, 1.0]);
-        project(&[STANDOFF], Span::LOOSE, &mut near);
+        project(&[STANDOFF], Span::LOOSE, &mut near.columns());
         assert_eq!((near.x[0], near.x[1]), (-0.25, 0.75));
     }
 }

@@ -11,6 +11,7 @@ pub(crate) mod contraction;
 pub(crate) mod distance;
 pub(crate) mod drive;
 pub(crate) mod fluid;
+pub(crate) mod instruction_set;
 pub(crate) mod integrate;
 pub(crate) mod lanes;
 pub(crate) mod membrane;
@@ -22,7 +23,7 @@ pub(crate) mod rope;
 pub(crate) mod testing;
 
 use crate::error::{Error, in_range};
-use crate::particle::Particles;
+use crate::particle::Columns;
 pub use anchor::Anchor;
 pub use area::Area;
 pub use distance::Distance;
@@ -62,14 +63,38 @@ impl ConstraintSet {
         self.len() == 0
     }
 
-    /// Projects every constraint once. Limits come last, because the last projection wins.
-    pub(crate) fn project<const L: usize>(&self, span: Span<L>, particles: &mut Particles, h: f32) {
+    /// Projects every constraint once in each span. Limits come last, because the last projection wins.
+    ///
+    /// Each constraint is projected in all spans before the next one: those of one body share nodes and have to wait for
+    /// each other, those of different bodies do not, so the processor can overlap them.
+    #[inline(always)]
+    pub(crate) fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
         let Self { distances, min_distances, areas, anchors, ropes } = self;
-        distance::project(distances, span, particles, h);
-        area::project(areas, span, particles, h);
-        anchor::project(anchors, span, particles, h);
-        min_distance::project(min_distances, span, particles);
-        rope::project(ropes, span, particles);
+        for c in distances.chunks(1) {
+            for &span in spans {
+                distance::project(c, span, particles, h);
+            }
+        }
+        for c in areas.chunks(1) {
+            for &span in spans {
+                area::project(c, span, particles, h);
+            }
+        }
+        for c in anchors.chunks(1) {
+            for &span in spans {
+                anchor::project(c, span, particles, h);
+            }
+        }
+        for c in min_distances.chunks(1) {
+            for &span in spans {
+                min_distance::project(c, span, particles);
+            }
+        }
+        for c in ropes.chunks(1) {
+            for &span in spans {
+                rope::project(c, span, particles);
+            }
+        }
     }
 
     /// Checks every reference against the number of nodes and every number against its range.

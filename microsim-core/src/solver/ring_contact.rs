@@ -198,9 +198,8 @@ fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f
 mod tests {
     use super::super::testing::{disc, momentum};
     use super::*;
+    use crate::collision::broad_phase::{BroadPhase, Surroundings};
     use crate::collision::filter::{Exemptions, Home};
-    use crate::collision::grid::Grid;
-    use crate::collision::ring::Nearby;
     use crate::geometry::arbitrary::star_polygon;
     use crate::geometry::polygon::contains_point;
     use crate::particle::Particle;
@@ -214,19 +213,18 @@ mod tests {
         let particle = |at, owner| Particle { owner, radius: RADIUS, ..disc(at, 1.0) };
         let nodes: Vec<u32> = outline.iter().map(|&at| p.insert(&particle(at, 0))).collect();
         p.link_ring(&nodes);
-        let i = p.insert(&particle(at, owner));
-        let (mut contacts, [mut small, mut large]) = (RingContacts::default(), [Grid::default(), Grid::default()]);
-        small.fill(Vec2::splat(-50.0), Vec2::splat(50.0), 1.0, &[i], |_| at);
-        large.fill(Vec2::ZERO, Vec2::ONE, 1.0, &[], |_| at);
-        let near = Nearby {
+        p.insert(&particle(at, owner));
+        let mut broad_phase = BroadPhase::default();
+        broad_phase.find_pairs(Surroundings {
             particles: &p,
+            obstacles: &[],
             exemptions: &Exemptions::default(),
+            rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
             homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
-            grids: [(&small, RADIUS), (&large, 0.0)],
-            margin: 100.0,
-        };
-        contacts.find(&[Ring { owner: 0, nodes: &nodes, holds: None }], near);
-        (p, contacts, nodes)
+            size: Vec2::ONE,
+            reach: 50.0,
+        });
+        (p, broad_phase.ring_contacts, nodes)
     }
 
     fn square() -> Vec<Vec2> {

@@ -3,8 +3,8 @@
 //! `C = |x_b - x_a| - l_max <= 0`, projected rigidly when violated (Macklin et al. 2014, section 4: inequality
 //! constraints are projected only while `C > 0`). The seed's rope joint.
 
-use super::lanes::{Pair, Span, ratio};
-use crate::particle::Particles;
+use super::lanes::{Pair, Span, each, ratio};
+use crate::particle::Columns;
 
 /// Two nodes at most so far apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,10 +18,10 @@ pub struct Rope {
 }
 
 #[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Rope], span: Span<L>, particles: &mut Particles) {
+pub(crate) fn project<const L: usize>(list: &[Rope], span: Span<L>, particles: &mut Columns<'_>) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let multiplier = std::array::from_fn(|l| {
+        let multiplier = each(|l| {
             let excess = pair.length[l] - c.max_length * span.scale[l];
             let active = if excess > 0.0 { excess } else { 0.0 };
             ratio(-active, pair.weight(l))
@@ -39,16 +39,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[1.7], 1.0, |p| project(&[ROPE], Span::LOOSE, p));
+        assert_pair_laws(&[1.7], 1.0, |p| project(&[ROPE], Span::LOOSE, &mut p.columns()));
     }
 
     #[test]
     fn slack_rope_does_nothing_and_taut_rope_stops() {
         let mut slack = line(0.4, [1.0, 1.0]);
-        project(&[ROPE], Span::LOOSE, &mut slack);
+        project(&[ROPE], Span::LOOSE, &mut slack.columns());
         assert_eq!((slack.x[0], slack.x[1]), (0.0, 0.4));
         let mut taut = line(3.0, [0.0, 1.0]);
-        project(&[ROPE], Span::LOOSE, &mut taut);
+        project(&[ROPE], Span::LOOSE, &mut taut.columns());
         assert_eq!((taut.x[0], taut.x[1]), (0.0, 1.0));
     }
 }

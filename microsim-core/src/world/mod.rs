@@ -36,6 +36,7 @@ use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::Fluid;
+use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::step::{self, Phase};
 use crate::template::Template;
 use glam::Vec2;
@@ -64,6 +65,7 @@ pub struct World {
     pub(crate) step_index: u64,
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
+    pub(crate) dispatch: Dispatch,
 }
 
 /// How often the membranes' protections had to do what must never be needed, since the world was made.
@@ -107,6 +109,7 @@ impl World {
             step_index: 0,
             guard: Guard::default(),
             scratch: Scratch::default(),
+            dispatch: Dispatch::default(),
         })
     }
 
@@ -119,6 +122,11 @@ impl World {
     /// measuring: the core itself reads no clock.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase)) {
         step::advance(self, inputs, &mut finished);
+    }
+
+    /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
+    pub fn set_instruction_set(&mut self, set: InstructionSet) {
+        self.dispatch = Dispatch::new(set);
     }
 
     /// What happened in the last step.

@@ -1,0 +1,88 @@
+//! Crowds: discs that are looked for one by one, in a grid. Membranes and fluid, which have many and move freely.
+
+use super::grid::Grid;
+use crate::particle::Particles;
+use glam::Vec2;
+
+/// What the search for pairs has to know of a particle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Disc {
+    /// Its place in the room.
+    pub at: Vec2,
+    /// Its radius and how far it may move in a step.
+    pub reach: f32,
+    /// Which particle it is.
+    pub index: u32,
+}
+
+impl Disc {
+    pub(super) fn of(particles: &Particles, i: usize, reach: f32) -> Self {
+        Self { at: particles.position(i), reach: particles.radius[i] + reach, index: i as u32 }
+    }
+
+    /// Whether the two may touch during the step.
+    #[inline(always)]
+    pub(super) fn is_near(&self, other: &Self) -> bool {
+        let reach = self.reach + other.reach;
+        (other.at - self.at).length_squared() < reach * reach
+    }
+}
+
+/// Discs in cell order.
+#[derive(Debug, Default)]
+pub(super) struct Crowd {
+    /// Not yet sorted.
+    pub found: Vec<Disc>,
+    discs: Vec<Disc>,
+    grid: Grid,
+    /// The largest reach of a disc.
+    reach: f32,
+}
+
+/// Found anew in each step: a clone starts without.
+impl Clone for Crowd {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Crowd {
+    /// Sorts what was found.
+    pub(super) fn sort(&mut self, size: Vec2) {
+        let Self { found, discs, grid, reach } = self;
+        *reach = found.iter().fold(0.0, |far, disc| if disc.reach > far { disc.reach } else { far });
+        grid.fill(Vec2::ZERO, size, Vec2::splat(2.0 * *reach), found.len(), |k| found[k].at);
+        discs.clear();
+        discs.extend(grid.order().iter().map(|&k| found[k as usize]));
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.discs.is_empty()
+    }
+
+    /// Discs that may reach into a box, and some more.
+    pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
+        self.grid.ranges_in_box(low - self.reach, high + self.reach).flat_map(|range| &self.discs[range])
+    }
+
+    /// Discs that may touch one that is not of the crowd.
+    pub(super) fn near(&self, disc: &Disc) -> impl Iterator<Item = &Disc> {
+        let disc = *disc;
+        self.in_box(disc.at - disc.reach, disc.at + disc.reach).filter(move |other| other.is_near(&disc))
+    }
+
+    /// All discs.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Disc> {
+        self.discs.iter()
+    }
+
+    /// Calls `visit` once for each two discs that may touch.
+    pub(super) fn pairs(&self, mut visit: impl FnMut(&Disc, &Disc)) {
+        self.grid.pairs(0..self.grid.rows(), |a, b| {
+            let (a, b) = (&self.discs[a], &self.discs[b]);
+            if a.is_near(b) {
+                visit(a, b);
+            }
+        });
+    }
+}

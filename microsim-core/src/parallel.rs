@@ -1,0 +1,23 @@
+//! Work that falls into independent parts. With feature `parallel` they run on the threads of rayon's current pool,
+//! otherwise one after the other; the parts are the same either way and never depend on the number of threads, so neither
+//! do results.
+
+/// Does each part.
+pub(crate) fn for_each<T: Send>(parts: Vec<T>, work: impl Fn(T) + Send + Sync) {
+    #[cfg(feature = "parallel")]
+    if parts.len() > 1 {
+        use rayon::prelude::*;
+        return parts.into_par_iter().for_each(work);
+    }
+    parts.into_iter().for_each(work);
+}
+
+/// What each part gives, in their order.
+pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send + Sync) -> Vec<R> {
+    #[cfg(feature = "parallel")]
+    if parts.len() > 1 {
+        use rayon::prelude::*;
+        return parts.into_par_iter().map(work).collect();
+    }
+    parts.into_iter().map(work).collect()
+}

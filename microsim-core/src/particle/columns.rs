@@ -1,0 +1,66 @@
+//! The part of the store that moves: what constraints and integration read and write, for all particles or a stretch of
+//! neighbouring ones. Stretches that do not overlap can be worked on at the same time.
+
+use glam::Vec2;
+
+/// Columns of [`super::Particles`], from some particle on.
+#[derive(Debug)]
+pub(crate) struct Columns<'a> {
+    pub(super) origin_x: &'a [f32],
+    pub(super) origin_y: &'a [f32],
+    pub x: &'a mut [f32],
+    pub y: &'a mut [f32],
+    pub prev_x: &'a mut [f32],
+    pub prev_y: &'a mut [f32],
+    pub vx: &'a mut [f32],
+    pub vy: &'a mut [f32],
+    pub inv_mass: &'a [f32],
+}
+
+impl<'a> Columns<'a> {
+    /// From entry `i` to entry `j`, see [`super::Particles::between`].
+    #[inline(always)]
+    pub(crate) fn between(&self, i: usize, j: usize) -> Vec2 {
+        Vec2::new(
+            (self.origin_x[j] - self.origin_x[i]) + (self.x[j] - self.x[i]),
+            (self.origin_y[j] - self.origin_y[i]) + (self.y[j] - self.y[i]),
+        )
+    }
+
+    /// The first `count` entries, and the others.
+    pub(crate) fn split_at(self, count: usize) -> (Self, Self) {
+        let (origin_x, origin_x_rest) = self.origin_x.split_at(count);
+        let (origin_y, origin_y_rest) = self.origin_y.split_at(count);
+        let (x, x_rest) = self.x.split_at_mut(count);
+        let (y, y_rest) = self.y.split_at_mut(count);
+        let (prev_x, prev_x_rest) = self.prev_x.split_at_mut(count);
+        let (prev_y, prev_y_rest) = self.prev_y.split_at_mut(count);
+        let (vx, vx_rest) = self.vx.split_at_mut(count);
+        let (vy, vy_rest) = self.vy.split_at_mut(count);
+        let (inv_mass, inv_mass_rest) = self.inv_mass.split_at(count);
+        let rest = Columns {
+            origin_x: origin_x_rest,
+            origin_y: origin_y_rest,
+            x: x_rest,
+            y: y_rest,
+            prev_x: prev_x_rest,
+            prev_y: prev_y_rest,
+            vx: vx_rest,
+            vy: vy_rest,
+            inv_mass: inv_mass_rest,
+        };
+        (Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }, rest)
+    }
+
+    /// Stretches of `count` entries, the last one shorter.
+    pub(crate) fn chunks(self, count: usize) -> Vec<Self> {
+        let (mut chunks, mut rest) = (Vec::new(), self);
+        while rest.x.len() > count {
+            let (chunk, others) = rest.split_at(count);
+            chunks.push(chunk);
+            rest = others;
+        }
+        chunks.push(rest);
+        chunks
+    }
+}

@@ -1,0 +1,155 @@
+//! The density constraint of position-based fluids (Macklin, Mueller 2013), and viscosity in the same pass.
+//!
+//! Lengths are in units of the support `H`: `q = |x_i - x_j|`, `W = (1 - q)^3`, `|grad W| = 3 (1 - q)^2`.
+
+use super::neighbours::{Group, Lanes, Source, Walls, distance, positive};
+use crate::solver::lanes::{LANES, each};
+
+/// Kernel radius in units of the rest spacing.
+pub(super) const SUPPORT: f32 = 2.0;
+/// Softens the multiplier where a particle has few neighbours.
+const RELAXATION: f32 = 0.5;
+/// Share of the correction that is applied: neighbours correct the same error at once.
+const UNDER_RELAXATION: f32 = 0.7;
+/// Enclosed particles are kept from getting nearer than this share of the rest spacing.
+const MIN_SPACING: f32 = 0.85;
+
+/// A wall stands for the mirror image of the fluid before it, or else fluid would crowd there: this many particles ...
+const WALL_WEIGHT: f32 = 1.45;
+/// ... this far behind its surface. Fitted to a mirrored hexagonal lattice.
+const WALL_DEPTH: f32 = 0.5 / SUPPORT;
+
+/// Kernel sums of a group's members, themselves included.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    density: Lanes,
+    gradient_x: Lanes,
+    gradient_y: Lanes,
+    /// The walls' part of the gradient.
+    wall_x: Lanes,
+    wall_y: Lanes,
+    /// Sum of the squared lengths of the neighbours' gradients.
+    squared: Lanes,
+}
+
+/// First pass: what the neighbours amount to.
+#[inline(always)]
+pub(super) fn sum(group: &Group, sources: &[Source]) -> Sums {
+    let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+    // A particle's own kernel adds 1 to its squares but is no neighbour's gradient.
+    let mut sums = Sums { squared: [-1.0; LANES], ..Sums::default() };
+    for window in group.windows(sources) {
+        for other in window {
+            for l in 0..LANES {
+                let (dx, dy) = (x[l] - other.x, y[l] - other.y);
+                let r = distance(dx, dy);
+                let near = positive(1.0 - r);
+                let slope = near * near;
+                let along = slope / r;
+                sums.density[l] += slope * near;
+                sums.gradient_x[l] += dx * along;
+                sums.gradient_y[l] += dy * along;
+                sums.squared[l] += slope * slope;
+            }
+        }
+    }
+    sums
+}
+
+impl Sums {
+    /// Adds what the walls amount to.
+    #[inline(always)]
+    pub(super) fn add_walls(&mut self, group: &Group, sources: &[Source], walls: &Walls) {
+        let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+        for l in 0..LANES {
+            for (sign, near) in [(1.0, wall_nearness(x[l] - walls.low.x)), (-1.0, wall_nearness(walls.high.x - x[l]))] {
+                self.density[l] += WALL_WEIGHT * near * near * near;
+                self.wall_x[l] += sign * WALL_WEIGHT * near * near;
+            }
+            for (sign, near) in [(1.0, wall_nearness(y[l] - walls.low.y)), (-1.0, wall_nearness(walls.high.y - y[l]))] {
+                self.density[l] += WALL_WEIGHT * near * near * near;
+                self.wall_y[l] += sign * WALL_WEIGHT * near * near;
+            }
+            self.gradient_x[l] += self.wall_x[l];
+            self.gradient_y[l] += self.wall_y[l];
+        }
+    }
+
+    /// Density over the rest density, less 1, where that is positive.
+    #[inline(always)]
+    pub(super) fn compression(&self, rest_density: f32) -> Lanes {
+        each(|l| positive(self.density[l] / rest_density - 1.0))
+    }
+
+    /// `-lambda` (eq. 11), times what is common to all corrections of eq. 12.
+    #[inline(always)]
+    pub(super) fn multipliers(&self, rest_density: f32) -> Lanes {
+        let compression = self.compression(rest_density);
+        let slope = 3.0 / rest_density;
+        each(|l| {
+            let own = self.gradient_x[l] * self.gradient_x[l] + self.gradient_y[l] * self.gradient_y[l];
+            let weight = (self.squared[l] + own) * (slope * slope) + RELAXATION;
+            compression[l] / weight * (UNDER_RELAXATION * slope)
+        })
+    }
+}
+
+/// Shares of what is wrong that a substep corrects.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shares {
+    /// Of the difference between the way of a particle in this substep and its neighbours' mean (XSPH, eq. 17).
+    pub viscosity: f32,
+    /// Of what two particles lack to the least spacing, on each side.
+    pub spacing: f32,
+}
+
+/// Second pass: how far the members are moved, by the constraints (eq. 12), by neighbours that are too near, and by
+/// viscosity.
+#[inline(always)]
+pub(super) fn shifts(group: &Group, sources: &[Source], sums: &Sums, shares: Shares) -> [Lanes; 2] {
+    let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+    let own = group.load(sources, |s| s.multiplier);
+    let [mut shift_x, mut shift_y, mut drift_x, mut drift_y] = [[0.0; LANES]; 4];
+    for window in group.windows(sources) {
+        for other in window {
+            for l in 0..LANES {
+                let (dx, dy) = (x[l] - other.x, y[l] - other.y);
+                let r = distance(dx, dy);
+                let near = positive(1.0 - r);
+                let slope = near * near;
+                let lacking = positive(MIN_SPACING / SUPPORT - r);
+                let along = ((own[l] + other.multiplier) * slope + shares.spacing * lacking) / r;
+                shift_x[l] += dx * along;
+                shift_y[l] += dy * along;
+                drift_x[l] += slope * near * other.moved_x;
+                drift_y[l] += slope * near * other.moved_y;
+            }
+        }
+    }
+    let (moved_x, moved_y) = (group.load(sources, |s| s.moved_x), group.load(sources, |s| s.moved_y));
+    let toward = |drift: Lanes, moved: Lanes, l: usize| shares.viscosity * (drift[l] / sums.density[l] - moved[l]);
+    [
+        each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(drift_x, moved_x, l)),
+        each(|l| shift_y[l] + 2.0 * own[l] * sums.wall_y[l] + toward(drift_y, moved_y, l)),
+    ]
+}
+
+/// `1 - q` of a wall at this distance.
+#[inline(always)]
+fn wall_nearness(distance: f32) -> f32 {
+    positive(1.0 - (distance + WALL_DEPTH))
+}
+
+/// Kernel sum at a point of a hexagonal lattice at the rest spacing.
+pub(super) fn lattice_density() -> f32 {
+    let mut density = 0.0;
+    for row in -3i32..=3 {
+        for column in -4i32..=4 {
+            let x = column as f32 + 0.5 * (row & 1) as f32;
+            let y = row as f32 * 0.75f32.sqrt();
+            let near = positive(1.0 - (x * x + y * y).sqrt() / SUPPORT);
+            density += near * near * near;
+        }
+    }
+    density
+}

@@ -1,0 +1,315 @@
+//! Particle fluid: position-based (Macklin, Mueller 2013, "Position Based Fluids"), or granular as a cheap mode.
+//!
+//! With `q = |x_i - x_j| / H`, `W = (1 - q)^3` and `rho_0` the density of a hexagonal lattice at the rest spacing:
+//! `C_i = sum_j W_ij / rho_0 - 1 <= 0`, `lambda_i = -C_i / (sum_k |grad_k C_i|^2 + eps)` (eqs. 1, 9 and 11 there, without
+//! cohesion), `dx_i = s sum_j (lambda_i + lambda_j) grad W_ij / rho_0` (eq. 12). One kernel for density and gradient keeps
+//! the projection exact; its slope at `q = 0` keeps particles from clustering. Viscosity is XSPH (eq. 17).
+//!
+//! In each substep particles are sorted by cell ([`neighbours`]); then each gathers from its neighbours, eight side by
+//! side, so no order of writing matters ([`density`], [`granular`]).
+
+mod density;
+mod granular;
+mod neighbours;
+
+use super::instruction_set::Dispatch;
+use crate::error::{Error, in_range};
+use crate::parallel;
+use crate::particle::Particles;
+use density::{SUPPORT, Shares, Sums};
+use glam::Vec2;
+use neighbours::{Group, Lanes, Sorted};
+
+/// Groups that are worked on at a time, a fixed number whatever the number of threads.
+const PORTION: usize = 64;
+
+/// How the particles of a fluid keep apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FluidMode {
+    /// Incompressible: a density constraint on each particle.
+    Density,
+    /// Grains: particles only keep from overlapping. Several times cheaper, piles up like sand.
+    Granular,
+}
+
+/// A kind of fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FluidParams {
+    /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
+    pub spacing: f32,
+    /// Mass of a particle, 0.001 to 1000.
+    pub particle_mass: f32,
+    /// Rate at which velocity differences between neighbours decay, 1/s, 0 to 1000.
+    pub viscosity: f32,
+    /// How particles keep apart.
+    pub mode: FluidMode,
+}
+
+impl Default for FluidParams {
+    fn default() -> Self {
+        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 10.0, mode: FluidMode::Density }
+    }
+}
+
+impl FluidParams {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn validate(&self) -> Result<(), Error> {
+        in_range("spacing", self.spacing, 0.05, 100.0)?;
+        in_range("particle_mass", self.particle_mass, 0.001, 1000.0)?;
+        in_range("viscosity", self.viscosity, 0.0, 1000.0)
+    }
+}
+
+/// All particles of one fluid, wherever they are.
+#[derive(Clone, Debug)]
+pub(crate) struct Fluid {
+    pub params: FluidParams,
+    /// Whether a membrane of its own holds it.
+    pub is_enclosed: bool,
+    /// Indices into the particle store, in the order in which they were added.
+    pub particles: Vec<u32>,
+    rest_density: f32,
+    sorted: Sorted,
+    /// Of each group.
+    sums: Vec<Sums>,
+    shifts: Vec<[Lanes; 2]>,
+}
+
+impl Fluid {
+    pub(crate) fn new(params: FluidParams, is_enclosed: bool) -> Self {
+        let rest_density = density::lattice_density();
+        let (sorted, sums, shifts) = (Sorted::default(), Vec::new(), Vec::new());
+        Self { params, is_enclosed, particles: Vec::new(), rest_density, sorted, sums, shifts }
+    }
+
+    /// Distance at which particles no longer see each other.
+    fn reach(&self) -> f32 {
+        match self.params.mode {
+            FluidMode::Density => SUPPORT * self.params.spacing,
+            FluidMode::Granular => self.params.spacing,
+        }
+    }
+
+    /// One iteration of the density constraint (or of the grains' contacts) in a room of this size, and the viscosity of a
+    /// substep of `h`.
+    pub(crate) fn project(&mut self, particles: &mut Particles, size: Vec2, h: f32, dispatch: Dispatch) {
+        let reach = self.reach();
+        self.sorted.sort(&self.particles, particles, size, reach);
+        self.sums.resize(self.sorted.groups.len(), Sums::default());
+        self.shifts.resize(self.sorted.groups.len(), Default::default());
+        let viscosity = self.params.viscosity * h / (1.0 + self.params.viscosity * h);
+        match self.params.mode {
+            FluidMode::Density => {
+                self.find_multipliers(dispatch);
+                // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
+                let spacing = if self.is_enclosed { 0.25 } else { 0.0 };
+                self.find_density_shifts(Shares { viscosity, spacing }, dispatch);
+            }
+            FluidMode::Granular => self.find_granular_shifts(viscosity, dispatch),
+        }
+        for (group, [shift_x, shift_y]) in self.sorted.groups.iter().zip(&self.shifts) {
+            for (l, &k) in self.sorted.order()[group.members.clone()].iter().enumerate() {
+                let i = self.particles[k as usize] as usize;
+                particles.x[i] += shift_x[l] * reach;
+                particles.y[i] += shift_y[l] * reach;
+            }
+        }
+    }
+
+    fn find_multipliers(&mut self, dispatch: Dispatch) {
+        let Self { sorted: Sorted { groups, sources, walls, .. }, sums, rest_density, .. } = self;
+        parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for (group, sums) in groups.iter().zip(sums) {
+                        *sums = density::sum(group, sources);
+                        sums.add_walls(group, sources, walls);
+                    }
+                },
+            );
+        });
+        for (group, sums) in groups.iter().zip(sums) {
+            let multipliers = sums.multipliers(*rest_density);
+            for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(multipliers) {
+                source.multiplier = multiplier;
+            }
+        }
+    }
+
+    fn find_density_shifts(&mut self, shares: Shares, dispatch: Dispatch) {
+        let Self { sorted: Sorted { groups, sources, .. }, sums, shifts, .. } = self;
+        let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
+        parallel::for_each(portions, |((groups, shifts), sums)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
+                        *shifts = density::shifts(group, sources, sums, shares);
+                    }
+                },
+            );
+        });
+    }
+
+    fn find_granular_shifts(&mut self, viscosity: f32, dispatch: Dispatch) {
+        let Self { sorted: Sorted { groups, sources, .. }, shifts, .. } = self;
+        parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
+            dispatch.run(
+                #[inline(always)]
+                || {
+                    for (group, shifts) in groups.iter().zip(shifts) {
+                        *shifts = granular::shifts(group, sources, viscosity);
+                    }
+                },
+            );
+        });
+    }
+
+    /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
+    pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
+        let mut sorted = Sorted::default();
+        sorted.sort(&self.particles, particles, Vec2::ZERO, SUPPORT * self.params.spacing);
+        let mut sum = 0.0;
+        for group in &sorted.groups {
+            let compression = density::sum(group, &sorted.sources).compression(self.rest_density);
+            sum += compression[..group.members.len()].iter().sum::<f32>();
+        }
+        if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
+    }
+}
+
+/// Groups and what is found for them, some at a time.
+fn in_portions<'a, T>(groups: &'a [Group], found: &'a mut [T]) -> Vec<(&'a [Group], &'a mut [T])> {
+    groups.chunks(PORTION).zip(found.chunks_mut(PORTION)).collect()
+}
+
+/// Area that a number of particles take up at rest: each has its share of a hexagonal lattice.
+pub(crate) fn rest_area(count: usize, spacing: f32) -> f32 {
+    count as f32 * spacing * spacing * 0.75f32.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+    use crate::solver::testing::disc;
+
+    fn block(mode: FluidMode, spacing: f32) -> (Fluid, Particles) {
+        let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() }, false);
+        let mut particles = Particles::default();
+        let mut rng = Rng::new(1, 1);
+        for k in 0..200 {
+            let jitter = Vec2::new(rng.range(-0.1, 0.1), rng.range(-0.1, 0.1));
+            let at = Vec2::new((k % 20) as f32, (k / 20) as f32) * spacing + jitter + 50.0; // far from walls
+            fluid.particles.push(particles.insert(&disc(at, 1.0)));
+        }
+        (fluid, particles)
+    }
+
+    /// A substep of 1/480 s in which nothing was predicted.
+    fn project(fluid: &mut Fluid, particles: &mut Particles) {
+        particles.prev_x.clone_from(&particles.x);
+        particles.prev_y.clone_from(&particles.y);
+        fluid.project(particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+    }
+
+    fn centre(particles: &Particles) -> Vec2 {
+        particles.live().map(|i| particles.position(i)).sum::<Vec2>() / particles.len() as f32
+    }
+
+    #[test]
+    fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
+        let (mut fluid, mut particles) = block(FluidMode::Density, 0.7);
+        let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
+        for _ in 0..60 {
+            project(&mut fluid, &mut particles);
+        }
+        let after = fluid.mean_compression(&particles);
+        assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
+        assert!((centre(&particles) - start).length() < 1e-3, "momentum");
+    }
+
+    #[test]
+    fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
+        // A lattice row at half a spacing from the wall is as dense as one inside: nothing moves.
+        let (mut fluid, mut particles) = block(FluidMode::Density, 1.0);
+        for i in 0..200 {
+            particles.x[i] = (i % 20) as f32 + 0.5 * (i / 20 % 2) as f32 + 0.5;
+            particles.y[i] = (i / 20) as f32 * 0.866 + 0.5;
+        }
+        let at_rest = particles.clone();
+        let shift = |fluid: &mut Fluid, lower: f32| {
+            let mut moved = at_rest.clone();
+            moved.y.iter_mut().for_each(|y| *y -= lower);
+            moved.prev_x.clone_from(&moved.x);
+            moved.prev_y.clone_from(&moved.y);
+            fluid.project(&mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
+            moved.y[10] - (at_rest.y[10] - lower)
+        };
+        assert!(shift(&mut fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&mut fluid, 0.0));
+        assert!(shift(&mut fluid, 0.2) > 0.02, "nearer: {}", shift(&mut fluid, 0.2));
+    }
+
+    #[test]
+    fn fluid_at_rest_density_or_below_stays() {
+        let (mut fluid, mut particles) = block(FluidMode::Density, 1.3);
+        let before = particles.clone();
+        project(&mut fluid, &mut particles);
+        assert!((0..200).all(|i| (particles.position(i) - before.position(i)).length() < 1e-6));
+    }
+
+    #[test]
+    fn grains_separate_to_their_spacing() {
+        let (mut fluid, mut particles) = block(FluidMode::Granular, 0.8);
+        for _ in 0..200 {
+            project(&mut fluid, &mut particles);
+        }
+        for i in 0..200 {
+            for j in 0..i {
+                let gap = (particles.position(i) - particles.position(j)).length();
+                assert!(gap > 0.93, "grains {i} and {j} at {gap}");
+            }
+        }
+    }
+
+    #[test]
+    fn viscosity_draws_ways_towards_the_neighbours_mean() {
+        for mode in [FluidMode::Density, FluidMode::Granular] {
+            let (mut fluid, mut particles) = block(mode, 0.99);
+            let mut rng = Rng::new(5, 5);
+            let still = particles.clone();
+            let ways: Vec<f32> = (0..200).map(|_| rng.range(-1e-3, 1e-3)).collect();
+            let mut ways_taken = |viscosity: f32| -> Vec<f32> {
+                fluid.params.viscosity = viscosity;
+                for (i, way) in ways.iter().enumerate() {
+                    particles.prev_x[i] = still.x[i];
+                    (particles.x[i], particles.y[i]) = (still.x[i] + way, still.y[i]);
+                }
+                fluid.project(&mut particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+                (0..200).map(|i| particles.x[i] - still.x[i]).collect()
+            };
+            let (free, viscous) = (ways_taken(0.0), ways_taken(1000.0));
+            let taken_back: f32 = (0..200).map(|i| (free[i] - viscous[i]) * ways[i]).sum();
+            let all: f32 = ways.iter().map(|way| way * way).sum();
+            assert!(taken_back > 0.2 * all && taken_back < all, "{mode:?}: {taken_back} of {all}");
+        }
+    }
+
+    #[test]
+    fn particles_in_one_place_come_apart() {
+        let mut fluid = Fluid::new(FluidParams::default(), false);
+        let mut particles = Particles::default();
+        for _ in 0..4 {
+            fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
+        }
+        for _ in 0..20 {
+            project(&mut fluid, &mut particles);
+        }
+        let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
+        assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
+    }
+}
