@@ -1,9 +1,11 @@
-/* Chipmunk 7: ten iterations (its default), never sleeping. */
+/* Chipmunk 7: ten iterations (its default), never sleeping. The library is the system's, with assertions as it may be. */
 #include "peer.h"
 
 #include <chipmunk/chipmunk.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 typedef struct {
     cpSpace *space;
@@ -67,9 +69,21 @@ static void add_link(World *world, const PeerLink *link, const PeerField *field)
     }
 }
 
+/* A library with assertions greets on stdout, which is for data: it is sent to stderr. */
+static cpSpace *new_space(void) {
+    fflush(stdout);
+    int out = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    cpSpace *space = cpSpaceNew();
+    fflush(stdout);
+    dup2(out, STDOUT_FILENO);
+    close(out);
+    return space;
+}
+
 static void *create_field(const PeerField *field) {
     World *world = calloc(1, sizeof *world);
-    world->space = cpSpaceNew();
+    world->space = new_space();
     world->dt = field->dt;
     world->body_count = field->disc_count;
     world->first_pusher = field->disc_count - field->pusher_count;

@@ -60,15 +60,20 @@ impl Pusher {
 /// The way of a pusher: from the middle of its patch out onto a circle, and around.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sweep {
-    pub start: Vec2,
+    /// Of its circle.
+    centre: Vec2,
     radius: f32,
 }
 
 impl Sweep {
-    /// Where it heads for, an eighth of a turn ahead.
+    /// Next to its first platelets.
+    pub(crate) fn start(self) -> Vec2 {
+        self.centre + Vec2::X * 2.0
+    }
+
+    /// Where it heads for: this goes around at its own speed.
     fn goal(self, step: u64) -> Vec2 {
-        let angle = step as f32 * DT * Pusher::SPEED / self.radius + TAU / 8.0;
-        self.start + Vec2::from_angle(angle) * self.radius
+        self.centre + Vec2::from_angle(step as f32 * DT * Pusher::SPEED / self.radius) * self.radius
     }
 }
 
@@ -87,9 +92,8 @@ impl PlateletField {
         let cells = platelets + 4 * pushers;
         let columns = (cells as f32).sqrt().ceil() as usize;
         let rows = cells.div_ceil(columns);
-        let corner = |column: usize, row: usize| {
-            Vec2::splat(MARGIN) + Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * PITCH
-        };
+        let corner =
+            |column: usize, row: usize| Vec2::splat(MARGIN) + Vec2::new(column as f32 + 0.5, row as f32 + 0.5) * PITCH;
         let holes = holes(pushers, columns, rows);
         let is_free = |column: usize, row: usize| {
             holes.iter().any(|&(x, y)| (x..x + 2).contains(&column) && (y..y + 2).contains(&row))
@@ -102,7 +106,7 @@ impl PlateletField {
             .map(|(c, r)| corner(c, r) + Vec2::new(rng.range(-JITTER, JITTER), rng.range(-JITTER, JITTER)))
             .collect();
         let patch = PITCH * (cells as f32 / pushers as f32).sqrt();
-        let sweep = |&(x, y): &(usize, usize)| Sweep { start: corner(x, y) + 0.5 * PITCH, radius: 0.3 * patch };
+        let sweep = |&(x, y): &(usize, usize)| Sweep { centre: corner(x, y) + 0.5 * PITCH, radius: 0.3 * patch };
         let size = Vec2::new(columns as f32, rows as f32) * PITCH + 2.0 * MARGIN;
         Self { size, centres, sweeps: holes.iter().map(sweep).collect() }
     }
@@ -114,7 +118,7 @@ impl PlateletField {
 
     /// Where they head for to leave everybody alone.
     pub(crate) fn parked(&self) -> Vec<Vec2> {
-        self.sweeps.iter().map(|sweep| sweep.start).collect()
+        self.sweeps.iter().map(|sweep| sweep.centre).collect()
     }
 }
 
@@ -200,7 +204,7 @@ mod tests {
             assert_eq!(field.sweeps.len(), count.div_ceil(100));
             for (k, a) in field.centres.iter().enumerate() {
                 assert!(field.centres[..k].iter().all(|b| a.distance(*b) > 2.0 * OUTER_RADIUS));
-                assert!(field.sweeps.iter().all(|s| a.distance(s.start) > OUTER_RADIUS + Pusher::RADIUS));
+                assert!(field.sweeps.iter().all(|s| a.distance(s.start()) > OUTER_RADIUS + Pusher::RADIUS));
                 assert!(a.cmpgt(Vec2::splat(OUTER_RADIUS)).all() && a.cmplt(field.size - OUTER_RADIUS).all());
             }
         }

@@ -50,7 +50,7 @@ pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {
     for &centre in &field.centres {
         spawn(&platelet.clone().into(), centre);
     }
-    let pushers = field.sweeps.iter().map(|sweep| spawn(&probe.clone().into(), sweep.start)).collect();
+    let pushers = field.sweeps.iter().map(|sweep| spawn(&probe.clone().into(), sweep.start())).collect();
     Box::new(Microsim { world, pushers, inputs: Inputs::new() })
 }
 

@@ -45,16 +45,10 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    const NONE: Self = Self {
-        name: "",
-        settings: "",
-        platelets: None,
-        fluid: None,
-        most_fluid: usize::MAX,
-        clock: Clock::Thread,
-    };
+    const NONE: Self =
+        Self { name: "", settings: "", platelets: None, fluid: None, most_fluid: usize::MAX, clock: Clock::Thread };
 
-    /// Whether this is ours.
+    /// Whether this is a configuration of ours.
     pub(crate) fn is_microsim(&self) -> bool {
         self.name.starts_with("microsim")
     }

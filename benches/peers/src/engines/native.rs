@@ -212,13 +212,14 @@ fn discs(field: &PlateletField) -> Vec<Disc> {
         let satellite = |offset| disc(centre + offset, 1.0, Platelet::satellite_radius(), SATELLITE, owner);
         discs.extend(Platelet::ring().map(satellite));
     }
-    discs.extend(field.sweeps.iter().map(|sweep| disc(sweep.start, Pusher::MASS, Pusher::RADIUS, PUSHER, u32::MAX)));
+    discs.extend(field.sweeps.iter().map(|sweep| disc(sweep.start(), Pusher::MASS, Pusher::RADIUS, PUSHER, u32::MAX)));
     discs
 }
 
 /// What holds the platelets together.
 fn links(platelets: u32) -> Vec<Link> {
-    let rod = Link { kind: ROD, a: 0, b: 0, length: 2.0 * Platelet::satellite_radius(), stiffness: 0.0, max_length: 0.0 };
+    let rod =
+        Link { kind: ROD, a: 0, b: 0, length: 2.0 * Platelet::satellite_radius(), stiffness: 0.0, max_length: 0.0 };
     let mut links = Vec::new();
     for platelet in 0..platelets {
         let nucleus = platelet * DISCS as u32;

@@ -26,7 +26,7 @@ pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {
     for &centre in &field.centres {
         add_platelet(&mut world, &mut bodies, ground, centre);
     }
-    bodies.extend(field.sweeps.iter().map(|sweep| add_pusher(&mut world, sweep.start)));
+    bodies.extend(field.sweeps.iter().map(|sweep| add_pusher(&mut world, sweep.start())));
     Box::new(Rapier { world, bodies, pushers: field.sweeps.len() })
 }
 

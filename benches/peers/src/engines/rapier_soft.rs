@@ -22,7 +22,7 @@ pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {
     world.integration_parameters.max_ccd_substeps = 0;
     add_walls(&mut world, field.size);
     let disks = field.centres.iter().map(|&centre| (world.insert_soft_body(disk(centre)), centre)).collect();
-    let pushers = field.sweeps.iter().map(|sweep| add_pusher(&mut world, sweep.start)).collect();
+    let pushers = field.sweeps.iter().map(|sweep| add_pusher(&mut world, sweep.start())).collect();
     Box::new(RapierSoft { world, disks, pushers })
 }
 
