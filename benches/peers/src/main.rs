@@ -79,8 +79,8 @@ const QUICK: &[(usize, Plan)] = &[
 ];
 /// Particles of the runs.
 const FULL_FLUID: &[(usize, Plan)] = &[
-    (10_000, Plan { warm_up: 0, repeats: 18, steps: 100, rest: 0 }),
-    (40_000, Plan { warm_up: 0, repeats: 18, steps: 100, rest: 0 }),
+    (10_000, Plan { warm_up: 0, repeats: 12, steps: 75, rest: 0 }),
+    (40_000, Plan { warm_up: 0, repeats: 12, steps: 75, rest: 0 }),
 ];
 const QUICK_FLUID: &[(usize, Plan)] = &[(10_000, Plan { warm_up: 20, repeats: 5, steps: 8, rest: 0 })];
 

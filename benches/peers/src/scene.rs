@@ -182,13 +182,13 @@ impl FluidBlock {
         let side = (particles as f32).sqrt().round() as usize;
         let rise = Self::SPACING * 0.75f32.sqrt();
         let point = |column: usize, row: usize| {
-            let inset = if row % 2 == 0 { 0.5 } else { 1.0 };
+            let inset = if row.is_multiple_of(2) { 0.5 } else { 1.0 };
             Vec2::new((column as f32 + inset) * Self::SPACING, row as f32 * rise + 0.5 * Self::SPACING)
         };
         let points = (0..side).flat_map(|row| (0..side).map(move |column| point(column, row))).collect();
         // A tenth more in height, so that rounding takes no row.
         let size = Vec2::new((side as f32 + 0.5) * Self::SPACING, (side - 1) as f32 * rise + 1.1 * Self::SPACING);
-        Self { tank: size * 2.0, size, points }
+        Self { tank: size * Vec2::new(1.25, 1.5), size, points }
     }
 }
 

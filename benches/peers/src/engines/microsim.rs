@@ -17,7 +17,7 @@ struct Microsim {
 /// Substeps of the platelet field.
 const SUBSTEPS: u32 = 8;
 /// Substeps of the fluid.
-const FLUID_SUBSTEPS: u32 = 4;
+const FLUID_SUBSTEPS: u32 = 2;
 
 /// Platelets and probes of the library.
 pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {

@@ -30,7 +30,7 @@ pub(crate) enum Clock {
 }
 
 /// Makes an engine's world of a scene.
-type Build<Scene> = fn(&Scene) -> Box<dyn Peer>;
+type Build<Setup> = fn(&Setup) -> Box<dyn Peer>;
 
 /// One row of the comparison.
 pub(crate) struct Engine {
@@ -58,7 +58,7 @@ impl Engine {
 pub(crate) const ENGINES: &[Engine] = &[
     Engine {
         name: "microsim",
-        settings: "8 substeps; fluid 4 substeps",
+        settings: "8 substeps; fluid 2 substeps",
         platelets: Some(microsim::platelets),
         fluid: Some(microsim::fluid),
         ..Engine::NONE
