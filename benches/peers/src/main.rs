@@ -13,7 +13,7 @@ mod scene;
 
 use clap::{Parser, ValueEnum};
 use measure::{Plan, Row};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -39,13 +39,16 @@ struct Args {
     /// Only engines whose names contain this, and ours to compare with.
     #[arg(long, default_value = "")]
     engine: String,
+    /// Run nothing; tell and draw what an earlier run printed with `--json`. May be given several times.
+    #[arg(long, value_name = "FILE.json")]
+    rows: Vec<PathBuf>,
     /// In place of all this: print the bytes that the engine of this name takes for `--scene` and `--count`.
     #[arg(long, hide = true, value_name = "ENGINE", requires_all = ["scene", "count"])]
     memory_of: Option<String>,
 }
 
 /// What is simulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Scene {
     /// Platelets that pushers stir.
@@ -100,10 +103,18 @@ fn main() -> ExitCode {
 }
 
 fn compare(args: &Args) -> Result<(), String> {
+    let rows = if args.rows.is_empty() { run(args) } else { read(&args.rows)? };
+    if let Some(path) = &args.plot {
+        plot::draw(&rows, path)?;
+    }
+    if args.json { report::json(&rows) } else { report::tables(&rows) }.map_err(|error| error.to_string())
+}
+
+fn run(args: &Args) -> Vec<Row> {
     let (platelets, fluid) = if args.quick { (QUICK, QUICK_FLUID) } else { (FULL, FULL_FLUID) };
     let runs = platelets.iter().map(|run| (Scene::Platelets, run)).chain(fluid.iter().map(|run| (Scene::Fluid, run)));
     let is_asked = |scene, count| args.scene.is_none_or(|s| s == scene) && args.count.is_none_or(|c| c == count);
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows = Vec::new();
     for (scene, &(count, plan)) in runs.filter(|&(scene, run)| is_asked(scene, run.0)) {
         eprintln!("{} {count} ...", scene.name());
         rows.extend(measure::run(scene, count, plan, &args.engine));
@@ -112,8 +123,15 @@ fn compare(args: &Args) -> Result<(), String> {
         eprintln!("memory ...");
         memory::measure(&mut rows);
     }
-    if let Some(path) = &args.plot {
-        plot::draw(&rows, path)?;
+    rows
+}
+
+fn read(files: &[PathBuf]) -> Result<Vec<Row>, String> {
+    let mut rows: Vec<Row> = Vec::new();
+    for file in files {
+        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
+        let text = std::fs::read_to_string(file).map_err(|error| told(&error))?;
+        rows.extend(serde_json::from_str::<Vec<Row>>(&text).map_err(|error| told(&error))?);
     }
-    if args.json { report::json(&rows) } else { report::tables(&rows) }.map_err(|error| error.to_string())
+    Ok(rows)
 }

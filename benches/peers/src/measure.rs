@@ -7,18 +7,18 @@ use crate::quality::Quality;
 use crate::scene::{DISCS, FluidBlock, PlateletField};
 use cpu_time::ThreadTime;
 use microsim_core::glam::Vec2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// One engine in one scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Row {
     pub scene: Scene,
     /// Platelets or particles.
     pub count: usize,
     /// Discs that move, or particles.
     pub bodies: usize,
-    pub engine: &'static str,
+    pub engine: String,
     /// Median over the repeats of their medians, ms per step.
     pub ms_median: f64,
     /// Of all steps of all repeats.
@@ -83,7 +83,7 @@ impl Contestant {
             scene,
             count,
             bodies,
-            engine: self.engine.name,
+            engine: self.engine.name.to_owned(),
             ms_median: quantile(&medians, 0.5),
             ms_p99: quantile(&self.repeats.concat(), 0.99),
             times_microsim: quantile(&ratios, 0.5),

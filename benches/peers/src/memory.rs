@@ -21,7 +21,7 @@ pub(crate) fn measure(rows: &mut [Row]) {
 fn in_child(row: &Row) -> Option<f64> {
     let program = std::env::current_exe().ok()?;
     let mut child = Command::new(program);
-    child.args(["--memory-of", row.engine, "--scene", row.scene.name(), "--count", &row.count.to_string()]);
+    child.args(["--memory-of", &row.engine, "--scene", row.scene.name(), "--count", &row.count.to_string()]);
     let output = child.stderr(Stdio::inherit()).output().ok()?;
     output.status.success().then(|| String::from_utf8(output.stdout).ok()?.trim().parse().ok())?
 }

@@ -37,7 +37,7 @@ fn try_draw(rows: &[&Row], path: &Path) -> Result<(), Box<dyn Error>> {
     root.fill(&WHITE)?;
     // Room for the names at the right ends of the lines.
     let x = (bodies.0 * 0.85..bodies.1 * 2.2).log_scale();
-    let y = (times.0 * 0.7..times.1 * 1.4).log_scale();
+    let y = (times.0 * 0.7..times.1 * 2.0).log_scale();
     let mut chart = ChartBuilder::on(&root)
         .caption("Platelet field, one thread: ms per step", ("sans-serif", 22))
         .margin(16)
@@ -51,6 +51,8 @@ fn try_draw(rows: &[&Row], path: &Path) -> Result<(), Box<dyn Error>> {
         .x_desc("bodies (30 per platelet)")
         .y_desc("ms per step")
         .label_style(("sans-serif", 15))
+        .x_labels(4)
+        .x_max_light_lines(1)
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_label_formatter(&|y| format!("{y}"))
         .draw()?;
@@ -68,15 +70,15 @@ fn try_draw(rows: &[&Row], path: &Path) -> Result<(), Box<dyn Error>> {
     }
     for (engine, at, colour) in names(rows) {
         let style = ("sans-serif", 15).into_font().color(&colour).pos(Pos::new(HPos::Left, VPos::Center));
-        chart.draw_series([Text::new(engine, (bodies.1 * 1.06, at), style)])?;
+        chart.draw_series([Text::new(engine.to_owned(), (bodies.1 * 1.06, at), style)])?;
     }
     root.present()?;
     Ok(())
 }
 
 /// Engines in the order of their first rows.
-fn engines(rows: &[&Row]) -> Vec<&'static str> {
-    let mut engines: Vec<&'static str> = rows.iter().map(|row| row.engine).collect();
+fn engines<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
+    let mut engines: Vec<&'a str> = rows.iter().map(|row| row.engine.as_str()).collect();
     let mut seen = Vec::new();
     engines.retain(|engine| {
         !seen.contains(engine) && {
@@ -88,7 +90,7 @@ fn engines(rows: &[&Row]) -> Vec<&'static str> {
 }
 
 /// Each engine's name, the height at its last point, moved up where it would lie on the one below, and its colour.
-fn names(rows: &[&Row]) -> Vec<(&'static str, f64, RGBColor)> {
+fn names<'a>(rows: &[&'a Row]) -> Vec<(&'a str, f64, RGBColor)> {
     let last = |engine: &str| rows.iter().filter(|row| row.engine == engine).map(|row| row.ms_median).next_back();
     let of_engine = engines(rows).into_iter().zip(COLOURS.into_iter().cycle());
     let mut names: Vec<_> = of_engine.filter_map(|(engine, colour)| Some((engine, last(engine)?, colour))).collect();

@@ -2,10 +2,10 @@
 
 use crate::scene::{DISCS, DT, FluidBlock, OUTER_RADIUS, Platelet, PlateletField, Pusher, SATELLITES};
 use microsim_core::glam::Vec2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Of a row. What does not apply is left out.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Quality {
     /// Mean relative error of the lengths of ring links.
     #[serde(skip_serializing_if = "Option::is_none")]

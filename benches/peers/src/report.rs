@@ -19,7 +19,7 @@ type Column = (&'static str, fn(&Row) -> String);
 const COMMON: &[Column] = &[
     ("count", |row| row.count.to_string()),
     ("bodies", |row| row.bodies.to_string()),
-    ("engine", |row| row.engine.to_owned()),
+    ("engine", |row| row.engine.clone()),
     ("ms/step", |row| format!("{:.3}", row.ms_median)),
     ("p99", |row| format!("{:.3}", row.ms_p99)),
     ("x ours", |row| format!("{:.2}", row.times_microsim)),
