@@ -76,16 +76,16 @@ const FULL: &[(usize, Plan)] = &[
     (3300, Plan { warm_up: 120, repeats: 5, steps: 15, rest: 0 }),
 ];
 const QUICK: &[(usize, Plan)] = &[
-    (90, Plan { warm_up: 60, repeats: 5, steps: 10, rest: 420 }),
+    (90, Plan { warm_up: 60, repeats: 5, steps: 10, rest: 300 }),
     (200, Plan { warm_up: 40, repeats: 5, steps: 15, rest: 0 }),
-    (1600, Plan { warm_up: 15, repeats: 5, steps: 3, rest: 0 }),
+    (1600, Plan { warm_up: 15, repeats: 5, steps: 2, rest: 0 }),
 ];
 /// Particles of the runs.
 const FULL_FLUID: &[(usize, Plan)] = &[
     (10_000, Plan { warm_up: 0, repeats: 12, steps: 75, rest: 0 }),
     (40_000, Plan { warm_up: 0, repeats: 12, steps: 75, rest: 0 }),
 ];
-const QUICK_FLUID: &[(usize, Plan)] = &[(10_000, Plan { warm_up: 20, repeats: 5, steps: 8, rest: 0 })];
+const QUICK_FLUID: &[(usize, Plan)] = &[(10_000, Plan { warm_up: 20, repeats: 5, steps: 5, rest: 0 })];
 
 fn main() -> ExitCode {
     let args = Args::parse();
