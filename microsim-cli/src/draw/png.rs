@@ -3,13 +3,14 @@
 use super::shape::{Colour, Item, Paint, Path, Segment, Stroke};
 use super::{Drawing, Frame};
 use crate::failure::Failure;
+use microsim_core::glam::Vec2;
 use tiny_skia::{
     Color, FillRule, GradientStop, LineCap, LineJoin, PathBuilder, Pixmap, Point, RadialGradient, Shader, SpreadMode,
     Transform,
 };
 
 /// An opaque picture, three bytes per pixel.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Picture {
     width: usize,
     height: usize,
@@ -37,12 +38,52 @@ impl Picture {
         }
     }
 
+    /// From three bytes per pixel.
+    pub(crate) fn new(width: usize, height: usize, bytes: Vec<u8>) -> Self {
+        Self { width, height, bytes }
+    }
+
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Three bytes per pixel, rows from the top.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The same with items painted over it, whose unit is the pixel, y upwards from the lower left corner.
+    pub(crate) fn painted_over(mut self, items: &[Item]) -> Self {
+        let (width, height) = (self.width as u32, self.height as u32);
+        let Some(mut pixmap) = Pixmap::new(width, height) else {
+            return self;
+        };
+        let high = Vec2::new(width as f32, height as f32);
+        let frame = Frame { low: Vec2::ZERO, high, scale: 1.0, width, height };
+        for item in items {
+            paint(&mut pixmap, item, &frame);
+        }
+        for (pixel, below) in pixmap.pixels().iter().zip(self.bytes.chunks_exact_mut(3)) {
+            let kept = 255 - u32::from(pixel.alpha());
+            for (below, above) in below.iter_mut().zip([pixel.red(), pixel.green(), pixel.blue()]) {
+                *below = above + (u32::from(*below) * kept / 255) as u8;
+            }
+        }
+        self
+    }
+
     /// Pictures of equal size side by side, in rows of such a length that the sheet is not too slim.
     pub(crate) fn sheet(pictures: &[Self]) -> Self {
+        let columns = pictures.first().map_or(1, |first| columns(first, pictures.len()));
+        Self::sheet_in(pictures, columns)
+    }
+
+    /// Pictures of equal size in rows of so many.
+    pub(crate) fn sheet_in(pictures: &[Self], columns: usize) -> Self {
         let Some(first) = pictures.first() else {
             return Self::default();
         };
-        let columns = columns(first, pictures.len());
+        let columns = columns.clamp(1, pictures.len());
         let rows = pictures.len().div_ceil(columns);
         let (width, height) = (first.width * columns, first.height * rows);
         let corner = first.bytes.get(..3).unwrap_or(&[0; 3]);
