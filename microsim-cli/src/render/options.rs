@@ -63,7 +63,7 @@ impl FilmStock {
 /// `--view`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ViewSpec {
-    /// All of the room.
+    /// As much of the room as fits without showing anything beyond it.
     Room,
     /// A place and a width, micrometres.
     At(Vec2, f32),
@@ -94,7 +94,7 @@ impl ViewSpec {
         let Size(pixels) = size;
         let room = world.config().size;
         let aspect = pixels[0].max(1) as f32 / pixels[1].max(1) as f32;
-        let whole = room.x.max(room.y * aspect);
+        let whole = room.x.min(room.y * aspect);
         let (centre, width) = match self {
             Self::Room => (room * 0.5, whole),
             Self::At(centre, width) => (*centre, *width),

@@ -25,7 +25,7 @@ pub struct Film {
 impl Film {
     /// 16 mm film, as of the 1950s.
     pub const CINE: Self =
-        Self { grain: 0.045, weave: 0.25, flicker: 0.004, vignette: 0.16, levels: [0.06, 0.93], rate: 24.0 };
+        Self { grain: 0.024, weave: 0.25, flicker: 0.004, vignette: 0.16, levels: [0.06, 0.93], rate: 24.0 };
     /// A digital camera.
     pub const DIGITAL: Self =
         Self { grain: 0.012, weave: 0.0, flicker: 0.0, vignette: 0.06, levels: [0.0, 1.0], rate: 24.0 };
@@ -100,13 +100,13 @@ impl Frame {
         })
     }
 
-    /// Grain of two sizes, standard deviation about 1 in the middle greys.
+    /// Grain of two sizes, standard deviation 1.
     fn grain(&self, x: i32, y: i32) -> f32 {
         let at = |x: i32, y: i32, salt: u32| normal(hash(IVec2::new(x, y), self.seed ^ salt));
         let fine = at(x, y, 3);
         // Coarse grain: 2 x 2 pixels of another lattice, so that it is correlated over about 1.6 pixels.
         let coarse = at(x, y, 4) + at(x + 1, y, 4) + at(x, y + 1, 4) + at(x + 1, y + 1, 4);
-        1.2 * fine + 0.8 * coarse
+        0.6 * fine + 0.4 * coarse
     }
 }
 

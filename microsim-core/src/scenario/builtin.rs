@@ -11,11 +11,16 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 4] = [
+const BUILTINS: [Builtin; 5] = [
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
         text: include_str!("../../scenarios/demo.toml"),
+    },
+    Builtin {
+        name: "hunt",
+        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
+        text: include_str!("../../scenarios/hunt.toml"),
     },
     Builtin {
         name: "platelets",

@@ -10,10 +10,10 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     lamella: Lamella { length: 0.33, thickness: 0.30, ruffle: 0.22, ruffle_inset: 0.45, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [3, 5],
-        radius: [0.21, 0.28],
-        spread: 0.36,
+        radius: [0.24, 0.30],
+        spread: 0.42,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
-        texture: Texture { amount: 0.16, size: 0.7 },
+        texture: Texture { amount: 0.22, size: 0.8 },
     },
     granules: &[DENSE, CLEAR, VACUOLES],
     fibres: 3,
@@ -24,7 +24,7 @@ const DENSE: GranuleLook = GranuleLook {
     radius: 0.19,
     spread: 0.36,
     limits: [0.09, 0.45],
-    matter: Matter { phase: 0.034 * WAVE, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.0 },
+    matter: Matter { phase: 0.034 * WAVE, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -33,7 +33,7 @@ const CLEAR: GranuleLook = GranuleLook {
     radius: 0.20,
     spread: 0.3,
     limits: [0.1, 0.4],
-    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -0.10, nucleus: 0.0 },
+    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -0.9, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 

@@ -8,7 +8,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
     matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.55, nucleus: 0.08 },
     variation: 0.15,
     texture: Texture { amount: 0.25, size: 0.4 },
-    unevenness: 0.07,
+    unevenness: 0.15,
     inclusions: &[Inclusion {
         count: [5, 9],
         radius: [0.14, 0.30],

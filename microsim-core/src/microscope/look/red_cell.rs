@@ -8,6 +8,6 @@ pub(super) const LOOK: RoundLook = RoundLook {
     matter: Matter { phase: 0.033 * WAVE * 2.56, haemoglobin: 1.0, cytoplasm: 0.0, nucleus: 0.0 },
     variation: 0.10,
     texture: Texture { amount: 0.03, size: 0.6 },
-    unevenness: 0.012,
+    unevenness: 0.045,
     ..RoundLook::PLAIN
 };

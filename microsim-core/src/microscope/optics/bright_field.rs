@@ -4,7 +4,6 @@
 
 use super::{Mode, Sight, grey};
 use crate::microscope::wave::transmitted;
-use glam::Vec2;
 
 /// Defocus over the wave number, square micrometres per radian.
 const DEFOCUS: f32 = 0.016;
@@ -17,9 +16,6 @@ pub(super) const MODE: Mode = Mode { channels: 1, has_surround: false, blur: 0.1
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);
-    let sides = [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y];
-    let around: f32 = sides.iter().map(|side| sight.phase_beside(x, y, *side * STEP)).sum();
-    let curvature = (around - 4.0 * matter.phase) / (STEP * STEP);
-    let focused = (1.0 - DEFOCUS * curvature).clamp(0.2, 2.0);
+    let focused = (1.0 - DEFOCUS * sight.curvature(x, y, STEP)).clamp(0.2, 2.0);
     grey(BACKGROUND * transmitted(matter) * focused)
 }

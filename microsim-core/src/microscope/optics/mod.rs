@@ -120,6 +120,13 @@ impl Sight<'_> {
         (wave, surround)
     }
 
+    /// Curvature (Laplacian) of the delay over a step, radians per square micrometre.
+    fn curvature(&self, x: usize, y: usize, step: f32) -> f32 {
+        let sides = [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y];
+        let around: f32 = sides.iter().map(|side| self.phase_beside(x, y, *side * step)).sum();
+        (around - 4.0 * self.matter(x, y).phase) / (step * step)
+    }
+
     /// Delay `offset` micrometres beside a pixel, radians.
     pub(super) fn phase_beside(&self, x: usize, y: usize, offset: Vec2) -> f32 {
         let grid = &self.plate.grid;

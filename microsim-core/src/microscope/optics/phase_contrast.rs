@@ -15,7 +15,7 @@ const GAMMA: f32 = 0.85;
 pub(super) const POSITIVE: Mode = Mode {
     channels: 1,
     has_surround: true,
-    blur: 0.11,
+    blur: 0.09,
     grain: 1.0,
     shade: |sight, x, y| shade(sight, x, y, TRANSMISSION),
 };

@@ -45,6 +45,8 @@ struct Front {
     way: Vec2,
     /// 0 at rest to 1.
     strength: f32,
+    /// How slender the tail is, 0 to 1.
+    tail: f32,
     /// Farthest that the cell reaches along `way` and against it, from its centre.
     ahead: f32,
     behind: f32,
@@ -130,10 +132,14 @@ impl AmoeboidBody {
 
     /// How much a place belongs to the clear front, 0 to 1.
     fn lamella(&self, place: Vec2) -> f32 {
-        let Front { way, strength, ahead, behind } = self.front;
+        let Front { way, strength, ahead, behind, .. } = self.front;
         let length = ahead + behind;
         let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
-        let along = (place - self.centre).dot(way);
+        let from_centre = place - self.centre;
+        // Its border is uneven, and bends back along the sides.
+        let across = from_centre.perp_dot(way);
+        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ 11);
+        let along = from_centre.dot(way) + 0.15 * across * across / self.radius + uneven;
         strength * smoothstep(ahead - (share + 0.10) * length, ahead - (share - 0.10) * length, along)
     }
 
@@ -198,7 +204,7 @@ impl AmoeboidBody {
 
     /// Retraction fibres, which the tail leaves on the glass.
     pub(super) fn threads(&self) -> Vec<Thread> {
-        let Front { way, strength, behind, .. } = self.front;
+        let Front { way, tail: strength, behind, .. } = self.front;
         let mut dice = Dice::new(self.seed ^ 0xf1b);
         let tail = self.map.pushed_inside(self.centre - way * behind, 0.1);
         let fibre = |_| {
@@ -228,7 +234,13 @@ impl Front {
         let polarity = velocity / (velocity.length() + CRAWLING) - skew;
         let way = polarity.try_normalize().unwrap_or(Vec2::X);
         let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
-        Self { way, strength: smoothstep(0.1, 0.6, polarity.length()), ahead: reach(way), behind: reach(-way) }
+        Self {
+            way,
+            strength: smoothstep(0.1, 0.6, polarity.length()),
+            tail: smoothstep(0.05, 0.3, skew.length()),
+            ahead: reach(way),
+            behind: reach(-way),
+        }
     }
 }
 

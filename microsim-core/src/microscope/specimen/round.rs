@@ -186,7 +186,8 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
         return;
     }
     let back = Vec2::new(facing.x, -facing.y);
-    let waves = [2.0, 3.0, 4.0, 5.0, 7.0].map(|order| (order, dice.unit() * TAU, dice.range([0.3, 1.0]) * amount));
+    let wave = |(order, share): (f32, f32)| (order, dice.unit() * TAU, dice.range([0.2, 1.0]) * share * amount);
+    let waves = [(2.0, 1.0), (3.0, 0.6), (4.0, 0.35), (5.0, 0.25), (7.0, 0.2)].map(wave);
     polar.reshape(|way| {
         let own = rotate(way, back);
         let angle = libm::atan2f(own.y, own.x);
