@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 5] = [
+const BUILTINS: [Builtin; 6] = [
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
@@ -21,6 +21,11 @@ const BUILTINS: [Builtin; 5] = [
         name: "hunt",
         summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
         text: include_str!("../../scenarios/hunt.toml"),
+    },
+    Builtin {
+        name: "pond",
+        summary: "paramecia and an amoeba in their real size, for `render`",
+        text: include_str!("../../scenarios/pond.toml"),
     },
     Builtin {
         name: "platelets",

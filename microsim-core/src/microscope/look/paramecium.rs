@@ -9,12 +9,12 @@ pub(super) const LOOK: RoundLook = RoundLook {
     variation: 0.05,
     texture: Texture { amount: 0.05, size: 0.5 },
     unevenness: 0.006,
-    inclusions: &[GRANULES, FOOD, MACRONUCLEUS],
-    cilia: Some(&Cilia { count: 260, length: 0.13, width: 0.09, phase: 0.22, waves: 10.0, rate: 4.0 }),
+    inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
+    cilia: Some(&Cilia { count: 340, length: 0.16, width: 0.14, phase: 0.26, waves: 10.0, rate: 4.0 }),
     pellicle: Some(&Pellicle {
-        furrows: 60.0,
-        furrow_depth: 0.025,
-        groove: 0.28,
+        furrows: 22.0,
+        furrow_depth: 0.012,
+        groove: 0.26,
         vacuole: 0.15,
         vacuole_period: 12.0,
         vacuole_phase: -1.2,
@@ -22,18 +22,26 @@ pub(super) const LOOK: RoundLook = RoundLook {
 };
 
 const GRANULES: Inclusion = Inclusion {
-    count: [150, 240],
-    radius: [0.012, 0.045],
-    place: [0.0, 0.9],
-    matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.25, nucleus: 0.0 },
+    count: [420, 520],
+    radius: [0.015, 0.055],
+    place: [0.0, 0.93],
+    matter: Matter { phase: 0.30, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
     shape: SpotShape::Ball,
+};
+
+const CRYSTALS: Inclusion = Inclusion {
+    count: [60, 90],
+    radius: [0.010, 0.030],
+    place: [0.0, 0.9],
+    matter: Matter { phase: -0.6, haemoglobin: 0.0, cytoplasm: -0.1, nucleus: 0.0 },
+    shape: SpotShape::Bump,
 };
 
 const FOOD: Inclusion = Inclusion {
     count: [6, 10],
     radius: [0.06, 0.10],
     place: [0.15, 0.72],
-    matter: Matter { phase: 0.7, haemoglobin: 0.0, cytoplasm: 0.7, nucleus: 0.1 },
+    matter: Matter { phase: 0.7, haemoglobin: 0.12, cytoplasm: 0.7, nucleus: 0.1 },
     shape: SpotShape::Ball,
 };
 

@@ -1,6 +1,7 @@
 //! The specimen: what there is to see at one moment, as matter with places and sizes, free of pixels and light.
 
 mod amoeboid;
+mod chamber;
 mod ground;
 mod outline;
 mod round;
@@ -13,6 +14,7 @@ use crate::kind::Kind;
 use crate::world::World;
 use crate::world::view::{OrganismView, View};
 use amoeboid::AmoeboidBody;
+use chamber::Chamber;
 use glam::Vec2;
 use ground::Ground;
 use round::RoundBody;
@@ -22,6 +24,7 @@ use spot::{Spot, Thread};
 #[derive(Clone, Debug)]
 pub(super) struct Specimen {
     ground: Ground,
+    chamber: Chamber,
     round: Vec<RoundBody>,
     amoeboid: Vec<AmoeboidBody>,
     spots: Vec<Spot>,
@@ -33,8 +36,10 @@ impl Specimen {
     pub(super) fn of(world: &World, camera: Vec2) -> Self {
         let (seed, time) = (world.config().seed, world.time() as f32);
         let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
-        let mut specimen =
-            Self { ground, round: Vec::new(), amoeboid: Vec::new(), spots: Vec::new(), threads: Vec::new() };
+        let chamber =
+            Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
+        let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
         let view = world.view();
         for organism in view.organisms() {
             specimen.add(organism, view);
@@ -68,6 +73,7 @@ impl Specimen {
     pub(super) fn plate(&self, grid: Grid) -> Plate {
         let mut plate = Plate::empty(grid);
         self.ground.draw(&mut plate);
+        self.chamber.draw(&mut plate);
         self.amoeboid.iter().for_each(|body| body.draw(&mut plate));
         self.round.iter().for_each(|body| body.draw(&mut plate));
         self.threads.iter().for_each(|thread| thread.draw(&mut plate));

@@ -23,6 +23,8 @@ pub(super) struct RoundBody {
     polar: Polar,
     /// Its own first direction: texture and inclusions turn with it.
     facing: Vec2,
+    /// How far it reaches along that direction and square to it, micrometres.
+    axes: Vec2,
     seed: u32,
     matter: Matter,
     /// Thickness of a red cell's middle, micrometres.
@@ -46,7 +48,8 @@ impl RoundBody {
         make_uneven(&mut polar, facing, look.unevenness, &mut dice);
         let variation = 1.0 + dice.range([-look.variation, look.variation]);
         let hollow = if let Profile::Biconcave { c0, .. } = look.profile { dice.range(c0) } else { 0.0 };
-        Some(Self { look, polar, facing, seed, matter: look.matter * variation, hollow })
+        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
+        Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
     }
 
     pub(super) fn draw(&self, plate: &mut Plate) {
@@ -68,7 +71,7 @@ impl RoundBody {
         let own = rotate(way, Vec2::new(self.facing.x, -self.facing.y));
         let texture = &self.look.texture;
         let noise = if texture.amount > 0.0 { octaves(own / texture.size, 2, self.seed) } else { 0.0 };
-        let relief = self.look.pellicle.map_or(1.0, |pellicle| pellicle.relief(own / radius, rho));
+        let relief = self.look.pellicle.map_or(1.0, |pellicle| pellicle.relief(own / self.axes, self.seed));
         self.matter * (thickness * (1.0 + texture.amount * noise) * relief)
     }
 
@@ -111,7 +114,8 @@ impl RoundBody {
             let share = dice.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
             let at = self.place(dice.direction(), rho);
-            Spot { at, radius: radius * self.polar.mean, matter: inclusion.matter, shape: inclusion.shape }
+            let matter = inclusion.matter * dice.range([0.6, 1.3]);
+            Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
     }
@@ -170,12 +174,16 @@ impl RoundBody {
 }
 
 impl Pellicle {
-    /// What furrows and the oral groove leave of the thickness; `own` is the place in the body's frame, in radii.
-    fn relief(&self, own: Vec2, rho: f32) -> f32 {
-        let furrow = unit_vector(TAU * 0.5 * self.furrows * (own.x + 0.25 * own.y)).y;
+    /// What furrows and the oral groove leave of the thickness; `own` is the place in the body's frame, scaled so that
+    /// the body is a disc of radius 1.
+    fn relief(&self, own: Vec2, seed: u32) -> f32 {
+        // Rows of cilia run from pole to pole, as meridians do.
+        let meridian = own.y / larger(1.0 - own.x * own.x, 0.02).sqrt();
+        let uneven = 0.8 * octaves(own * 3.0, 2, seed);
+        let furrow = unit_vector(TAU * (0.5 * self.furrows * meridian) + uneven).y;
         // The groove runs slanting from the front to the middle.
-        let along = smoothstep(-0.25, 0.15, own.x);
-        let groove = bell((own.y + 0.30 - 0.55 * (own.x - 0.1)) / 0.20) * along * smoothstep(0.0, 0.3, 1.0 - rho + 0.2);
+        let along = smoothstep(-0.25, 0.05, own.x) * smoothstep(1.0, 0.6, own.x);
+        let groove = bell((own.y + 0.45 - 0.75 * (own.x - 0.1)) / 0.22) * along;
         1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * groove
     }
 }
