@@ -5,7 +5,8 @@ use super::film::{Film, Frame};
 use super::maths::{gaussian, larger};
 use super::matter::Grid;
 use super::noise::scramble;
-use super::optics::{Mode, Optics, Sight};
+use super::optics::{Mode, Optics, Shade, Sight};
+use super::painting::Painting;
 use super::specimen::Specimen;
 use super::wave::Surround;
 use crate::error::Error;
@@ -25,11 +26,17 @@ pub struct Microscope {
     pub film: Film,
 }
 
+/// What is in front of the lens.
+#[derive(Clone, Debug)]
+enum Scene {
+    Lit { specimen: Specimen, surround: Option<Surround>, shade: fn(&Sight<'_>, usize, usize) -> [f32; 3] },
+    Painted(Painting),
+}
+
 /// One picture, ready to be computed.
 #[derive(Clone, Debug)]
 pub struct Exposure {
-    specimen: Specimen,
-    surround: Option<Surround>,
+    scene: Scene,
     mode: &'static Mode,
     frame: Frame,
     pixels: [usize; 2],
@@ -50,15 +57,21 @@ impl Microscope {
         self.film.validate().map_err(|error| error.within("film"))?;
         let seed = scramble(world.config().seed as u32 ^ 0xf11e);
         let frame = self.film.frame(world.time(), seed);
-        let mode = self.optics.mode().unwrap_or(Optics::PhaseContrast.mode().unwrap());
+        let mode = self.optics.mode();
         let [columns, rows] = field.pixels.map(|count| count as usize);
         let pixel = field.pixel();
         let corner = field.corner() + frame.weave * pixel;
         let picture = Grid { corner, pixel, columns, top: 0, rows };
         let (image, margin) = image_grid(&picture, mode);
-        let specimen = Specimen::of(world, field.centre);
-        let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
-        Ok(Exposure { specimen, surround, mode, frame, pixels: [columns, rows], image, margin, picture })
+        let scene = match mode.shade {
+            Shade::Painted => Scene::Painted(Painting::of(world)),
+            Shade::Light(shade) => {
+                let specimen = Specimen::of(world, field.centre);
+                let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
+                Scene::Lit { specimen, surround, shade }
+            }
+        };
+        Ok(Exposure { scene, mode, frame, pixels: [columns, rows], image, margin, picture })
     }
 }
 
@@ -121,18 +134,26 @@ impl Exposure {
         let first = self.image_place(0, rows.start).y as usize - self.margin;
         let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
         let grid = Grid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
-        let plate = self.specimen.plate(grid);
-        let sight = Sight { plate: &plate, surround: self.surround.as_ref() };
-        let mut light = Vec::with_capacity(grid.len());
-        for y in 0..grid.rows {
-            for x in 0..grid.columns {
-                let shade = (self.mode.shade)(&sight, x, y);
-                light.push(std::array::from_fn(|k| shade[k]));
-            }
-        }
-        let mut image = Image { grid, light };
+        let mut image = Image { grid, light: self.scene.light(grid) };
         image.blur(self.mode.blur / grid.pixel);
         image
+    }
+}
+
+impl Scene {
+    /// Light at each pixel of a grid.
+    fn light<const N: usize>(&self, grid: Grid) -> Vec<[f32; N]> {
+        match self {
+            Self::Painted(painting) => {
+                painting.light(grid).into_iter().map(|colour| std::array::from_fn(|k| colour[k])).collect()
+            }
+            Self::Lit { specimen, surround, shade } => {
+                let plate = specimen.plate(grid);
+                let sight = Sight { plate: &plate, surround: surround.as_ref() };
+                let at = |k: usize| shade(&sight, k % grid.columns, k / grid.columns);
+                (0..grid.len()).map(at).map(|light| std::array::from_fn(|k| light[k])).collect()
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What records the image: film with grain, weave and flicker, or a camera.
 
 use super::maths::{larger, mix};
-use super::noise::{hash, unit, wobble};
+use super::noise::{hash, wobble};
 use crate::error::{Error, in_range};
 use glam::{IVec2, Vec2};
 
@@ -114,10 +114,4 @@ impl Frame {
 fn normal(bits: u32) -> f32 {
     let [a, b, c, d] = bits.to_le_bytes().map(f32::from);
     ((a + b + c + d) / 255.0 - 2.0) * 1.732
-}
-
-/// Uniform from 0 to 1 for a pixel: what quantising to 256 levels needs to leave no bands.
-#[allow(dead_code, reason = "kept for the painted mode")]
-pub(super) fn dither(x: usize, y: usize) -> f32 {
-    unit(hash(IVec2::new(x as i32, y as i32), 77))
 }

@@ -79,6 +79,22 @@ impl Grid {
         Vec2::new(from.x - 0.5, -from.y - 0.5 - self.top as f32)
     }
 
+    /// Calls `visit` with index and place of each pixel whose centre lies in a box.
+    pub(super) fn each_in(&self, low: Vec2, high: Vec2, mut visit: impl FnMut(usize, Vec2)) {
+        let (first, last) = (self.locate(Vec2::new(low.x, high.y)), self.locate(Vec2::new(high.x, low.y)));
+        let span = |first: f32, last: f32, count: usize| {
+            let end = (last.floor() + 1.0).clamp(0.0, count as f32) as usize;
+            ((first.ceil().clamp(0.0, count as f32) as usize).min(end), end)
+        };
+        let (left, right) = span(first.x, last.x, self.columns);
+        let (top, bottom) = span(first.y, last.y, self.rows);
+        for y in top..bottom {
+            for x in left..right {
+                visit(y * self.columns + x, self.place(x, y));
+            }
+        }
+    }
+
     pub(super) fn len(&self) -> usize {
         self.columns * self.rows
     }
@@ -98,18 +114,7 @@ impl Plate {
 
     /// Adds what `matter` says to the pixels whose centres lie in a box.
     pub(super) fn add(&mut self, low: Vec2, high: Vec2, matter: impl Fn(Vec2) -> Matter) {
-        let (first, last) = (self.grid.locate(Vec2::new(low.x, high.y)), self.grid.locate(Vec2::new(high.x, low.y)));
-        let span = |first: f32, last: f32, count: usize| {
-            let end = (last.floor() + 1.0).clamp(0.0, count as f32) as usize;
-            ((first.ceil().clamp(0.0, count as f32) as usize).min(end), end)
-        };
-        let (left, right) = span(first.x, last.x, self.grid.columns);
-        let (top, bottom) = span(first.y, last.y, self.grid.rows);
-        for y in top..bottom {
-            for x in left..right {
-                self.matter[y * self.grid.columns + x] += matter(self.grid.place(x, y));
-            }
-        }
+        self.grid.each_in(low, high, |k, place| self.matter[k] += matter(place));
     }
 }
 

@@ -36,6 +36,7 @@ mod maths;
 mod matter;
 mod noise;
 mod optics;
+mod painting;
 mod specimen;
 mod wave;
 

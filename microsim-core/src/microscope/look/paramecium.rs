@@ -14,7 +14,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
     pellicle: Some(&Pellicle {
         furrows: 22.0,
         furrow_depth: 0.012,
-        groove: 0.26,
+        groove: 0.42,
         vacuole: 0.15,
         vacuole_period: 12.0,
         vacuole_phase: -1.2,

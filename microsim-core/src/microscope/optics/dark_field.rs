@@ -1,12 +1,13 @@
 //! Dark field: the surround wave is stopped, and what the specimen scattered is all there is. `I = |E - S|^2`.
 
-use super::{Mode, Sight, grey};
+use super::{Mode, Shade, Sight, grey};
 
 const GAIN: f32 = 2.6;
 /// Light that gets past the stop.
 const LEAK: f32 = 0.006;
 
-pub(super) const MODE: Mode = Mode { channels: 1, has_surround: true, blur: 0.10, grain: 0.6, shade };
+pub(super) const MODE: Mode =
+    Mode { channels: 1, has_surround: true, blur: 0.10, grain: 0.6, shade: Shade::Light(shade) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let (wave, surround) = sight.waves(x, y);

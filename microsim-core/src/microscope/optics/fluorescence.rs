@@ -1,13 +1,14 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
-use super::{Mode, Sight};
+use super::{Mode, Shade, Sight};
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.012, 0.014, 0.016];
 const NUCLEUS: [f32; 3] = [0.10, 0.50, 1.00];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
-pub(super) const MODE: Mode = Mode { channels: 3, has_surround: false, blur: 0.17, grain: 0.5, shade };
+pub(super) const MODE: Mode =
+    Mode { channels: 3, has_surround: false, blur: 0.17, grain: 0.5, shade: Shade::Light(shade) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);

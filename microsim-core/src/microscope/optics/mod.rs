@@ -1,6 +1,7 @@
 //! Ways to make an image of a specimen: one file each, and a row in [`Optics`].
 
 mod bright_field;
+mod classic;
 mod dark_field;
 mod dic;
 mod fluorescence;
@@ -67,17 +68,17 @@ impl Optics {
         Self::ALL.into_iter().find(|optics| optics.name() == name)
     }
 
-    /// How light becomes an image; `None` for what is painted.
-    pub(super) fn mode(self) -> Option<&'static Mode> {
+    /// How it makes its image.
+    pub(super) fn mode(self) -> &'static Mode {
         match self {
-            Self::PhaseContrast => Some(&phase_contrast::POSITIVE),
-            Self::NegativePhaseContrast => Some(&phase_contrast::NEGATIVE),
-            Self::Dic => Some(&dic::MODE),
-            Self::DarkField => Some(&dark_field::MODE),
-            Self::BrightField => Some(&bright_field::MODE),
-            Self::Stained => Some(&stained::MODE),
-            Self::Fluorescence => Some(&fluorescence::MODE),
-            Self::Classic => None,
+            Self::PhaseContrast => &phase_contrast::POSITIVE,
+            Self::NegativePhaseContrast => &phase_contrast::NEGATIVE,
+            Self::Dic => &dic::MODE,
+            Self::DarkField => &dark_field::MODE,
+            Self::BrightField => &bright_field::MODE,
+            Self::Stained => &stained::MODE,
+            Self::Fluorescence => &fluorescence::MODE,
+            Self::Classic => &classic::MODE,
         }
     }
 }
@@ -92,8 +93,16 @@ pub(super) struct Mode {
     pub blur: f32,
     /// Strength of the film's grain in this light, relative to phase contrast.
     pub grain: f32,
+    pub shade: Shade,
+}
+
+/// Where an image comes from.
+#[derive(Debug)]
+pub(super) enum Shade {
     /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three.
-    pub shade: fn(&Sight<'_>, usize, usize) -> [f32; 3],
+    Light(fn(&Sight<'_>, usize, usize) -> [f32; 3]),
+    /// There is no light: it is painted.
+    Painted,
 }
 
 impl Mode {

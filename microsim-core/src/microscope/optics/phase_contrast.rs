@@ -4,7 +4,7 @@
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
-use super::{Mode, Sight, grey};
+use super::{Mode, Shade, Sight, grey};
 
 /// Amplitude that the phase plate leaves of the surround wave.
 const TRANSMISSION: f32 = 0.46;
@@ -17,10 +17,11 @@ pub(super) const POSITIVE: Mode = Mode {
     has_surround: true,
     blur: 0.09,
     grain: 1.0,
-    shade: |sight, x, y| shade(sight, x, y, TRANSMISSION),
+    shade: Shade::Light(|sight, x, y| shade(sight, x, y, TRANSMISSION)),
 };
 
-pub(super) const NEGATIVE: Mode = Mode { shade: |sight, x, y| shade(sight, x, y, -TRANSMISSION), ..POSITIVE };
+pub(super) const NEGATIVE: Mode =
+    Mode { shade: Shade::Light(|sight, x, y| shade(sight, x, y, -TRANSMISSION)), ..POSITIVE };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize, transmission: f32) -> [f32; 3] {
     let (wave, surround) = sight.waves(x, y);

@@ -4,7 +4,7 @@
 //! measured ones of stained smears. `z_rgb` is the defocus that remains: a simple objective does not focus all colours in
 //! one plane, which puts a faint coloured line along every edge.
 
-use super::{Mode, Sight};
+use super::{Mode, Shade, Sight};
 use crate::microscope::noise::octaves;
 
 /// A field without a specimen: 198, 198, 193 of 255.
@@ -20,7 +20,8 @@ const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.15;
 
-pub(super) const MODE: Mode = Mode { channels: 3, has_surround: false, blur: 0.13, grain: 0.25, shade };
+pub(super) const MODE: Mode =
+    Mode { channels: 3, has_surround: false, blur: 0.13, grain: 0.25, shade: Shade::Light(shade) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);
