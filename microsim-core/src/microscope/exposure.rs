@@ -131,7 +131,7 @@ impl Exposure {
 
     /// The image behind some rows of the picture.
     fn image<const N: usize>(&self, rows: &Range<usize>) -> Image<N> {
-        let first = self.image_place(0, rows.start).y as usize - self.margin;
+        let first = (self.image_place(0, rows.start).y as usize).saturating_sub(self.margin);
         let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
         let grid = Grid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
         let mut image = Image { grid, light: self.scene.light(grid) };

@@ -139,12 +139,11 @@ impl Sight<'_> {
     /// Delay `offset` micrometres beside a pixel, radians.
     pub(super) fn phase_beside(&self, x: usize, y: usize, offset: Vec2) -> f32 {
         let grid = &self.plate.grid;
-        let last = Vec2::new((grid.columns - 1) as f32, (grid.rows - 1) as f32);
         let offset = Vec2::new(offset.x, -offset.y) / grid.pixel;
-        let at = (Vec2::new(x as f32, y as f32) + offset).clamp(Vec2::ZERO, last);
-        let (left, upper) = (at.x as usize, at.y as usize);
+        let (whole, share) = (offset.floor(), offset - offset.floor());
+        let beside = |k: usize, by: f32, count: usize| (k as isize + by as isize).clamp(0, count as isize - 1) as usize;
+        let (left, upper) = (beside(x, whole.x, grid.columns), beside(y, whole.y, grid.rows));
         let (right, lower) = ((left + 1).min(grid.columns - 1), (upper + 1).min(grid.rows - 1));
-        let share = at - at.floor();
         let phase = |x: usize, y: usize| self.matter(x, y).phase;
         let above = phase(left, upper) + (phase(right, upper) - phase(left, upper)) * share.x;
         let below = phase(left, lower) + (phase(right, lower) - phase(left, lower)) * share.x;
