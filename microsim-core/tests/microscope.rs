@@ -27,7 +27,7 @@ const EVERYTHING: Field = Field { centre: Vec2::new(32.0, 18.0), width: 64.0, pi
 /// One of everything.
 fn world() -> World {
     let mut world = World::new(WorldConfig { size: Vec2::new(62.0, 35.0), ..WorldConfig::default() }).unwrap();
-    let mut put = |spec: OrganismSpec, x: f32, y: f32| drop(world.spawn(&spec, Placement::at(x, y)).unwrap());
+    let mut put = |spec: OrganismSpec, x: f32, y: f32| _ = world.spawn(&spec, Placement::at(x, y)).unwrap();
     put(AmoeboidCellSpec { radii: Vec2::new(8.0, 7.0), node_radius: 0.45, ..Default::default() }.into(), 11.0, 24.0);
     put(RedCellSpec::default().into(), 24.0, 28.0);
     put(RedCellSpec { radius: 3.5, ..Default::default() }.into(), 25.0, 20.0);

@@ -181,34 +181,38 @@ impl<const N: usize> Image<N> {
         })
     }
 
-    /// Blurs by a normal distribution of `sigma` pixels.
+    /// Blurs by a normal distribution of `sigma` pixels; a border of three times as many stays as it is.
     fn blur(&mut self, sigma: f32) {
         let weights = gaussian(sigma);
         let reach = weights.len() / 2;
         let (columns, rows) = (self.grid.columns, self.grid.rows);
-        let mut line = vec![[0.0; N]; columns];
-        for row in self.light.chunks_exact_mut(columns) {
-            line.copy_from_slice(row);
-            for x in reach..columns.saturating_sub(reach) {
-                row[x] = weighted(&weights, line[x - reach..].iter());
-            }
+        if columns <= 2 * reach || rows <= 2 * reach {
+            return;
         }
-        let old = self.light.clone();
-        for y in reach..rows.saturating_sub(reach) {
-            for x in 0..columns {
-                let column = old[(y - reach) * columns + x..].iter().step_by(columns);
-                self.light[y * columns + x] = weighted(&weights, column);
-            }
+        let mut across = self.light.clone();
+        for (line, blurred) in self.light.chunks_exact(columns).zip(across.chunks_exact_mut(columns)) {
+            let lines = (0..weights.len()).map(|k| &line[k..]);
+            weighted_sum(&mut blurred[reach..columns - reach], &weights, lines);
+        }
+        for y in reach..rows - reach {
+            let lines = (0..weights.len()).map(|k| &across[(y + k - reach) * columns..]);
+            weighted_sum(&mut self.light[y * columns..(y + 1) * columns], &weights, lines);
         }
     }
 }
 
-fn weighted<'a, const N: usize>(weights: &[f32], light: impl Iterator<Item = &'a [f32; N]>) -> [f32; N] {
-    let mut sum = [0.0; N];
-    for (weight, light) in weights.iter().zip(light) {
-        for k in 0..N {
-            sum[k] += weight * light[k];
+/// Sets a line to the weighted sum of others.
+fn weighted_sum<'a, const N: usize>(
+    sum: &mut [[f32; N]],
+    weights: &[f32],
+    lines: impl Iterator<Item = &'a [[f32; N]]>,
+) {
+    sum.fill([0.0; N]);
+    for (weight, line) in weights.iter().zip(lines) {
+        for (sum, light) in sum.iter_mut().zip(line) {
+            for k in 0..N {
+                sum[k] += weight * light[k];
+            }
         }
     }
-    sum
 }

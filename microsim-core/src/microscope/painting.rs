@@ -10,6 +10,7 @@
 use super::maths::{mix, smoothstep};
 use super::matter::Grid;
 use super::noise::{Dice, octaves, scramble, wobble};
+use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::kind::Kind;
 use crate::template::Role;
@@ -28,6 +29,7 @@ const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
 #[derive(Clone, Debug)]
 pub(super) struct Painting {
     room: Vec2,
+    obstacles: Vec<Obstacle>,
     things: Vec<Thing>,
 }
 
@@ -50,7 +52,7 @@ struct Skin {
 impl Painting {
     pub(super) fn of(world: &World) -> Self {
         let room = world.config().size;
-        let mut painting = Self { room, things: Vec::new() };
+        let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), things: Vec::new() };
         painting.background(world.config().seed as u32, world.time() as f32);
         let mut organisms: Vec<OrganismView<'_>> = world.view().organisms().collect();
         organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
@@ -139,9 +141,11 @@ impl Painting {
         (0..grid.len()).map(mean).collect()
     }
 
+    /// The page, darker where the chamber is.
     fn page(&self, place: Vec2) -> Vec3 {
-        let is_inside = place.cmpge(Vec2::ZERO).all() && place.cmple(self.room).all();
-        PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, 1)) * if is_inside { 1.0 } else { 0.7 }
+        let is_outside = place.cmplt(Vec2::ZERO).any() || place.cmpgt(self.room).any();
+        let is_solid = is_outside || self.obstacles.iter().any(|obstacle| obstacle.nearest(place).1);
+        PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, 1)) * if is_solid { 0.7 } else { 1.0 }
     }
 }
 

@@ -2,4 +2,4 @@
 
 use super::{Mode, Shade};
 
-pub(super) const MODE: Mode = Mode { channels: 3, has_surround: false, blur: 0.0, grain: 0.0, shade: Shade::Painted };
+pub(super) const MODE: Mode = Mode { channels: 3, has_surround: false, blur: 0.0, grain: 0.5, shade: Shade::Painted };

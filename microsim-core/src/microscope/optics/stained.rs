@@ -21,7 +21,7 @@ const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
 const STEP: f32 = 0.15;
 
 pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.13, grain: 0.25, shade: Shade::Light(shade) };
+    Mode { channels: 3, has_surround: false, blur: 0.15, grain: 0.25, shade: Shade::Light(shade) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);

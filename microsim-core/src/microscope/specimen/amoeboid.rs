@@ -88,9 +88,12 @@ impl AmoeboidBody {
         let first = dice.unit() * TAU;
         let middle =
             self.centre - self.front.way * (0.16 * (self.front.ahead + self.front.behind) * self.front.strength);
+        // A chain that does not close; the more lobes, the smaller they are.
+        let step = smaller(1.35, 4.2 / count as f32);
+        let size = self.radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
         let lobe = |k: u32| {
-            let radius = dice.range(nucleus.radius) * self.radius;
-            let angle = first + k as f32 * 1.35 + dice.range([-0.15, 0.15]);
+            let radius = dice.range(nucleus.radius) * size;
+            let angle = first + k as f32 * step + dice.range([-0.15, 0.15]);
             let place = middle + self.shape * (unit_vector(angle) * (nucleus.spread * dice.range([0.85, 1.15])));
             (self.map.pushed_inside(place, radius + 0.04 * self.radius), radius)
         };
@@ -198,7 +201,7 @@ impl AmoeboidBody {
     /// The bright wall around prey that is inside: it grows as the prey goes in.
     pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
         let share = smoothstep(-radius, radius, self.map.at(prey));
-        let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.55) } * share;
+        let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
         (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
     }
 

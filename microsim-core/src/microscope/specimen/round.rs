@@ -101,7 +101,10 @@ impl RoundBody {
         let mut dice = Dice::new(self.seed ^ 0x51ed);
         let mut spots: Vec<Spot> =
             self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut dice)).collect();
-        spots.extend(self.look.pellicle.iter().flat_map(|pellicle| self.vacuoles(pellicle, time)));
+        if let Some(pellicle) = self.look.pellicle {
+            let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };
+            spots.extend(self.vacuoles(pellicle, time).map(spot));
+        }
         spots
     }
 
@@ -120,38 +123,35 @@ impl RoundBody {
         (0..count).map(spot).collect()
     }
 
-    /// Two contractile vacuoles, each with its canals: they fill slowly and empty at once.
-    fn vacuoles(&self, pellicle: &Pellicle, time: f32) -> Vec<Spot> {
-        let mut spots = Vec::new();
-        for (side, shift) in [(1.0, 0.0), (-1.0, 0.45)] {
+    /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.
+    fn vacuoles(&self, pellicle: &Pellicle, time: f32) -> [(Vec2, f32, f32); 2] {
+        [(1.0, 0.0), (-1.0, 0.45)].map(|(side, shift)| {
             let filled = (time / pellicle.vacuole_period + shift).rem_euclid(1.0);
-            let size = pellicle.vacuole * filled.sqrt() * smoothstep(1.0, 0.93, filled);
-            let at = self.place(Vec2::new(side, 0.25).normalize(), 0.52);
-            let radius = size * self.polar.mean;
-            let matter = Matter { cytoplasm: -0.7, ..Matter::phase(pellicle.vacuole_phase) };
-            spots.push(Spot { at, radius, matter, shape: SpotShape::Ball });
-            spots.extend((0..6).flat_map(|k| {
-                let way = unit_vector(k as f32 * TAU / 6.0 + 0.3);
-                // The canals swell while the vacuole is empty.
-                let width = 0.025 * self.polar.mean * (1.0 - 0.7 * filled);
-                (0..4).map(move |step| {
-                    let at = at + way * (radius + width * 1.5 * step as f32);
-                    Spot {
-                        at,
-                        radius: width * (1.0 - 0.15 * step as f32),
-                        matter: matter * 0.4,
-                        shape: SpotShape::Bump,
-                    }
-                })
-            }));
-        }
-        spots
+            let radius = self.polar.mean * pellicle.vacuole * filled.sqrt() * smoothstep(1.0, 0.93, filled);
+            (self.place(Vec2::new(side, 0.25).normalize(), 0.52), radius, filled)
+        })
     }
 
-    /// Its cilia at a time.
+    /// Canals that lead to a vacuole; they swell while it is empty.
+    fn canals(&self, pellicle: &Pellicle, (at, vacuole, filled): (Vec2, f32, f32)) -> Vec<Thread> {
+        let radius = 0.02 * self.polar.mean * (1.0 - 0.6 * filled);
+        let canal = |k: u32| {
+            let way = rotate(unit_vector(k as f32 * TAU / 7.0 + 0.3), self.facing);
+            let to = at + way * (vacuole + 0.16 * self.polar.mean);
+            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.45 }
+        };
+        (0..7).map(canal).collect()
+    }
+
+    /// Its cilia and canals at a time.
     pub(super) fn threads(&self, time: f32) -> Vec<Thread> {
-        let Some(cilia) = self.look.cilia else { return Vec::new() };
-        (0..cilia.count).flat_map(|k| self.cilium(cilia, k, time)).collect()
+        let cilia = self.look.cilia.iter().flat_map(|cilia| (0..cilia.count).map(move |k| (cilia, k)));
+        let mut threads: Vec<Thread> = cilia.flat_map(|(cilia, k)| self.cilium(cilia, k, time)).collect();
+        if let Some(pellicle) = self.look.pellicle {
+            let vacuoles = self.vacuoles(pellicle, time);
+            threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
+        }
+        threads
     }
 
     /// One cilium in two straight parts: it swings with the metachronal wave and bends as it swings.
@@ -174,6 +174,11 @@ impl RoundBody {
 }
 
 impl Pellicle {
+    /// What fills vacuoles and canals, relative to the cytoplasm that it takes the place of.
+    fn water(&self) -> Matter {
+        Matter { cytoplasm: -0.7, ..Matter::phase(self.vacuole_phase) }
+    }
+
     /// What furrows and the oral groove leave of the thickness; `own` is the place in the body's frame, scaled so that
     /// the body is a disc of radius 1.
     fn relief(&self, own: Vec2, seed: u32) -> f32 {
