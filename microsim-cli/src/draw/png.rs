@@ -99,15 +99,22 @@ impl Picture {
         Self { width, height, bytes }
     }
 
+    /// One byte per pixel, if it is nothing but grey.
+    pub(crate) fn greys(&self) -> Option<Vec<u8>> {
+        let pixels = self.bytes.chunks_exact(3);
+        pixels.map(|rgb| (rgb[0] == rgb[1] && rgb[1] == rgb[2]).then_some(rgb[0])).collect()
+    }
+
     /// As a PNG file; fast rather than small.
     pub(crate) fn encoded(&self) -> Result<Vec<u8>, Failure> {
+        let greys = self.greys();
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_color(if greys.is_some() { png::ColorType::Grayscale } else { png::ColorType::Rgb });
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
         let written = encoder.write_header().and_then(|mut writer| {
-            writer.write_image_data(&self.bytes)?;
+            writer.write_image_data(greys.as_ref().unwrap_or(&self.bytes))?;
             writer.finish()
         });
         written.map_err(|error| Failure::Message(format!("cannot encode a picture: {error}")))?;
@@ -212,12 +219,16 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_survives_its_file() {
-        let file = tile(4, 3).encoded().unwrap();
-        let decoder = png::Decoder::new(std::io::Cursor::new(file));
-        let mut reader = decoder.read_info().unwrap();
-        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-        reader.next_frame(&mut bytes).unwrap();
-        assert_eq!(bytes, tile(4, 3).bytes);
+    fn a_picture_survives_its_file_in_colour_or_grey() {
+        let coloured = Picture::new(2, 2, vec![7, 8, 9, 7, 7, 7, 1, 2, 3, 4, 5, 6]);
+        let grey = Picture::new(2, 1, vec![7, 7, 7, 200, 200, 200]);
+        for (picture, expected) in [(&coloured, coloured.bytes.clone()), (&grey, vec![7, 200])] {
+            let file = picture.encoded().unwrap();
+            let decoder = png::Decoder::new(std::io::Cursor::new(file));
+            let mut reader = decoder.read_info().unwrap();
+            let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut bytes).unwrap();
+            assert_eq!(bytes, expected);
+        }
     }
 }

@@ -144,10 +144,8 @@ impl Movie {
 
 /// A frame in 256 greys if it is grey, which is exact, and in its own 256 colours if it is not.
 fn gif_frame(picture: &Picture, width: u16, height: u16) -> gif::Frame<'static> {
-    let pixels = picture.bytes().chunks_exact(3);
-    if pixels.clone().all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]) {
-        let buffer = pixels.map(|rgb| rgb[0]).collect::<Vec<u8>>();
-        return gif::Frame { width, height, buffer: buffer.into(), ..gif::Frame::default() };
+    if let Some(greys) = picture.greys() {
+        return gif::Frame { width, height, buffer: greys.into(), ..gif::Frame::default() };
     }
     gif::Frame::from_rgb_speed(width, height, picture.bytes(), 10)
 }

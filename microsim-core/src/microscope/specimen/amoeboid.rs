@@ -18,8 +18,10 @@ use std::f32::consts::TAU;
 
 /// Cell of the distance map, micrometres.
 const STEP: f32 = 0.2;
-/// Speed at which a cell counts as half-way to polarised, micrometres/s.
-const CRAWLING: f32 = 0.8;
+/// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
+const CRAWLING: f32 = 12.0;
+/// Strength of a front over the skewness of the cell's shape; a cell with a slender tail has about 0.07.
+const SKEWED: f32 = 12.0;
 
 /// One cell, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -233,14 +235,15 @@ impl Front {
             velocity /= count;
             skew /= count;
         }
-        // A narrow tail lies far out: the front is opposite.
-        let polarity = velocity / (velocity.length() + CRAWLING) - skew;
+        // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
+        // the velocity does when a cell makes up its mind anew.
+        let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
         let way = polarity.try_normalize().unwrap_or(Vec2::X);
         let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
         Self {
             way,
             strength: smoothstep(0.1, 0.6, polarity.length()),
-            tail: smoothstep(0.05, 0.3, skew.length()),
+            tail: smoothstep(0.03, 0.08, skew.length()),
             ahead: reach(way),
             behind: reach(-way),
         }
