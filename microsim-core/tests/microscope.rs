@@ -175,9 +175,9 @@ fn nothing_pops_or_flickers_while_a_cell_crawls() {
     let microscope = Microscope { optics: Optics::PhaseContrast, film };
     let field = Field { centre: Vec2::new(20.0, 17.0), width: 40.0, pixels: [320, 180] };
     let mut last: Option<Vec<u8>> = None;
-    // While it sets out, its front forms within a tenth of a second.
-    (0..30).for_each(|_| world.step(&inputs));
-    for step in 30..150 {
+    // While it sets out, its front forms within a second.
+    (0..60).for_each(|_| world.step(&inputs));
+    for step in 60..180 {
         world.step(&inputs);
         let picture = microscope.expose(&world, field).unwrap().rows(0..180);
         if let Some(last) = &last {

@@ -20,8 +20,8 @@ use std::f32::consts::TAU;
 const STEP: f32 = 0.2;
 /// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
 const CRAWLING: f32 = 12.0;
-/// Strength of a front over the skewness of the cell's shape; a cell with a slender tail has about 0.07.
-const SKEWED: f32 = 12.0;
+/// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
+const SKEWED: f32 = 8.0;
 
 /// One cell, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -224,17 +224,10 @@ impl AmoeboidBody {
 
 impl Front {
     fn of(organism: OrganismView<'_>, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
-        let (mut velocity, mut skew, mut count) = (Vec2::ZERO, Vec2::ZERO, 0.0);
-        for particle in organism.particles().filter(|particle| particle.role == Role::Cytoplasm) {
-            let offset = (particle.position - centre) / radius;
-            velocity += particle.velocity;
-            skew += offset * offset.length_squared();
-            count += 1.0;
-        }
-        if count > 0.0 {
-            velocity /= count;
-            skew /= count;
-        }
+        let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
+        let velocity = cytoplasm().map(|p| p.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0);
+        let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
+        let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
         // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
         // the velocity does when a cell makes up its mind anew.
         let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
@@ -243,7 +236,7 @@ impl Front {
         Self {
             way,
             strength: smoothstep(0.1, 0.6, polarity.length()),
-            tail: smoothstep(0.03, 0.08, skew.length()),
+            tail: smoothstep(0.05, 0.12, skew.length()),
             ahead: reach(way),
             behind: reach(-way),
         }
