@@ -18,16 +18,6 @@ const BUILTINS: [Builtin; 6] = [
         text: include_str!("../../scenarios/demo.toml"),
     },
     Builtin {
-        name: "hunt",
-        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
-        text: include_str!("../../scenarios/hunt.toml"),
-    },
-    Builtin {
-        name: "pond",
-        summary: "paramecia and an amoeba in their real size, for `render`",
-        text: include_str!("../../scenarios/pond.toml"),
-    },
-    Builtin {
         name: "platelets",
         summary: "a probe sweeps through a dense field of platelets, any number of them (thesis, Table 4.1)",
         text: include_str!("../../scenarios/platelets.toml"),
@@ -41,6 +31,16 @@ const BUILTINS: [Builtin; 6] = [
         name: "empty",
         summary: "an empty room, to start from",
         text: include_str!("../../scenarios/empty.toml"),
+    },
+    Builtin {
+        name: "hunt",
+        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
+        text: include_str!("../../scenarios/hunt.toml"),
+    },
+    Builtin {
+        name: "pond",
+        summary: "paramecia and an amoeba in their real size, for `render`",
+        text: include_str!("../../scenarios/pond.toml"),
     },
 ];
 
