@@ -6,8 +6,8 @@
 //!             phase, dyes  surround S        per mode    levels
 //! ```
 //!
-//! Everything on the slide has an optical thickness and takes up dye ([`look`]: data, one file per organism). The optics
-//! make an image of that ([`optics`]: one file per mode), and the film records it. Lengths are in micrometres, phases in
+//! Everything on the slide has an optical thickness and takes up dye (`look`: data, one file per organism). The optics
+//! make an image of that (`optics`: one file per mode), and the film records it. Lengths are in micrometres, phases in
 //! radians at 0.55 micrometres.
 //!
 //! Taking a picture reads the world and nothing else: no clock, no memory of earlier pictures. Equal worlds and settings
