@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::render::{FilmStock, OpticsList, Size, ViewSpec};
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -33,6 +34,8 @@ pub(crate) enum Verb {
     Run(RunArgs),
     /// Measure how long steps and their phases take, and how well the constraints hold
     Bench(BenchArgs),
+    /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
+    Render(RenderArgs),
 }
 
 /// Which scenario, and what to change in it.
@@ -98,6 +101,55 @@ pub(crate) struct BenchArgs {
     pub json: bool,
 }
 
+/// `render`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "The name of the file says what it is: .png is a still, .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
+Several moments or several optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
+whatever the number of threads."
+)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub scenario: ScenarioArgs,
+    /// The picture or movie to write
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Simulated time of a still, s; without it, the scenario's duration
+    #[arg(long, value_name = "S", value_parser = duration, conflicts_with_all = ["from", "to", "fps"])]
+    pub at: Option<f64>,
+    /// Simulated time of the first frame, s
+    #[arg(long, value_name = "S", value_parser = duration)]
+    pub from: Option<f64>,
+    /// Simulated time of the last frame, s; without it, the scenario's duration
+    #[arg(long, value_name = "S", value_parser = duration)]
+    pub to: Option<f64>,
+    /// Frames per second of simulated time, 24 unless said otherwise
+    #[arg(long, value_name = "N", value_parser = frame_rate)]
+    pub fps: Option<f64>,
+    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic; several
+    /// with commas, or all
+    #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
+    pub optics: OpticsList,
+    /// What records the picture
+    #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
+    pub film: FilmStock,
+    /// Width and height, pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
+    pub size: Size,
+    /// What is seen: middle and width in micrometres, or an organism's index or name and a width; without it, the room
+    #[arg(long, value_name = "X,Y,WIDTH|follow:ID[,WIDTH]", allow_hyphen_values = true)]
+    pub view: Option<ViewSpec>,
+    /// Pictures side by side in a contact sheet
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub columns: Option<u32>,
+    /// Threads to compute pictures on; without it, one for each processor
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Leave the scale bar out
+    #[arg(long)]
+    pub no_scale_bar: bool,
+}
+
 impl Args {
     /// Reads the command line; help, version and mistakes end the process, as clap does.
     pub(crate) fn from_command_line() -> Self {
@@ -123,6 +175,13 @@ fn key_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
+    }
+}
+
+fn frame_rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (0.001..=1000.0).contains(&rate) => Ok(rate),
+        _ => Err("expected frames per second, 0.001 to 1000".to_owned()),
     }
 }
 

@@ -13,6 +13,7 @@ mod inspect;
 mod interrupt;
 mod moments;
 mod output;
+mod render;
 mod report;
 mod run;
 mod simulate;
@@ -38,5 +39,6 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::Check(args) => inspect::check(args),
         Verb::Run(args) => run::run(args, console),
         Verb::Bench(args) => bench::bench(args, console),
+        Verb::Render(args) => render::render(args, console),
     }
 }

@@ -26,6 +26,16 @@ impl Outputs {
         Ok(Self { folder: folder.to_owned() })
     }
 
+    /// The folder that a file is to lie in, and the file's name there.
+    pub(crate) fn beside(path: &Path) -> Result<(Self, String), Failure> {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let Some(name) = name.filter(|_| !path.is_dir()) else {
+            return Err(Failure::Message(format!("{} is not the name of a file", path.display())));
+        };
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok((Self::open(folder, true)?, name.to_owned()))
+    }
+
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
     }
@@ -59,6 +69,11 @@ impl PendingFile {
     /// The name that it will have.
     pub(crate) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Where it lies until it is finished.
+    pub(crate) fn temporary(&self) -> &Path {
+        &self.temporary
     }
 
     /// Gives it its name, in place of any file that has it.

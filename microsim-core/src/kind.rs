@@ -19,6 +19,10 @@ pub enum Kind {
     FluidBlock,
     /// Spawned from a template that the library does not know.
     Custom,
+    /// A red blood cell: soft, in everybody's way.
+    RedCell,
+    /// A small round bacterium.
+    Coccus,
 }
 
 impl Kind {
@@ -33,6 +37,8 @@ impl Kind {
             Self::Probe => "probe",
             Self::FluidBlock => "fluid_block",
             Self::Custom => "custom",
+            Self::RedCell => "red_cell",
+            Self::Coccus => "coccus",
         }
     }
 }

@@ -78,6 +78,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "template",
         ],
     ),
+    ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
 ];
 
 /// Modules that see the crate as an embedder does: only what `lib.rs` makes public.

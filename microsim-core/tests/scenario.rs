@@ -178,7 +178,12 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
         "spawn.1.name",
         "a name that no other organism has",
     ),
-    ("[[spawn]]\nof = 'pellet'\nplayer = true", 11, "spawn.0.player", "an amoeboid_cell, a rigid_cell or a probe"),
+    (
+        "[[spawn]]\nof = 'pellet'\nplayer = true",
+        11,
+        "spawn.0.player",
+        "an amoeboid_cell, a rigid_cell, a coccus or a probe",
+    ),
 ];
 
 #[test]

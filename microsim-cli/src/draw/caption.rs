@@ -1,7 +1,7 @@
 //! The strip below the room: a scale bar and the time, in letters made of lines so that no font is needed.
 
 use super::palette::INK;
-use super::shape::{Item, Path, Stroke};
+use super::shape::{Colour, Item, Path, Stroke};
 use microsim_core::glam::Vec2;
 
 /// Height of a digit as a share of the strip.
@@ -34,8 +34,21 @@ pub(crate) fn draw(size: Vec2, margin: f32, time: f64) -> Vec<Item> {
     ]
 }
 
+/// A scale bar in the lower left corner of a picture of this size, everything in pixels but the length that it says.
+pub(crate) fn scale_bar(length: f32, pixels: f32, height: f32, margin: f32, shade: u32) -> Vec<Item> {
+    let scale = height / GRID;
+    let colour = Colour::hex(shade * 0x01_01_01).faded(0.9);
+    let mut bar = Path::default();
+    bar.add_line(&[Vec2::splat(margin), Vec2::new(margin + pixels, margin)]);
+    let at = Vec2::new(margin, margin + 2.2 * scale);
+    vec![
+        Item::stroked(bar, Stroke::new(colour, scale * 1.6)),
+        Item::stroked(text(&format!("{length} µm"), at, scale), Stroke::new(colour, scale)),
+    ]
+}
+
 /// The largest of 1, 2, 5, 10, ... that is at most a fifth of the width.
-fn bar_length(width: f32) -> f32 {
+pub(crate) fn bar_length(width: f32) -> f32 {
     let steps = (-2..6).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f32.powi(power)));
     steps.filter(|length| *length <= width * 0.2).fold(0.1, f32::max)
 }

@@ -1,6 +1,6 @@
 //! Pictures: one list of shapes made from a world, written as SVG or painted as PNG.
 
-mod caption;
+pub(crate) mod caption;
 mod obstacle;
 mod organism;
 mod palette;

@@ -1,6 +1,6 @@
 //! Organisms as shapes, one function per kind.
 
-use super::palette::{AGAR, AMOEBOID, CUSTOM, FLUID, HALO, PLATELET, PROBE, QUARANTINED, RIGID, Tint};
+use super::palette::{AGAR, AMOEBOID, COCCUS, CUSTOM, FLUID, HALO, PLATELET, PROBE, QUARANTINED, RED, RIGID, Tint};
 use super::shape::{Item, Paint, Path, Stroke};
 use microsim_core::glam::Vec2;
 use microsim_core::{Kind, MembraneRegion, OrganismView, ParticleView, Role};
@@ -15,6 +15,8 @@ pub(crate) fn draw(view: OrganismView<'_>) -> Vec<Item> {
         Kind::Agar => beads(view, tint(AGAR)),
         Kind::Probe => probe(view, tint(PROBE)),
         Kind::FluidBlock => fluid(view, tint(FLUID)),
+        Kind::RedCell => rigid_cell(view, tint(RED)),
+        Kind::Coccus => beads(view, tint(COCCUS)),
         _ => custom(view, tint(CUSTOM)),
     }
 }

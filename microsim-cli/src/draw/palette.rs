@@ -30,6 +30,8 @@ pub(crate) const PLATELET: Tint = tint(0xF3D3CD, 0xDE9F98, 0xA65E5C, 0x9C4F52);
 pub(crate) const AGAR: Tint = tint(0xF4CE86, 0xDFA44A, 0xA8732A, 0xFFF3D8);
 pub(crate) const PROBE: Tint = tint(0x8D98A3, 0x56626E, 0x323B44, 0xC6CED6);
 pub(crate) const FLUID: Tint = tint(0x9CCBE3, 0x6CAFD1, 0x4A91B6, 0x4A91B6);
+pub(crate) const RED: Tint = tint(0xEBB3AC, 0xD07A73, 0x94413F, 0x94413F);
+pub(crate) const COCCUS: Tint = tint(0x8B7FA8, 0x5E5280, 0x3E3459, 0xD8D2E6);
 pub(crate) const CUSTOM: Tint = tint(0xD9C9E6, 0xB094CB, 0x70538F, 0x70538F);
 pub(crate) const STONE: Tint = tint(0xD2D3CC, 0xB6B8B0, 0x7E827B, 0x7E827B);
 /// Whatever is frozen because its state was no longer finite.

@@ -3,13 +3,14 @@
 use super::shape::{Colour, Item, Paint, Path, Segment, Stroke};
 use super::{Drawing, Frame};
 use crate::failure::Failure;
+use microsim_core::glam::Vec2;
 use tiny_skia::{
     Color, FillRule, GradientStop, LineCap, LineJoin, PathBuilder, Pixmap, Point, RadialGradient, Shader, SpreadMode,
     Transform,
 };
 
 /// An opaque picture, three bytes per pixel.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Picture {
     width: usize,
     height: usize,
@@ -37,12 +38,52 @@ impl Picture {
         }
     }
 
+    /// From three bytes per pixel.
+    pub(crate) fn new(width: usize, height: usize, bytes: Vec<u8>) -> Self {
+        Self { width, height, bytes }
+    }
+
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// Three bytes per pixel, rows from the top.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The same with items painted over it, whose unit is the pixel, y upwards from the lower left corner.
+    pub(crate) fn painted_over(mut self, items: &[Item]) -> Self {
+        let (width, height) = (self.width as u32, self.height as u32);
+        let Some(mut pixmap) = Pixmap::new(width, height) else {
+            return self;
+        };
+        let high = Vec2::new(width as f32, height as f32);
+        let frame = Frame { low: Vec2::ZERO, high, scale: 1.0, width, height };
+        for item in items {
+            paint(&mut pixmap, item, &frame);
+        }
+        for (pixel, below) in pixmap.pixels().iter().zip(self.bytes.chunks_exact_mut(3)) {
+            let kept = 255 - u32::from(pixel.alpha());
+            for (below, above) in below.iter_mut().zip([pixel.red(), pixel.green(), pixel.blue()]) {
+                *below = above + (u32::from(*below) * kept / 255) as u8;
+            }
+        }
+        self
+    }
+
     /// Pictures of equal size side by side, in rows of such a length that the sheet is not too slim.
     pub(crate) fn sheet(pictures: &[Self]) -> Self {
+        let columns = pictures.first().map_or(1, |first| columns(first, pictures.len()));
+        Self::sheet_in(pictures, columns)
+    }
+
+    /// Pictures of equal size in rows of so many.
+    pub(crate) fn sheet_in(pictures: &[Self], columns: usize) -> Self {
         let Some(first) = pictures.first() else {
             return Self::default();
         };
-        let columns = columns(first, pictures.len());
+        let columns = columns.clamp(1, pictures.len());
         let rows = pictures.len().div_ceil(columns);
         let (width, height) = (first.width * columns, first.height * rows);
         let corner = first.bytes.get(..3).unwrap_or(&[0; 3]);
@@ -58,15 +99,22 @@ impl Picture {
         Self { width, height, bytes }
     }
 
+    /// One byte per pixel, if it is nothing but grey.
+    pub(crate) fn greys(&self) -> Option<Vec<u8>> {
+        let pixels = self.bytes.chunks_exact(3);
+        pixels.map(|rgb| (rgb[0] == rgb[1] && rgb[1] == rgb[2]).then_some(rgb[0])).collect()
+    }
+
     /// As a PNG file; fast rather than small.
     pub(crate) fn encoded(&self) -> Result<Vec<u8>, Failure> {
+        let greys = self.greys();
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_color(if greys.is_some() { png::ColorType::Grayscale } else { png::ColorType::Rgb });
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
         let written = encoder.write_header().and_then(|mut writer| {
-            writer.write_image_data(&self.bytes)?;
+            writer.write_image_data(greys.as_ref().unwrap_or(&self.bytes))?;
             writer.finish()
         });
         written.map_err(|error| Failure::Message(format!("cannot encode a picture: {error}")))?;
@@ -171,12 +219,16 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_survives_its_file() {
-        let file = tile(4, 3).encoded().unwrap();
-        let decoder = png::Decoder::new(std::io::Cursor::new(file));
-        let mut reader = decoder.read_info().unwrap();
-        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-        reader.next_frame(&mut bytes).unwrap();
-        assert_eq!(bytes, tile(4, 3).bytes);
+    fn a_picture_survives_its_file_in_colour_or_grey() {
+        let coloured = Picture::new(2, 2, vec![7, 8, 9, 7, 7, 7, 1, 2, 3, 4, 5, 6]);
+        let grey = Picture::new(2, 1, vec![7, 7, 7, 200, 200, 200]);
+        for (picture, expected) in [(&coloured, coloured.bytes.clone()), (&grey, vec![7, 200])] {
+            let file = picture.encoded().unwrap();
+            let decoder = png::Decoder::new(std::io::Cursor::new(file));
+            let mut reader = decoder.read_info().unwrap();
+            let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut bytes).unwrap();
+            assert_eq!(bytes, expected);
+        }
     }
 }

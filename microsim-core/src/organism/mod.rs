@@ -2,10 +2,12 @@
 //! constraints and locomotion it amounts to.
 
 pub(crate) mod agar;
+pub(crate) mod coccus;
 pub(crate) mod filled_chain;
 pub(crate) mod fluid_block;
 pub(crate) mod platelet;
 pub(crate) mod probe;
+pub(crate) mod red_cell;
 pub(crate) mod ring_surgery;
 pub(crate) mod soft_body;
 pub(crate) mod table;
@@ -43,6 +45,10 @@ pub enum OrganismSpec {
     Probe(probe::ProbeSpec),
     /// See [`fluid_block::FluidBlockSpec`].
     FluidBlock(fluid_block::FluidBlockSpec),
+    /// See [`red_cell::RedCellSpec`].
+    RedCell(red_cell::RedCellSpec),
+    /// See [`coccus::CoccusSpec`].
+    Coccus(coccus::CoccusSpec),
 }
 
 impl OrganismSpec {
@@ -55,6 +61,8 @@ impl OrganismSpec {
             Self::Agar(spec) => spec.blueprint(),
             Self::Probe(spec) => spec.blueprint(),
             Self::FluidBlock(spec) => spec.blueprint(),
+            Self::RedCell(spec) => spec.blueprint(),
+            Self::Coccus(spec) => spec.blueprint(),
         }
     }
 

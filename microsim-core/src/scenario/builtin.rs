@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 10] = [
+const BUILTINS: [Builtin; 12] = [
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
@@ -61,6 +61,16 @@ const BUILTINS: [Builtin; 10] = [
         name: "ram-stress",
         summary: "rigid cells and probes ram a cell from all sides; nothing gets in but by ingestion",
         text: include_str!("../../scenarios/ram-stress.toml"),
+    },
+    Builtin {
+        name: "hunt",
+        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
+        text: include_str!("../../scenarios/hunt.toml"),
+    },
+    Builtin {
+        name: "pond",
+        summary: "paramecia and an amoeba in their real size, for `render`",
+        text: include_str!("../../scenarios/pond.toml"),
     },
 ];
 

@@ -44,6 +44,8 @@
 //! | `[platelet.NAME]` | [`PlateletSpec`](crate::PlateletSpec); `radius` is required |
 //! | `[agar.NAME]` | [`AgarSpec`](crate::AgarSpec); `radius` is required |
 //! | `[probe.NAME]` | [`ProbeSpec`](crate::ProbeSpec); `radius` is required |
+//! | `[red_cell.NAME]` | [`RedCellSpec`](crate::RedCellSpec); `radius` is required |
+//! | `[coccus.NAME]` | [`CoccusSpec`](crate::CoccusSpec); `radius` is required |
 //! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
 //! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |

@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams, PlateletSpec,
-    ProbeSpec, RigidCellSpec,
+    AgarSpec, AmoeboidCellSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams,
+    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
 };
 use std::collections::BTreeMap;
 
@@ -26,13 +26,15 @@ pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
 type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
 
 /// Tables of prototypes and how they are read.
-const KINDS: [(&str, ReadSpec); 6] = [
+const KINDS: [(&str, ReadSpec); 8] = [
     ("rigid_cell", rigid_cell),
     ("amoeboid_cell", amoeboid_cell),
     ("platelet", platelet),
     ("agar", agar),
     ("probe", probe),
     ("fluid", fluid),
+    ("red_cell", red_cell),
+    ("coccus", coccus),
 ];
 
 /// Reads all prototypes of a file.
@@ -62,8 +64,8 @@ impl Prototype {
 
     /// Whether anything can steer it.
     pub(super) fn can_move(&self) -> bool {
-        use OrganismSpec::{AmoeboidCell, Probe, RigidCell};
-        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_))
+        use OrganismSpec::{AmoeboidCell, Coccus, Probe, RigidCell};
+        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_) | Coccus(_))
     }
 
     /// Whether it takes others in and grows.
@@ -184,6 +186,27 @@ fn probe(fields: &mut Fields<'_>) -> OrganismSpec {
         mass: fields.or("mass", default.mass),
         speed: fields.or("speed", default.speed),
         max_acceleration: fields.or("max_acceleration", default.max_acceleration),
+    })
+}
+
+fn red_cell(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = RedCellSpec::default();
+    OrganismSpec::from(RedCellSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        satellites: fields.or("satellites", default.satellites),
+        mass: fields.or("mass", default.mass),
+        chord_compliance: fields.or("chord_compliance", default.chord_compliance),
+        chord_damping: fields.or("chord_damping", default.chord_damping),
+        area_compliance: fields.or("area_compliance", default.area_compliance),
+    })
+}
+
+fn coccus(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = CoccusSpec::default();
+    OrganismSpec::from(CoccusSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        density: fields.or("density", default.density),
+        speed: fields.or("speed", default.speed),
     })
 }
 

@@ -27,6 +27,8 @@ pub struct OrganismView<'a> {
 /// One particle, for reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParticleView {
+    /// Its number, its own as long as it lives; it may be another's afterwards.
+    pub index: u32,
     /// Centre, units.
     pub position: Vec2,
     /// Velocity, units/s.
@@ -166,8 +168,9 @@ impl<'a> OrganismView<'a> {
     }
 
     fn particle(self, i: u32) -> ParticleView {
-        let (particles, i) = (&self.world.particles, i as usize);
+        let (particles, index, i) = (&self.world.particles, i, i as usize);
         ParticleView {
+            index,
             position: particles.position(i),
             velocity: particles.velocity(i),
             radius: particles.radius[i],

@@ -1,0 +1,166 @@
+//! `render`: pictures and movies of a scenario as a microscope would show them.
+
+mod animation;
+mod options;
+mod overlay;
+mod photograph;
+
+pub(crate) use options::{FilmStock, OpticsList, Size, ViewSpec};
+
+use crate::args::RenderArgs;
+use crate::console::Console;
+use crate::draw::png::Picture;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::output::Outputs;
+use crate::source::{Prepared, prepare};
+use animation::{Format, Movie};
+use indicatif::ProgressBar;
+use microsim_core::microscope::{Field, Film, Microscope, Optics};
+use microsim_core::{Inputs, World};
+
+/// Frames per second of a movie for which nothing else is said.
+const FPS: f64 = 24.0;
+/// Most frames of one movie.
+const MOST_FRAMES: f64 = 100_000.0;
+
+/// Renders a still, a sheet or a movie.
+pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure> {
+    let format = Format::of(&args.output)?;
+    let prepared = prepare(&args.scenario)?;
+    let plan = Plan::of(args, &prepared)?;
+    // A sheet is a PNG like a still.
+    let is_sheet = format == Format::Png && plan.pictures() > 1;
+    if format != Format::Png && plan.optics.len() > 1 {
+        return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
+    }
+    interrupt::listen();
+    let mut world = prepared.built.world.clone();
+    plan.view.field(&world, &prepared, plan.size)?;
+    let bar = console.progress(plan.last_step(&world));
+    let shots = plan.moments.iter().flat_map(|&moment| plan.optics.iter().map(move |&optics| (moment, optics)));
+    let mut pictures = shots.map(|(moment, optics)| plan.shoot(&mut world, moment, optics, &prepared, &bar));
+    if format == Format::Png {
+        let mut pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+        let columns = args.columns.map_or(plan.columns(), |columns| columns as usize);
+        let picture = if is_sheet { Picture::sheet_in(&pictures, columns) } else { pictures.swap_remove(0) };
+        let (outputs, name) = Outputs::beside(&args.output)?;
+        outputs.write(&name, &picture.encoded()?)?;
+    } else {
+        let movie = Movie { size: plan.size, fps: plan.fps, frames: plan.moments.len() as u32 };
+        movie.write(format, &args.output, &mut pictures)?;
+    }
+    bar.finish_and_clear();
+    console.note(&format!("wrote {}", args.output.display()));
+    Ok(())
+}
+
+/// What is rendered.
+struct Plan {
+    moments: Vec<f64>,
+    fps: f64,
+    optics: Vec<Optics>,
+    film: Film,
+    size: Size,
+    view: ViewSpec,
+    threads: usize,
+    has_scale_bar: bool,
+}
+
+impl Plan {
+    fn of(args: &RenderArgs, prepared: &Prepared) -> Result<Self, Failure> {
+        let fps = args.fps.unwrap_or(FPS);
+        let moments = match (args.from, args.to) {
+            (None, None) => vec![args.at.unwrap_or(f64::from(prepared.scenario.duration()))],
+            (from, to) => {
+                let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(f64::from(prepared.scenario.duration())));
+                moments(from, to, fps)?
+            }
+        };
+        let film = Film { rate: if moments.len() > 1 { fps as f32 } else { Film::CINE.rate }, ..args.film.film() };
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        Ok(Self {
+            moments,
+            fps,
+            optics: args.optics.0.clone(),
+            film,
+            size: args.size,
+            view: args.view.clone().unwrap_or(ViewSpec::Room),
+            threads: args.threads.unwrap_or(threads).clamp(1, 256),
+            has_scale_bar: !args.no_scale_bar,
+        })
+    }
+
+    fn pictures(&self) -> usize {
+        self.moments.len() * self.optics.len()
+    }
+
+    /// Pictures side by side: a row for each moment if there are several kinds of optics.
+    fn columns(&self) -> usize {
+        match (self.moments.len(), self.optics.len()) {
+            (1, 1) => 1,
+            (1, 2..=4) | (_, 1) => 4.min(self.pictures()),
+            (1, _) => 2,
+            (_, optics) => optics,
+        }
+    }
+
+    fn last_step(&self, world: &World) -> u64 {
+        step_at(world, self.moments.last().copied().unwrap_or(0.0))
+    }
+
+    /// Runs the world up to a moment and takes a picture.
+    fn shoot(
+        &self,
+        world: &mut World,
+        moment: f64,
+        optics: Optics,
+        prepared: &Prepared,
+        bar: &ProgressBar,
+    ) -> Result<Picture, Failure> {
+        let inputs = Inputs::new();
+        while world.step_index() < step_at(world, moment) {
+            world.step(&inputs);
+            bar.set_position(world.step_index());
+            stop_if_asked()?;
+        }
+        stop_if_asked()?;
+        let field: Field = self.view.field(world, prepared, self.size)?;
+        let microscope = Microscope { optics, film: self.film };
+        let exposure = microscope.expose(world, field);
+        let exposure = exposure.map_err(|error| Failure::Message(format!("cannot render: {error}")))?;
+        let picture = photograph::develop(&exposure, self.threads);
+        Ok(if self.has_scale_bar { overlay::with_scale_bar(picture, &field, optics) } else { picture })
+    }
+}
+
+fn step_at(world: &World, moment: f64) -> u64 {
+    (moment / f64::from(world.config().dt)).round() as u64
+}
+
+fn stop_if_asked() -> Result<(), Failure> {
+    if interrupt::is_asked() { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// Moments from one time to another, so many per second.
+fn moments(from: f64, to: f64, fps: f64) -> Result<Vec<f64>, Failure> {
+    let count = ((to - from) * fps + 1e-6).floor() + 1.0;
+    if !(to >= from && count <= MOST_FRAMES) {
+        let accepted = format!("--to at or after --from, and at most {MOST_FRAMES} frames");
+        return Err(Failure::Message(format!("--from {from} --to {to}: accepted: {accepted}")));
+    }
+    Ok((0..count as u64).map(|k| from + k as f64 / fps).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_include_both_ends() {
+        assert_eq!(moments(1.0, 2.0, 4.0).ok(), Some(vec![1.0, 1.25, 1.5, 1.75, 2.0]));
+        assert_eq!(moments(0.0, 10.0, 0.3).unwrap().len(), 4);
+        assert_eq!(moments(3.0, 3.0, 24.0).ok(), Some(vec![3.0]));
+        assert!(moments(2.0, 1.0, 24.0).is_err() && moments(0.0, 1e9, 1000.0).is_err());
+    }
+}

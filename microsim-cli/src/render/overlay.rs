@@ -1,0 +1,24 @@
+//! The scale bar in a corner of a picture.
+
+use crate::draw::{caption, png::Picture};
+use microsim_core::microscope::{Field, Optics};
+
+/// Height of the letters and distance from the corner, as shares of the picture's height.
+const LETTERS: f32 = 0.026;
+const MARGIN: f32 = 0.04;
+/// Sides from which on a picture has room for a scale bar, pixels.
+const LEAST: [usize; 2] = [160, 90];
+
+/// The picture with a scale bar at the lower left, if there is room for one.
+pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) -> Picture {
+    let [width, height] = picture.size();
+    if width < LEAST[0] || height < LEAST[1] {
+        return picture;
+    }
+    let is_light = matches!(optics, Optics::Stained | Optics::BrightField | Optics::Classic);
+    let shade = if is_light { 30 } else { 225 };
+    let length = caption::bar_length(field.width);
+    let height = height as f32;
+    let items = caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, shade);
+    picture.painted_over(&items)
+}

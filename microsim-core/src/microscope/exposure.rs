@@ -1,0 +1,218 @@
+//! A picture being taken: from matter to bytes, in rows.
+
+use super::field::Field;
+use super::film::{Film, Frame};
+use super::maths::{gaussian, larger};
+use super::matter::Grid;
+use super::noise::scramble;
+use super::optics::{Mode, Optics, Shade, Sight};
+use super::painting::Painting;
+use super::specimen::Specimen;
+use super::wave::Surround;
+use crate::error::Error;
+use crate::world::World;
+use glam::Vec2;
+use std::ops::Range;
+
+/// Smallest pixel that an image is computed on, micrometres. No lens shows more: a picture of more pixels enlarges it.
+const FINEST: f32 = 1.0 / 64.0;
+
+/// How pictures are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Microscope {
+    /// What makes the image.
+    pub optics: Optics,
+    /// What records it.
+    pub film: Film,
+}
+
+/// What is in front of the lens.
+#[derive(Clone, Debug)]
+enum Scene {
+    Lit { specimen: Specimen, surround: Option<Surround>, shade: fn(&Sight<'_>, usize, usize) -> [f32; 3] },
+    Painted(Painting),
+}
+
+/// One picture, ready to be computed.
+#[derive(Clone, Debug)]
+pub struct Exposure {
+    scene: Scene,
+    mode: &'static Mode,
+    frame: Frame,
+    pixels: [usize; 2],
+    /// Grid of the image: the picture's, or a coarser one that the picture enlarges, and a margin around it.
+    image: Grid,
+    margin: usize,
+    /// Grid of the picture.
+    picture: Grid,
+}
+
+impl Microscope {
+    /// Looks at the present state of a world.
+    ///
+    /// # Errors
+    /// Names the number of the field or of the film that is out of range.
+    pub fn expose(&self, world: &World, field: Field) -> Result<Exposure, Error> {
+        field.validate()?;
+        self.film.validate().map_err(|error| error.within("film"))?;
+        let seed = scramble(world.config().seed as u32 ^ 0xf11e);
+        let frame = self.film.frame(world.time(), seed);
+        let mode = self.optics.mode();
+        let [columns, rows] = field.pixels.map(|count| count as usize);
+        let pixel = field.pixel();
+        let corner = field.corner() + frame.weave * pixel;
+        let picture = Grid { corner, pixel, columns, top: 0, rows };
+        let (image, margin) = image_grid(&picture, mode);
+        let scene = match mode.shade {
+            Shade::Painted => Scene::Painted(Painting::of(world)),
+            Shade::Light(shade) => {
+                let specimen = Specimen::of(world, field.centre);
+                let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
+                Scene::Lit { specimen, surround, shade }
+            }
+        };
+        Ok(Exposure { scene, mode, frame, pixels: [columns, rows], image, margin, picture })
+    }
+}
+
+/// Grid of the image behind a picture, and its margin in pixels.
+fn image_grid(picture: &Grid, mode: &Mode) -> (Grid, usize) {
+    let pixel = larger(picture.pixel, FINEST);
+    let margin = ((Mode::SIDE + 3.0 * mode.blur) / pixel).ceil() as usize + 2;
+    let scale = picture.pixel / pixel;
+    let count = |count: usize| (count as f32 * scale).ceil() as usize + 2 * margin;
+    let corner = picture.corner + Vec2::new(-1.0, 1.0) * (margin as f32 * pixel);
+    (Grid { corner, pixel, columns: count(picture.columns), top: 0, rows: count(picture.rows) }, margin)
+}
+
+impl Exposure {
+    /// Width and height, pixels.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        self.pixels
+    }
+
+    /// Some rows of the picture, counted from the top: three bytes per pixel, red, green, blue. Rows beyond the last one
+    /// are left out. The bytes do not depend on how the picture is divided.
+    #[must_use]
+    pub fn rows(&self, rows: Range<usize>) -> Vec<u8> {
+        let rows = rows.start.min(self.pixels[1])..rows.end.min(self.pixels[1]);
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        match self.mode.channels {
+            1 => self.record::<1>(rows),
+            _ => self.record::<3>(rows),
+        }
+    }
+
+    fn record<const N: usize>(&self, rows: Range<usize>) -> Vec<u8> {
+        let image = self.image::<N>(&rows);
+        let half = Vec2::new(self.pixels[0] as f32, self.pixels[1] as f32) * 0.5;
+        let mut bytes = Vec::with_capacity(rows.len() * self.pixels[0] * 3);
+        for y in rows {
+            for x in 0..self.pixels[0] {
+                let light = image.at(self.image_place(x, y));
+                let recorded = self.frame.record(light, x, y, self.mode.grain, half);
+                bytes.extend((0..3).map(|k| recorded[k.min(N - 1)]));
+            }
+        }
+        bytes
+    }
+
+    /// Where a pixel of the picture lies in the image, in the image's pixels.
+    fn image_place(&self, x: usize, y: usize) -> Vec2 {
+        let at = Vec2::new(x as f32, y as f32);
+        if self.picture.pixel == self.image.pixel {
+            return at + self.margin as f32;
+        }
+        (at + 0.5) * (self.picture.pixel / self.image.pixel) - 0.5 + self.margin as f32
+    }
+
+    /// The image behind some rows of the picture.
+    fn image<const N: usize>(&self, rows: &Range<usize>) -> Image<N> {
+        let first = (self.image_place(0, rows.start).y as usize).saturating_sub(self.margin);
+        let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
+        let grid = Grid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
+        let mut image = Image { grid, light: self.scene.light(grid) };
+        image.blur(self.mode.blur / grid.pixel);
+        image
+    }
+}
+
+impl Scene {
+    /// Light at each pixel of a grid.
+    fn light<const N: usize>(&self, grid: Grid) -> Vec<[f32; N]> {
+        match self {
+            Self::Painted(painting) => {
+                painting.light(grid).into_iter().map(|colour| std::array::from_fn(|k| colour[k])).collect()
+            }
+            Self::Lit { specimen, surround, shade } => {
+                let plate = specimen.plate(grid);
+                let sight = Sight { plate: &plate, surround: surround.as_ref() };
+                let at = |k: usize| shade(&sight, k % grid.columns, k / grid.columns);
+                (0..grid.len()).map(at).map(|light| std::array::from_fn(|k| light[k])).collect()
+            }
+        }
+    }
+}
+
+/// Light on a part of the image's grid.
+struct Image<const N: usize> {
+    grid: Grid,
+    light: Vec<[f32; N]>,
+}
+
+impl<const N: usize> Image<N> {
+    /// Light at a place in pixels of the whole image, from the nearest four.
+    fn at(&self, place: Vec2) -> [f32; N] {
+        let (columns, rows) = (self.grid.columns, self.grid.rows);
+        let (x, y) = (place.x as usize, place.y as usize - self.grid.top);
+        let share = place - place.floor();
+        let pick = |x: usize, y: usize| self.light[y.min(rows - 1) * columns + x.min(columns - 1)];
+        if share == Vec2::ZERO {
+            return pick(x, y);
+        }
+        let corners = [pick(x, y), pick(x + 1, y), pick(x, y + 1), pick(x + 1, y + 1)];
+        std::array::from_fn(|k| {
+            let upper = corners[0][k] + (corners[1][k] - corners[0][k]) * share.x;
+            let lower = corners[2][k] + (corners[3][k] - corners[2][k]) * share.x;
+            upper + (lower - upper) * share.y
+        })
+    }
+
+    /// Blurs by a normal distribution of `sigma` pixels; a border of three times as many stays as it is.
+    fn blur(&mut self, sigma: f32) {
+        let weights = gaussian(sigma);
+        let reach = weights.len() / 2;
+        let (columns, rows) = (self.grid.columns, self.grid.rows);
+        if columns <= 2 * reach || rows <= 2 * reach {
+            return;
+        }
+        let mut across = self.light.clone();
+        for (line, blurred) in self.light.chunks_exact(columns).zip(across.chunks_exact_mut(columns)) {
+            let lines = (0..weights.len()).map(|k| &line[k..]);
+            weighted_sum(&mut blurred[reach..columns - reach], &weights, lines);
+        }
+        for y in reach..rows - reach {
+            let lines = (0..weights.len()).map(|k| &across[(y + k - reach) * columns..]);
+            weighted_sum(&mut self.light[y * columns..(y + 1) * columns], &weights, lines);
+        }
+    }
+}
+
+/// Sets a line to the weighted sum of others.
+fn weighted_sum<'a, const N: usize>(
+    sum: &mut [[f32; N]],
+    weights: &[f32],
+    lines: impl Iterator<Item = &'a [[f32; N]]>,
+) {
+    sum.fill([0.0; N]);
+    for (weight, line) in weights.iter().zip(lines) {
+        for (sum, light) in sum.iter_mut().zip(line) {
+            for k in 0..N {
+                sum[k] += weight * light[k];
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Paramecium: a thick body packed with food, an oral groove, two contractile vacuoles and a coat of cilia.
+
+use super::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape, Texture};
+use crate::microscope::matter::Matter;
+
+pub(super) const LOOK: RoundLook = RoundLook {
+    profile: Profile::Dome(0.45),
+    matter: Matter { phase: 2.5, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
+    variation: 0.05,
+    texture: Texture { amount: 0.05, size: 0.5 },
+    unevenness: 0.006,
+    inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
+    cilia: Some(&Cilia { count: 340, length: 0.16, width: 0.14, phase: 0.26, waves: 10.0, rate: 4.0 }),
+    pellicle: Some(&Pellicle {
+        furrows: 22.0,
+        furrow_depth: 0.012,
+        groove: 0.42,
+        vacuole: 0.15,
+        vacuole_period: 12.0,
+        vacuole_phase: -1.2,
+    }),
+};
+
+const GRANULES: Inclusion = Inclusion {
+    count: [420, 520],
+    radius: [0.015, 0.055],
+    place: [0.0, 0.93],
+    matter: Matter { phase: 0.30, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
+    shape: SpotShape::Ball,
+};
+
+const CRYSTALS: Inclusion = Inclusion {
+    count: [60, 90],
+    radius: [0.010, 0.030],
+    place: [0.0, 0.9],
+    matter: Matter { phase: -0.6, haemoglobin: 0.0, cytoplasm: -0.1, nucleus: 0.0 },
+    shape: SpotShape::Bump,
+};
+
+const FOOD: Inclusion = Inclusion {
+    count: [6, 10],
+    radius: [0.06, 0.10],
+    place: [0.15, 0.72],
+    matter: Matter { phase: 0.7, haemoglobin: 0.12, cytoplasm: 0.7, nucleus: 0.1 },
+    shape: SpotShape::Ball,
+};
+
+const MACRONUCLEUS: Inclusion = Inclusion {
+    count: [1, 1],
+    radius: [0.24, 0.28],
+    place: [0.0, 0.15],
+    matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
+    shape: SpotShape::Ball,
+};

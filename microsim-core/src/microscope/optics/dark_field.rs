@@ -1,0 +1,16 @@
+//! Dark field: the surround wave is stopped, and what the specimen scattered is all there is. `I = |E - S|^2`.
+
+use super::{Mode, Shade, Sight, grey};
+
+const GAIN: f32 = 2.6;
+/// Light that gets past the stop.
+const LEAK: f32 = 0.006;
+
+pub(super) const MODE: Mode =
+    Mode { channels: 1, has_surround: true, blur: 0.10, grain: 0.6, shade: Shade::Light(shade) };
+
+fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
+    let (wave, surround) = sight.waves(x, y);
+    let light = LEAK + GAIN * (wave - surround).length_squared();
+    grey(libm::powf(light, 0.8))
+}

@@ -1,0 +1,23 @@
+//! Differential interference contrast: two waves a little apart are set against each other, so that slopes of the delay
+//! become light and shade.
+//!
+//! `I = [sin((phi(x + d) - phi(x - d) + b) / 2) / sin(b / 2)]^2` with shear `d` and bias `b`.
+
+use super::{Mode, Shade, Sight, grey};
+use glam::Vec2;
+
+/// Half the shear, micrometres: towards the upper left, where the light seems to come from.
+const SHEAR: Vec2 = Vec2::new(-0.094, 0.094);
+/// Bias, radians.
+const BIAS: f32 = 0.9;
+/// Grey of a field without a specimen.
+const BACKGROUND: f32 = 0.43;
+
+pub(super) const MODE: Mode =
+    Mode { channels: 1, has_surround: false, blur: 0.09, grain: 0.8, shade: Shade::Light(shade) };
+
+fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
+    let difference = sight.phase_beside(x, y, -SHEAR) - sight.phase_beside(x, y, SHEAR);
+    let ratio = libm::sinf(0.5 * (difference + BIAS)) / libm::sinf(0.5 * BIAS);
+    grey(BACKGROUND * ratio * ratio)
+}

@@ -1,0 +1,204 @@
+//! The seed's own way to draw (3.2): meshes with textures that stretch with the body, particles blurred into a fluid, and
+//! things that drift in the background. No light is involved.
+//!
+//! - Soft bodies: vertices are the ring's bodies pushed outwards by their radius, the kernel is the hub of the triangles,
+//!   and the texture's inscribed circle is bound to the ring (3.2.1).
+//! - Filled chains: the outline is cut into triangles by ear clipping and filled with one colour; over it lie the
+//!   particles, blurred (3.2.2).
+//! - Background: sprites at points that wander (3.2.3).
+
+use super::maths::{mix, smoothstep};
+use super::matter::Grid;
+use super::noise::{Dice, octaves, scramble, wobble};
+use crate::collision::obstacle::Obstacle;
+use crate::geometry::{centroid, triangulate, unit_vector};
+use crate::kind::Kind;
+use crate::template::Role;
+use crate::world::World;
+use crate::world::view::OrganismView;
+use glam::{Vec2, Vec3};
+use std::f32::consts::TAU;
+
+/// Sprites in the background.
+const DRIFTING: u32 = 60;
+/// Samples of a pixel along each side.
+const SAMPLES: usize = 2;
+const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
+
+/// A painted picture: things that cover each other, the lowest first.
+#[derive(Clone, Debug)]
+pub(super) struct Painting {
+    room: Vec2,
+    obstacles: Vec<Obstacle>,
+    things: Vec<Thing>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Thing {
+    Triangle { corners: [Vec2; 3], texture: [Vec2; 3], skin: Skin },
+    Disc { at: Vec2, radius: f32, colour: Vec3, alpha: f32, softness: f32 },
+}
+
+/// A texture: a square with an inscribed circle.
+#[derive(Clone, Copy, Debug)]
+struct Skin {
+    body: Vec3,
+    rim: Vec3,
+    /// Strength of the mottling.
+    mottle: f32,
+    seed: u32,
+}
+
+impl Painting {
+    pub(super) fn of(world: &World) -> Self {
+        let room = world.config().size;
+        let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), things: Vec::new() };
+        painting.background(world.config().seed as u32, world.time() as f32);
+        let mut organisms: Vec<OrganismView<'_>> = world.view().organisms().collect();
+        organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
+        for organism in organisms {
+            painting.organism(organism);
+        }
+        painting
+    }
+
+    fn background(&mut self, seed: u32, time: f32) {
+        for k in 0..DRIFTING {
+            let mut dice = Dice::new(seed ^ scramble(k));
+            let walk = Vec2::new(wobble(time * 0.1, dice.bits()), wobble(time * 0.1, dice.bits())) * 6.0;
+            let at = Vec2::new(dice.unit(), dice.unit()) * self.room + walk;
+            let colour = PAGE * dice.range([0.82, 1.12]);
+            let radius = dice.range([0.01, 0.035]) * self.room.max_element();
+            self.things.push(Thing::Disc { at, radius, colour, alpha: 0.5, softness: 0.9 });
+        }
+    }
+
+    fn organism(&mut self, organism: OrganismView<'_>) {
+        let seed = scramble(organism.id().index());
+        let (body, rim, mottle) = colours(organism.kind(), seed);
+        let skin = Skin { body, rim, mottle, seed };
+        let surface = organism.surface();
+        if surface.len() < 3 {
+            let disc = |at, radius| Thing::Disc { at, radius, colour: body, alpha: 0.95, softness: 0.15 };
+            self.things.extend(organism.particles().map(|particle| disc(particle.position, particle.radius)));
+        } else if organism.kind() == Kind::AmoeboidCell {
+            self.filled_chain(organism, &surface, skin);
+        } else {
+            self.soft_body(organism, &surface, skin);
+        }
+    }
+
+    /// A fan of triangles around the kernel.
+    fn soft_body(&mut self, organism: OrganismView<'_>, surface: &[Vec2], skin: Skin) {
+        let kernel = organism.nucleus();
+        let Some(hub) = kernel.map(|kernel| kernel.position).or_else(|| centroid(surface)) else { return };
+        let count = surface.len();
+        let bound = |k: usize| unit_vector(TAU * k as f32 / count as f32);
+        for k in 0..count {
+            let corners = [hub, surface[k], surface[(k + 1) % count]];
+            self.things.push(Thing::Triangle { corners, texture: [Vec2::ZERO, bound(k), bound(k + 1)], skin });
+        }
+        let sprite = |at, radius| Thing::Disc { at, radius, colour: skin.rim * 0.75, alpha: 0.7, softness: 0.4 };
+        self.things.extend(kernel.map(|kernel| sprite(kernel.position, kernel.radius)));
+    }
+
+    /// One colour, and the blurred particles on it.
+    fn filled_chain(&mut self, organism: OrganismView<'_>, surface: &[Vec2], skin: Skin) {
+        let flat = Skin { mottle: 0.0, rim: skin.body, ..skin };
+        for corners in triangulate(surface) {
+            let corners = corners.map(|k| surface[k as usize]);
+            self.things.push(Thing::Triangle { corners, texture: [Vec2::ZERO; 3], skin: flat });
+        }
+        let fluid = organism.particles().filter(|p| matches!(p.role, Role::Cytoplasm | Role::GrownCytoplasm));
+        self.things.extend(fluid.map(|particle| {
+            let colour = mix_colours(skin.rim, skin.body, Dice::new(particle.index).unit());
+            Thing::Disc { at: particle.position, radius: 1.9 * particle.radius, colour, alpha: 0.55, softness: 1.0 }
+        }));
+        let node = |at, radius| Thing::Disc { at, radius, colour: skin.rim * 0.8, alpha: 0.8, softness: 0.5 };
+        let membrane = organism.particles().filter(|particle| particle.role == Role::Membrane);
+        self.things.extend(membrane.map(|particle| node(particle.position, particle.radius)));
+    }
+
+    /// Colours on a grid, each channel 0 to 1.
+    pub(super) fn light(&self, grid: Grid) -> Vec<Vec3> {
+        let fine = Grid {
+            pixel: grid.pixel / SAMPLES as f32,
+            columns: grid.columns * SAMPLES,
+            top: grid.top * SAMPLES,
+            rows: grid.rows * SAMPLES,
+            ..grid
+        };
+        let place = |k: usize| fine.place(k % fine.columns, k / fine.columns);
+        let mut canvas: Vec<Vec3> = (0..fine.len()).map(|k| self.page(place(k))).collect();
+        for thing in &self.things {
+            thing.paint(&fine, &mut canvas);
+        }
+        let mean = |k: usize| {
+            let (x, y) = (k % grid.columns * SAMPLES, k / grid.columns * SAMPLES);
+            let samples = (0..SAMPLES * SAMPLES).map(|s| canvas[(y + s / SAMPLES) * fine.columns + x + s % SAMPLES]);
+            samples.sum::<Vec3>() / (SAMPLES * SAMPLES) as f32
+        };
+        (0..grid.len()).map(mean).collect()
+    }
+
+    /// The page, darker where the chamber is.
+    fn page(&self, place: Vec2) -> Vec3 {
+        let is_outside = place.cmplt(Vec2::ZERO).any() || place.cmpgt(self.room).any();
+        let is_solid = is_outside || self.obstacles.iter().any(|obstacle| obstacle.nearest(place).1);
+        PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, 1)) * if is_solid { 0.7 } else { 1.0 }
+    }
+}
+
+impl Thing {
+    fn paint(&self, grid: &Grid, canvas: &mut [Vec3]) {
+        match *self {
+            Self::Triangle { corners: [a, b, c], texture, skin } => {
+                let area = (b - a).perp_dot(c - a);
+                if area == 0.0 || !area.is_finite() {
+                    return;
+                }
+                grid.each_in(a.min(b).min(c), a.max(b).max(c), |k, p| {
+                    let (v, w) = ((p - a).perp_dot(c - a) / area, (b - a).perp_dot(p - a) / area);
+                    let u = 1.0 - v - w;
+                    if u >= 0.0 && v >= 0.0 && w >= 0.0 {
+                        canvas[k] = skin.at(texture[0] * u + texture[1] * v + texture[2] * w);
+                    }
+                });
+            }
+            Self::Disc { at, radius, colour, alpha, softness } => {
+                grid.each_in(at - Vec2::splat(radius), at + Vec2::splat(radius), |k, p| {
+                    let cover = alpha * smoothstep(1.0, 1.0 - softness, (p - at).length() / radius);
+                    canvas[k] = mix_colours(canvas[k], colour, cover);
+                });
+            }
+        }
+    }
+}
+
+impl Skin {
+    /// Colour of a place of the texture, (0, 0) in its middle and 1 from there to the inscribed circle.
+    fn at(&self, place: Vec2) -> Vec3 {
+        let rho = place.length();
+        let mottled = 1.0 + self.mottle * octaves(place * 4.0, 3, self.seed);
+        mix_colours(self.body * mottled, self.rim, 0.25 * rho + 0.75 * smoothstep(0.80, 0.97, rho))
+    }
+}
+
+/// Body, rim and mottling of a kind.
+fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
+    let shade = 0.92 + 0.16 * Dice::new(seed).unit();
+    let (body, rim, mottle) = match kind {
+        Kind::AmoeboidCell => (Vec3::new(0.70, 0.82, 0.56), Vec3::new(0.38, 0.55, 0.34), 0.0),
+        Kind::RigidCell => (Vec3::new(0.80, 0.72, 0.44), Vec3::new(0.45, 0.36, 0.18), 0.22),
+        Kind::Platelet => (Vec3::new(0.82, 0.66, 0.70), Vec3::new(0.58, 0.38, 0.46), 0.12),
+        Kind::RedCell => (Vec3::new(0.85, 0.50, 0.46), Vec3::new(0.66, 0.24, 0.24), 0.06),
+        Kind::Coccus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
+        Kind::Agar => (Vec3::new(0.86, 0.60, 0.30), Vec3::new(0.6, 0.4, 0.2), 0.0),
+        _ => (Vec3::new(0.55, 0.62, 0.70), Vec3::new(0.3, 0.35, 0.42), 0.05),
+    };
+    (body * shade, rim * shade, mottle)
+}
+
+fn mix_colours(a: Vec3, b: Vec3, share: f32) -> Vec3 {
+    Vec3::new(mix(a.x, b.x, share), mix(a.y, b.y, share), mix(a.z, b.z, share))
+}

@@ -1,0 +1,268 @@
+//! Cells that crawl: a dome with a thin clear front, a nucleus in lobes, and granules that the cytoplasm carries.
+//!
+//! Nothing here is remembered from picture to picture. What must not jump hangs on what does not: granules on the
+//! particles of the cytoplasm, the nucleus on the membrane's own order of nodes, the front on how the cell moves and is
+//! shaped.
+
+use super::outline::{DistanceMap, smooth};
+use super::spot::{Spot, Thread};
+use crate::geometry::{centroid, rotate, signed_area, unit_vector};
+use crate::microscope::look::{AmoeboidLook, GranuleLook, SpotShape};
+use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
+use crate::microscope::matter::{Matter, Plate};
+use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::template::Role;
+use crate::world::view::{OrganismView, ParticleView};
+use glam::{Mat2, Vec2};
+use std::f32::consts::TAU;
+
+/// Cell of the distance map, micrometres.
+const STEP: f32 = 0.2;
+/// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
+const CRAWLING: f32 = 12.0;
+/// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
+const SKEWED: f32 = 8.0;
+
+/// One cell, ready to be drawn.
+#[derive(Clone, Debug)]
+pub(super) struct AmoeboidBody {
+    look: &'static AmoeboidLook,
+    map: DistanceMap,
+    centre: Vec2,
+    /// Radius of the disc of equal area, micrometres.
+    radius: f32,
+    /// From the disc of radius 1 to the membrane: how the cell is turned and stretched.
+    shape: Mat2,
+    from_shape: Mat2,
+    front: Front,
+    lobes: Vec<(Vec2, f32)>,
+    seed: u32,
+    time: f32,
+}
+
+/// Where a cell heads, from how it moves and is shaped.
+#[derive(Clone, Copy, Debug)]
+struct Front {
+    /// Unit vector; any at rest.
+    way: Vec2,
+    /// 0 at rest to 1.
+    strength: f32,
+    /// How slender the tail is, 0 to 1.
+    tail: f32,
+    /// Farthest that the cell reaches along `way` and against it, from its centre.
+    ahead: f32,
+    behind: f32,
+}
+
+impl AmoeboidBody {
+    /// `None` if there is no area to draw.
+    pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, seed: u32, time: f32) -> Option<Self> {
+        let surface = organism.surface();
+        let centre = centroid(&surface).filter(|centre| centre.is_finite())?;
+        let radius = (signed_area(&surface).abs() / std::f32::consts::PI).sqrt();
+        if !(radius > 0.0 && radius.is_finite()) {
+            return None;
+        }
+        let outline = smooth(&surface);
+        let shape = stretch(&surface, centre, radius);
+        let mut body = Self {
+            look,
+            map: DistanceMap::of(&outline, STEP, 1.0),
+            centre,
+            radius,
+            shape,
+            from_shape: shape.inverse() * radius,
+            front: Front::of(organism, &outline, centre, radius),
+            lobes: Vec::new(),
+            seed,
+            time,
+        };
+        body.lobes = body.lobes();
+        Some(body)
+    }
+
+    /// Lobes of the nucleus: a chain around a middle that lies behind the centre, inside whatever shape the cell has.
+    fn lobes(&self) -> Vec<(Vec2, f32)> {
+        let nucleus = &self.look.nucleus;
+        let mut dice = Dice::new(self.seed ^ 0x1ace);
+        let [fewest, most] = nucleus.lobes;
+        let count = fewest + dice.bits() % (most - fewest + 1);
+        let first = dice.unit() * TAU;
+        let middle =
+            self.centre - self.front.way * (0.16 * (self.front.ahead + self.front.behind) * self.front.strength);
+        // A chain that does not close; the more lobes, the smaller they are.
+        let step = smaller(1.35, 4.2 / count as f32);
+        let size = self.radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
+        let lobe = |k: u32| {
+            let radius = dice.range(nucleus.radius) * size;
+            let angle = first + k as f32 * step + dice.range([-0.15, 0.15]);
+            let place = middle + self.shape * (unit_vector(angle) * (nucleus.spread * dice.range([0.85, 1.15])));
+            (self.map.pushed_inside(place, radius + 0.04 * self.radius), radius)
+        };
+        (0..count).map(lobe).collect()
+    }
+
+    pub(super) fn draw(&self, plate: &mut Plate) {
+        let (low, high) = self.map.bounds();
+        let softness = larger(0.7 * plate.grid.pixel, 0.08);
+        plate.add(low, high, |p| self.at(p, softness));
+    }
+
+    /// Its matter at a place, without what floats in it.
+    fn at(&self, place: Vec2, softness: f32) -> Matter {
+        let depth = self.map.at(place);
+        if depth <= -softness {
+            return Matter::NONE;
+        }
+        let look = self.look;
+        let lamella = self.lamella(place);
+        let rim = smaller(look.rim, 0.6 * self.radius);
+        let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
+        let own = self.from_shape * (place - self.centre);
+        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed);
+        let mut matter = look.matter * (dome * texture);
+        let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
+        if ruffle > 0.01 {
+            let along = octaves(own * 0.7 + Vec2::splat(self.time * 0.25), 2, self.seed ^ 7);
+            matter += Matter::phase(look.lamella.ruffle * ruffle * smoothstep(-0.3, 0.7, along));
+        }
+        let nucleus = self.nucleus(place, softness);
+        if nucleus > 0.0 {
+            let texture = &look.nucleus.texture;
+            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ 3);
+            matter += look.nucleus.matter * (nucleus * clumps);
+        }
+        matter * smoothstep(-softness, softness, depth)
+    }
+
+    /// How much a place belongs to the clear front, 0 to 1.
+    fn lamella(&self, place: Vec2) -> f32 {
+        let Front { way, strength, ahead, behind, .. } = self.front;
+        let length = ahead + behind;
+        let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
+        let from_centre = place - self.centre;
+        // Its border is uneven, and bends back along the sides.
+        let across = from_centre.perp_dot(way);
+        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ 11);
+        let along = from_centre.dot(way) + 0.15 * across * across / self.radius + uneven;
+        strength * smoothstep(ahead - (share + 0.10) * length, ahead - (share - 0.10) * length, along)
+    }
+
+    /// The front swells and thins.
+    fn pulse(&self) -> f32 {
+        let share = self.time / self.look.lamella.pulse + 0.15 * wobble(self.time * 0.2, self.seed);
+        1.0 + 0.25 * unit_vector(TAU * share).y
+    }
+
+    /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
+    fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
+        let neck = 0.10 * self.radius;
+        let inside = |&(at, radius): &(Vec2, f32)| radius - (place - at).length();
+        let depth = self.lobes.iter().map(inside).reduce(|a, b| {
+            let share = (0.5 + 0.5 * (a - b) / neck).clamp(0.0, 1.0);
+            mix(b, a, share) + neck * share * (1.0 - share)
+        });
+        let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
+        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ 5);
+        let edge = larger(softness, 0.12);
+        smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
+    }
+
+    /// Granules, each on the particle of cytoplasm that carries it, and the walls of what was taken in.
+    pub(super) fn spots(&self, organism: OrganismView<'_>) -> Vec<Spot> {
+        let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
+        carriers.flat_map(|carrier| self.granules_on(&carrier)).collect()
+    }
+
+    fn granules_on(&self, carrier: &ParticleView) -> Vec<Spot> {
+        let mut dice = Dice::new(self.seed.wrapping_mul(31).wrapping_add(carrier.index));
+        let spacing = 2.0 * carrier.radius;
+        let mut spots = Vec::new();
+        for look in self.look.granules {
+            // Particles of a fluid at rest lie on a hexagonal lattice.
+            let expected = look.density * 0.866 * spacing * spacing;
+            let count = (expected + dice.unit()) as u32;
+            spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut dice)));
+        }
+        spots
+    }
+
+    fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, dice: &mut Dice) -> Option<Spot> {
+        let offset = Vec2::new(dice.range([-0.5, 0.5]), dice.range([-0.5, 0.5])) * spacing;
+        let radius = look.radius * libm::expf(look.spread * dice.normal());
+        let radius = radius.clamp(look.limits[0], look.limits[1]);
+        let seed = dice.bits();
+        let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
+        let at = carrier + offset + jitter;
+        let room = smoothstep(0.0, 0.5, self.map.at(at) - 0.6 * radius);
+        let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
+        let matter = look.matter * (2.0 * radius * share);
+        (share > 0.02).then_some(Spot { at, radius, matter, shape: look.shape })
+    }
+
+    /// The bright wall around prey that is inside: it grows as the prey goes in.
+    pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
+        let share = smoothstep(-radius, radius, self.map.at(prey));
+        let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
+        (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
+    }
+
+    /// Retraction fibres, which the tail leaves on the glass.
+    pub(super) fn threads(&self) -> Vec<Thread> {
+        let Front { way, tail: strength, behind, .. } = self.front;
+        let mut dice = Dice::new(self.seed ^ 0xf1b);
+        let tail = self.map.pushed_inside(self.centre - way * behind, 0.1);
+        let fibre = |_| {
+            let way = rotate(-way, unit_vector(dice.range([-0.45, 0.45])));
+            let length = dice.range([2.0, 4.0]) * strength;
+            let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
+            Thread { from: tail, to: tail + way * length, radius: 0.09, matter }
+        };
+        (0..self.look.fibres).map(fibre).collect()
+    }
+}
+
+impl Front {
+    fn of(organism: OrganismView<'_>, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
+        let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
+        let velocity = cytoplasm().map(|p| p.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0);
+        let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
+        let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
+        // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
+        // the velocity does when a cell makes up its mind anew.
+        let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
+        let way = polarity.try_normalize().unwrap_or(Vec2::X);
+        let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
+        Self {
+            way,
+            strength: smoothstep(0.1, 0.6, polarity.length()),
+            tail: smoothstep(0.05, 0.12, skew.length()),
+            ahead: reach(way),
+            behind: reach(-way),
+        }
+    }
+}
+
+/// A quarter of a circle: 0 outside, 1 from a depth of 1 on, steep at the edge.
+fn rise(depth: f32) -> f32 {
+    let depth = depth.clamp(0.0, 1.0);
+    (depth * (2.0 - depth)).sqrt()
+}
+
+/// The linear map that takes the disc of radius 1 nearest to an outline: its first Fourier coefficients. Node 0 is where
+/// the disc's first direction goes, so that the map turns with the membrane.
+fn stretch(outline: &[Vec2], centre: Vec2, radius: f32) -> Mat2 {
+    let count = outline.len() as f32;
+    let (mut along, mut against) = (Vec2::ZERO, Vec2::ZERO);
+    for (k, &node) in outline.iter().enumerate() {
+        let turn = unit_vector(TAU * k as f32 / count);
+        along += rotate(node - centre, Vec2::new(turn.x, -turn.y)) / count;
+        against += rotate(node - centre, turn) / count;
+    }
+    if along.length() < 0.2 * radius {
+        return Mat2::from_diagonal(Vec2::splat(radius));
+    }
+    // A shape so slender that it has no area would have no inverse.
+    let against = against.clamp_length_max(0.75 * along.length());
+    Mat2::from_cols(along + against, (along - against).perp())
+}

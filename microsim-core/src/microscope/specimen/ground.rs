@@ -1,0 +1,93 @@
+//! What there is besides organisms: uneven glass, dust, and things far out of focus. It fills the plane; nothing of it
+//! is stored.
+
+use super::spot::Spot;
+use crate::microscope::look::SpotShape;
+use crate::microscope::maths::smoothstep;
+use crate::microscope::matter::{Grid, Matter, Plate};
+use crate::microscope::noise::{Dice, hash, octaves, wobble};
+use glam::{IVec2, Vec2};
+
+/// Side of the cells in which dust is strewn, micrometres, and specks in each on average.
+const DUST_CELL: f32 = 5.0;
+const DUST: f32 = 1.0;
+/// The same for what is out of focus.
+const FAR_CELL: f32 = 26.0;
+const FAR: f32 = 0.75;
+/// Share of the camera's movement that things out of focus seem to make.
+const PARALLAX: f32 = 0.15;
+/// Pixel from which on dust is too small to be seen, micrometres.
+const COARSE: f32 = 2.0;
+
+/// The ground of one picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground {
+    pub seed: u32,
+    pub time: f32,
+    /// What the camera looks at.
+    pub camera: Vec2,
+}
+
+impl Ground {
+    pub(super) fn draw(&self, plate: &mut Plate) {
+        let grid = plate.grid;
+        // Features below a pixel would alias.
+        let fine = 0.018 * smoothstep(1.2, 0.3, grid.pixel);
+        let coarse = 0.05 * smoothstep(15.0, 4.0, grid.pixel);
+        for y in 0..grid.rows {
+            for x in 0..grid.columns {
+                let place = grid.place(x, y);
+                let slow = if coarse > 0.0 { coarse * octaves(place / 15.0, 3, self.seed) } else { 0.0 };
+                let quick = if fine > 0.0 { fine * octaves(place / 1.2, 3, self.seed ^ 9) } else { 0.0 };
+                plate.matter[y * grid.columns + x].phase += slow + quick;
+            }
+        }
+        if grid.pixel < COARSE {
+            strewn(&grid, Vec2::ZERO, DUST_CELL, DUST, self.seed ^ 21, |at, dice| self.speck(at, dice), plate);
+            let shift = self.camera * PARALLAX;
+            strewn(&grid, shift, FAR_CELL, FAR, self.seed ^ 22, |at, dice| self.far(at, dice), plate);
+        }
+    }
+
+    /// Dust: mostly tiny, some denser than the medium and some less.
+    fn speck(&self, at: Vec2, dice: &mut Dice) -> Spot {
+        let size = dice.unit();
+        let radius = 0.06 + 0.34 * size * size * size * size;
+        let sign = if dice.unit() < 0.65 { 1.0 } else { -1.0 };
+        let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * dice.range([0.08, 0.32])) };
+        Spot { at, radius, matter, shape: SpotShape::Bump }
+    }
+
+    /// A cell or a clump above or below the plane of focus: a soft shadow that drifts slowly.
+    fn far(&self, at: Vec2, dice: &mut Dice) -> Spot {
+        let seed = dice.bits();
+        let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
+        let radius = dice.range([3.0, 5.0]);
+        let matter = Matter { haemoglobin: 0.05, ..Matter::phase(dice.range([0.12, 0.34])) };
+        Spot { at: at + drift, radius, matter, shape: SpotShape::Bump }
+    }
+}
+
+/// Draws what lies in the cells of an endless square grid that a plate can see; `shift` moves the grid.
+fn strewn(
+    grid: &Grid,
+    shift: Vec2,
+    cell: f32,
+    expected: f32,
+    seed: u32,
+    spot: impl Fn(Vec2, &mut Dice) -> Spot,
+    plate: &mut Plate,
+) {
+    let (low, high) = grid.bounds();
+    let [first, last] = [low, high].map(|corner| ((corner - shift) / cell).floor().as_ivec2());
+    for j in first.y - 1..=last.y + 1 {
+        for i in first.x - 1..=last.x + 1 {
+            let mut dice = Dice::new(hash(IVec2::new(i, j), seed));
+            let count = (2.0 * expected * dice.unit() + 0.5) as u32;
+            for _ in 0..count {
+                let at = (Vec2::new(i as f32, j as f32) + Vec2::new(dice.unit(), dice.unit())) * cell + shift;
+                spot(at, &mut dice).draw(plate);
+            }
+        }
+    }
+}

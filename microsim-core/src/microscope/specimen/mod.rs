@@ -1,0 +1,97 @@
+//! The specimen: what there is to see at one moment, as matter with places and sizes, free of pixels and light.
+
+mod amoeboid;
+mod chamber;
+mod ground;
+mod outline;
+mod round;
+mod spot;
+
+use super::look::{Look, SpotShape};
+use super::matter::{Grid, Matter, Plate};
+use super::noise::scramble;
+use crate::kind::Kind;
+use crate::world::World;
+use crate::world::view::{OrganismView, View};
+use amoeboid::AmoeboidBody;
+use chamber::Chamber;
+use glam::Vec2;
+use ground::Ground;
+use round::RoundBody;
+use spot::{Spot, Thread};
+
+/// Everything that lies on the slide at one moment.
+#[derive(Clone, Debug)]
+pub(super) struct Specimen {
+    ground: Ground,
+    chamber: Chamber,
+    round: Vec<RoundBody>,
+    amoeboid: Vec<AmoeboidBody>,
+    spots: Vec<Spot>,
+    threads: Vec<Thread>,
+}
+
+impl Specimen {
+    /// What there is in a world, for a camera that looks at `camera`.
+    pub(super) fn of(world: &World, camera: Vec2) -> Self {
+        let (seed, time) = (world.config().seed, world.time() as f32);
+        let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
+        let chamber =
+            Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
+        let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
+        let view = world.view();
+        for organism in view.organisms() {
+            specimen.add(organism, view);
+        }
+        specimen
+    }
+
+    fn add(&mut self, organism: OrganismView<'_>, view: View<'_>) {
+        let id = organism.id();
+        let seed = scramble(self.ground.seed ^ scramble(id.index() ^ (id.generation() << 16)));
+        let time = self.ground.time;
+        match Look::of(organism) {
+            Look::Round(look) => {
+                let Some(body) = RoundBody::of(organism, look, seed) else { return };
+                self.spots.extend(body.spots(time));
+                self.threads.extend(body.threads(time));
+                self.round.push(body);
+            }
+            Look::Amoeboid(look) => {
+                let Some(body) = AmoeboidBody::of(organism, look, seed, time) else { return };
+                self.spots.extend(body.spots(organism));
+                self.threads.extend(body.threads());
+                self.spots.extend(phagosomes(&body, organism, view));
+                self.amoeboid.push(body);
+            }
+            Look::Drops(matter) => self.spots.extend(drops(organism, *matter)),
+        }
+    }
+
+    /// Its matter on a grid. Rows may be asked for in any portions: a place always has the same matter.
+    pub(super) fn plate(&self, grid: Grid) -> Plate {
+        let mut plate = Plate::empty(grid);
+        self.ground.draw(&mut plate);
+        self.chamber.draw(&mut plate);
+        self.amoeboid.iter().for_each(|body| body.draw(&mut plate));
+        self.round.iter().for_each(|body| body.draw(&mut plate));
+        self.threads.iter().for_each(|thread| thread.draw(&mut plate));
+        self.spots.iter().for_each(|spot| spot.draw(&mut plate));
+        plate
+    }
+}
+
+/// Walls around the prey that a cell holds.
+fn phagosomes(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
+    let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey));
+    let small = prey.filter(|prey| matches!(prey.kind(), Kind::Agar | Kind::Coccus));
+    let discs = small.filter_map(|prey| prey.particles().next());
+    discs.filter_map(|disc| body.phagosome(disc.position, disc.radius)).collect()
+}
+
+/// A soft drop for each particle; wide enough to run into its neighbours.
+fn drops(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
+    let drop = |at, radius| Spot { at, radius: 1.6 * radius, matter: matter * 0.6, shape: SpotShape::Bump };
+    organism.particles().map(|particle| drop(particle.position, particle.radius)).collect()
+}

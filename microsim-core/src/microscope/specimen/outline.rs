@@ -1,0 +1,250 @@
+//! Outlines made smooth: a table of radii around a centre, and a map of distances from the edge.
+
+use crate::geometry::{centroid, signed_area};
+use crate::microscope::maths::{larger, smaller};
+use glam::Vec2;
+
+/// Directions in a table of radii.
+const DIRECTIONS: usize = 128;
+/// Points of a smooth outline per node.
+const PER_NODE: usize = 4;
+
+/// A closed cubic B-spline through the neighbourhood of the nodes: no corners where nodes are.
+pub(super) fn smooth(nodes: &[Vec2]) -> Vec<Vec2> {
+    let count = nodes.len();
+    let point = |k: usize| {
+        let (node, t) = (k / PER_NODE, (k % PER_NODE) as f32 / PER_NODE as f32);
+        let p = |offset: usize| nodes[(node + count + offset - 1) % count];
+        let (t2, t3) = (t * t, t * t * t);
+        let weights =
+            [1.0 - 3.0 * t + 3.0 * t2 - t3, 4.0 - 6.0 * t2 + 3.0 * t3, 1.0 + 3.0 * t + 3.0 * t2 - 3.0 * t3, t3];
+        weights.iter().enumerate().map(|(offset, weight)| p(offset) * (weight / 6.0)).sum()
+    };
+    (0..count * PER_NODE).map(point).collect()
+}
+
+/// A body seen from its centre: how far it reaches in every direction.
+#[derive(Clone, Debug)]
+pub(super) struct Polar {
+    pub centre: Vec2,
+    /// Radius of the disc of equal area.
+    pub mean: f32,
+    pub farthest: f32,
+    radii: Vec<f32>,
+}
+
+impl Polar {
+    /// Around the centroid of an outline; nothing if it encloses no area.
+    pub(super) fn around(outline: &[Vec2]) -> Option<Self> {
+        let centre = centroid(outline)?;
+        let mean = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
+        let radii: Vec<f32> = (0..DIRECTIONS).map(|k| reach(outline, centre, direction(k))).collect();
+        Some(Self::new(centre, mean, radii)).filter(|polar| mean > 0.0 && polar.farthest.is_finite())
+    }
+
+    pub(super) fn disc(centre: Vec2, radius: f32) -> Option<Self> {
+        let is_sound = radius > 0.0 && radius.is_finite() && centre.is_finite();
+        is_sound.then(|| Self::new(centre, radius, vec![radius; DIRECTIONS]))
+    }
+
+    fn new(centre: Vec2, mean: f32, radii: Vec<f32>) -> Self {
+        let radii: Vec<f32> = radii.into_iter().map(|radius| larger(radius, 0.05 * mean)).collect();
+        let farthest = radii.iter().copied().fold(0.0, larger);
+        Self { centre, mean, farthest, radii }
+    }
+
+    /// Changes the radius in every direction.
+    pub(super) fn reshape(&mut self, factor: impl Fn(Vec2) -> f32) {
+        for (k, radius) in self.radii.iter_mut().enumerate() {
+            *radius *= factor(direction(k).normalize());
+        }
+        self.farthest = self.radii.iter().copied().fold(0.0, larger);
+    }
+
+    /// Radius in the direction of `way`.
+    pub(super) fn radius(&self, way: Vec2) -> f32 {
+        let at = diamond_angle(way) * (DIRECTIONS as f32 / 4.0);
+        let k = at as usize;
+        let (a, b) = (self.radii[k % DIRECTIONS], self.radii[(k + 1) % DIRECTIONS]);
+        a + (b - a) * (at - k as f32)
+    }
+}
+
+/// Angle of a vector, 0 to 4 counter-clockwise from +x, growing evenly along a square instead of a circle.
+fn diamond_angle(v: Vec2) -> f32 {
+    let sum = v.x.abs() + v.y.abs();
+    if sum <= 0.0 || !sum.is_finite() {
+        return 0.0;
+    }
+    let share = v / sum;
+    match (share.x >= 0.0, share.y >= 0.0) {
+        (true, true) => share.y,
+        (false, true) => 1.0 - share.x,
+        (false, false) => 2.0 - share.y,
+        (true, false) => 3.0 + share.x,
+    }
+}
+
+/// The direction of entry `k` of a table.
+fn direction(k: usize) -> Vec2 {
+    let at = k as f32 * 4.0 / DIRECTIONS as f32;
+    let share = at - at.floor();
+    match k * 4 / DIRECTIONS {
+        0 => Vec2::new(1.0 - share, share),
+        1 => Vec2::new(-share, 1.0 - share),
+        2 => Vec2::new(share - 1.0, -share),
+        _ => Vec2::new(share, share - 1.0),
+    }
+}
+
+/// How far an outline reaches from a point in a direction; 0 where it does not.
+fn reach(outline: &[Vec2], from: Vec2, direction: Vec2) -> f32 {
+    let direction = direction.normalize();
+    let count = outline.len();
+    let crossing = |k: usize| {
+        let (a, b) = (outline[k] - from, outline[(k + 1) % count] - from);
+        let (side_a, side_b) = (direction.perp_dot(a), direction.perp_dot(b));
+        if (side_a < 0.0) == (side_b < 0.0) {
+            return 0.0;
+        }
+        (a + (b - a) * (side_a / (side_a - side_b))).dot(direction)
+    };
+    (0..count).map(crossing).fold(0.0, larger)
+}
+
+/// Signed distance from an outline, positive inside, on a grid.
+#[derive(Clone, Debug)]
+pub(super) struct DistanceMap {
+    low: Vec2,
+    step: f32,
+    size: [usize; 2],
+    values: Vec<f32>,
+}
+
+impl DistanceMap {
+    /// Cells of the map along its longer side, at most.
+    const MOST: f32 = 160.0;
+
+    /// Of an outline and `margin` around it, with cells of about `step`.
+    pub(super) fn of(outline: &[Vec2], step: f32, margin: f32) -> Self {
+        let (low, high) = outline.iter().fold((outline[0], outline[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let extent = high - low;
+        let step = larger(step, larger(extent.x, extent.y) / Self::MOST);
+        let low = low - Vec2::splat(margin);
+        let size = ((extent + 2.0 * margin) / step).ceil().to_array().map(|cells| cells as usize + 1);
+        let mut map = Self { low, step, size, values: Vec::with_capacity(size[0] * size[1]) };
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let at = low + Vec2::new(x as f32, y as f32) * step;
+                map.values.push(signed_distance(outline, at));
+            }
+        }
+        map.soften();
+        map
+    }
+
+    /// Takes the creases out: each value becomes a weighted mean of its neighbours.
+    fn soften(&mut self) {
+        let [columns, rows] = self.size;
+        let pick = |values: &[f32], x: usize, y: usize| values[y.min(rows - 1) * columns + x.min(columns - 1)];
+        for (dx, dy) in [(1, 0), (0, 1)] {
+            let old = std::mem::take(&mut self.values);
+            let mean = |k: usize| {
+                let (x, y) = (k % columns, k / columns);
+                let before = pick(&old, x.saturating_sub(dx), y.saturating_sub(dy));
+                0.25 * before + 0.5 * pick(&old, x, y) + 0.25 * pick(&old, x + dx, y + dy)
+            };
+            self.values = (0..old.len()).map(mean).collect();
+        }
+    }
+
+    /// Box that the map covers.
+    pub(super) fn bounds(&self) -> (Vec2, Vec2) {
+        let [columns, rows] = self.size;
+        (self.low, self.low + Vec2::new((columns - 1) as f32, (rows - 1) as f32) * self.step)
+    }
+
+    /// Distance at a place, by a quadratic B-spline: smooth, and smooth in its slope.
+    pub(super) fn at(&self, place: Vec2) -> f32 {
+        let at = (place - self.low) / self.step;
+        let [columns, rows] = self.size;
+        let nearest = (at + 0.5).floor();
+        let t = at - nearest;
+        let weights = |t: f32| [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)];
+        let (wx, wy) = (weights(t.x), weights(t.y));
+        let index =
+            |k: f32, offset: usize, count: usize| ((k as isize + offset as isize - 1).max(0) as usize).min(count - 1);
+        let mut sum = 0.0;
+        for (j, wy) in wy.iter().enumerate() {
+            let row = index(nearest.y, j, rows) * columns;
+            for (i, wx) in wx.iter().enumerate() {
+                sum += wx * wy * self.values[row + index(nearest.x, i, columns)];
+            }
+        }
+        sum
+    }
+
+    /// Moves a place inwards until it is `depth` inside, as far as a few steps take it.
+    pub(super) fn pushed_inside(&self, place: Vec2, depth: f32) -> Vec2 {
+        let mut place = place;
+        for _ in 0..4 {
+            let lacking = depth - self.at(place);
+            if lacking > 0.0 {
+                let h = self.step;
+                let slope = Vec2::new(
+                    self.at(place + Vec2::new(h, 0.0)) - self.at(place - Vec2::new(h, 0.0)),
+                    self.at(place + Vec2::new(0.0, h)) - self.at(place - Vec2::new(0.0, h)),
+                );
+                place += slope.normalize_or_zero() * smaller(lacking, 4.0 * h);
+            }
+        }
+        place
+    }
+}
+
+fn signed_distance(outline: &[Vec2], at: Vec2) -> f32 {
+    let (mut nearest, mut is_inside) = (f32::INFINITY, false);
+    let mut a = outline[outline.len() - 1];
+    for &b in outline {
+        let (edge, to) = (b - a, at - a);
+        let share = (to.dot(edge) / larger(edge.length_squared(), 1e-12)).clamp(0.0, 1.0);
+        nearest = smaller(nearest, (to - edge * share).length_squared());
+        if (a.y > at.y) != (b.y > at.y) && at.x < a.x + edge.x * (at.y - a.y) / edge.y {
+            is_inside = !is_inside;
+        }
+        a = b;
+    }
+    let distance = nearest.sqrt();
+    if is_inside { distance } else { -distance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ellipse;
+
+    #[test]
+    fn a_table_of_radii_knows_its_outline() {
+        let outline: Vec<Vec2> = ellipse(Vec2::new(6.0, 2.0), 200).iter().map(|p| *p + Vec2::new(5.0, -3.0)).collect();
+        let polar = Polar::around(&outline).unwrap();
+        assert!((polar.centre - Vec2::new(5.0, -3.0)).length() < 1e-3 && (polar.mean - 12_f32.sqrt()).abs() < 0.01);
+        for (way, radius) in [(Vec2::X, 6.0), (Vec2::NEG_X, 6.0), (Vec2::Y, 2.0), (Vec2::NEG_Y, 2.0)] {
+            assert!((polar.radius(way) - radius).abs() < 0.02, "{way}: {}", polar.radius(way));
+        }
+        assert!(
+            outline.iter().all(|&p| (polar.radius(p - polar.centre) / (p - polar.centre).length() - 1.0).abs() < 0.02)
+        );
+        assert!(Polar::around(&[Vec2::ZERO, Vec2::ONE, Vec2::X * f32::NAN]).is_none() && Polar::around(&[]).is_none());
+    }
+
+    #[test]
+    fn a_map_knows_how_far_the_edge_is() {
+        let outline = smooth(&ellipse(Vec2::new(5.0, 5.0), 60));
+        let map = DistanceMap::of(&outline, 0.25, 1.0);
+        for (at, depth) in [(Vec2::new(3.0, 0.0), 2.0), (Vec2::new(0.0, -4.0), 1.0), (Vec2::new(5.5, 0.0), -0.5)] {
+            assert!((map.at(at) - depth).abs() < 0.05, "{at}: {}", map.at(at));
+        }
+        let moved = map.pushed_inside(Vec2::new(4.8, 0.0), 1.5);
+        assert!(map.at(moved) > 1.4, "{moved}");
+    }
+}

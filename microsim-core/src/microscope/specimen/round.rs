@@ -1,0 +1,209 @@
+//! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
+
+use super::outline::{Polar, smooth};
+use super::spot::{Spot, Thread};
+use crate::geometry::{direction_or, rotate, unit_vector};
+use crate::microscope::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
+use crate::microscope::maths::{bell, larger, smoothstep};
+use crate::microscope::matter::{Matter, Plate};
+use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::world::view::OrganismView;
+use glam::Vec2;
+use std::f32::consts::TAU;
+
+/// Thickness of a red cell where it is thickest, micrometres.
+const THICKEST: f32 = 2.56;
+/// Width over which any edge fades, micrometres: what a good lens resolves.
+const EDGE: f32 = 0.06;
+
+/// One body, ready to be drawn.
+#[derive(Clone, Debug)]
+pub(super) struct RoundBody {
+    look: &'static RoundLook,
+    polar: Polar,
+    /// Its own first direction: texture and inclusions turn with it.
+    facing: Vec2,
+    /// How far it reaches along that direction and square to it, micrometres.
+    axes: Vec2,
+    seed: u32,
+    matter: Matter,
+    /// Thickness of a red cell's middle, micrometres.
+    hollow: f32,
+}
+
+impl RoundBody {
+    /// `None` if there is no area to draw.
+    pub(super) fn of(organism: OrganismView<'_>, look: &'static RoundLook, seed: u32) -> Option<Self> {
+        let surface = organism.surface();
+        let polar = if surface.is_empty() {
+            let disc = organism.particles().next()?;
+            Polar::disc(disc.position, disc.radius)
+        } else {
+            Polar::around(&smooth(&surface))
+        };
+        let mut polar = polar?;
+        let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
+        let facing = direction_or(first, Vec2::X);
+        let mut dice = Dice::new(seed);
+        make_uneven(&mut polar, facing, look.unevenness, &mut dice);
+        let variation = 1.0 + dice.range([-look.variation, look.variation]);
+        let hollow = if let Profile::Biconcave { c0, .. } = look.profile { dice.range(c0) } else { 0.0 };
+        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
+        Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
+    }
+
+    pub(super) fn draw(&self, plate: &mut Plate) {
+        let reach = Vec2::splat(self.polar.farthest + EDGE + plate.grid.pixel);
+        let softness = larger(0.6 * plate.grid.pixel, EDGE);
+        plate.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
+    }
+
+    /// Its matter at a place.
+    fn at(&self, place: Vec2, softness: f32) -> Matter {
+        let way = place - self.polar.centre;
+        let radius = self.polar.radius(way);
+        let rho = way.length() / radius;
+        let fade = softness / radius;
+        if rho >= 1.0 + fade {
+            return Matter::NONE;
+        }
+        let thickness = self.thickness(rho / (1.0 + fade)) * smoothstep(1.0 + fade, 1.0 - fade, rho);
+        let own = rotate(way, Vec2::new(self.facing.x, -self.facing.y));
+        let texture = &self.look.texture;
+        let noise = if texture.amount > 0.0 { octaves(own / texture.size, 2, self.seed) } else { 0.0 };
+        let relief = self.look.pellicle.map_or(1.0, |pellicle| pellicle.relief(own / self.axes, self.seed));
+        self.matter * (thickness * (1.0 + texture.amount * noise) * relief)
+    }
+
+    /// Thickness at a distance from the centre, 1 where it is thickest.
+    fn thickness(&self, rho: f32) -> f32 {
+        let inside = 1.0 - rho * rho;
+        if inside <= 0.0 {
+            return 0.0;
+        }
+        match self.look.profile {
+            Profile::Dome(power) => libm::powf(inside, power),
+            Profile::Biconcave { c2, c4, .. } => {
+                let square = rho * rho;
+                inside.sqrt() * (self.hollow + c2 * square - c4 * square * square) / THICKEST
+            }
+        }
+    }
+
+    /// A place of the body in the world: a direction in its own frame and a distance from the centre.
+    fn place(&self, direction: Vec2, rho: f32) -> Vec2 {
+        let way = rotate(direction, self.facing);
+        self.polar.centre + way * (rho * self.polar.radius(way))
+    }
+
+    /// What is inside.
+    pub(super) fn spots(&self, time: f32) -> Vec<Spot> {
+        let mut dice = Dice::new(self.seed ^ 0x51ed);
+        let mut spots: Vec<Spot> =
+            self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut dice)).collect();
+        if let Some(pellicle) = self.look.pellicle {
+            let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };
+            spots.extend(self.vacuoles(pellicle, time).map(spot));
+        }
+        spots
+    }
+
+    fn include(&self, inclusion: &Inclusion, dice: &mut Dice) -> Vec<Spot> {
+        let [fewest, most] = inclusion.count;
+        let count = fewest + dice.bits() % (most - fewest + 1);
+        let spot = |_| {
+            let [nearest, farthest] = inclusion.place;
+            let rho = dice.range([nearest * nearest, farthest * farthest]).sqrt();
+            let share = dice.unit();
+            let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
+            let at = self.place(dice.direction(), rho);
+            let matter = inclusion.matter * dice.range([0.6, 1.3]);
+            Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
+        };
+        (0..count).map(spot).collect()
+    }
+
+    /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.
+    fn vacuoles(&self, pellicle: &Pellicle, time: f32) -> [(Vec2, f32, f32); 2] {
+        [(1.0, 0.0), (-1.0, 0.45)].map(|(side, shift)| {
+            let filled = (time / pellicle.vacuole_period + shift).rem_euclid(1.0);
+            let radius = self.polar.mean * pellicle.vacuole * filled.sqrt() * smoothstep(1.0, 0.93, filled);
+            (self.place(Vec2::new(side, 0.25).normalize(), 0.52), radius, filled)
+        })
+    }
+
+    /// Canals that lead to a vacuole; they swell while it is empty.
+    fn canals(&self, pellicle: &Pellicle, (at, vacuole, filled): (Vec2, f32, f32)) -> Vec<Thread> {
+        let radius = 0.02 * self.polar.mean * (1.0 - 0.6 * filled);
+        let canal = |k: u32| {
+            let way = rotate(unit_vector(k as f32 * TAU / 7.0 + 0.3), self.facing);
+            let to = at + way * (vacuole + 0.16 * self.polar.mean);
+            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.45 }
+        };
+        (0..7).map(canal).collect()
+    }
+
+    /// Its cilia and canals at a time.
+    pub(super) fn threads(&self, time: f32) -> Vec<Thread> {
+        let cilia = self.look.cilia.iter().flat_map(|cilia| (0..cilia.count).map(move |k| (cilia, k)));
+        let mut threads: Vec<Thread> = cilia.flat_map(|(cilia, k)| self.cilium(cilia, k, time)).collect();
+        if let Some(pellicle) = self.look.pellicle {
+            let vacuoles = self.vacuoles(pellicle, time);
+            threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
+        }
+        threads
+    }
+
+    /// One cilium in two straight parts: it swings with the metachronal wave and bends as it swings.
+    fn cilium(&self, cilia: &Cilia, k: u32, time: f32) -> [Thread; 2] {
+        let share = k as f32 / cilia.count as f32;
+        let root = |share: f32| {
+            let way = rotate(unit_vector(TAU * share), self.facing);
+            self.polar.centre + way * self.polar.radius(way)
+        };
+        let from = root(share);
+        let outwards = -direction_or(root(share + 0.004) - root(share - 0.004), Vec2::X).perp();
+        let wave = unit_vector(TAU * (share * cilia.waves - time * cilia.rate) + 0.6 * wobble(share * 40.0, self.seed));
+        let length = cilia.length * self.polar.mean * 0.5;
+        let middle = from + rotate(outwards, unit_vector(0.55 * wave.y - 0.35)) * length;
+        let to = middle + rotate(outwards, unit_vector(0.95 * wave.y - 0.5 + 0.4 * wave.x)) * length;
+        let matter = Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) };
+        let radius = 0.5 * cilia.width;
+        [Thread { from, to: middle, radius, matter }, Thread { from: middle, to, radius, matter: matter * 0.9 }]
+    }
+}
+
+impl Pellicle {
+    /// What fills vacuoles and canals, relative to the cytoplasm that it takes the place of.
+    fn water(&self) -> Matter {
+        Matter { cytoplasm: -0.7, ..Matter::phase(self.vacuole_phase) }
+    }
+
+    /// What furrows and the oral groove leave of the thickness; `own` is the place in the body's frame, scaled so that
+    /// the body is a disc of radius 1.
+    fn relief(&self, own: Vec2, seed: u32) -> f32 {
+        // Rows of cilia run from pole to pole, as meridians do.
+        let meridian = own.y / larger(1.0 - own.x * own.x, 0.02).sqrt();
+        let uneven = 0.8 * octaves(own * 3.0, 2, seed);
+        let furrow = unit_vector(TAU * (0.5 * self.furrows * meridian) + uneven).y;
+        // The groove runs slanting from the front to the middle.
+        let along = smoothstep(-0.25, 0.05, own.x) * smoothstep(1.0, 0.6, own.x);
+        let groove = bell((own.y + 0.45 - 0.75 * (own.x - 0.1)) / 0.22) * along;
+        1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * groove
+    }
+}
+
+/// Gives an outline a few low waves of its own, which turn with the body.
+fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
+    if amount <= 0.0 {
+        return;
+    }
+    let back = Vec2::new(facing.x, -facing.y);
+    let wave = |(order, share): (f32, f32)| (order, dice.unit() * TAU, dice.range([0.2, 1.0]) * share * amount);
+    let waves = [(2.0, 1.0), (3.0, 0.6), (4.0, 0.35), (5.0, 0.25), (7.0, 0.2)].map(wave);
+    polar.reshape(|way| {
+        let own = rotate(way, back);
+        let angle = libm::atan2f(own.y, own.x);
+        1.0 + waves.iter().map(|&(order, phase, size)| size * unit_vector(order * angle + phase).x).sum::<f32>()
+    });
+}

@@ -1,0 +1,67 @@
+//! Small things: round spots and thin threads.
+
+use crate::microscope::look::SpotShape;
+use crate::microscope::maths::{bell, larger, smoothstep};
+use crate::microscope::matter::{Matter, Plate};
+use glam::Vec2;
+
+/// A small round thing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    pub at: Vec2,
+    /// Micrometres.
+    pub radius: f32,
+    /// Where it is thickest.
+    pub matter: Matter,
+    pub shape: SpotShape,
+}
+
+impl Spot {
+    /// Adds the spot to a plate. What is smaller than a pixel is spread over one and loses no matter.
+    pub(super) fn draw(&self, plate: &mut Plate) {
+        let blur = 0.7 * plate.grid.pixel;
+        let radius = (self.radius * self.radius + blur * blur).sqrt();
+        let matter = self.matter * (self.radius * self.radius / (radius * radius));
+        let reach = Vec2::splat(radius * if self.shape == SpotShape::Ring { 1.8 } else { 1.25 });
+        let softness = larger(blur / radius, 0.08);
+        let profile = |rho: f32| match self.shape {
+            SpotShape::Bump => {
+                let inside = 1.0 - rho * rho / (1.25 * 1.25);
+                if inside > 0.0 { inside * inside } else { 0.0 }
+            }
+            SpotShape::Ball => {
+                let inside = 1.0 - rho * rho / ((1.0 + softness) * (1.0 + softness));
+                if inside > 0.0 { inside.sqrt() * smoothstep(1.0 + softness, 1.0 - softness, rho) } else { 0.0 }
+            }
+            SpotShape::Ring => bell((rho - 1.2) / 0.25),
+        };
+        plate.add(self.at - reach, self.at + reach, |p| matter * profile((p - self.at).length() / radius));
+    }
+}
+
+/// A thin straight thread.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Thread {
+    pub from: Vec2,
+    pub to: Vec2,
+    /// Half its width, micrometres.
+    pub radius: f32,
+    /// In its middle; it thins out towards `to`.
+    pub matter: Matter,
+}
+
+impl Thread {
+    pub(super) fn draw(&self, plate: &mut Plate) {
+        let blur = 0.7 * plate.grid.pixel;
+        let radius = (self.radius * self.radius + blur * blur).sqrt();
+        let matter = self.matter * (self.radius / radius);
+        let reach = Vec2::splat(2.0 * radius);
+        let way = self.to - self.from;
+        let per_length = 1.0 / larger(way.length_squared(), 1e-12);
+        plate.add(self.from.min(self.to) - reach, self.from.max(self.to) + reach, |p| {
+            let along = ((p - self.from).dot(way) * per_length).clamp(0.0, 1.0);
+            let apart = (p - self.from - way * along).length() / radius;
+            matter * (bell(apart) * (1.0 - along * along))
+        });
+    }
+}
