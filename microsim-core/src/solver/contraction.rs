@@ -21,7 +21,11 @@ pub(crate) fn project(contractions: &[Contraction], p: &mut Particles, h: f32) {
     for &Contraction { a, b, speed } in contractions {
         let (i, j) = (a as usize, b as usize);
         let length = Vec2::new(p.prev_x[j] - p.prev_x[i], p.prev_y[j] - p.prev_y[i]).length() - h * speed;
-        rope::project(&[Rope { a, b, max_length: if length > 0.0 { length } else { 0.0 } }], Span::LOOSE, &mut p.columns());
+        rope::project(
+            &[Rope { a, b, max_length: if length > 0.0 { length } else { 0.0 } }],
+            Span::LOOSE,
+            &mut p.columns(),
+        );
     }
 }
 
