@@ -152,7 +152,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 8] = [
+    pub const NAMES: [&str; 14] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -160,6 +160,12 @@ impl Event {
         "ingested",
         "released",
         "consumed",
+        "division_began",
+        "division_refused",
+        "division_abandoned",
+        "divided",
+        "fusion_refused",
+        "fused",
         "quarantined",
     ];
 

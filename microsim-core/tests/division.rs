@@ -66,9 +66,14 @@ fn divide(world: &mut World, cell: OrganismId, what: &str) -> OrganismId {
 
 fn refusal(world: &mut World, cell: OrganismId) -> Refusal {
     let before = world.census();
+    let reason = reason_not_to_divide(world, cell);
+    assert_eq!(world.census(), before);
+    reason
+}
+
+fn reason_not_to_divide(world: &mut World, cell: OrganismId) -> Refusal {
     world.divide(cell).unwrap();
     run(world, &Inputs::new(), 1);
-    assert_eq!(world.census(), before);
     let reason = world.events().iter().find_map(|event| match event {
         Event::DivisionRefused { organism, reason } if *organism == cell => Some(*reason),
         _ => None,
@@ -332,17 +337,27 @@ fn soft_prey_in_the_furrow_forbids_division_and_beside_it_goes_along() {
 
 #[test]
 fn cells_do_not_divide_or_fuse_while_they_take_in() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    for way in WAYS {
+        let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
+        let (mut world, cell) = cell_in_room(AmoeboidCellSpec { phagocytosis, ..AmoeboidCellSpec::default() });
+        take_in(&mut world, cell);
+        // A cup's fold may get a node in the same step.
+        let reason = if way == IngestionWay::Gate { refusal } else { reason_not_to_divide };
+        assert_eq!(reason(&mut world, cell), Refusal::Ingesting);
+    }
+}
+
+/// Lets a cell begin to take in agar.
+fn take_in(world: &mut World, cell: OrganismId) {
     let prey = world.spawn(&AgarSpec { radius: 1.8, ..AgarSpec::default() }.into(), Placement::at(95.0, 45.0)).unwrap();
     let mut inputs = Inputs::new();
     inputs.set(cell, Intent::toward(Vec2::new(150.0, 45.0)).unwrap());
     let begins = |world: &World| world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }));
     (0..300).find(|_| {
         world.step(&inputs);
-        begins(&world)
+        begins(world)
     });
     assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(cell));
-    assert_eq!(refusal(&mut world, cell), Refusal::Ingesting);
 }
 
 #[test]

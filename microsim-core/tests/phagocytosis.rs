@@ -16,10 +16,21 @@ use microsim_core::{
 /// Near the right wall, which stops prey that is pushed.
 const CENTRE: Vec2 = Vec2::new(128.0, 45.0);
 
+/// The default parameters but for the way in.
+fn by(way: IngestionWay) -> PhagocytosisParams {
+    PhagocytosisParams { way, ..PhagocytosisParams::default() }
+}
+
 /// A cell and one prey at some distance to its right.
 fn scene(prey: &OrganismSpec, distance: f32) -> (World, OrganismId, OrganismId) {
+    scene_by(PhagocytosisParams::default().way, prey, distance)
+}
+
+/// As [`scene`], for a cell that takes prey in by one way.
+fn scene_by(way: IngestionWay, prey: &OrganismSpec, distance: f32) -> (World, OrganismId, OrganismId) {
     let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    let spec = AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
     let prey = world.spawn(prey, Placement::at(CENTRE.x + distance, CENTRE.y)).unwrap();
     (world, cell, prey)
 }
@@ -115,22 +126,23 @@ fn t29_t30_touching_without_heading_for_it_takes_nothing_in() {
 
 #[test]
 fn t31_only_the_gate_lets_the_prey_through_and_never_cytoplasm() {
-    let (mut world, cell, prey) = scene(&agar(), 14.0);
+    let (mut world, cell, prey) = scene_by(IngestionWay::Gate, &agar(), 14.0);
     chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).unwrap();
     let outline: Vec<Vec2> = world.view().organism(cell).unwrap().outline().collect();
     let view = world.view().organism(cell).unwrap();
     assert!(view.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&outline, p.position)));
 }
 
-#[test]
-fn t32_several_agar_go_in_at_once() {
+/// Five pieces of agar side by side, so far apart: how many are on their way in at once, and inside in the end.
+fn five_side_by_side(way: IngestionWay, pitch: f32) -> (usize, usize) {
     let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    let spec = AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
     let prey: Vec<OrganismId> = (0..5)
         .map(|k| {
             world.spawn(
                 &AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(),
-                Placement::at(143.0, 41.0 + 2.0 * k as f32),
+                Placement::at(143.0, 45.0 + pitch * (k as f32 - 2.0)),
             )
         })
         .collect::<Result<_, _>>()
@@ -143,9 +155,18 @@ fn t32_several_agar_go_in_at_once() {
         let going_in = prey.iter().filter(|&&p| matches!(phase(&world, cell, p), Some(MealPhase::Ingesting(_))));
         at_once = at_once.max(going_in.count());
     }
-    assert!(at_once >= 2, "{at_once} at once");
-    let inside = prey.iter().filter(|&&p| phase(&world, cell, p) == Some(MealPhase::Ingested)).count();
-    assert!(inside >= 3, "{inside} of 5 inside");
+    assert_eq!(world.census().leaks, 0);
+    (at_once, prey.iter().filter(|&&p| phase(&world, cell, p) == Some(MealPhase::Ingested)).count())
+}
+
+#[test]
+fn t32_several_agar_go_in_at_once() {
+    // A cup needs room between two pieces for the membrane on both sides of its mouth: what is nearer waits for its turn.
+    for (way, pitch) in [(IngestionWay::Gate, 2.0), (IngestionWay::Gate, 3.0), (IngestionWay::Cup, 3.0)] {
+        let (at_once, inside) = five_side_by_side(way, pitch);
+        assert!(at_once >= 2, "{way:?}: {at_once} at once");
+        assert!(inside >= 3, "{way:?}: {inside} of 5 inside");
+    }
 }
 
 #[test]
@@ -214,7 +235,8 @@ fn t43_one_rigid_cell_at_a_time_until_it_is_consumed() {
 
 #[test]
 fn t61_t62_only_held_digestion_consumes_and_only_consumption_grows() {
-    let (mut world, cell, prey) = scene(&AgarSpec { radius: 2.0, ..AgarSpec::default() }.into(), 15.0);
+    let spec: OrganismSpec = AgarSpec { radius: 2.0, ..AgarSpec::default() }.into();
+    let (mut world, cell, prey) = scene_by(IngestionWay::Gate, &spec, 15.0);
     chase(&mut world, cell, prey, 300, |w| w.events().iter().any(is_ingested)).unwrap();
     let cytoplasm = |world: &World| {
         let view = world.view().organism(cell).unwrap();
@@ -294,7 +316,7 @@ fn is_released(event: &Event) -> bool {
 #[test]
 fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
     // Too weak to draw it in by the gate, too short for a cup to close.
-    let weak = PhagocytosisParams { pull_speed: 0.1, pull_acceleration: 1.0, ..PhagocytosisParams::default() };
+    let weak = PhagocytosisParams { pull_speed: 0.1, pull_acceleration: 1.0, ..by(IngestionWay::Gate) };
     let gate = PhagocytosisParams { time_limit: 0.5, ..weak };
     let cup = PhagocytosisParams { way: IngestionWay::Cup, ..gate };
     for params in [gate, cup] {
@@ -312,12 +334,12 @@ fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
         });
         assert!(steps.is_some(), "{params:?}: released");
         assert_eq!((phase(&world, cell, prey), world.view().organism(prey).unwrap().held_by()), (None, None));
-        assert!(size(&world) > shrunk, "in its full size again");
         for step in 0..240 {
             run(&mut world, &Inputs::new(), 1);
             let census = world.census();
             assert_eq!((census.leaks, census.improper_absorptions), (0, 0), "step {step}");
         }
+        assert!(size(&world) > shrunk && world.census().partial_absorptions == 0, "in its full size again");
         assert_eq!(world.census().particles, before.particles, "the nodes for the fold are gone again");
         // It is pushed before it is taken in again: collisions are restored.
         let start = world.centroid(prey).unwrap();
@@ -329,12 +351,8 @@ fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
 
 #[test]
 fn t44_retreat_and_another_try_take_it_in() {
-    let weak = PhagocytosisParams {
-        pull_speed: 2.0,
-        pull_acceleration: 50.0,
-        time_limit: 0.5,
-        ..PhagocytosisParams::default()
-    };
+    let weak =
+        PhagocytosisParams { pull_speed: 2.0, pull_acceleration: 50.0, time_limit: 0.5, ..by(IngestionWay::Gate) };
     let (mut world, cell, prey) = scene_with(weak, &agar(), 14.0);
     let mut away = Inputs::new();
     away.set(cell, Intent::toward(Vec2::new(10.0, 45.0)).unwrap());
@@ -356,7 +374,7 @@ fn t44_retreat_and_another_try_take_it_in() {
 fn t34_t36_prey_that_is_half_inside_at_the_time_limit_is_put_on_one_side_in_bounded_time() {
     let mut ends = [0, 0];
     for k in 1..12 {
-        let params = PhagocytosisParams { time_limit: 0.1 * k as f32, ..PhagocytosisParams::default() };
+        let params = PhagocytosisParams { time_limit: 0.1 * k as f32, ..by(IngestionWay::Gate) };
         let (mut world, cell, prey) = scene_with(params, &small_rigid(), 18.0);
         chase(&mut world, cell, prey, 300, begins).unwrap();
         let ends_now = |w: &World| w.events().iter().any(|event| is_ingested(event) || is_released(event));
@@ -379,7 +397,7 @@ fn t34_t36_prey_that_is_half_inside_at_the_time_limit_is_put_on_one_side_in_boun
 #[test]
 fn a_cup_encloses_prey_in_a_phagosome_that_goes_with_its_digestion() {
     for (spec, distance) in [(agar(), 14.0), (small_rigid(), 18.0)] {
-        let params = PhagocytosisParams { way: IngestionWay::Cup, growth_yield: 0.0, ..PhagocytosisParams::default() };
+        let params = PhagocytosisParams { growth_yield: 0.0, ..by(IngestionWay::Cup) };
         let (mut world, cell, prey) = scene_with(params, &spec, distance);
         let eaten = world.view().organism(prey).unwrap().particles().count();
         let before = world.census().particles;
@@ -411,9 +429,8 @@ fn a_cup_encloses_prey_in_a_phagosome_that_goes_with_its_digestion() {
 
 #[test]
 fn several_cups_close_at_once_and_removal_leaves_nothing() {
-    let params = PhagocytosisParams { way: IngestionWay::Cup, ..PhagocytosisParams::default() };
     let mut world = World::new(WorldConfig::default()).unwrap();
-    let spec = AmoeboidCellSpec { phagocytosis: params, ..AmoeboidCellSpec::default() };
+    let spec = AmoeboidCellSpec { phagocytosis: by(IngestionWay::Cup), ..AmoeboidCellSpec::default() };
     let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
     let prey: Vec<OrganismId> = [41.0, 49.0]
         .map(|y| world.spawn(&AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(), Placement::at(142.0, y)).unwrap())
@@ -445,8 +462,7 @@ fn among_platelets(
 ) -> (World, OrganismId, OrganismId) {
     let mut rng = Rng::new(seed, 9);
     let mut world = World::new(WorldConfig { size: Vec2::new(110.0, 90.0), ..WorldConfig::default() }).unwrap();
-    let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
-    let spec = AmoeboidCellSpec { phagocytosis, ..AmoeboidCellSpec::default() };
+    let spec = AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() };
     let cell = world.spawn(&spec.into(), Placement::at(55.0, 45.0)).unwrap();
     let at = Vec2::new(55.0, 45.0) + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * distance;
     let prey = world.spawn(prey, Placement::at(at.x, at.y)).unwrap();

@@ -121,7 +121,7 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
         "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\nrest = true\ngole = [1, 1]",
         15,
         "command.0.gole",
-        "at, of, every, until, goal, follow, rest, digest, grow",
+        "at, of, every, until, goal, follow, rest, digest, grow, divide, fuse",
     ),
     // Checks and commands that mean nothing.
     ("[invariants]\nleaks = 'none'", 10, "invariants.leaks", "the most that it may be, or [least, most]"),
@@ -135,6 +135,24 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
         14,
         "command.0.digest",
         "an amoeboid_cell",
+    ),
+    (
+        "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\ndivide = 'two'",
+        14,
+        "command.0.divide",
+        "an amoeboid_cell",
+    ),
+    (
+        "[amoeboid_cell.c]\nradii = [5, 5]\n[[spawn]]\nof = 'c'\nname = 'it'\n[[command]]\nof = 'it'\ndivide = 'it'",
+        16,
+        "command.0.divide",
+        "a name for the daughter",
+    ),
+    (
+        "[amoeboid_cell.c]\nradii = [5, 5]\n[[spawn]]\nof = 'c'\nname = 'it'\n[[command]]\nof = 'it'\nfuse = 'two'",
+        16,
+        "command.0.fuse",
+        "it",
     ),
     ("[[spawn]]\nof = 'pellet'\nname = 'it'\n[[command]]\nof = 'it'\ngoal = [1, 1]", 14, "command.0.goal", "a probe"),
     // Ranges.

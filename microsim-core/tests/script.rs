@@ -4,7 +4,7 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
-use microsim_core::{Event, OrganismId};
+use microsim_core::{Event, OrganismId, Refusal};
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
     [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
@@ -119,7 +119,7 @@ fn invariants_are_ranges_of_measures_and_counts() {
 #[test]
 fn every_kind_of_event_has_its_name_in_the_list() {
     let id = cell(&built(""));
-    let kind = microsim_core::Kind::Agar;
+    let (kind, reason) = (microsim_core::Kind::Agar, Refusal::Dividing);
     let events = [
         Event::ContactBegan { a: id, b: id },
         Event::ContactEnded { a: id, b: id },
@@ -128,6 +128,12 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::Ingested { engulfer: id, prey: id },
         Event::Released { engulfer: id, prey: id },
         Event::Consumed { engulfer: id, prey: id, kind },
+        Event::DivisionBegan { organism: id },
+        Event::DivisionRefused { organism: id, reason },
+        Event::DivisionAbandoned { organism: id, reason },
+        Event::Divided { parent: id, daughter: id },
+        Event::FusionRefused { organism: id, with: id, reason },
+        Event::Fused { into: id, from: id },
         Event::Quarantined { organism: id },
     ];
     assert_eq!(events.map(|event| event.name()), Event::NAMES);
@@ -165,6 +171,11 @@ fn a_cell_grows_by_what_it_digests() {
 #[test]
 fn a_cell_gets_through_a_gap_of_half_its_diameter() {
     assert_keeps_its_checks("squeeze", 25, 0..1);
+}
+
+#[test]
+fn a_cell_divides_its_halves_are_told_apart_and_fuse() {
+    assert_keeps_its_checks("divide", 40, 0..2);
 }
 
 #[test]

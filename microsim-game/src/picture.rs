@@ -25,6 +25,8 @@ pub struct Shape {
     discs: Range<usize>,
     outline: Range<usize>,
     surface: Range<usize>,
+    /// One after the other.
+    phagosomes: Vec<Range<usize>>,
 }
 
 /// What a particle looks like, apart from its place.
@@ -55,13 +57,21 @@ impl Picture {
             picture.points.extend(organism.outline());
             let surface = picture.points.len();
             picture.points.extend(organism.surface());
+            let end = picture.points.len();
+            let phagosomes = organism.phagosomes().map(|(_, ring)| {
+                let start = picture.points.len();
+                picture.points.extend(ring);
+                start..picture.points.len()
+            });
+            let phagosomes = phagosomes.collect();
             picture.shapes.push(Shape {
                 id: organism.id(),
                 kind: organism.kind(),
                 front: organism.front_index(),
                 discs: discs..outline,
                 outline: outline..surface,
-                surface: surface..picture.points.len(),
+                surface: surface..end,
+                phagosomes,
             });
         }
         picture
@@ -77,7 +87,7 @@ impl Picture {
             let Some(old) = at_same_place.or_else(|| before.shapes.iter().find(same)) else {
                 continue;
             };
-            if old.lengths() == shape.lengths() {
+            if old.lengths().eq(shape.lengths()) {
                 let (from, to) = (&before.points[old.all()], &mut between.points[shape.all()]);
                 from.iter().zip(to).for_each(|(from, to)| *to = from.lerp(*to, alpha));
             }
@@ -101,6 +111,11 @@ impl Picture {
     #[must_use]
     pub fn surface(&self, shape: &Shape) -> &[Vec2] {
         &self.points[shape.surface.clone()]
+    }
+
+    /// Centres of the membrane around each prey that a cup has taken in, counter-clockwise.
+    pub fn phagosomes(&self, shape: &Shape) -> impl Iterator<Item = &[Vec2]> {
+        shape.phagosomes.iter().map(|ring| &self.points[ring.clone()])
     }
 
     /// The first of its particles in this role.
@@ -131,11 +146,12 @@ const NO_DISC: Disc = Disc { radius: 0.0, speed: 0.0, role: Role::Plain };
 
 impl Shape {
     fn all(&self) -> Range<usize> {
-        self.discs.start..self.surface.end
+        self.discs.start..self.phagosomes.last().map_or(self.surface.end, |last| last.end)
     }
 
-    fn lengths(&self) -> [usize; 3] {
-        [self.discs.len(), self.outline.len(), self.surface.len()]
+    fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
+        let rings = self.phagosomes.iter().map(|ring| ring.len());
+        [self.discs.len(), self.outline.len(), self.surface.len()].into_iter().chain(rings)
     }
 }
 

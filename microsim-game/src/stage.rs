@@ -2,8 +2,8 @@
 
 use crate::args::Scene;
 use crate::picture::Picture;
-use microsim_core::scenario::{self, Scenario};
-use microsim_core::{Census, Inputs, Intent, Kind, OrganismId, World};
+use microsim_core::scenario::{self, Scenario, Script};
+use microsim_core::{Census, Intent, Kind, OrganismId, World};
 
 /// Steps between two counts of what is in the world.
 const CENSUS_INTERVAL: u64 = 60;
@@ -14,7 +14,10 @@ pub struct Stage {
     name: String,
     world: World,
     player: Option<OrganismId>,
-    inputs: Inputs,
+    /// What the scenario tells its organisms.
+    script: Script,
+    /// What the player tells its cell.
+    orders: Option<Intent>,
     census: Census,
     before: Picture,
     now: Picture,
@@ -54,7 +57,8 @@ impl Stage {
     fn parse(text: &str) -> Result<Self, String> {
         let scenario = Scenario::parse(text, &[]).map_err(|diagnostics| diagnostics.to_string())?;
         let built = scenario.build().map_err(|diagnostics| diagnostics.to_string())?;
-        Ok(Self::new(scenario.name().to_owned(), built.world, built.player))
+        let stage = Self::new(scenario.name().to_owned(), built.world, built.player);
+        Ok(Self { script: built.script, ..stage })
     }
 
     /// A scene of this world. Without a named player, the first amoeboid cell is the player.
@@ -63,7 +67,16 @@ impl Stage {
         let is_amoeboid = |&id: &OrganismId| world.kind(id) == Some(Kind::AmoeboidCell);
         let player = player.or_else(|| world.organisms().find(is_amoeboid));
         let now = Picture::of(&world);
-        Self { name, census: world.census(), before: now.clone(), now, world, player, inputs: Inputs::new() }
+        Self {
+            name,
+            census: world.census(),
+            before: now.clone(),
+            now,
+            world,
+            player,
+            script: Script::default(),
+            orders: None,
+        }
     }
 
     /// Its name.
@@ -90,17 +103,19 @@ impl Stage {
         self.census
     }
 
-    /// Tells the player what to do. Until it is told something for the first time it follows its own controller.
+    /// Tells the player what to do. Until it is told something for the first time it does what the scenario tells it, or
+    /// follows its own controller.
     pub fn steer(&mut self, intent: Intent) {
-        let Some(player) = self.player else { return };
-        if intent != Intent::REST || self.inputs.get(player).is_some() {
-            self.inputs.set(player, intent);
+        if intent != Intent::REST || self.orders.is_some() {
+            self.orders = Some(intent);
         }
     }
 
     /// One step.
     pub fn step(&mut self) {
-        self.world.step(&self.inputs);
+        let mut inputs = self.script.before_step(&mut self.world).clone();
+        self.player.zip(self.orders).into_iter().for_each(|(player, intent)| inputs.set(player, intent));
+        self.world.step(&inputs);
         self.before = std::mem::replace(&mut self.now, Picture::of(&self.world));
         if self.world.step_index().is_multiple_of(CENSUS_INTERVAL) {
             self.census = self.world.census();
@@ -142,10 +157,23 @@ mod tests {
     fn the_player_follows_its_own_controller_until_it_is_steered() {
         let mut stage = stage();
         stage.steer(Intent::REST);
-        assert_eq!(stage.inputs, Inputs::new());
+        assert_eq!(stage.orders, None);
         stage.steer(Intent::toward(Vec2::ONE).unwrap());
         stage.steer(Intent::REST);
-        assert_eq!(stage.inputs.get(stage.player().unwrap()), Some(Intent::REST));
+        assert_eq!(stage.orders, Some(Intent::REST));
+    }
+
+    #[test]
+    fn a_scenario_commands_its_cell_until_the_player_does() {
+        let start = |stage: &Stage| stage.world().centroid(stage.player().unwrap()).unwrap();
+        let mut stage = Stage::builtin("squeeze").unwrap();
+        let before = start(&stage);
+        (0..120).for_each(|_| stage.step());
+        let commanded = start(&stage);
+        assert!(commanded.x > before.x + 4.0, "{before} -> {commanded}");
+        stage.steer(Intent::toward(Vec2::new(5.0, commanded.y)).unwrap());
+        (0..180).for_each(|_| stage.step());
+        assert!(start(&stage).x < commanded.x - 4.0, "{commanded} -> {}", start(&stage));
     }
 
     #[test]

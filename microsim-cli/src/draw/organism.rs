@@ -35,11 +35,18 @@ fn amoeboid_cell(view: OrganismView<'_>, tint: Tint) -> Vec<Item> {
     let mut items = vec![body(&surface, tint, [0.42, 0.62])];
     let granules = of_role(view, Role::Cytoplasm).map(|p| (p.position, p.radius * 0.5));
     items.push(flat(Path::circles(granules), tint, 0.2));
+    items.extend(view.phagosomes().map(|(_, ring)| phagosome(&ring, tint, thickness)));
     let line = Stroke::new(tint.line.faded(0.85), thickness);
     items.push(Item::stroked(Path::smooth(&surface), line));
     let lead = Path::smooth_open(&leading_edge(view, &surface));
     items.push(Item::stroked(lead, Stroke::new(tint.line.faded(0.6), thickness * 1.6)));
     items
+}
+
+/// A thin membrane around prey, with bright fluid in it.
+fn phagosome(ring: &[Vec2], tint: Tint, thickness: f32) -> Item {
+    let line = Stroke::new(tint.line.faded(0.6), thickness * 0.8);
+    Item::filled(Path::smooth(ring), Paint::Flat(HALO.faded(0.3))).outlined(line)
 }
 
 /// The front of the surface, in its order; empty unless it crawls.

@@ -62,7 +62,7 @@ pub struct PhagocytosisParams {
 impl Default for PhagocytosisParams {
     fn default() -> Self {
         Self {
-            way: IngestionWay::Gate,
+            way: IngestionWay::Cup,
             hold_time: 0.35,
             heading_cosine: 0.6,
             soft_prey_contacts: 2,

@@ -93,6 +93,8 @@ impl Organisms {
             for meal in organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals) {
                 match meal.phase {
                     MealPhase::Touching(_) => {}
+                    // Through a gate; a cup closes around prey that stays outside of the membrane.
+                    MealPhase::Ingesting(_) if meal.gate.is_empty() => {}
                     MealPhase::Ingesting(_) => homes[meal.prey.index as usize] = Home::Passing(id.index),
                     MealPhase::Ingested | MealPhase::Digesting(_) => {
                         homes[meal.prey.index as usize] = Home::Inside(id.index);

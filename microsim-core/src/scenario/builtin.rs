@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 12] = [
+const BUILTINS: [Builtin; 13] = [
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
@@ -46,6 +46,11 @@ const BUILTINS: [Builtin; 12] = [
         name: "grow",
         summary: "a cell eats agar, digests it and grows",
         text: include_str!("../../scenarios/grow.toml"),
+    },
+    Builtin {
+        name: "divide",
+        summary: "a cell divides among platelets; its halves crawl apart, come back and fuse",
+        text: include_str!("../../scenarios/divide.toml"),
     },
     Builtin {
         name: "squeeze",

@@ -2,10 +2,10 @@
 
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
-use super::source::{Value, unknown};
+use super::source::{NAME, Value, is_name, unknown};
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
-use crate::{Inputs, Intent, World};
+use crate::{Event, Inputs, Intent, World};
 use glam::Vec2;
 use std::fmt;
 
@@ -14,6 +14,8 @@ use std::fmt;
 pub struct Script {
     commands: Vec<Command>,
     named: Vec<(String, OrganismId)>,
+    /// Who is to divide, and the names for the daughters.
+    dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
@@ -49,8 +51,18 @@ pub(super) struct Command {
 enum Action {
     Goal(Goal),
     Digest(bool),
-    Grow { nodes: u32, particles: u32 },
+    Grow {
+        nodes: u32,
+        particles: u32,
+    },
+    /// The daughter goes by this name.
+    Divide(String),
+    /// With the one of this name.
+    Fuse(String),
 }
+
+/// Organisms that commands may name.
+type Named<'a> = Vec<(String, &'a Group)>;
 
 /// Where an organism is to go.
 #[derive(Clone, Debug)]
@@ -72,12 +84,14 @@ struct Order {
 type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
 
 /// The fields that are actions and how they are read.
-const ACTIONS: [(&str, ReadAction); 5] = [
+const ACTIONS: [(&str, ReadAction); 7] = [
     ("goal", |fields| fields.get("goal").map(Goal::Point).map(Action::Goal)),
     ("follow", |fields| fields.get("follow").map(Goal::Organism).map(Action::Goal)),
     ("rest", |fields| fields.get("rest").map(|Always| Action::Goal(Goal::Rest))),
     ("digest", |fields| fields.get("digest").map(Action::Digest)),
     ("grow", grow),
+    ("divide", |fields| fields.get("divide").map(Action::Divide)),
+    ("fuse", |fields| fields.get("fuse").map(Action::Fuse)),
 ];
 
 impl Script {
@@ -94,6 +108,7 @@ impl Script {
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
+        self.rename(world.events());
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };
@@ -118,6 +133,22 @@ impl Script {
         &self.inputs
     }
 
+    /// Names daughters of divisions, and lets those that have fused go by the names of both.
+    fn rename(&mut self, events: &[Event]) {
+        for event in events {
+            match *event {
+                Event::Divided { parent, daughter } => {
+                    let names = self.dividing.extract_if(.., |(cell, _)| *cell == parent);
+                    self.named.extend(names.map(|(_, name)| (name, daughter)));
+                }
+                Event::Fused { into, from } => {
+                    self.named.iter_mut().filter(|(_, id)| *id == from).for_each(|(_, id)| *id = into);
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// What the world refused, the first time for each command.
     #[must_use]
     pub fn refusals(&self) -> &[Refusal] {
@@ -131,12 +162,21 @@ impl Script {
             Action::Goal(goal) => self.order(id).goal = goal.clone(),
             Action::Digest(digests) => self.order(id).digests = *digests,
             Action::Grow { nodes, particles } => world.grow(id, *nodes, *particles)?,
+            Action::Divide(daughter) => {
+                world.divide(id)?;
+                self.dividing.retain(|(cell, _)| *cell != id);
+                self.dividing.push((id, daughter.clone()));
+            }
+            Action::Fuse(other) => {
+                let with = self.organism(other).ok_or_else(|| Error::new(ErrorKind::Stale, other.clone()))?;
+                world.fuse(id, with)?;
+            }
         }
         Ok(())
     }
 
     fn organism(&self, name: &str) -> Option<OrganismId> {
-        self.named.iter().find(|(known, _)| known == name).map(|(_, id)| *id)
+        self.named.iter().rfind(|(known, _)| known == name).map(|(_, id)| *id)
     }
 
     /// What an organism has been told, to be changed.
@@ -181,17 +221,32 @@ impl fmt::Display for Refusal {
 
 /// Reads the `[[command]]` tables.
 pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Vec<Command> {
-    let named: Vec<(&str, &Group)> = groups.iter().filter_map(|group| Some((group.name.as_deref()?, group))).collect();
+    let mut named: Named<'_> = groups.iter().filter_map(|group| Some((group.name.clone()?, group))).collect();
     let mut commands = Vec::new();
     for mut fields in root.list("command") {
         let command = read_command(&mut fields, &named, duration);
         fields.finish();
+        let daughter = command.as_ref().and_then(|command| daughter(command, &named));
+        named.extend(daughter);
         commands.extend(command);
     }
     commands
 }
 
-fn read_command(fields: &mut Fields<'_>, named: &[(&str, &Group)], duration: f32) -> Option<Command> {
+/// The daughter that a command makes: later ones may name it.
+fn daughter<'a>(command: &Command, named: &Named<'a>) -> Option<(String, &'a Group)> {
+    let name = command.actions.iter().find_map(|action| match action {
+        Action::Divide(name) => Some(name.clone()),
+        _ => None,
+    });
+    Some((name?, find(&command.of, named)?))
+}
+
+fn find<'a>(name: &str, named: &Named<'a>) -> Option<&'a Group> {
+    named.iter().find(|(known, _)| known == name).map(|(_, group)| *group)
+}
+
+fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Option<Command> {
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
     let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
@@ -208,18 +263,26 @@ fn read_command(fields: &mut Fields<'_>, named: &[(&str, &Group)], duration: f32
     if fields.has("until") && !fields.has("every") {
         refuse("until", ("does nothing by itself".to_owned(), "`until` with `every`".to_owned()));
     }
-    let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
-    let find = |name: &str| named.iter().find(|(known, _)| *known == name).map(|(_, group)| *group);
+    let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
     let of = of?;
-    match find(&of) {
+    match find(&of, named) {
         None => refuse("of", unknown("organism", &of, &names)),
         Some(group) => check_actions(fields, &actions, group),
     }
     for action in &actions {
-        if let Action::Goal(Goal::Organism(name)) = action
-            && find(name).is_none()
-        {
-            refuse("follow", unknown("organism", name, &names));
+        match action {
+            Action::Goal(Goal::Organism(name)) if !names.contains(&name.as_str()) => {
+                refuse("follow", unknown("organism", name, &names));
+            }
+            Action::Fuse(name) if !names.contains(&name.as_str()) => refuse("fuse", unknown("organism", name, &names)),
+            Action::Divide(name) if !is_name(name) => {
+                refuse("divide", ("not a usable name".to_owned(), NAME.to_owned()))
+            }
+            Action::Divide(name) if names.contains(&name.as_str()) => {
+                let accepted = "a name for the daughter that no other organism has".to_owned();
+                refuse("divide", (format!("the name `{name}` is taken"), accepted));
+            }
+            _ => {}
         }
     }
     Some(Command { path, of, at, every, until, actions })
@@ -239,7 +302,9 @@ fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
             }
             Action::Digest(_) if !group.prototype.can_grow() => refuse("digest", "digest", "an amoeboid_cell"),
             Action::Grow { .. } if !group.prototype.can_grow() => refuse("grow", "grow", "an amoeboid_cell"),
-            Action::Goal(_) | Action::Digest(_) | Action::Grow { .. } => {}
+            Action::Divide(_) if !group.prototype.can_grow() => refuse("divide", "divide", "an amoeboid_cell"),
+            Action::Fuse(_) if !group.prototype.can_grow() => refuse("fuse", "fuse", "an amoeboid_cell"),
+            _ => {}
         }
     }
 }

@@ -17,12 +17,15 @@ use std::f32::consts::PI;
 
 /// Size to which digestion shrinks prey before it is freed, relative to its size when it was taken in.
 const DIGESTED_SCALE: f32 = 0.25;
+/// Time in which released prey would grow from nothing to its own size, s.
+const REGROWTH_TIME: f32 = 2.0;
 /// Gap at which two discs still count as touching, as a share of the smaller one's radius.
 const TOUCH_GAP: f32 = 0.5;
 
 impl World {
     /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
     pub(crate) fn advance_phagocytosis(&mut self) {
+        self.regrow_free_prey();
         let engulfers: Vec<OrganismId> = self
             .organisms
             .iter()
@@ -58,7 +61,6 @@ impl World {
         for meal in engulfer.map_or(Vec::new(), |engulfer| std::mem::take(&mut engulfer.meals)) {
             self.exemptions.close_gate(&meal.gate, meal.prey.index);
             if self.organisms.get(meal.prey).is_some_and(Organism::is_held) {
-                self.set_scale(meal.prey, 1.0);
                 self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(None));
             }
         }
@@ -198,8 +200,25 @@ impl World {
 
     /// Multiplies the present size of a templated organism.
     fn shrink(&mut self, id: OrganismId, factor: f32) {
-        let present = self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale);
-        self.set_scale(id, present * factor);
+        self.set_scale(id, self.present_scale(id) * factor);
+    }
+
+    /// Size of an organism relative to its size when spawned.
+    pub(super) fn present_scale(&self, id: OrganismId) -> f32 {
+        self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale)
+    }
+
+    /// Prey that was released gets its size back, slowly enough for what lies around it to give way.
+    fn regrow_free_prey(&mut self) {
+        let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held();
+        let free: Vec<OrganismId> = self.organisms.iter().filter(|(_, o)| is_free(o)).map(|(id, _)| id).collect();
+        for id in free {
+            let present = self.present_scale(id);
+            if present < 1.0 {
+                let grown = present + self.config.dt / REGROWTH_TIME;
+                self.set_scale(id, if grown < 1.0 { grown } else { 1.0 });
+            }
+        }
     }
 
     /// Sets the size of a templated organism relative to its size when spawned.

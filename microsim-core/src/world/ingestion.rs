@@ -40,7 +40,10 @@ impl World {
             meal.phase = MealPhase::Ingesting(elapsed);
             if meal.class == PreyClass::Soft {
                 let part = elapsed / (SHRUNK_BY * params.time_limit);
-                self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
+                let scale = 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 };
+                // Prey that was released a moment ago has not got its size back yet.
+                let present = self.present_scale(meal.prey);
+                self.set_scale(meal.prey, if scale < present { scale } else { present });
             }
             let place = match params.way {
                 IngestionWay::Gate => self.pass_gate(id, meal, &params, elapsed),
@@ -119,7 +122,6 @@ impl World {
     /// Closes the gate behind prey that stayed outside.
     fn release(&mut self, id: OrganismId, meal: &Meal) {
         self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        self.set_scale(meal.prey, 1.0);
         self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(None));
         self.events.push(Event::Released { engulfer: id, prey: meal.prey });
     }

@@ -26,6 +26,7 @@ pub(super) fn draw(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     let triangles = triangulate(frame.picture.outline(shape));
     canvas.fill(&outline, &triangles, fade(CELL_BODY, 0.80));
     draw_cytoplasm(canvas, frame, shape);
+    draw_phagosomes(canvas, frame, shape, width);
     draw_membrane(canvas, &outline, width);
     if let Some(front) = shape.front {
         draw_front(canvas, &outline, front, width);
@@ -52,6 +53,20 @@ fn draw_cytoplasm(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
         let is_vacuole = chance(k + 7919) < 0.22;
         let colour = if is_vacuole { fade(HALO, 0.55) } else { fade(INK, 0.16 + 0.30 * size) };
         canvas.sprite(camera.to_screen(at), radius.max(0.8), Tile::Disc, colour);
+    }
+}
+
+/// Bright fluid around prey within a thin membrane of its own.
+fn draw_phagosomes(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape, width: f32) {
+    let (clear, dark) = (fade(INK, 0.0), fade(INK, 0.55));
+    for ring in frame.picture.phagosomes(shape) {
+        let triangles = triangulate(ring);
+        let ring: Vec<Vec2> = ring.iter().map(|&point| frame.camera.to_screen(point)).collect();
+        canvas.fill(&ring, &triangles, fade(HALO, 0.30));
+        canvas.band(
+            &ring,
+            &[(-0.4 * width - 0.8, clear), (-0.3 * width, dark), (0.3 * width, dark), (0.4 * width + 0.8, clear)],
+        );
     }
 }
 
