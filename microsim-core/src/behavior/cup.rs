@@ -52,8 +52,8 @@ impl Fold {
             nearest(prey, node, p).0 < GRIP * p.radius[node]
         };
         let most = count / 3;
-        let before = (1..most).take_while(|&step| lies_against(bottom + count - step)).count();
-        let after = (1..most).take_while(|&step| lies_against(bottom + step)).count();
+        let before = (1..most).filter(|&step| lies_against(bottom + count - step)).last().unwrap_or(0);
+        let after = (1..most).filter(|&step| lies_against(bottom + step)).last().unwrap_or(0);
         Some(Self { bottom, before, after, mouth })
     }
 }
@@ -80,7 +80,8 @@ pub(crate) fn drive_lips(
 ) {
     for (_, organism) in organisms.iter() {
         let Some(engulfer) = organism.engulfer.as_ref().filter(|e| e.params.way == IngestionWay::Cup) else { continue };
-        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
+        let taken_in =
+            engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)) && !meal.is_expelled);
         for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
             let Some(fold) = Fold::find(organism, prey, particles) else { continue };
             let cup = Cup { organism, engulfer, prey, particles, fold };

@@ -119,6 +119,9 @@ impl World {
         }
         let length = |meal: &Meal| {
             let MealPhase::Ingesting(elapsed) = meal.phase else { return 0.0 };
+            if meal.is_expelled {
+                return 0.0;
+            }
             let part = if elapsed < FOLDING_TIME { elapsed / FOLDING_TIME } else { 1.0 };
             part * TAU * ((self.area_of(meal.prey) / PI).sqrt() + 2.0 * node_radius)
         };

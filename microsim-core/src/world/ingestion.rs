@@ -38,22 +38,40 @@ impl World {
             let MealPhase::Ingesting(elapsed) = meal.phase else { return true };
             let elapsed = elapsed + self.config.dt;
             meal.phase = MealPhase::Ingesting(elapsed);
-            if meal.class == PreyClass::Soft {
-                let part = elapsed / (SHRUNK_BY * params.time_limit);
-                self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
-            }
+            let shrunk = self.shrink_on_the_way(meal, &params, elapsed);
             let place = match params.way {
                 IngestionWay::Gate => self.pass_gate(id, meal, &params, elapsed),
-                IngestionWay::Cup if self.advance_cup(id, meal.prey, &params) => Place::Inside,
+                IngestionWay::Cup if !meal.is_expelled && self.advance_cup(id, meal.prey, &params) => Place::Inside,
                 IngestionWay::Cup => Place::Outside,
             };
             match place {
                 Place::Inside => self.complete(id, meal),
-                Place::Outside if elapsed >= params.time_limit => self.release(id, meal),
+                Place::Outside if elapsed >= params.time_limit => {
+                    // In the fold there is no room for prey that has its size back at once.
+                    if params.way == IngestionWay::Cup && shrunk > 0.0 {
+                        meal.is_expelled = true;
+                        return true;
+                    }
+                    self.release(id, meal);
+                }
                 Place::Outside | Place::Between => return true,
             }
             place == Place::Inside
         });
+    }
+
+    /// Shrinks soft prey on its way in, and lets what a cup gives up grow again on its way out; returns how much of the
+    /// shrinking is done.
+    fn shrink_on_the_way(&mut self, meal: &Meal, params: &PhagocytosisParams, elapsed: f32) -> f32 {
+        if meal.class == PreyClass::Simple {
+            return 0.0;
+        }
+        let time = SHRUNK_BY * params.time_limit;
+        let is_let_go = meal.is_expelled && params.way == IngestionWay::Cup;
+        let part = if is_let_go { 1.0 - (elapsed - params.time_limit) / time } else { elapsed / time };
+        let part = part.clamp(0.0, 1.0);
+        self.set_scale(meal.prey, 1.0 + (params.soft_prey_scale - 1.0) * part);
+        part
     }
 
     /// Widens the gate to where the prey is now, and says where that is. After the time limit the ray cast decides: prey
