@@ -26,21 +26,21 @@ pub enum Event {
         /// The cell.
         organism: OrganismId,
     },
-    /// The conditions have held long enough: a membrane opened its gate for prey.
+    /// The conditions have held long enough: a membrane opens its gate to prey, or folds around it.
     IngestionBegan {
         /// Who takes in.
         engulfer: OrganismId,
         /// Who is taken in.
         prey: OrganismId,
     },
-    /// All of the prey is inside; the gate is closed.
+    /// All of the prey is inside; the gate, or the cup, is closed.
     Ingested {
         /// Who took in.
         engulfer: OrganismId,
         /// Who was taken in.
         prey: OrganismId,
     },
-    /// All of the prey is outside; the gate is closed.
+    /// All of the prey is outside; the gate is closed, or the fold let go.
     Released {
         /// Who failed to take in.
         engulfer: OrganismId,

@@ -175,7 +175,19 @@ fn a_cell_gets_through_a_gap_of_half_its_diameter() {
 
 #[test]
 fn a_cell_divides_its_halves_are_told_apart_and_fuse() {
-    assert_keeps_its_checks("divide", 40, 0..2);
+    assert_keeps_its_checks("divide", 32, 0..2);
+}
+
+#[test]
+fn without_protection_the_stress_of_leaks_leaks() {
+    let unprotected = [("world.protects_membranes".to_owned(), "false".to_owned())];
+    let mut scenario = Scenario::parse(builtin("leak-stress").unwrap().text, &unprotected).unwrap();
+    for seed in 0..3 {
+        scenario.set_seed(seed);
+        let mut built = scenario.build().unwrap();
+        assert!(play(&mut built, 300).is_some(), "seed {seed}: the scenario fails");
+        assert!(built.world.census().leaks > 0, "seed {seed}: because it leaks");
+    }
 }
 
 #[test]

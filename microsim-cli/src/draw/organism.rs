@@ -46,7 +46,7 @@ fn amoeboid_cell(view: OrganismView<'_>, tint: Tint) -> Vec<Item> {
 /// A thin membrane around prey, with bright fluid in it.
 fn phagosome(ring: &[Vec2], tint: Tint, thickness: f32) -> Item {
     let line = Stroke::new(tint.line.faded(0.6), thickness * 0.8);
-    Item::filled(Path::smooth(ring), Paint::Flat(HALO.faded(0.3))).outlined(line)
+    Item::filled(Path::smooth(ring), Paint::Flat(HALO.faded(0.12))).outlined(line)
 }
 
 /// The front of the surface, in its order; empty unless it crawls.

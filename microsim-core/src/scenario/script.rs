@@ -169,7 +169,10 @@ impl Script {
             }
             Action::Fuse(other) => {
                 let with = self.organism(other).ok_or_else(|| Error::new(ErrorKind::Stale, other.clone()))?;
-                world.fuse(id, with)?;
+                // They may be one by now.
+                if with != id {
+                    world.fuse(id, with)?;
+                }
             }
         }
         Ok(())

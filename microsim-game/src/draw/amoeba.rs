@@ -62,7 +62,7 @@ fn draw_phagosomes(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape, width:
     for ring in frame.picture.phagosomes(shape) {
         let triangles = triangulate(ring);
         let ring: Vec<Vec2> = ring.iter().map(|&point| frame.camera.to_screen(point)).collect();
-        canvas.fill(&ring, &triangles, fade(HALO, 0.30));
+        canvas.fill(&ring, &triangles, fade(HALO, 0.15));
         canvas.band(
             &ring,
             &[(-0.4 * width - 0.8, clear), (-0.3 * width, dark), (0.3 * width, dark), (0.4 * width + 0.8, clear)],
