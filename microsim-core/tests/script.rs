@@ -11,7 +11,11 @@ const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]
     [[spawn]]\nof = 'c'\nat = [30, 30]\nname = 'cell'\ncontroller = 'w'\n[[spawn]]\nof = 'a'\nat = [60, 30]\nname = 'prey'\n";
 
 fn built(more: &str) -> Built {
-    let scenario = Scenario::parse(&format!("{FILE}{more}"), &[]);
+    built_with(&[], more)
+}
+
+fn built_with(overrides: &[(String, String)], more: &str) -> Built {
+    let scenario = Scenario::parse(&format!("{FILE}{more}"), overrides);
     scenario.and_then(|scenario| scenario.build()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
@@ -82,7 +86,8 @@ fn a_follower_takes_its_prey_in_and_rests_then_and_digests_on_command() {
                 [[command]]\nof = 'cell'\nat = 14.0\nfollow = 'prey'\n\
                 [invariants]\nleaks = 0\nimproper_absorptions = 0\ningested = [0, 1]\n\
                 [[expect]]\nmeasure = 'ingested'\nby = 7.0\nmin = 1\n[[expect]]\nmeasure = 'consumed'\nby = 12.0\nmin = 1\n";
-    let mut built = built(more);
+    // Large enough for a cup around this prey.
+    let mut built = built_with(&[("amoeboid_cell.c.radii".to_owned(), "[11.0, 11.0]".to_owned())], more);
     assert_eq!(play(&mut built, 7 * 60), None);
     let there = at(&built);
     assert_eq!(play(&mut built, 60), None);

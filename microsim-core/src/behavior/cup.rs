@@ -52,8 +52,8 @@ impl Fold {
             nearest(prey, node, p).0 < GRIP * p.radius[node]
         };
         let most = count / 3;
-        let before = (1..most).filter(|&step| lies_against(bottom + count - step)).last().unwrap_or(0);
-        let after = (1..most).filter(|&step| lies_against(bottom + step)).last().unwrap_or(0);
+        let before = (1..most).rev().find(|&step| lies_against(bottom + count - step)).unwrap_or(0);
+        let after = (1..most).rev().find(|&step| lies_against(bottom + step)).unwrap_or(0);
         Some(Self { bottom, before, after, mouth })
     }
 }

@@ -279,7 +279,7 @@ fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Op
             }
             Action::Fuse(name) if !names.contains(&name.as_str()) => refuse("fuse", unknown("organism", name, &names)),
             Action::Divide(name) if !is_name(name) => {
-                refuse("divide", ("not a usable name".to_owned(), NAME.to_owned()))
+                refuse("divide", ("not a usable name".to_owned(), NAME.to_owned()));
             }
             Action::Divide(name) if names.contains(&name.as_str()) => {
                 let accepted = "a name for the daughter that no other organism has".to_owned();
