@@ -8,7 +8,7 @@
 //! ```
 
 use super::{heading, place};
-use crate::capability::phagocytosis::{Engulfer, IngestionWay, MealPhase};
+use crate::capability::phagocytosis::Engulfer;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
@@ -79,8 +79,8 @@ pub(crate) fn drive_lips(
     contractions: &mut Vec<Contraction>,
 ) {
     for (_, organism) in organisms.iter() {
-        let Some(engulfer) = organism.engulfer.as_ref().filter(|e| e.params.way == IngestionWay::Cup) else { continue };
-        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
+        let Some(engulfer) = organism.engulfer.as_ref() else { continue };
+        let taken_in = engulfer.meals.iter().filter(|meal| meal.is_in_cup());
         for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
             let Some(fold) = Fold::find(organism, prey, particles) else { continue };
             let cup = Cup { organism, engulfer, prey, particles, fold };

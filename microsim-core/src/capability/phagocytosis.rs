@@ -15,7 +15,8 @@ use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
-/// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold.
+/// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
+/// membrane nodes use a gate whatever is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IngestionWay {
     /// The seed's: the membrane next to the prey ignores it until it is inside.
@@ -136,6 +137,8 @@ pub(crate) struct Meal {
     pub prey: OrganismId,
     pub class: PreyClass,
     pub phase: MealPhase,
+    /// How it gets in; settled when it begins to.
+    pub way: IngestionWay,
     /// Membrane nodes that ignore the prey.
     pub gate: Vec<u32>,
     /// Whether the time limit found it with its centre outside: it is driven out.
@@ -177,6 +180,13 @@ pub(crate) struct Encounter {
     pub heading: Option<f32>,
     /// Area of the engulfer's cytoplasm over the area of the prey when it was spawned.
     pub size_ratio: f32,
+}
+
+impl Meal {
+    /// Whether it is going in, and by a cup.
+    pub(crate) fn is_in_cup(&self) -> bool {
+        self.way == IngestionWay::Cup && matches!(self.phase, MealPhase::Ingesting(_))
+    }
 }
 
 impl Engulfer {
@@ -228,6 +238,7 @@ impl Engulfer {
                     prey,
                     class,
                     phase: MealPhase::Touching(0.0),
+                    way: self.params.way,
                     gate: Vec::new(),
                     is_expelled: false,
                 });

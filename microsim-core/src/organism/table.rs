@@ -94,7 +94,7 @@ impl Organisms {
                 match meal.phase {
                     MealPhase::Touching(_) => {}
                     // Through a gate; a cup closes around prey that stays outside of the membrane.
-                    MealPhase::Ingesting(_) if meal.gate.is_empty() => {}
+                    MealPhase::Ingesting(_) if meal.is_in_cup() => {}
                     MealPhase::Ingesting(_) => homes[meal.prey.index as usize] = Home::Passing(id.index),
                     MealPhase::Ingested | MealPhase::Digesting(_) => {
                         homes[meal.prey.index as usize] = Home::Inside(id.index);

@@ -3,7 +3,7 @@
 
 use super::World;
 use crate::behavior::cup::Fold;
-use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, PhagocytosisParams};
+use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PhagocytosisParams};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, free_nodes, insert_node_in, set_outline, take_out};
@@ -114,15 +114,12 @@ impl World {
     pub(super) fn fold_length(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let membrane = self.organisms.get(id).and_then(|organism| organism.body.membrane());
         let node_radius = membrane.map_or(0.0, |membrane| membrane.node_radius);
-        if engulfer.params.way == IngestionWay::Gate {
-            return 0.0;
-        }
         let length = |meal: &Meal| {
             let MealPhase::Ingesting(elapsed) = meal.phase else { return 0.0 };
             let part = if elapsed < FOLDING_TIME { elapsed / FOLDING_TIME } else { 1.0 };
             part * TAU * ((self.area_of(meal.prey) / PI).sqrt() + 2.0 * node_radius)
         };
-        engulfer.meals.iter().map(length).sum()
+        engulfer.meals.iter().filter(|meal| meal.is_in_cup()).map(length).sum()
     }
 
     /// Present area of an organism.

@@ -181,7 +181,7 @@ fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
     digest.float(engulfer.fold_length);
     digest.float(engulfer.pending_growth);
     for meal in &engulfer.meals {
-        digest.words([meal.prey.index, meal.prey.generation]);
+        digest.words([meal.prey.index, meal.prey.generation, meal.way as u32]);
         match meal.phase {
             MealPhase::Touching(time) => digest.float(time),
             MealPhase::Ingesting(time) => digest.float(1000.0 + time),

@@ -36,7 +36,7 @@ impl World {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
             self.drop_lost_meals(&mut engulfer);
             for k in engulfer.touch(&self.encounters(id), self.config.dt) {
-                self.begin_ingestion(id, &mut engulfer.meals[k], engulfer.params.way);
+                self.begin_ingestion(id, &mut engulfer.meals[k]);
             }
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
@@ -150,15 +150,14 @@ impl World {
 
     /// Area of everything that an engulfer holds, phagosomes included, or lets through its gate.
     pub(super) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
-        let is_gate = engulfer.params.way == IngestionWay::Gate;
-        let goes_in = |meal: &&Meal| is_gate && matches!(meal.phase, MealPhase::Ingesting(_));
-        let held = engulfer.meals.iter().filter(|meal| meal.phase.is_inside() || goes_in(meal));
-        let areas = held.map(|meal| self.area_of(meal.prey));
-        if is_gate {
-            return areas.sum();
-        }
         let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
-        areas.map(|area| (area / PI).sqrt() + 2.0 * node_radius).map(|radius| PI * radius * radius).sum()
+        let takes_room = |meal: &&Meal| !matches!(meal.phase, MealPhase::Touching(_)) && !meal.is_in_cup();
+        let area = |meal: &Meal| {
+            let area = self.area_of(meal.prey);
+            let radius = (area / PI).sqrt() + 2.0 * node_radius;
+            if meal.way == IngestionWay::Gate { area } else { PI * radius * radius }
+        };
+        engulfer.meals.iter().filter(takes_room).map(area).sum()
     }
 
     /// Present area of an organism over its area when spawned.

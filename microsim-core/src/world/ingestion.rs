@@ -14,14 +14,19 @@ use glam::Vec2;
 const SHRUNK_BY: f32 = 0.6;
 /// Share of a node's radius by which prey may still overlap the membrane when it counts as inside.
 const OVERLAP: f32 = 0.25;
+/// Fewest membrane nodes of a cell that folds around prey; with less the fold takes in too much of the ring.
+const CUP_NODES: usize = 36;
 /// Prey that is neither inside nor outside is put on its side of the membrane after so many time limits.
 const PUT_AFTER: f32 = 2.0;
 
 impl World {
-    pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal, way: IngestionWay) {
+    pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
         let Self { organisms, fluids, exemptions, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
-        match way {
+        if organism.outline.len() < CUP_NODES {
+            meal.way = IngestionWay::Gate;
+        }
+        match meal.way {
             IngestionWay::Gate => {
                 meal.gate = front_nodes(organism);
                 exemptions.open_gate(&meal.gate, meal.prey.index);
@@ -45,7 +50,7 @@ impl World {
                 let present = self.present_scale(meal.prey);
                 self.set_scale(meal.prey, if scale < present { scale } else { present });
             }
-            let place = match params.way {
+            let place = match meal.way {
                 IngestionWay::Gate => self.pass_gate(id, meal, &params, elapsed),
                 IngestionWay::Cup if self.advance_cup(id, meal.prey, &params) => Place::Inside,
                 IngestionWay::Cup => Place::Outside,
