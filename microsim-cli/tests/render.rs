@@ -38,6 +38,21 @@ fn stills_do_not_depend_on_threads_and_change_with_time_and_optics() {
 }
 
 #[test]
+fn commands_of_the_scenario_are_carried_out() {
+    let folder = Folder::new("commands");
+    let scenario = "schema = 1\n[world]\nsize = [50.0, 60.0]\n[amoeboid_cell.c]\nradii = [8, 8]\n\
+                    [[spawn]]\nof = 'c'\nname = 'cell'\nat = [25, 30]\n";
+    let picture = |name: &str, more: &str| {
+        let (file, output) = (folder.file(name, format!("{scenario}{more}").as_bytes()), folder.path("a.png"));
+        let result = run(&[&["render", &file, "-o", &output, "--at", "1"][..], &SMALL].concat());
+        assert!(result.status.success(), "{}", stderr(&result));
+        std::fs::read(output).unwrap()
+    };
+    let told = "[[command]]\nof = 'cell'\ngoal = [1000, 30]\n";
+    assert_ne!(picture("told.toml", told), picture("untold.toml", ""));
+}
+
+#[test]
 fn several_moments_or_optics_make_a_sheet() {
     let folder = Folder::new("sheets");
     assert_eq!(measures(&render(&folder, "modes.png", &["--at", "0", "--optics", "all"])), (128, 144, 1));

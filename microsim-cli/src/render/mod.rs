@@ -16,8 +16,9 @@ use crate::output::Outputs;
 use crate::source::{Prepared, prepare};
 use animation::{Format, Movie};
 use indicatif::ProgressBar;
+use microsim_core::World;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::{Inputs, World};
+use microsim_core::scenario::Script;
 
 /// Frames per second of a movie for which nothing else is said.
 const FPS: f64 = 24.0;
@@ -35,11 +36,14 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
         return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
     }
     interrupt::listen();
-    let mut world = prepared.built.world.clone();
+    let (mut world, mut script) = (prepared.built.world.clone(), prepared.built.script.clone());
     plan.view.field(&world, &prepared, plan.size)?;
     let bar = console.progress(plan.last_step(&world));
     let shots = plan.moments.iter().flat_map(|&moment| plan.optics.iter().map(move |&optics| (moment, optics)));
-    let mut pictures = shots.map(|(moment, optics)| plan.shoot(&mut world, moment, optics, &prepared, &bar));
+    let mut pictures = shots.map(|(moment, optics)| {
+        plan.run_to(moment, &mut world, &mut script, &bar)?;
+        plan.shoot(&world, optics, &prepared)
+    });
     if format == Format::Png {
         let mut pictures = pictures.collect::<Result<Vec<_>, _>>()?;
         let columns = args.columns.map_or(plan.columns(), |columns| columns as usize);
@@ -109,22 +113,18 @@ impl Plan {
         step_at(world, self.moments.last().copied().unwrap_or(0.0))
     }
 
-    /// Runs the world up to a moment and takes a picture.
-    fn shoot(
-        &self,
-        world: &mut World,
-        moment: f64,
-        optics: Optics,
-        prepared: &Prepared,
-        bar: &ProgressBar,
-    ) -> Result<Picture, Failure> {
-        let inputs = Inputs::new();
+    /// Runs the world, with its scenario's commands, up to a moment.
+    fn run_to(&self, moment: f64, world: &mut World, script: &mut Script, bar: &ProgressBar) -> Result<(), Failure> {
         while world.step_index() < step_at(world, moment) {
-            world.step(&inputs);
+            let inputs = script.before_step(world);
+            world.step(inputs);
             bar.set_position(world.step_index());
             stop_if_asked()?;
         }
-        stop_if_asked()?;
+        stop_if_asked()
+    }
+
+    fn shoot(&self, world: &World, optics: Optics, prepared: &Prepared) -> Result<Picture, Failure> {
         let field: Field = self.view.field(world, prepared, self.size)?;
         let microscope = Microscope { optics, film: self.film };
         let exposure = microscope.expose(world, field);
