@@ -42,6 +42,8 @@ pub(crate) struct RingContact {
     pub friction: f32,
     /// The nearer node of the link that it touched last in any substep since it was found.
     pub touched: Option<u32>,
+    /// Whether it touched a link, or was on the wrong side, when contacts were last projected.
+    pub is_close: bool,
     links: Range<u32>,
 }
 
@@ -100,7 +102,15 @@ impl RingContacts {
             let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
             let side = side_of(p.owner[particle as usize], ring, near.homes);
             let links = first..self.links.len() as u32;
-            self.contacts.push(RingContact { particle, ring: place, side, friction, touched: None, links });
+            self.contacts.push(RingContact {
+                particle,
+                ring: place,
+                side,
+                friction,
+                touched: None,
+                is_close: true,
+                links,
+            });
         }
     }
 }

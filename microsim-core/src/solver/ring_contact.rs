@@ -45,10 +45,12 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
         let links = &links[contact.range()];
         let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
         let reach = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
-        if is_wrong(contact.side, &relation) {
+        let is_wrong = is_wrong(contact.side, &relation);
+        contact.is_close = is_wrong || relation.squared < reach * reach;
+        if is_wrong {
             wrong += 1;
             separate(contact, nearest, &relation, reach + relation.squared.sqrt(), p);
-        } else if relation.squared < reach * reach {
+        } else if contact.is_close {
             for &link in links {
                 let relation = relate(contact.particle, link, p);
                 if relation.squared < reach * reach {
@@ -74,10 +76,10 @@ pub(crate) fn gaps<'a>(
 }
 
 /// The last word in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away by itself.
-/// Returns how many were on the wrong side.
+/// What has not touched a link in this substep cannot have got there. Returns how many were on the wrong side.
 pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
-    for contact in &rings.contacts {
+    for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
         let Some((link, relation)) = nearest_link(contact.particle, rings.links_of(contact), p) else { continue };
         let i = contact.particle as usize;
         let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
