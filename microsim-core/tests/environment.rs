@@ -4,6 +4,7 @@
 mod common;
 
 use common::{everything_is_inside, run};
+use microsim_core::geometry::is_simple;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Controller, FluidBlockSpec, Inputs, Intent, OrganismId, Placement, PlateletSpec,
@@ -135,4 +136,34 @@ fn t50_walls_hold_at_the_extremes_of_every_setting() {
         run(&mut world, &Inputs::new(), 1);
         assert!(everything_is_inside(&world, 0.05), "outside at step {step}");
     }
+}
+
+/// Worst relative error of a ring's link while a probe goes through a block of platelets; no ring folds meanwhile.
+fn worst_link_under(mass: f32, max_acceleration: f32) -> f32 {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let place = |k: u16| Vec2::new(40.0 + 5.6 * f32::from(k % 8), 25.0 + 5.6 * f32::from(k / 8));
+    let platelets: Vec<OrganismId> = (0..56)
+        .map(|k| world.spawn(&PlateletSpec::default().into(), Placement::at(place(k).x, place(k).y)).unwrap())
+        .collect();
+    let way = vec![Vec2::new(75.0, 48.0), Vec2::new(45.0, 55.0), Vec2::new(75.0, 30.0)];
+    let placement = Placement::at(30.0, 30.0).steered_by(Controller::patrol(way, true));
+    let probe = ProbeSpec { radius: 3.75, mass, speed: 5.0, max_acceleration };
+    world.spawn(&probe.into(), placement).unwrap();
+    let mut worst: f32 = 0.0;
+    for step in 0..900 {
+        run(&mut world, &Inputs::new(), 1);
+        worst = worst.max(world.quality().ring_error_max);
+        for &id in platelets.iter().filter(|_| step % 10 == 0) {
+            let outline: Vec<Vec2> = world.view().organism(id).unwrap().outline().collect();
+            assert!(is_simple(&outline), "step {step}: folded");
+        }
+    }
+    worst
+}
+
+#[test]
+fn no_probe_folds_a_platelet_and_one_of_finite_force_hardly_stretches_its_links() {
+    let (finite, kinematic) = (worst_link_under(243.0, 400.0), worst_link_under(1e5, 1e6));
+    assert!(finite > 0.005 && finite < 0.1, "finite force: {finite}");
+    assert!(kinematic < 1.0, "as good as kinematic: {kinematic}");
 }
