@@ -27,7 +27,7 @@ pub enum Phase {
     ProjectContacts,
     /// What has moved gets the velocity of its move; restitution.
     UpdateVelocities,
-    /// Prey is touched, taken in and digested; engulfers grow.
+    /// What is on the wrong side of a membrane is taken back; prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
     /// Furrows close, cells divide and fuse.
     DivideAndFuse,

@@ -234,3 +234,19 @@ fn t25_links_keep_their_limit_when_a_heavy_probe_rams_the_membrane() {
     }
     assert!(longest < 1.35 * rest, "longest link {} rest lengths", longest / rest);
 }
+
+#[test]
+fn a_crawling_cell_has_no_voids_and_no_wrinkles_and_keeps_its_speed() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    run(&mut world, &toward(cell, 1e4, 45.0), 120);
+    let mut crawl = Vec::new();
+    for _ in 0..120 {
+        run(&mut world, &toward(cell, 1e4, 45.0), 1);
+        crawl.push(world.membrane_quality(cell).unwrap());
+    }
+    let mean = |of: fn(&microsim_core::MembraneQuality) -> f32| crawl.iter().map(of).sum::<f32>() / crawl.len() as f32;
+    assert!(mean(|q| q.voids) < 0.015, "voids {}", mean(|q| q.voids));
+    assert!(mean(|q| q.excess_turning) < 1.5, "turning {}", mean(|q| q.excess_turning));
+    assert!(mean(|q| q.crawl.unwrap().speed_kept) > 0.9, "speed {}", mean(|q| q.crawl.unwrap().speed_kept));
+    assert!(mean(|q| q.crawl.unwrap().width_ratio) > 1.1, "width {}", mean(|q| q.crawl.unwrap().width_ratio));
+}

@@ -4,7 +4,7 @@ use crate::capability::phagocytosis::MealPhase;
 use crate::collision::filter::Home;
 use crate::collision::ring::Ring;
 use crate::id::OrganismId;
-use crate::organism::Organism;
+use crate::organism::{Organism, Phagosome};
 
 /// Slots of organisms, in the order of their index.
 #[derive(Clone, Debug, Default)]
@@ -81,7 +81,9 @@ impl Organisms {
         self.iter().flat_map(|(id, organism)| {
             let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
             let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
-            let inner = organism.phagosomes.iter().map(move |inner| ring(&inner.ring, Some(inner.prey.index)));
+            let is_full = |inner: &&Phagosome| self.get(inner.prey).is_some();
+            let full = organism.phagosomes.iter().filter(is_full);
+            let inner = full.map(move |inner| ring(&inner.ring, Some(inner.prey.index)));
             own.into_iter().chain(inner)
         })
     }
@@ -90,7 +92,9 @@ impl Organisms {
     pub(crate) fn homes(&self) -> Vec<Home> {
         let mut homes = vec![Home::Free; self.slots.len()];
         for (id, organism) in self.iter() {
-            for meal in organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals) {
+            let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
+            // Another organism may live in the place of prey that was removed.
+            for meal in meals.filter(|meal| self.get(meal.prey).is_some()) {
                 match meal.phase {
                     MealPhase::Touching(_) => {}
                     // Through a gate; a cup closes around prey that stays outside of the membrane.
@@ -112,5 +116,27 @@ impl Organisms {
     /// Generations of all slots, free ones included, and the order in which free ones are handed out.
     pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
         self.slots.iter().map(|slot| slot.generation).chain(self.free.iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lives_in_the_place_of_removed_prey_is_free() {
+        use crate::{AgarSpec, AmoeboidCellSpec, Event, Inputs, Intent, Placement, World, WorldConfig};
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(128.0, 45.0)).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(142.0, 45.0)).unwrap();
+        let mut inputs = Inputs::new();
+        inputs.set(cell, Intent::toward(glam::Vec2::new(160.0, 45.0)).unwrap());
+        let is_in = |world: &World| world.events().iter().any(|event| matches!(event, Event::Ingested { .. }));
+        assert!((0..600).any(|_| (world.step(&inputs), is_in(&world)).1));
+        world.remove(prey).unwrap();
+        let other = world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 45.0)).unwrap();
+        assert_eq!(other.index, prey.index);
+        assert_eq!(world.organisms.homes()[other.index as usize], Home::Free);
+        assert_eq!(world.organisms.rings().count(), 1, "the phagosome of what is gone holds nothing");
     }
 }
