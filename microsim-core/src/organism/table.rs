@@ -113,6 +113,21 @@ impl Organisms {
         self.slots.len() - self.free.len()
     }
 
+    /// Number of slots, empty ones included.
+    pub(crate) fn slot_count(&self) -> u32 {
+        self.slots.len() as u32
+    }
+
+    /// Generation of a slot: of who lives there, or will.
+    pub(crate) fn generation(&self, index: u32) -> Option<u32> {
+        self.slots.get(index as usize).map(|slot| slot.generation)
+    }
+
+    /// Indices of empty slots, the last freed last.
+    pub(crate) fn free_slots(&self) -> &[u32] {
+        &self.free
+    }
+
     /// Generations of all slots, free ones included, and the order in which free ones are handed out.
     pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
         self.slots.iter().map(|slot| slot.generation).chain(self.free.iter().copied())

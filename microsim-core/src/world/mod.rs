@@ -18,6 +18,7 @@ mod rebase;
 mod rewire;
 mod spawn;
 pub(crate) mod touching;
+pub(crate) mod validate;
 pub(crate) mod view;
 
 use crate::collision::broad_phase::BroadPhase;
