@@ -42,7 +42,7 @@ pub(crate) fn steer_organisms(
 
 /// All organisms that take others in, and where they are.
 pub(crate) fn engulfers(organisms: &Organisms, particles: &Particles) -> Vec<(OrganismId, Vec2)> {
-    let engulfers = organisms.iter().filter(|(_, organism)| organism.engulfer.is_some());
+    let engulfers = organisms.iter().filter(|(_, organism)| organism.engulfer.is_some() && !organism.is_quarantined);
     engulfers.map(|(id, organism)| (id, place(organism, particles))).collect()
 }
 

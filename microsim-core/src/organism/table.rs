@@ -76,9 +76,9 @@ impl Organisms {
         })
     }
 
-    /// The membranes of all organisms, and those of their phagosomes.
+    /// The membranes of all organisms that move, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
-        self.iter().flat_map(|(id, organism)| {
+        self.iter().filter(|(_, organism)| !organism.is_quarantined).flat_map(|(id, organism)| {
             let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
             let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
             let is_full = |inner: &&Phagosome| self.get(inner.prey).is_some();
