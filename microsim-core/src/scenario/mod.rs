@@ -69,6 +69,7 @@
 
 mod builtin;
 mod checks;
+mod describe;
 mod diagnostic;
 mod fields;
 mod file;
@@ -79,13 +80,17 @@ mod overrides;
 mod placing;
 mod prototype;
 mod script;
+mod shape;
 mod source;
 mod steering;
+mod words;
 
 pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
+pub use describe::{Description, Entry, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use script::{Refusal, Script};
+pub use shape::Shape;
 
 use crate::config::WorldConfig;
 use crate::error::Error;

@@ -1,6 +1,7 @@
 //! Controllers: the tables `[wander.NAME]`, `[patrol.NAME]` and so on.
 
 use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
 use super::source::Value;
 use crate::capability::controller::Controller;
 use glam::Vec2;
@@ -24,14 +25,17 @@ pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Controllers {
     let mut controllers = Controllers::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
-            let controller = read(&mut fields, size).unwrap_or_default();
             let (path, report) = (fields.path.clone(), fields.report);
+            let read = || {
+                let controller = read(&mut fields, size).unwrap_or_default();
+                controller.validate().map(|()| controller)
+            };
+            let controller = report.check_all(&path, read).unwrap_or_default();
             fields.finish();
             if controllers.contains_key(&name) {
                 let accepted = "a name that no other controller has".to_owned();
                 report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
             }
-            report.check(&path, controller.validate());
             controllers.insert(name, controller);
         }
     }
@@ -83,6 +87,18 @@ enum Unit {
 impl Read for Unit {
     fn accepted() -> String {
         "\"units\" or \"room\"".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Word(&["units", "room"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Micrometres => "\"units\"",
+            Self::Rooms => "\"room\"",
+        }
+        .to_owned()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
