@@ -3,6 +3,7 @@
 use super::checks::{self, Checks};
 use super::fields::{Fields, Report};
 use super::group::{self, Group, Surroundings};
+use super::output::{self, OutputPlan};
 use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
@@ -29,6 +30,7 @@ pub(super) struct File {
     pub groups: Vec<Group>,
     pub commands: Vec<Command>,
     pub checks: Checks,
+    pub output: OutputPlan,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
@@ -58,9 +60,10 @@ pub(super) fn read_root(table: &DeTable<'_>, report: &Report<'_>) -> File {
     groups.extend(lay_out(plans, size, report));
     let commands = script::read(&mut root, &groups, duration);
     let checks = checks::read(&mut root);
+    let output = output::read(&mut root);
     root.finish();
     group::check_size(&groups, config.max_particles, report);
-    File { name, description, duration, config, obstacles, groups, commands, checks }
+    File { name, description, duration, config, obstacles, groups, commands, checks, output }
 }
 
 fn read_schema(root: &mut Fields<'_>) {
