@@ -30,6 +30,8 @@ pub(crate) struct RunReport {
     pub improper_absorptions: usize,
     pub events: BTreeMap<&'static str, u64>,
     pub step_ms: Spread,
+    /// Medians of even stretches of the run.
+    pub step_ms_over_time: Vec<f64>,
     pub wall_seconds: f64,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
@@ -57,6 +59,7 @@ impl RunReport {
             leaks: tally.leaks,
             improper_absorptions: tally.improper_absorptions,
             step_ms: Spread::of(&tally.step_ms),
+            step_ms_over_time: stretches(&tally.step_ms),
             wall_seconds: tally.wall.as_secs_f64(),
             interrupted: tally.is_interrupted,
             events: tally.events,
@@ -88,6 +91,12 @@ impl RunReport {
         table.row("wall time", format!("{:.2} s", self.wall_seconds));
         table
     }
+}
+
+/// Medians of up to 200 even stretches.
+fn stretches(step_ms: &[f64]) -> Vec<f64> {
+    let length = step_ms.len().div_ceil(200).max(1);
+    step_ms.chunks(length).map(|part| (median(part) * 1e4).round() / 1e4).collect()
 }
 
 /// A time without the noise of its 32-bit step: to the microsecond.

@@ -12,6 +12,7 @@ mod task;
 
 use grid::{Axis, Seeds};
 pub(crate) use pool::run_tasks;
+pub(crate) use task::Outcome;
 
 use pool::Shard;
 
