@@ -38,11 +38,12 @@ impl Page {
     /// The whole file.
     pub(super) fn finish(self, title: &str) -> String {
         let mut html = String::new();
-        // The empty icon keeps browsers from asking for one.
+        // Nothing may be fetched, and the empty icon keeps browsers from asking for one.
         let _ = write!(
             html,
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\
              <link rel=\"icon\" href=\"data:,\"><title>{}</title>\n<style>\n{}</style></head>\n<body>\n{}\
              <footer>microsim {}</footer></body></html>\n",
             escape(title),
