@@ -75,6 +75,7 @@ mod file;
 mod grid;
 mod group;
 mod obstacle;
+mod origin;
 mod overrides;
 mod placing;
 mod prototype;
@@ -85,6 +86,7 @@ mod steering;
 pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use origin::Origin;
 pub use script::{Refusal, Script};
 
 use crate::config::WorldConfig;
@@ -173,6 +175,13 @@ impl Scenario {
     #[must_use]
     pub fn config(&self) -> &WorldConfig {
         &self.file.config
+    }
+
+    /// What it was read from.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        let Source { text, overrides, .. } = &self.source;
+        Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
     }
 
     /// Makes the world. Equal text, overrides and seed give equal worlds.
