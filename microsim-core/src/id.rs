@@ -1,7 +1,9 @@
 //! Generational handles: a stale one never names a newer organism.
 
+use serde::{Deserialize, Serialize};
+
 /// Names one organism of a world for as long as it lives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct OrganismId {
     pub(crate) index: u32,
     pub(crate) generation: u32,

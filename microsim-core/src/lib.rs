@@ -36,6 +36,7 @@ mod collision;
 mod config;
 mod error;
 mod event;
+mod fnv;
 pub mod geometry;
 mod id;
 mod inputs;
@@ -48,9 +49,12 @@ mod particle;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
+#[cfg(feature = "snapshot")]
+pub mod snapshot;
 mod solver;
 mod step;
 mod template;
+mod walk;
 mod world;
 
 pub use behavior::crawl::MembraneRegion;

@@ -113,7 +113,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     }
 }
 
-fn find_pairs(world: &mut World) {
+pub(crate) fn find_pairs(world: &mut World) {
     let World { config, particles, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };

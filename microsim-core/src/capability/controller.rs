@@ -5,10 +5,11 @@ use crate::geometry::ring::unit_vector;
 use crate::id::OrganismId;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
 /// What steers an organism when no input does.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Controller {
     /// Nothing: it rests.

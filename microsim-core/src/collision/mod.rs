@@ -7,6 +7,7 @@ pub(crate) mod filter;
 pub(crate) mod grid;
 pub(crate) mod obstacle;
 pub(crate) mod ring;
+pub(crate) mod shape;
 
 use crate::particle::Material;
 

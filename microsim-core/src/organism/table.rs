@@ -5,16 +5,17 @@ use crate::collision::filter::Home;
 use crate::collision::ring::Ring;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Phagosome};
+use serde::{Deserialize, Serialize};
 
 /// Slots of organisms, in the order of their index.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Organisms {
     slots: Vec<Slot>,
     /// Indices of empty slots, the last freed first.
     free: Vec<u32>,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Slot {
     generation: u32,
     organism: Option<Organism>,
@@ -113,9 +114,16 @@ impl Organisms {
         self.slots.len() - self.free.len()
     }
 
-    /// Generations of all slots, free ones included, and the order in which free ones are handed out.
-    pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
-        self.slots.iter().map(|slot| slot.generation).chain(self.free.iter().copied())
+    /// Number of slots, free ones included.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn capacity(&self) -> u32 {
+        self.slots.len() as u32
+    }
+
+    /// Indices of free slots, in the reverse order in which they are handed out again.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn free_indices(&self) -> &[u32] {
+        &self.free
     }
 }
 

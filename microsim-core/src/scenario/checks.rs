@@ -5,13 +5,15 @@ use super::shape::Shape;
 use super::source::{Value, unknown};
 use crate::event::Event;
 use crate::{Measure, World};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 use toml::de::DeValue;
 
 /// What must hold while a scenario runs. Show it the world after every step.
 ///
 /// Only what the file names is measured. Events are counted from the first step that is shown.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Checks {
     invariants: Vec<Bound>,
     expectations: Vec<Expectation>,
@@ -33,14 +35,14 @@ pub struct Violation {
 }
 
 /// A quantity and the range that it must keep to.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Bound {
     quantity: Quantity,
     range: [f64; 2],
 }
 
 /// Something that must have come to pass at some time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Expectation {
     bound: Bound,
     by: f64,
@@ -48,7 +50,8 @@ struct Expectation {
 }
 
 /// What a file can name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "(String, u64)")]
 enum Quantity {
     Measure(Measure),
     /// Events of a kind so far.
@@ -117,10 +120,32 @@ impl Quantity {
         match self {
             Self::Measure(measure) => measure.of(world),
             Self::Events { name, count } => {
-                *count += world.events().iter().filter(|event| event.name() == *name).count() as u64;
+                *count =
+                    count.saturating_add(world.events().iter().filter(|event| event.name() == *name).count() as u64);
                 *count as f64
             }
         }
+    }
+}
+
+/// Its name, and how many events there were so far.
+impl From<Quantity> for (String, u64) {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Measure(measure) => (measure.name().to_owned(), 0),
+            Quantity::Events { name, count } => (name.to_owned(), count),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (name, so_far) = <(String, u64)>::deserialize(from)?;
+        let mut quantity = Self::named(&name).ok_or_else(|| D::Error::custom("a measure or a kind of events"))?;
+        if let Self::Events { count, .. } = &mut quantity {
+            *count = so_far;
+        }
+        Ok(quantity)
     }
 }
 

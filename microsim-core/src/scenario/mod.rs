@@ -80,6 +80,7 @@ mod file;
 mod grid;
 mod group;
 mod obstacle;
+mod origin;
 mod output;
 mod overrides;
 mod placing;
@@ -94,6 +95,7 @@ pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
 pub use describe::{Description, Entry, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use origin::Origin;
 pub use output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 pub use script::{Refusal, Script};
 pub use shape::Shape;
@@ -185,6 +187,13 @@ impl Scenario {
     #[must_use]
     pub fn config(&self) -> &WorldConfig {
         &self.file.config
+    }
+
+    /// What it was read from.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        let Source { text, overrides, .. } = &self.source;
+        Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
     }
 
     /// What is to be written while it runs.

@@ -8,10 +8,11 @@ use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The commands of a scenario. Ask it for the inputs before every step.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Script {
     commands: Vec<Command>,
     named: Vec<(String, OrganismId)>,
@@ -23,7 +24,7 @@ pub struct Script {
 }
 
 /// A command that the world refused.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
     /// Path of the command in the file, for example `command.2`.
     pub command: String,
@@ -36,7 +37,7 @@ pub struct Refusal {
 }
 
 /// One table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Command {
     path: String,
     of: String,
@@ -48,7 +49,7 @@ pub(super) struct Command {
 }
 
 /// What is done to an organism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Action {
     Goal(Goal),
     Digest(bool),
@@ -66,7 +67,7 @@ enum Action {
 type Named<'a> = Vec<(String, &'a Group)>;
 
 /// Where an organism is to go.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Goal {
     Rest,
     Point(Vec2),
@@ -75,7 +76,7 @@ enum Goal {
 }
 
 /// What one organism has been told to do until it is told something else.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Order {
     organism: OrganismId,
     goal: Goal,

@@ -17,9 +17,8 @@ pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 /// the index of the override. Values that a parameter brought stand where the parameter does: there they can be changed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Source {
-    text: String,
-    /// As they were given, `key=value`.
-    overrides: Vec<String>,
+    pub text: String,
+    pub overrides: Vec<(String, String)>,
     places: BTreeMap<String, Place>,
 }
 
@@ -35,11 +34,7 @@ impl Source {
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
-        let mut source = Self {
-            text: text.to_owned(),
-            overrides: overrides.iter().map(|(key, value)| format!("{key}={value}")).collect(),
-            places: BTreeMap::new(),
-        };
+        let mut source = Self { text: text.to_owned(), overrides: overrides.to_vec(), places: BTreeMap::new() };
         let (root, errors) = DeTable::parse_recoverable(text);
         // What follows from a syntax error is no use to anybody: at most one for each line.
         let mut broken: Vec<Diagnostic> = errors.iter().map(|error| source.syntax_error(error)).collect();
@@ -89,8 +84,8 @@ impl Source {
         accepted: Option<String>,
     ) -> Diagnostic {
         let beyond = span.start.checked_sub(self.text.len() + 1);
-        if let Some(given) = beyond.and_then(|index| self.overrides.get(index)) {
-            message = format!("{message}, as set by `{given}`");
+        if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
+            message = format!("{message}, as set by `{key}={value}`");
         }
         let (line, column) = line_and_column(&self.text, span.start);
         let is_in_text = beyond.is_none();

@@ -5,9 +5,10 @@
 
 use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// A node held to a static anchor by a contracting rope.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// The held node.
     pub node: u32,

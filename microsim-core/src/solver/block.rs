@@ -5,12 +5,13 @@ use super::instruction_set::Dispatch;
 use super::lanes::{LANES, Span};
 use crate::parallel;
 use crate::particle::{NO_OWNER, Particles};
+use serde::{Deserialize, Serialize};
 
 /// Blocks that are projected side by side.
 const BATCH: usize = 4;
 
 /// Eight instances of a template; empty lanes hold dead particles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Block {
     /// Index of the template in the world.
     pub template: u32,

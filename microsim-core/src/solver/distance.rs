@@ -8,9 +8,10 @@
 
 use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
     /// First node.
     pub a: u32,

@@ -20,6 +20,7 @@ use super::{Rope, rope};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
 /// No link gets longer than this many rest lengths: the promise ...
@@ -52,7 +53,7 @@ const SHRINK_TIME: f32 = 0.6;
 const CLEARANCE: f32 = 0.1;
 
 /// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Membrane {
     /// Length of every link when the membrane was made; a new node adds one more of it.
     pub rest_length: f32,
@@ -95,11 +96,6 @@ impl Membrane {
     pub(crate) fn resized(&self, before: usize, nodes: usize) -> Self {
         let rest_perimeter = self.rest_perimeter * nodes as f32 / before as f32;
         Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
-    }
-
-    /// State for the digest.
-    pub(crate) fn state(&self) -> [f32; 4] {
-        [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
     }
 
     /// Finds this step's targets from what the membrane holds and whether it is being driven.

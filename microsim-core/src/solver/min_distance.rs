@@ -5,9 +5,10 @@
 
 use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// Two nodes at least so far apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MinDistance {
     /// First node.
     pub a: u32,

@@ -7,11 +7,13 @@ use crate::id::OrganismId;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::ring_contact;
+use serde::{Deserialize, Serialize};
 
 /// Pairs of organisms that touched in the last step, sorted.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Touching {
     pairs: Vec<(OrganismId, OrganismId)>,
+    #[serde(skip)]
     now: Vec<(OrganismId, OrganismId)>,
 }
 
@@ -47,10 +49,6 @@ impl World {
 }
 
 impl Touching {
-    pub(crate) fn pairs(&self) -> &[(OrganismId, OrganismId)] {
-        &self.pairs
-    }
-
     /// Compares the pairs of particles that touched in this step with the last step's and reports what began and what ended.
     pub(crate) fn update(
         &mut self,
