@@ -37,6 +37,10 @@ pub(crate) enum Verb {
     List,
     /// Run a scenario and say what came of it
     Run(Box<crate::run::RunArgs>),
+    /// Go on with a run that was stopped, bit for bit
+    Resume(crate::resume::ResumeArgs),
+    /// Say what is in a snapshot or a checkpoint
+    Inspect(crate::inspect::InspectArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
     Render(crate::render::RenderArgs),
     /// Run a scenario many times, with other parameters and seeds each time

@@ -86,7 +86,7 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
     let report = BenchReport {
         run: RunReport::new(&prepared, &world, tally),
-        warmup: warmup.steps(),
+        warmup: warmup.steps,
         substeps: world.config().substeps,
         phases: stopwatch.medians(),
         quality: QualityReport::of(&qualities),

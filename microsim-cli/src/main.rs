@@ -13,18 +13,22 @@ mod interrupt;
 // Verbs.
 mod bench;
 mod check;
+mod inspect;
 mod list;
 mod manual;
 mod new;
 mod render;
 mod report;
+mod resume;
 mod run;
 mod schema;
 mod sweep;
 
 // What they are made of.
+mod checkpoint;
 mod draw;
 mod output;
+mod session;
 mod simulate;
 mod source;
 mod summary;
@@ -50,6 +54,8 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::Schema => schema::schema(),
         Verb::List => list::list(),
         Verb::Run(args) => run::run(args, console),
+        Verb::Resume(args) => resume::resume(args, console),
+        Verb::Inspect(args) => inspect::inspect(args),
         Verb::Render(args) => render::render(args, console),
         Verb::Sweep(verb) => sweep::sweep(verb, console),
         Verb::Report(args) => report::report(args, console),

@@ -4,17 +4,12 @@ use crate::args::{Changes, duration};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::{Outputs, Recorder, check_formats, write_description};
-use crate::simulate::{Tally, simulate};
+use crate::output::{Outputs, check_formats};
+use crate::session::{Session, timed_step};
 use crate::source::{Prepared, load};
-use crate::summary::{RunReport, Table, median};
+use crate::summary::{Table, median};
 use crate::sweep;
-use indicatif::ProgressBar;
-use microsim_core::World;
-use microsim_core::scenario::{Built, Script};
-use std::io::Write;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
 /// Steps that are tried to say how long a run would take.
 const TRIED: u64 = 20;
@@ -74,6 +69,12 @@ pub(crate) struct OutputArgs {
     /// Times of more pictures, s, with commas
     #[arg(long, value_name = "TIMES", requires = "out")]
     frames: Option<String>,
+    /// Times at which the whole state is written, s, with commas
+    #[arg(long, value_name = "TIMES", requires = "out")]
+    snapshots: Option<String>,
+    /// Steps between two checkpoints, to go on from with `resume` after Ctrl-C or a crash
+    #[arg(long, value_name = "N", requires = "out")]
+    checkpoint_every: Option<u32>,
     /// Leave out the pictures of the end and of six moments
     #[arg(long, requires = "out")]
     no_pictures: bool,
@@ -91,6 +92,8 @@ impl OutputArgs {
             ("output.measures.every", self.every.map(|every| every.to_string())),
             ("output.trajectories.formats", self.trajectories.as_ref().map(formats)),
             ("output.frames.at", self.frames.as_ref().map(|times| format!("[{times}]"))),
+            ("output.snapshots", self.snapshots.as_ref().map(|times| format!("[{times}]"))),
+            ("output.checkpoint_every", self.checkpoint_every.map(|every| every.to_string())),
             ("output.pictures", self.no_pictures.then(|| "false".to_owned())),
         ];
         set.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect()
@@ -112,65 +115,14 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     }
     interrupt::listen();
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
-    let mut built = prepared.built.clone();
-    let start = |outputs| Recorder::start(outputs, prepared.scenario.output(), &built, steps);
-    let mut recorder = outputs.as_ref().map(start).transpose()?;
-    let bar = console.progress(steps, "step");
-    console.detail(|| format!("running {} with seed {}: {steps} steps", prepared.name(), prepared.scenario.seed()));
-    let (tally, failures) = advance(&mut built, steps, &bar, recorder.as_mut())?;
-    bar.finish_and_clear();
-    let report = RunReport { failures, ..RunReport::new(&prepared, &built.world, tally) };
-    if let (Some(recorder), Some(outputs)) = (recorder, &outputs) {
-        recorder.finish(&built.world)?;
-        write_description(outputs, &prepared, &report)?;
-        console.note(&format!("wrote {}", outputs.folder().display()));
-    }
-    print(&report, args.json)?;
-    verdict(&report, prepared.name())
-}
-
-/// Takes the steps. Returns also what failed: the first check that broke, then commands that were refused.
-fn advance(
-    built: &mut Built,
-    steps: u64,
-    bar: &ProgressBar,
-    mut recorder: Option<&mut Recorder<'_>>,
-) -> Result<(Tally, Vec<String>), Failure> {
-    let Built { world, script, checks, .. } = built;
-    let mut broken = None;
-    let see = |world: &World| {
-        bar.set_position(world.step_index());
-        broken = broken.or_else(|| checks.after_step(world).first().copied());
-        recorder.as_mut().map_or(Ok(()), |recorder| recorder.look_at(world))
-    };
-    let tally = simulate(world, steps, |world| timed_step(world, script), see)?;
-    let refusals = script.refusals().iter().map(ToString::to_string);
-    Ok((tally, broken.iter().map(ToString::to_string).chain(refusals).collect()))
-}
-
-fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
-    if report.interrupted {
-        return Err(Failure::Interrupted);
-    }
-    if report.failures.is_empty() {
-        return Ok(());
-    }
-    let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
-    Err(Failure::Broken(report.failures.iter().map(line).collect()))
-}
-
-fn timed_step(world: &mut World, script: &mut Script) -> Duration {
-    let inputs = script.before_step(world);
-    let start = Instant::now();
-    world.step(inputs);
-    start.elapsed()
+    Session::start(prepared, steps, outputs.as_ref())?.run(args.json, console)
 }
 
 /// Says what a run would be.
 fn estimate(prepared: &Prepared, steps: u64) -> Result<(), Failure> {
     let mut built = prepared.built.clone();
-    let tally = simulate(&mut built.world, steps.min(TRIED), |world| timed_step(world, &mut built.script), |_| Ok(()))?;
-    let seconds = median(&tally.step_ms) / 1e3 * steps as f64;
+    let tried: Vec<f64> = (0..steps.min(TRIED)).map(|_| timed_step(&mut built).as_secs_f64()).collect();
+    let seconds = median(&tried) * steps as f64;
     let census = prepared.built.world.census();
     let mut table = Table::default();
     table.row("scenario", prepared.name());
@@ -190,14 +142,4 @@ fn rough(seconds: f64) -> String {
         s if s < 5400.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
     }
-}
-
-fn print(report: &RunReport, is_json: bool) -> Result<(), Failure> {
-    let mut out = stdout();
-    if is_json {
-        serde_json::to_writer(&mut out, report).map_err(std::io::Error::from)?;
-        writeln!(out)?;
-        return Ok(out.flush()?);
-    }
-    Ok(report.table().print(out)?)
 }

@@ -14,7 +14,7 @@ struct Description<'a> {
     target: String,
     features: Vec<&'static str>,
     /// Digest of the world before its first step.
-    digest_at_start: String,
+    digest_at_start: &'a str,
     source: &'a str,
     overrides: &'a [(String, String)],
     scenario_text: &'a str,
@@ -25,12 +25,17 @@ struct Description<'a> {
 }
 
 /// Writes the file, after all others.
-pub(crate) fn write_description(outputs: &Outputs, prepared: &Prepared, report: &RunReport) -> Result<(), Failure> {
+pub(crate) fn write_description(
+    outputs: &Outputs,
+    prepared: &Prepared,
+    report: &RunReport,
+    digest_at_start: &str,
+) -> Result<(), Failure> {
     let description = Description {
         report,
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         features: if cfg!(feature = "parquet") { vec!["parquet"] } else { Vec::new() },
-        digest_at_start: format!("{:016x}", prepared.built.world.digest()),
+        digest_at_start,
         source: prepared.source.origin(),
         overrides: &prepared.overrides,
         scenario_text: prepared.source.text(),

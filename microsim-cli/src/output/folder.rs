@@ -96,15 +96,31 @@ impl Outputs {
 
     /// Writes a whole file.
     pub(crate) fn write(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
+        self.names().push(name.to_owned());
+        self.replace(name, content)
+    }
+
+    /// Writes a whole file that is no result, in place of any that has its name.
+    pub(crate) fn replace(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let mut file = self.file(name)?;
         file.write_all(content).map_err(|error| Failure::file("write", &file.path, &error))?;
-        self.finish(file)
+        file.finish()
     }
 
     /// Gives a file its name, in place of any file that has it.
     pub(crate) fn finish(&self, file: PendingFile) -> Result<(), Failure> {
         self.names().push(file.name.clone());
         file.finish()
+    }
+
+    /// Names of the files that were finished.
+    pub(crate) fn names_written(&self) -> Vec<String> {
+        self.names().clone()
+    }
+
+    /// Files that another process has finished.
+    pub(crate) fn note_written(&self, names: &[String]) {
+        self.names().extend_from_slice(names);
     }
 
     /// The files that were finished, in the order of their names, with what `digest` says of each.

@@ -13,7 +13,7 @@ mod trajectories;
 
 pub(crate) use description::write_description;
 pub(crate) use folder::{Outputs, PendingFile, hex};
-pub(crate) use recorder::{Recorder, check_formats};
+pub(crate) use recorder::{Progress, Recorder, check_formats};
 
 use microsim_core::World;
 
