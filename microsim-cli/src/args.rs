@@ -8,17 +8,18 @@ use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a refused\nscenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a\n\
+refused scenario or an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, global = true, display_order = 900, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
     /// Show no progress and no notes on stderr
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, display_order = 901, conflicts_with = "verbose")]
     pub quiet: bool,
     /// Say more on stderr
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 902)]
     pub verbose: bool,
     #[command(subcommand)]
     pub verb: Verb,
@@ -70,7 +71,7 @@ pub(crate) struct ScenarioArgs {
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Changes {
     /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub seed: Option<u64>,
     /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
@@ -104,6 +105,11 @@ pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
     }
+}
+
+/// A whole number.
+pub(crate) fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
 }
 
 /// A time in seconds.

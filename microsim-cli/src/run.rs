@@ -1,6 +1,6 @@
 //! `run`: a whole scenario, with its files.
 
-use crate::args::{Changes, duration};
+use crate::args::{Changes, duration, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -27,7 +27,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub changes: Changes,
     /// Number of steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "seconds")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, conflicts_with = "seconds")]
     pub steps: Option<u64>,
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]
@@ -67,10 +67,10 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FORMATS", requires = "out")]
     trajectories: Option<String>,
     /// Times of more pictures, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out")]
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
     frames: Option<String>,
     /// Times at which the whole state is written, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out")]
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
     snapshots: Option<String>,
     /// Steps between two checkpoints, to go on from with `resume` after Ctrl-C or a crash
     #[arg(long, value_name = "N", requires = "out")]

@@ -28,8 +28,8 @@ const MOST_FRAMES: f64 = 100_000.0;
 /// `render`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The name of the file says what it is: .png is a still, .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
-Several moments or several optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
+    after_help = "The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
+Several moments or optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
 whatever the number of threads."
 )]
 pub(crate) struct RenderArgs {
@@ -50,18 +50,17 @@ pub(crate) struct RenderArgs {
     /// Frames per second of simulated time, 24 unless said otherwise
     #[arg(long, value_name = "N", value_parser = options::frame_rate)]
     pub fps: Option<f64>,
-    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic; several
-    /// with commas, or all
+    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// What records the picture
+    /// What records the picture: 16 mm film with its grain, weave and flicker, or a digital camera
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// What is seen: middle and width in micrometres, or an organism's index or name and a width; without it, the room
-    #[arg(long, value_name = "X,Y,WIDTH|follow:ID[,WIDTH]", allow_hyphen_values = true)]
+    /// What is seen: X,Y,WIDTH in micrometres, or follow:NAME[,WIDTH] of an organism or its index; without it, the room
+    #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
     pub view: Option<ViewSpec>,
     /// Pictures side by side in a contact sheet
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
