@@ -82,7 +82,7 @@ impl<'o> Session<'o> {
         self.tally.wall = start.elapsed();
         self.tally.is_interrupted = self.tally.steps < self.steps;
         match self.outputs {
-            Some(outputs) if self.tally.is_interrupted && every.is_some() => self.leave(outputs, console),
+            Some(outputs) if self.tally.is_interrupted && every.is_some() => self.leave(outputs),
             _ => self.conclude(is_json, console),
         }
     }
@@ -119,15 +119,11 @@ impl<'o> Session<'o> {
     }
 
     /// Stops so that the run can be resumed.
-    fn leave(mut self, outputs: &Outputs, console: &Console) -> Result<(), Failure> {
+    fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
         self.save()?;
         self.recorder.map_or(Ok(()), Recorder::leave)?;
-        console.note(&format!(
-            "stopped after step {}; to go on: microsim resume {}",
-            self.tally.steps,
-            shown(outputs.folder())
-        ));
-        Err(Failure::Interrupted)
+        let (step, folder) = (self.tally.steps, shown(outputs.folder()));
+        Err(Failure::Stopped(format!("stopped after step {step}; to go on: microsim resume {folder}")))
     }
 
     fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {

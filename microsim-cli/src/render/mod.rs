@@ -30,7 +30,8 @@ const MOST_FRAMES: f64 = 100_000.0;
 #[command(
     after_help = "The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
 Several moments or optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
-whatever the number of threads."
+whatever the number of threads.\n\
+Optics: phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic."
 )]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
@@ -50,10 +51,10 @@ pub(crate) struct RenderArgs {
     /// Frames per second of simulated time, 24 unless said otherwise
     #[arg(long, value_name = "N", value_parser = options::frame_rate)]
     pub fps: Option<f64>,
-    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic, or all
+    /// What contrast is made of; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// What records the picture: 16 mm film with its grain, weave and flicker, or a digital camera
+    /// What records the picture: film with its grain and flicker, or a digital camera
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
