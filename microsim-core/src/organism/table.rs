@@ -114,15 +114,18 @@ impl Organisms {
         self.slots.len() - self.free.len()
     }
 
-    /// Number of slots, free ones included.
-    #[cfg(feature = "snapshot")]
-    pub(crate) fn capacity(&self) -> u32 {
+    /// Number of slots, empty ones included.
+    pub(crate) fn slot_count(&self) -> u32 {
         self.slots.len() as u32
     }
 
-    /// Indices of free slots, in the reverse order in which they are handed out again.
-    #[cfg(feature = "snapshot")]
-    pub(crate) fn free_indices(&self) -> &[u32] {
+    /// Generation of a slot: of who lives there, or will.
+    pub(crate) fn generation(&self, index: u32) -> Option<u32> {
+        self.slots.get(index as usize).map(|slot| slot.generation)
+    }
+
+    /// Indices of empty slots, the last freed last.
+    pub(crate) fn free_slots(&self) -> &[u32] {
         &self.free
     }
 }

@@ -90,9 +90,9 @@ impl World {
 
     /// Checks that exactly the empty slots of organisms are free, each once.
     fn check_slots(&self) -> Result<(), String> {
-        let mut free = self.organisms.free_indices().to_vec();
+        let mut free = self.organisms.free_slots().to_vec();
         free.sort_unstable();
-        let empty = (0..self.organisms.capacity()).filter(|&index| self.organisms.id_at(index).is_none());
+        let empty = (0..self.organisms.slot_count()).filter(|&index| self.organisms.id_at(index).is_none());
         ensure(empty.eq(free), || "organisms.free: not the empty slots")
     }
 
