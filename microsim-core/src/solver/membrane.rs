@@ -98,6 +98,11 @@ impl Membrane {
         Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
     }
 
+    /// Its numbers by the names of their fields: those that are always finite.
+    pub(crate) fn state(&self) -> [f32; 4] {
+        [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
+    }
+
     /// Finds this step's targets from what the membrane holds and whether it is being driven.
     pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
         let drive = if is_driven { 1.0 } else { 0.0 };
