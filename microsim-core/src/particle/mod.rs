@@ -24,6 +24,29 @@ use glam::Vec2;
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
 
+/// Instances of a template in one block.
+pub(crate) const LANES: usize = 8;
+
+/// Where a block lies in the store.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockRange {
+    /// Entry of slot 0 in lane 0.
+    pub base: usize,
+    pub slots: usize,
+}
+
+impl BlockRange {
+    /// Entry of a slot in a lane.
+    pub(crate) fn entry(&self, slot: usize, lane: usize) -> usize {
+        self.base + slot * LANES + lane
+    }
+
+    /// Number of its entries.
+    pub(crate) fn len(&self) -> usize {
+        self.slots * LANES
+    }
+}
+
 /// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CollisionGroups {
@@ -142,6 +165,12 @@ impl Particles {
     /// Origin of particle `i`'s owner.
     pub(crate) fn origin(&self, i: usize) -> Vec2 {
         Vec2::new(self.origin_x[i], self.origin_y[i])
+    }
+
+    /// Position of particle `i` relative to its origin.
+    #[inline(always)]
+    pub(crate) fn offset(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
     }
 
     /// Position of particle `i` in the world.
