@@ -185,16 +185,16 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
     let alpha = TENSION_COMPLIANCE / (h * h);
     for (a, b) in links(ring) {
         let pair = Pair::<1>::load(particles, a as usize, b as usize);
-        let error = pair.length[0] - length;
-        let weight = pair.weight(0);
-        let multiplier = if error > 0.0 {
-            ratio(-error, weight + alpha)
-        } else if pair.length[0] < SHORTEST * length {
-            ratio(SHORTEST * length - pair.length[0], weight)
+        let (present, weight) = (pair.length(0), pair.weight(0));
+        let lack = length - present;
+        let share = if lack < 0.0 {
+            ratio(lack, present * (weight + alpha))
+        } else if present < SHORTEST * length {
+            ratio(SHORTEST * length - present, present * weight)
         } else {
-            SLACK_SHARE * ratio(-error, weight + alpha)
+            SLACK_SHARE * ratio(lack, present * (weight + alpha))
         };
-        pair.push(particles, [multiplier]);
+        pair.push(particles, [share]);
     }
 }
 

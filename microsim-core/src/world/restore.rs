@@ -64,6 +64,7 @@ impl World {
         world.events = state.events;
         world.guard = state.guard;
         world.particles.complete()?;
+        world.organisms.complete();
         world.check_structure()?;
         // Measures look at the pairs that the last step found; until the next one these stand for them.
         if world.step_index > 0 {
