@@ -2,12 +2,12 @@
 //!
 //! FNV-1a over fixed-width little-endian words. Order: step index; settings, templates, fluids, obstacles; every particle entry by index (owner, then for live
 //! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups, material); every organism by index (kind, outline, locomotion,
-//! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
+//! controller, exchange, progress, random generator); blocks (owners and scales); touching pairs, exemptions, free lists;
+//! chemicals. Zeros are made
 //! positive and every NaN the same, so that equal states have equal digests.
 
 use super::World;
 use crate::capability::Locomotion;
-use crate::capability::controller::Controller;
 use crate::capability::division::{Divider, Furrow, Order};
 use crate::capability::phagocytosis::{Engulfer, MealPhase};
 use crate::collision::obstacle::Obstacle;
@@ -80,6 +80,10 @@ impl World {
         digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, a.generation, b.index, b.generation]));
         digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
         digest.words(self.exemptions.gates().iter().flat_map(|&(a, b)| [a, b]));
+        for chemical in &self.chemicals {
+            digest.text(&format!("{:?}", chemical.spec()));
+            chemical.values().iter().for_each(|&value| digest.float(value));
+        }
         for fluid in &self.fluids {
             digest.words(fluid.particles.iter().copied());
         }
@@ -168,7 +172,7 @@ fn digest_organism(organism: &Organism, digest: &mut Digest) {
     organism.engulfer.iter().for_each(|engulfer| digest_engulfer(engulfer, digest));
     organism.divider.iter().for_each(|divider| digest_divider(divider, digest));
     organism.prey.and_then(|prey| prey.held_by).into_iter().for_each(|id| digest.words([id.index, id.generation]));
-    digest_controller(&organism.controller, digest);
+    digest.text(&format!("{:?} {:?} {:?}", organism.controller, organism.exchanges, organism.progress));
     digest.long(organism.rng.state);
     digest.long(organism.rng.increment);
     digest.word(u32::from(organism.is_quarantined));
@@ -210,31 +214,6 @@ fn digest_divider(divider: &Divider, digest: &mut Digest) {
     digest.float(divider.lobes);
     digest.float(divider.nodes_per_root.unwrap_or(f32::NAN));
     digest.words(divider.wanted_nodes);
-}
-
-fn digest_controller(controller: &Controller, digest: &mut Digest) {
-    match controller {
-        Controller::Still => digest.word(0),
-        Controller::Wander { interval, rest, goal, remaining } => {
-            digest.word(1);
-            [interval[0], interval[1], *rest, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(goal.unwrap_or(Vec2::NAN));
-        }
-        Controller::Patrol { through, repeats, next } => {
-            digest.words([2, u32::from(*repeats), *next]);
-            through.iter().for_each(|&point| digest.vector(point));
-        }
-        Controller::Thrash { interval, reversal, direction, remaining } => {
-            digest.word(3);
-            [*interval, *reversal, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(*direction);
-        }
-        Controller::Ram { charge, retreat, distance, aside, remaining } => {
-            digest.word(4);
-            [*charge, *retreat, *distance, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(aside.unwrap_or(Vec2::NAN));
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+mod behaving;
 mod cup;
 pub(crate) mod digest;
 mod division;
@@ -20,6 +21,7 @@ mod spawn;
 pub(crate) mod touching;
 pub(crate) mod view;
 
+use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
@@ -58,6 +60,7 @@ pub struct World {
     pub(crate) blocks: Vec<Block>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) obstacles: Vec<Obstacle>,
+    pub(crate) chemicals: Vec<Chemical>,
     pub(crate) exemptions: Exemptions,
     pub(crate) organisms: Organisms,
     pub(crate) touching: Touching,
@@ -102,6 +105,7 @@ impl World {
             obstacle_digests: Vec::new(),
             blocks: Vec::new(),
             fluids: Vec::new(),
+            chemicals: Vec::new(),
             exemptions: Exemptions::default(),
             organisms: Organisms::default(),
             touching: Touching::default(),
@@ -183,6 +187,7 @@ impl World {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
         self.obstacle_digests.push(digest::of_obstacle(&obstacle));
+        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
     }
