@@ -32,6 +32,7 @@
 
 mod behavior;
 mod capability;
+mod chemical;
 mod collision;
 mod config;
 mod error;
@@ -59,13 +60,26 @@ mod world;
 
 pub use behavior::crawl::MembraneRegion;
 pub use capability::controller::Controller;
+pub use capability::controller::avoidance::{Avoidance, AvoidanceParams};
+pub use capability::controller::brownian::{Brownian, BrownianParams};
+pub use capability::controller::chemotaxis::{Chemotaxis, ChemotaxisParams};
+pub use capability::controller::flee::{Flee, FleeParams};
+pub use capability::controller::patrol::Patrol;
+pub use capability::controller::persistent_walk::{PersistentWalk, PersistentWalkParams};
+pub use capability::controller::pursue::{Pursue, PursueParams};
+pub use capability::controller::ram::Ram;
+pub use capability::controller::run_and_tumble::{RunAndTumble, RunAndTumbleParams};
+pub use capability::controller::thrash::Thrash;
+pub use capability::controller::wander::Wander;
 pub use capability::division::DivisionParams;
+pub use capability::exchange::Exchange;
 pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
+pub use chemical::{Chemical, ChemicalSpec};
 pub use collision::obstacle::Obstacle;
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::{Event, Refusal};
-pub use id::{ObstacleId, OrganismId, TemplateId};
+pub use id::{ChemicalId, ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
 pub use kind::Kind;
 pub use organism::agar::AgarSpec;

@@ -1,11 +1,13 @@
 //! The whole file: from a tree of values to what a scenario is made of.
 
 use super::checks::{self, Checks};
+use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Report};
 use super::group::{self, Group, Surroundings};
 use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
+use super::steering::Controllers;
 use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
@@ -24,8 +26,10 @@ pub(super) struct File {
     pub description: String,
     pub duration: f32,
     pub config: WorldConfig,
+    pub chemicals: Chemicals,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
+    pub controllers: Controllers,
     pub commands: Vec<Command>,
     pub checks: Checks,
 }
@@ -44,16 +48,17 @@ pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnos
     let size = size.or_else(|| room_for(&plans, &report)).unwrap_or(config.size);
     let config = WorldConfig { size, ..config };
     let obstacles = obstacle::read(&mut root);
-    let controllers = steering::read(&mut root, size);
-    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, size };
+    let chemicals = chemical::read(&mut root, &config);
+    let controllers = steering::read(&mut root, size, &chemicals);
+    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
     let mut groups = group::read_spawns(&mut root, &around);
     groups.extend(lay_out(plans, size, &report));
-    let commands = script::read(&mut root, &groups, duration);
+    let commands = script::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
     root.finish();
     group::check_size(&groups, config.max_particles, &report);
     Diagnostics::check(report.found.into_inner())?;
-    Ok(File { name, description, duration, config, obstacles, groups, commands, checks })
+    Ok(File { name, description, duration, config, chemicals, obstacles, groups, controllers, commands, checks })
 }
 
 fn read_schema(root: &mut Fields<'_>) {

@@ -51,14 +51,22 @@
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
 //! | `[thrash.NAME]` | `interval`, `reversal = 1.0` (see [`Controller::Thrash`](crate::Controller)) |
 //! | `[ram.NAME]` | `charge`, `retreat`, `distance` (see [`Controller::Ram`](crate::Controller)) |
-//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false` |
+//! | `[persistent_walk.NAME]` | [`PersistentWalkParams`](crate::PersistentWalkParams) |
+//! | `[chemotaxis.NAME]` | [`ChemotaxisParams`](crate::ChemotaxisParams); `chemical`, a name, is required |
+//! | `[run_and_tumble.NAME]` | [`RunAndTumbleParams`](crate::RunAndTumbleParams) |
+//! | `[brownian.NAME]` | [`BrownianParams`](crate::BrownianParams) |
+//! | `[avoidance.NAME]` | [`AvoidanceParams`](crate::AvoidanceParams) |
+//! | `[pursue.NAME]` | [`PursueParams`](crate::PursueParams); `otherwise`: a controller of a kind above, or it rests |
+//! | `[flee.NAME]` | [`FleeParams`](crate::FleeParams); `otherwise`: the same |
+//! | `[chemical.NAME]` | [`ChemicalSpec`](crate::ChemicalSpec) |
+//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `secretes` and `takes_up`, as `{ CHEMICAL = RATE }` (see [`Exchange`](crate::Exchange)); `name`; `player = false` |
 //! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
 //! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
 //! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //!
-//! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then) |
+//! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
@@ -69,6 +77,7 @@
 
 mod builtin;
 mod checks;
+mod chemical;
 mod diagnostic;
 mod fields;
 mod file;
@@ -91,7 +100,7 @@ pub use script::{Refusal, Script};
 
 use crate::config::WorldConfig;
 use crate::error::Error;
-use crate::id::OrganismId;
+use crate::id::{ChemicalId, OrganismId};
 use crate::world::World;
 use diagnostic::in_words;
 use fields::Report;
@@ -120,6 +129,8 @@ pub struct Built {
     pub player: Option<OrganismId>,
     /// Organisms that have a `name`, in the order in which they were spawned.
     pub named: Vec<(String, OrganismId)>,
+    /// Its chemicals by name, in the order in which the world has them.
+    pub chemicals: Vec<(String, ChemicalId)>,
     /// What is done to organisms while the world runs.
     pub script: Script,
     /// What must hold meanwhile.
@@ -195,17 +206,22 @@ impl Scenario {
             world: world.map_err(|error| report.diagnostic("world", &error))?,
             player: None,
             named: Vec::new(),
+            chemicals: Vec::new(),
             script: Script::default(),
             checks: self.file.checks.clone(),
         };
         self.fill(&mut built, &report);
-        built.script = Script::new(self.file.commands.clone(), built.named.clone());
+        built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone());
         Diagnostics::check(report.found.into_inner())?;
         Ok(built)
     }
 
     fn fill(&self, built: &mut Built, report: &Report<'_>) {
-        let File { config, obstacles, groups, .. } = &self.file;
+        let File { config, chemicals, obstacles, groups, .. } = &self.file;
+        for (name, spec) in chemicals {
+            let id = report.check(&format!("chemical.{name}"), built.world.add_chemical(*spec));
+            built.chemicals.extend(id.map(|id| (name.clone(), id)));
+        }
         for obstacle in obstacles {
             report.check("", built.world.add_obstacle(obstacle.clone()));
         }
@@ -226,6 +242,10 @@ impl Scenario {
 
 impl Built {
     fn note(&mut self, group: &Group, id: OrganismId) {
+        for exchange in &group.exchanges {
+            // The group's are checked, and the organism is new.
+            let _ = self.world.set_exchange(id, *exchange);
+        }
         if group.is_player && self.player.is_none() {
             self.player = Some(id);
         }
@@ -239,7 +259,7 @@ impl Report<'_> {
         let (message, accepted) = in_words(error);
         let is_given = matches!(group.place, Place::At(_));
         let path = match error.field() {
-            "scale" => format!("{}.scale", group.path),
+            field @ ("scale" | "controller") => format!("{}.{field}", group.path),
             at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
             _ => group.count_path(self),
         };

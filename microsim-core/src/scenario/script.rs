@@ -3,6 +3,7 @@
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
 use super::source::{NAME, Value, is_name, unknown};
+use super::steering::{self, Controllers};
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
@@ -14,6 +15,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Script {
     commands: Vec<Command>,
+    controllers: Controllers,
     named: Vec<(String, OrganismId)>,
     /// Who is to divide, and the names for the daughters.
     dividing: Vec<(OrganismId, String)>,
@@ -60,6 +62,8 @@ enum Action {
     Divide(String),
     /// With the one of this name.
     Fuse(String),
+    /// To do as the controller of this name says, in place of all that it was told.
+    Controller(String),
 }
 
 /// Organisms that commands may name.
@@ -85,7 +89,7 @@ struct Order {
 type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
 
 /// The fields that are actions and how they are read.
-const ACTIONS: [(&str, ReadAction); 7] = [
+const ACTIONS: [(&str, ReadAction); 8] = [
     ("goal", |fields| fields.get("goal").map(Goal::Point).map(Action::Goal)),
     ("follow", |fields| fields.get("follow").map(Goal::Organism).map(Action::Goal)),
     ("rest", |fields| fields.get("rest").map(|Always| Action::Goal(Goal::Rest))),
@@ -93,11 +97,12 @@ const ACTIONS: [(&str, ReadAction); 7] = [
     ("grow", grow),
     ("divide", |fields| fields.get("divide").map(Action::Divide)),
     ("fuse", |fields| fields.get("fuse").map(Action::Fuse)),
+    ("controller", |fields| fields.get("controller").map(Action::Controller)),
 ];
 
 impl Script {
-    pub(super) fn new(commands: Vec<Command>, named: Vec<(String, OrganismId)>) -> Self {
-        Self { commands, named, ..Self::default() }
+    pub(super) fn new(commands: Vec<Command>, controllers: Controllers, named: Vec<(String, OrganismId)>) -> Self {
+        Self { commands, controllers, named, ..Self::default() }
     }
 
     /// Whether there is nothing to do.
@@ -120,6 +125,7 @@ impl Script {
             }
         }
         self.commands = commands;
+        self.inputs.clear();
         for Order { organism, goal, digests } in &self.orders {
             let place = match goal {
                 Goal::Rest => None,
@@ -175,6 +181,10 @@ impl Script {
                     world.fuse(id, with)?;
                 }
             }
+            Action::Controller(name) => {
+                world.set_controller(id, self.controllers.get(name).cloned().unwrap_or_default())?;
+                self.orders.retain(|order| order.organism != id);
+            }
         }
         Ok(())
     }
@@ -224,11 +234,12 @@ impl fmt::Display for Refusal {
 }
 
 /// Reads the `[[command]]` tables.
-pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Vec<Command> {
+pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], controllers: &Controllers, duration: f32) -> Vec<Command> {
     let mut named: Named<'_> = groups.iter().filter_map(|group| Some((group.name.clone()?, group))).collect();
     let mut commands = Vec::new();
     for mut fields in root.list("command") {
         let command = read_command(&mut fields, &named, duration);
+        steering::read_named(&mut fields, "controller", controllers);
         fields.finish();
         let daughter = command.as_ref().and_then(|command| daughter(command, &named));
         named.extend(daughter);
@@ -300,8 +311,8 @@ fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
     };
     for action in actions {
         match action {
-            Action::Goal(_) if !group.prototype.can_move() => {
-                let field = ["goal", "follow", "rest"].into_iter().find(|field| fields.has(field));
+            Action::Goal(_) | Action::Controller(_) if !group.prototype.can_move() => {
+                let field = ["goal", "follow", "rest", "controller"].into_iter().find(|field| fields.has(field));
                 refuse(field.unwrap_or_default(), "move", "an amoeboid_cell, a rigid_cell or a probe");
             }
             Action::Digest(_) if !group.prototype.can_grow() => refuse("digest", "digest", "an amoeboid_cell"),

@@ -23,8 +23,8 @@ impl Checkpoint {
     /// # Errors
     /// As for [`World::to_snapshot`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
-        let Built { world, player, named, script, checks } = &self.run;
-        Ok(RUN.seal(&encode(&(&self.origin, player, named, script, checks, world.to_snapshot()?))?))
+        let Built { world, player, named, script, checks, chemicals } = &self.run;
+        Ok(RUN.seal(&encode(&(&self.origin, player, named, script, checks, chemicals, world.to_snapshot()?))?))
     }
 
     /// The run that was written.
@@ -32,8 +32,9 @@ impl Checkpoint {
     /// # Errors
     /// As for [`World::from_snapshot`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        let (origin, player, named, script, checks, world): (_, _, _, _, _, Vec<u8>) = decode(RUN.open(bytes)?)?;
+        let (origin, player, named, script, checks, chemicals, world): (_, _, _, _, _, _, Vec<u8>) =
+            decode(RUN.open(bytes)?)?;
         let world = World::from_snapshot(&world)?;
-        Ok(Self { origin, run: Built { world, player, named, script, checks } })
+        Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals } })
     }
 }
