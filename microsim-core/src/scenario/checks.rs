@@ -1,6 +1,7 @@
 //! Checks: the tables `[invariants]` and `[[expect]]`.
 
 use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
 use super::source::{Value, unknown};
 use crate::event::Event;
 use crate::{Measure, World};
@@ -164,6 +165,11 @@ fn digits(value: f64) -> String {
     if value.fract() == 0.0 { value.to_string() } else { (value as f32).to_string() }
 }
 
+/// Whether something that can be bounded goes by this name.
+pub(super) fn is_quantity(name: &str) -> bool {
+    Quantity::named(name).is_some()
+}
+
 /// Reads the `[invariants]` and `[[expect]]` tables.
 pub(super) fn read(root: &mut Fields<'_>) -> Checks {
     let mut fields = root.table("invariants");
@@ -202,6 +208,14 @@ struct Range([f64; 2]);
 impl Read for Range {
     fn accepted() -> String {
         "a number, the most that it may be, or [least, most]".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::pair(Shape::Number)])
+    }
+
+    fn written(&self) -> String {
+        self.0.map(|limit| limit as f32).written()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

@@ -4,6 +4,7 @@ use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Read, Report, mismatch};
 use super::grid::{Grid, GridPlan};
 use super::prototype::{Prototype, Prototypes};
+use super::shape::Shape;
 use super::source::{DEGREE, NAME, Value, is_name, unknown};
 use super::steering::{self, Controllers};
 use crate::{Controller, Exchange};
@@ -59,6 +60,17 @@ impl Read for Angle {
         "degrees from -36000 to 36000, or \"random\"".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::Word(&["random"])])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Radians(angle) => (angle / DEGREE).written(),
+            Self::Random => "\"random\"".to_owned(),
+        }
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         if value.get_ref().as_str() == Some("random") {
             return Some(Self::Random);
@@ -80,6 +92,15 @@ struct Scale([f32; 2]);
 impl Read for Scale {
     fn accepted() -> String {
         "a number 0.01 to 100, or [smallest, largest]".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::pair(Shape::Number)])
+    }
+
+    fn written(&self) -> String {
+        let [smallest, largest] = self.0;
+        if smallest == largest { smallest.written() } else { self.0.written() }
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
@@ -176,7 +197,7 @@ fn read_name(fields: &mut Fields<'_>, names: &mut BTreeSet<String>) -> Option<St
 fn read_place(fields: &mut Fields<'_>, size: Vec2) -> Option<Place> {
     let at: Option<Vec2> = fields.get("at");
     let count = fields.or("count", 1);
-    let within = fields.or("within", [Vec2::ZERO, size]);
+    let within = fields.get("within").unwrap_or([Vec2::ZERO, size]);
     let gap = fields.number("gap", 0.0, [0.0, 1000.0]);
     if !fields.has("at") {
         return is_box_in(&within, size, fields).then_some(Place::Random { count, within, gap });

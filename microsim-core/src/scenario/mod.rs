@@ -68,6 +68,9 @@
 //!
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
+//! | `[output]` | what is written while it runs: `events = true`, `pictures = true`, `snapshots = [times]`, `checkpoint_every = 0` steps |
+//! | `[output.measures]`, `[output.trajectories]` | `formats = ["csv"]`, `every = 0.1` (0: each step); for measures also `of = [names]` |
+//! | `[output.frames]` | `at = [times]`, `every = 0.0`, `width = 1280` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
 //! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
@@ -78,25 +81,33 @@
 mod builtin;
 mod checks;
 mod chemical;
+mod describe;
 mod diagnostic;
+mod effective;
 mod fields;
 mod file;
 mod grid;
 mod group;
 mod obstacle;
 mod origin;
+mod output;
 mod overrides;
 mod placing;
 mod prototype;
 mod script;
+mod shape;
 mod source;
 mod steering;
+mod words;
 
 pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
+pub use describe::{Description, Entry, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use origin::Origin;
+pub use output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 pub use script::{Refusal, Script};
+pub use shape::Shape;
 
 use crate::config::WorldConfig;
 use crate::error::Error;
@@ -117,6 +128,7 @@ const MAX_ERRORS: usize = 20;
 pub struct Scenario {
     file: File,
     source: Source,
+    effective: toml::Table,
 }
 
 /// A world made from a scenario.
@@ -150,7 +162,7 @@ impl Scenario {
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
         let (table, source) = Source::read(text, overrides)?;
         let file = file::read(&table, &source)?;
-        Ok(Self { file, source })
+        Ok(Self { file, source, effective: effective::table(&table) })
     }
 
     /// Its name; empty if the file has none.
@@ -193,6 +205,22 @@ impl Scenario {
     pub fn origin(&self) -> Origin {
         let Source { text, overrides, .. } = &self.source;
         Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
+    }
+
+    /// What is to be written while it runs.
+    #[must_use]
+    pub fn output(&self) -> &OutputPlan {
+        &self.file.output
+    }
+
+    /// The scenario as it is run: a file with overrides, parameters and seed put in and keys in order, so that scenarios that
+    /// differ only in how they are written have equal texts.
+    #[must_use]
+    pub fn effective(&self) -> String {
+        let mut table = self.effective.clone();
+        let seed = i64::try_from(self.seed()).unwrap_or(i64::MAX);
+        table.insert("seed".to_owned(), toml::Value::Integer(seed));
+        table.to_string()
     }
 
     /// Makes the world. Equal text, overrides and seed give equal worlds.

@@ -2,6 +2,7 @@
 
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
+use super::shape::Shape;
 use super::source::{NAME, Value, is_name, unknown};
 use super::steering::{self, Controllers};
 use crate::error::{Error, ErrorKind};
@@ -265,7 +266,8 @@ fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Op
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
     let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
-    let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
+    let until = fields.get("until").filter(|&until| fields.is_within("until", until, [at, 1e6]));
+    let until = until.unwrap_or(if duration > at { duration } else { at });
     let path = fields.path.clone();
     let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
     if !ACTIONS.iter().any(|(field, _)| fields.has(field)) {
@@ -337,6 +339,14 @@ struct Always;
 
 impl Read for Always {
     fn accepted() -> String {
+        "true".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Boolean
+    }
+
+    fn written(&self) -> String {
         "true".to_owned()
     }
 
