@@ -12,6 +12,7 @@ pub mod convert;
 pub mod draw;
 pub mod input;
 pub mod picture;
+pub mod rules;
 pub mod script;
 pub mod shot;
 pub mod stage;

@@ -6,7 +6,7 @@ use super::group::{self, Group, Surroundings};
 use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
-use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
+use super::{diagnostic::Diagnostics, game, game::Game, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use glam::Vec2;
@@ -28,6 +28,7 @@ pub(super) struct File {
     pub groups: Vec<Group>,
     pub commands: Vec<Command>,
     pub checks: Checks,
+    pub game: Option<Game>,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
@@ -50,10 +51,11 @@ pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnos
     groups.extend(lay_out(plans, size, &report));
     let commands = script::read(&mut root, &groups, duration);
     let checks = checks::read(&mut root);
+    let game = game::read(&mut root, &groups);
     root.finish();
     group::check_size(&groups, config.max_particles, &report);
     Diagnostics::check(report.found.into_inner())?;
-    Ok(File { name, description, duration, config, obstacles, groups, commands, checks })
+    Ok(File { name, description, duration, config, obstacles, groups, commands, checks, game })
 }
 
 fn read_schema(root: &mut Fields<'_>) {

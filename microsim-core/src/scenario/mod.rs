@@ -51,7 +51,7 @@
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
 //! | `[thrash.NAME]` | `interval`, `reversal = 1.0` (see [`Controller::Thrash`](crate::Controller)) |
 //! | `[ram.NAME]` | `charge`, `retreat`, `distance` (see [`Controller::Ram`](crate::Controller)) |
-//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false` |
+//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false`; `from = 0.0`: when they come; `respawn`: time after which one that is gone or taken in is replaced, at another random place |
 //! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
 //! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
@@ -59,6 +59,7 @@
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //!
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then) |
+//! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
@@ -72,6 +73,7 @@ mod checks;
 mod diagnostic;
 mod fields;
 mod file;
+mod game;
 mod grid;
 mod group;
 mod obstacle;
@@ -81,10 +83,12 @@ mod prototype;
 mod script;
 mod source;
 mod steering;
+mod supply;
 
 pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use game::{Game, Points};
 pub use script::{Refusal, Script};
 
 use crate::config::WorldConfig;
@@ -97,6 +101,7 @@ use file::File;
 use group::{Group, Place};
 use placing::Placed;
 use source::Source;
+use supply::Supply;
 
 /// Errors after which building gives up: the rest would be more of the same.
 const MAX_ERRORS: usize = 20;
@@ -122,6 +127,8 @@ pub struct Built {
     pub script: Script,
     /// What must hold meanwhile.
     pub checks: Checks,
+    /// What makes a game of it.
+    pub game: Option<Game>,
 }
 
 impl Scenario {
@@ -188,30 +195,39 @@ impl Scenario {
             named: Vec::new(),
             script: Script::default(),
             checks: self.file.checks.clone(),
+            game: self.file.game.clone(),
         };
-        self.fill(&mut built, &report);
-        built.script = Script::new(self.file.commands.clone(), built.named.clone());
+        let supplies = self.fill(&mut built, &report);
+        built.script = Script::new(self.file.commands.clone(), built.named.clone()).with_supplies(supplies);
         Diagnostics::check(report.found.into_inner())?;
         Ok(built)
     }
 
-    fn fill(&self, built: &mut Built, report: &Report<'_>) {
+    /// Puts everything into the world that is there from the beginning, and returns what is to come.
+    fn fill(&self, built: &mut Built, report: &Report<'_>) -> Vec<Supply> {
         let File { config, obstacles, groups, .. } = &self.file;
         for obstacle in obstacles {
             report.check("", built.world.add_obstacle(obstacle.clone()));
         }
         let placed = placing::place_all(groups, obstacles, config.seed, report);
-        for (group, placed) in groups.iter().zip(placed) {
+        let mut supplies = Vec::new();
+        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
+            let mut there = Vec::new();
             for Placed { spec, placement } in placed {
                 if report.found.borrow().len() >= MAX_ERRORS {
-                    return;
+                    return supplies;
                 }
                 match built.world.spawn(&spec, placement) {
-                    Ok(id) => built.note(group, id),
+                    Ok(id) => {
+                        built.note(group, id);
+                        there.push(id);
+                    }
                     Err(error) => report.spawn_error(group, &error),
                 }
             }
+            supplies.extend(Supply::new(index, group, &there, &built.world));
         }
+        supplies
     }
 }
 

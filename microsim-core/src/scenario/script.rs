@@ -3,13 +3,14 @@
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
 use super::source::{NAME, Value, is_name, unknown};
+use super::supply::Supply;
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
 use glam::Vec2;
 use std::fmt;
 
-/// The commands of a scenario. Ask it for the inputs before every step.
+/// The commands of a scenario, and the organisms that come later. Ask it for the inputs before every step.
 #[derive(Clone, Debug, Default)]
 pub struct Script {
     commands: Vec<Command>,
@@ -17,6 +18,7 @@ pub struct Script {
     /// Who is to divide, and the names for the daughters.
     dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
+    supplies: Vec<Supply>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
 }
@@ -99,16 +101,22 @@ impl Script {
         Self { commands, named, ..Self::default() }
     }
 
+    /// The same, with organisms that come later.
+    pub(super) fn with_supplies(self, supplies: Vec<Supply>) -> Self {
+        Self { supplies, ..self }
+    }
+
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.commands.is_empty()
+        self.commands.is_empty() && self.supplies.is_empty()
     }
 
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
         self.rename(world.events());
+        self.supplies.iter_mut().for_each(|supply| supply.before_step(world));
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };
