@@ -176,6 +176,12 @@ impl Scenario {
         self.file.duration
     }
 
+    /// What makes a game of it, if anything does.
+    #[must_use]
+    pub fn game(&self) -> Option<&Game> {
+        self.file.game.as_ref()
+    }
+
     /// Settings of its world.
     #[must_use]
     pub fn config(&self) -> &WorldConfig {

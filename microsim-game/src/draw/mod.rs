@@ -3,10 +3,9 @@
 mod amoeba;
 mod atlas;
 mod background;
-mod canvas;
-pub mod hud;
+pub(crate) mod canvas;
 mod obstacle;
-mod palette;
+pub(crate) mod palette;
 mod simple;
 mod soft_body;
 
@@ -14,7 +13,6 @@ use crate::camera::Camera;
 use crate::picture::{Picture, Shape};
 use background::Background;
 use canvas::Canvas;
-use hud::Hud;
 use microsim_core::glam::Vec2;
 use microsim_core::{Kind, World};
 
@@ -29,8 +27,6 @@ pub struct Frame<'a> {
     pub camera: &'a Camera,
     /// For what moves in the scenery, s.
     pub time: f32,
-    /// The line of text.
-    pub hud: Hud,
 }
 
 /// Draws frames. Holds the textures.
@@ -52,7 +48,6 @@ impl Painter {
     /// Makes the textures. Needs an open window.
     #[must_use]
     pub fn new() -> Self {
-        hud::warm_up();
         Self { canvas: Canvas::new(), background: Background::new() }
     }
 
@@ -70,9 +65,7 @@ impl Painter {
         }
         obstacle::draw_walls(canvas, frame.camera);
         background::draw_film(canvas, frame.camera.screen());
-        frame.hud.draw_panels(canvas, frame.camera.screen());
         canvas.flush();
-        frame.hud.draw_text(frame.camera.screen());
     }
 }
 

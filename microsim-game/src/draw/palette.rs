@@ -16,6 +16,11 @@ pub(crate) const AGAR: Color = rgb(0.91, 0.71, 0.33);
 pub(crate) const PROBE: Color = rgb(0.30, 0.34, 0.38);
 pub(crate) const FLUID: Color = rgb(0.36, 0.60, 0.68);
 pub(crate) const CUSTOM: Color = rgb(0.55, 0.64, 0.45);
+/// What can be done now, what has to wait, and what is running out: told apart also with two kinds of cones.
+pub(crate) const READY: Color = rgb(0.36, 0.92, 0.42);
+pub(crate) const WAIT: Color = rgb(0.62, 0.72, 0.86);
+pub(crate) const ALERT: Color = rgb(1.0, 0.72, 0.25);
+
 pub(crate) const OBSTACLE: Color = rgb(0.66, 0.67, 0.65);
 
 const fn rgb(r: f32, g: f32, b: f32) -> Color {

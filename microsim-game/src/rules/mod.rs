@@ -7,6 +7,7 @@
 
 pub mod bot;
 pub mod hint;
+pub mod recording;
 pub mod referee;
 pub mod round;
 
