@@ -19,6 +19,7 @@ pub mod convert;
 pub mod draw;
 pub mod hud;
 pub mod input;
+pub mod microscope;
 pub mod picture;
 pub mod rules;
 pub mod screen;
