@@ -130,6 +130,7 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
+        context.scenery.pass(context.pace);
         let screen = view_size(&self.plan);
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
@@ -144,6 +145,9 @@ impl App {
     fn update(&mut self, input: &Input) -> bool {
         let context = &mut self.context;
         context.wants_picture |= input.presses(Action::Screenshot);
+        if input.presses(Action::Optics) {
+            context.change_sight(false);
+        }
         if input.presses(Action::FullScreen) {
             context.settings.full_screen ^= true;
             context.save_settings();
@@ -195,7 +199,9 @@ impl App {
     fn draw(&mut self) {
         clear_background(crate::draw::palette::INK);
         let first = self.screens.iter().rposition(|screen| !screen.is_overlay()).unwrap_or(0);
-        for screen in &mut self.screens[first..] {
+        let top = self.screens.len() - 1;
+        for (k, screen) in self.screens.iter_mut().enumerate().skip(first) {
+            self.context.is_top = k == top;
             screen.draw(&mut self.context);
             self.context.pen.flush();
         }

@@ -22,6 +22,7 @@ pub mod input;
 pub mod microscope;
 pub mod picture;
 pub mod rules;
+pub mod scenery;
 pub mod screen;
 pub mod shot;
 pub mod stage;

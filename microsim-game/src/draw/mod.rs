@@ -39,8 +39,8 @@ pub struct Painter {
 /// Kinds from the bottom of the slide to its top: what is eaten lies below what eats it.
 const LAYERS: [fn(Kind) -> bool; 4] = [
     |kind| kind == Kind::FluidBlock,
-    |kind| kind == Kind::Platelet,
-    |kind| !matches!(kind, Kind::FluidBlock | Kind::Platelet | Kind::AmoeboidCell),
+    |kind| matches!(kind, Kind::Platelet | Kind::RedCell),
+    |kind| !matches!(kind, Kind::FluidBlock | Kind::Platelet | Kind::RedCell | Kind::AmoeboidCell),
     |kind| kind == Kind::AmoeboidCell,
 ];
 
@@ -78,7 +78,7 @@ impl Default for Painter {
 fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     match shape.kind {
         Kind::AmoeboidCell => amoeba::draw_halo(canvas, frame, shape),
-        Kind::RigidCell | Kind::Platelet => soft_body::draw_halo(canvas, frame, shape),
+        Kind::RigidCell | Kind::Platelet | Kind::RedCell => soft_body::draw_halo(canvas, frame, shape),
         Kind::FluidBlock => {}
         _ => simple::draw_halo(canvas, frame, shape),
     }
@@ -89,6 +89,8 @@ fn draw_shape(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
         Kind::AmoeboidCell => amoeba::draw(canvas, frame, shape),
         Kind::RigidCell => soft_body::draw_rigid_cell(canvas, frame, shape),
         Kind::Platelet => soft_body::draw_platelet(canvas, frame, shape),
+        Kind::RedCell => soft_body::draw_red_cell(canvas, frame, shape),
+        Kind::Coccus => simple::draw_coccus(canvas, frame, shape),
         Kind::Agar => simple::draw_agar(canvas, frame, shape),
         Kind::Probe => simple::draw_probe(canvas, frame, shape),
         Kind::FluidBlock => simple::draw_fluid(canvas, frame, shape),

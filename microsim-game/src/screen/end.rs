@@ -118,6 +118,6 @@ impl Screen for End {
     }
 
     fn name(&self) -> String {
-        "end".to_owned()
+        format!("end-{}", self.points)
     }
 }

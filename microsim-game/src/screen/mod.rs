@@ -12,9 +12,10 @@ pub mod settings;
 pub mod title;
 
 use crate::args::Scene;
-use crate::draw::Painter;
+use crate::draw::Frame;
 use crate::input::Input;
 use crate::rules::recording::Recording;
+use crate::scenery::{Scenery, Sight};
 use crate::store::files::Store;
 use crate::store::scores::Scores;
 use crate::store::settings::{self as kept, Settings};
@@ -86,7 +87,7 @@ pub struct GameChoice {
 #[derive(Debug)]
 pub struct Context {
     /// Draws the scene.
-    pub painter: Painter,
+    pub scenery: Scenery,
     /// Draws above it.
     pub pen: Pen,
     /// Where settings and scores are kept.
@@ -105,6 +106,8 @@ pub struct Context {
     pub files: Vec<Scene>,
     /// The last round that was played to its end, or left.
     pub recording: Option<Recording>,
+    /// Whether the screen that draws has nothing above it.
+    pub is_top: bool,
     /// Whether a picture is wanted.
     pub wants_picture: bool,
     message: Option<(String, f32)>,
@@ -117,7 +120,7 @@ impl Context {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
         let mut context = Self {
-            painter: Painter::new(),
+            scenery: Scenery::new(),
             pen: Pen::new(),
             store,
             settings,
@@ -127,6 +130,7 @@ impl Context {
             game,
             files,
             recording: None,
+            is_top: true,
             wants_picture: false,
             message: None,
         };
@@ -144,6 +148,19 @@ impl Context {
         if let Err(error) = self.store.save(kept::FILE, &self.settings) {
             self.tell(format!("cannot keep the settings: {error}"));
         }
+    }
+
+    /// Draws a scene as the player wants to see it.
+    pub fn paint(&mut self, frame: &Frame<'_>) {
+        self.scenery.paint(frame, Sight::named(&self.settings.sight), self.settings.effort);
+    }
+
+    /// Another way of looking.
+    pub fn change_sight(&mut self, is_back: bool) {
+        let sight = Sight::named(&self.settings.sight).next(is_back);
+        sight.name().clone_into(&mut self.settings.sight);
+        self.save_settings();
+        self.tell(sight.name());
     }
 
     /// Time for what moves in marks; `None` if the player wants less motion.

@@ -174,7 +174,7 @@ impl Screen for Play {
     fn draw(&mut self, context: &mut Context) {
         let picture = self.viewer.picture();
         let (world, camera) = (self.round.world(), &self.viewer.camera);
-        context.painter.paint(&Frame { picture: &picture, world, camera, time: context.time });
+        context.paint(&Frame { picture: &picture, world, camera, time: context.time });
         let hints = Hints::of(world, self.round.player());
         let (key, time) = (context.settings.keys.label(Action::Consume), context.motion());
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };
@@ -195,6 +195,6 @@ impl Screen for Play {
     }
 
     fn name(&self) -> String {
-        format!("{}-{}", self.name, self.round.world().step_index())
+        format!("{}-{}-{}", self.name, self.round.world().step_index(), self.round.referee().score())
     }
 }

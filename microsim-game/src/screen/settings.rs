@@ -4,6 +4,7 @@ use super::keys::KeysMenu;
 use super::pause::{TOP, draw_heading};
 use super::{Change, Context, Screen};
 use crate::input::{Input, Move};
+use crate::scenery::Sight;
 use crate::store::settings::Settings;
 use crate::ui::menu::{Choice, Item, Menu, Place};
 
@@ -13,11 +14,13 @@ pub struct SettingsMenu {
     menu: Menu,
 }
 
-const TEXT: usize = 0;
-const MOTION: usize = 1;
-const ARROWS: usize = 2;
-const FULL_SCREEN: usize = 3;
-const KEYS: usize = 4;
+const SIGHT: usize = 0;
+const EFFORT: usize = 1;
+const TEXT: usize = 2;
+const MOTION: usize = 3;
+const ARROWS: usize = 4;
+const FULL_SCREEN: usize = 5;
+const KEYS: usize = 6;
 
 impl SettingsMenu {
     /// The present settings.
@@ -29,6 +32,8 @@ impl SettingsMenu {
 
 fn items(settings: &Settings) -> Vec<Item> {
     vec![
+        Item::with("Optics", Sight::named(&settings.sight).name()),
+        Item::with("Quality", settings.effort.name()),
         Item::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
         Item::switch("Reduced motion", settings.reduced_motion),
         Item::switch("Classic arrows", settings.classic_arrows),
@@ -46,6 +51,9 @@ impl Screen for SettingsMenu {
         let Some(choice) = self.menu.update(input, &Place::middle(&context.pen, TOP)) else { return Change::Stay };
         let settings = &mut context.settings;
         match choice {
+            Choice::Pick(SIGHT) => context.change_sight(false),
+            Choice::Less(SIGHT) => context.change_sight(true),
+            Choice::Pick(EFFORT) | Choice::Less(EFFORT) => settings.effort = settings.effort.next(),
             Choice::Pick(TEXT) => settings.change_text_size(1),
             Choice::Less(TEXT) => settings.change_text_size(-1),
             Choice::Pick(MOTION) | Choice::Less(MOTION) => settings.reduced_motion ^= true,
@@ -54,7 +62,7 @@ impl Screen for SettingsMenu {
             Choice::Pick(KEYS) => return Change::push(KeysMenu::new(context)),
             _ => return Change::Pop,
         }
-        self.menu.items = items(settings);
+        self.menu.items = items(&context.settings);
         context.save_settings();
         Change::Stay
     }

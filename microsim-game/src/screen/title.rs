@@ -107,7 +107,10 @@ impl Screen for Title {
         if let Some(scene) = &self.scene {
             let picture = scene.viewer.picture();
             let world = scene.stage.world();
-            context.painter.paint(&Frame { picture: &picture, world, camera: &scene.viewer.camera, time: context.time });
+            context.paint(&Frame { picture: &picture, world, camera: &scene.viewer.camera, time: context.time });
+        }
+        if !context.is_top {
+            return;
         }
         let pen = &mut context.pen;
         let (screen, line) = (pen.screen(), pen.line(Size::Huge));

@@ -1,6 +1,7 @@
 //! What the player has chosen.
 
 use crate::input::keys::Keys;
+use crate::scenery::Effort;
 use serde::{Deserialize, Serialize};
 
 /// File that they are kept in.
@@ -18,6 +19,10 @@ pub struct Settings {
     pub reduced_motion: bool,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
     pub classic_arrows: bool,
+    /// Name of the way of looking, see [`crate::scenery::Sight`].
+    pub sight: String,
+    /// How much of the machine pictures may take.
+    pub effort: Effort,
     /// Whether the window fills the screen.
     pub full_screen: bool,
     /// Keys of all actions.
@@ -30,6 +35,8 @@ impl Default for Settings {
             text_size: 1,
             reduced_motion: false,
             classic_arrows: false,
+            sight: String::new(),
+            effort: Effort::default(),
             full_screen: false,
             keys: Keys::default(),
         }

@@ -187,7 +187,7 @@ impl Screen for Sandbox {
     fn draw(&mut self, context: &mut Context) {
         let picture = self.viewer.picture();
         let (world, camera) = (self.stage.world(), &self.viewer.camera);
-        context.painter.paint(&Frame { picture: &picture, world, camera, time: context.time });
+        context.paint(&Frame { picture: &picture, world, camera, time: context.time });
         let pen = &mut context.pen;
         if self.shows.anatomy {
             anatomy::draw(pen, world, camera);
