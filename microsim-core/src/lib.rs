@@ -99,6 +99,7 @@ pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
+pub use world::anatomy::Bond;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;

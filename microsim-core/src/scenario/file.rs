@@ -9,7 +9,7 @@ use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
 use super::steering::Controllers;
-use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
+use super::{diagnostic::Diagnostics, game, game::Game, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::error::Error;
@@ -35,6 +35,7 @@ pub(super) struct File {
     pub commands: Vec<Command>,
     pub checks: Checks,
     pub output: OutputPlan,
+    pub game: Option<Game>,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
@@ -66,9 +67,23 @@ pub(super) fn read_root(table: &DeTable<'_>, report: &Report<'_>) -> File {
     let commands = script::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
     let output = output::read(&mut root);
+    let game = game::read(&mut root, &groups);
     root.finish();
     group::check_size(&groups, config.max_particles, report);
-    File { name, description, duration, config, chemicals, obstacles, groups, controllers, commands, checks, output }
+    File {
+        name,
+        description,
+        duration,
+        config,
+        chemicals,
+        obstacles,
+        groups,
+        controllers,
+        commands,
+        checks,
+        output,
+        game,
+    }
 }
 
 fn read_schema(root: &mut Fields<'_>) {

@@ -25,6 +25,10 @@ pub(super) struct Group {
     pub exchanges: Vec<Exchange>,
     pub name: Option<String>,
     pub is_player: bool,
+    /// Time from which on they are there, s.
+    pub from: f32,
+    /// Time after which one that is gone or taken in is replaced, s.
+    pub respawn: Option<f32>,
 }
 
 /// Where organisms are put.
@@ -143,6 +147,16 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let exchanges = chemical::read_exchanges(fields, around.chemicals);
     let name = read_name(fields, names);
     let is_player = fields.or("player", false);
+    let from = fields.number("from", 0.0, [0.0, 1e6]);
+    let respawn = fields.get("respawn").filter(|&time| fields.is_within("respawn", time, [0.0, 1e6]));
+    for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && (is_player || name.is_some())) {
+        let accepted = "a [[spawn]] without `name` and `player`";
+        fields.report.refuse(
+            &fields.at(field),
+            "one that is known by name is there from the beginning, once",
+            accepted,
+        );
+    }
     let prototype = prototype?;
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];
     for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
@@ -151,7 +165,7 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     }
     let (path, place) = (fields.path.clone(), place?);
     check_box(fields, &place, prototype.extent(scale[1]));
-    Some(Group { path, prototype, place, angle, scale, controller, exchanges, name, is_player })
+    Some(Group { path, prototype, place, angle, scale, controller, exchanges, name, is_player, from, respawn })
 }
 
 /// Checks that an organism of this reach fits into the box that it is to be put into.
@@ -246,6 +260,8 @@ impl Group {
             exchanges: Vec::new(),
             name: None,
             is_player: false,
+            from: 0.0,
+            respawn: None,
         }
     }
 

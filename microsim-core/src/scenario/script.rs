@@ -5,6 +5,9 @@ use super::group::Group;
 use super::shape::Shape;
 use super::source::{NAME, Value, is_name, unknown};
 use super::steering::{self, Controllers};
+use super::supply::Supply;
+#[cfg(feature = "snapshot")]
+use super::supply::SupplyState;
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
@@ -12,7 +15,7 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The commands of a scenario. Ask it for the inputs before every step.
+/// The commands of a scenario, and the organisms that come later. Ask it for the inputs before every step.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Script {
     commands: Vec<Command>,
@@ -21,6 +24,8 @@ pub struct Script {
     /// Who is to divide, and the names for the daughters.
     dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
+    #[serde(skip)]
+    supplies: Vec<Supply>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
 }
@@ -106,16 +111,37 @@ impl Script {
         Self { commands, controllers, named, ..Self::default() }
     }
 
+    /// The same, with organisms that come later.
+    pub(super) fn with_supplies(self, supplies: Vec<Supply>) -> Self {
+        Self { supplies, ..self }
+    }
+
+    /// What changes of the organisms that come later; the rest of them is in the file.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supply_states(&self) -> impl Iterator<Item = &SupplyState> {
+        self.supplies.iter().map(|supply| &supply.state)
+    }
+
+    /// Takes the organisms that come later from the script as the file has it, in this state; `None` if it does not fit.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supplied_by(self, file: Self, states: Vec<SupplyState>) -> Option<Self> {
+        let fits = file.supplies.len() == states.len();
+        let mut supplies = file.supplies;
+        supplies.iter_mut().zip(states).for_each(|(supply, state)| supply.state = state);
+        fits.then(|| self.with_supplies(supplies))
+    }
+
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.commands.is_empty()
+        self.commands.is_empty() && self.supplies.is_empty()
     }
 
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
         self.rename(world.events());
+        self.supplies.iter_mut().for_each(|supply| supply.before_step(world));
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };

@@ -1,6 +1,7 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+pub(crate) mod anatomy;
 mod behaving;
 mod cup;
 pub(crate) mod digest;
@@ -12,6 +13,7 @@ mod ingestion;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
 pub(crate) mod named_measure;
+mod push;
 pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
