@@ -32,6 +32,9 @@ pub(crate) struct RunArgs {
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]
     pub seconds: Option<f64>,
+    /// Check the whole state after every step; the first violation is named on stderr, and the exit code is 1
+    #[arg(long)]
+    pub validate: bool,
     /// Write what the scenario's [output] says into this folder; it must be empty or not exist
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -115,7 +118,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     }
     interrupt::listen();
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
-    Session::start(prepared, steps, outputs.as_ref())?.run(args.json, console)
+    Session::start(prepared, steps, outputs.as_ref(), args.validate)?.run(args.json, console)
 }
 
 /// Says what a run would be.

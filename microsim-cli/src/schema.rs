@@ -113,6 +113,7 @@ fn shape_of(shape: &Shape, range: Option<[f64; 2]>) -> Value {
         Shape::Array(of, Some(length)) => {
             json!({ "type": "array", "items": shape_of(of, range), "minItems": length, "maxItems": length })
         }
+        Shape::Table(of) => json!({ "type": "object", "additionalProperties": shape_of(of, range) }),
         Shape::Either(shapes) => {
             json!({ "anyOf": shapes.iter().map(|shape| shape_of(shape, range)).collect::<Vec<_>>() })
         }

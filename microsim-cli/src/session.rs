@@ -8,6 +8,7 @@ use crate::output::{Outputs, Recorder, write_description};
 use crate::simulate::Tally;
 use crate::source::{Prepared, Source};
 use crate::summary::RunReport;
+use microsim_core::World;
 use microsim_core::scenario::{Built, OutputPlan};
 use microsim_core::snapshot::Checkpoint;
 use std::io::Write;
@@ -24,19 +25,26 @@ pub(crate) struct Session<'o> {
     outputs: Option<&'o Outputs>,
     recorder: Option<Recorder<'o>>,
     tally: Tally,
-    /// The first check that broke.
+    /// Whether the whole state is checked after every step.
+    validates: bool,
+    /// The first check that broke, or what was wrong with the state.
     broken: Option<String>,
     digest_at_start: String,
 }
 
 impl<'o> Session<'o> {
     /// Begins a run.
-    pub(crate) fn start(prepared: Prepared, steps: u64, outputs: Option<&'o Outputs>) -> Result<Self, Failure> {
+    pub(crate) fn start(
+        prepared: Prepared,
+        steps: u64,
+        outputs: Option<&'o Outputs>,
+        validates: bool,
+    ) -> Result<Self, Failure> {
         let start = |outputs| Recorder::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let recorder = outputs.map(start).transpose()?;
         let digest_at_start = format!("{:016x}", prepared.built.world.digest());
         let tally = Tally::default();
-        Ok(Self { prepared, steps, outputs, recorder, tally, broken: None, digest_at_start })
+        Ok(Self { prepared, steps, outputs, recorder, tally, validates, broken: None, digest_at_start })
     }
 
     /// Goes on with the run of a folder.
@@ -55,6 +63,7 @@ impl<'o> Session<'o> {
             outputs: Some(outputs),
             recorder: Some(recorder),
             tally: saved.tally,
+            validates: false,
             broken: saved.broken,
             digest_at_start: saved.digest_at_start,
         })
@@ -92,7 +101,8 @@ impl<'o> Session<'o> {
         let took = timed_step(built);
         self.tally.add(&built.world, &built.world.census(), took);
         let broken = built.checks.after_step(&built.world).first().map(ToString::to_string);
-        self.broken = self.broken.take().or(broken);
+        let violation = || if self.validates { violation(&built.world) } else { None };
+        self.broken = self.broken.take().or(broken).or_else(violation);
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.look_at(&built.world))
     }
 
@@ -140,6 +150,11 @@ impl<'o> Session<'o> {
         print(&report, is_json)?;
         verdict(&report, self.prepared.name())
     }
+}
+
+/// What is wrong with the state, if anything is.
+fn violation(world: &World) -> Option<String> {
+    world.validate().err().map(|violation| format!("after step {}: {violation}", world.step_index()))
 }
 
 /// A path as a shell takes it.

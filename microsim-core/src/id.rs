@@ -35,3 +35,7 @@ pub struct TemplateId(pub(crate) u32);
 /// Names an obstacle of a world; valid as long as the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ObstacleId(pub(crate) u32);
+
+/// Names a chemical of a world; valid as long as the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct ChemicalId(pub(crate) u32);

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) mod controller;
 pub(crate) mod division;
+pub(crate) mod exchange;
 pub(crate) mod phagocytosis;
+pub(crate) mod progress;
 
 /// How an organism moves towards its goal, and what it remembers of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,15 @@
 //! The whole file: from a tree of values to what a scenario is made of.
 
 use super::checks::{self, Checks};
+use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Report};
 use super::group::{self, Group, Surroundings};
 use super::output::{self, OutputPlan};
 use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
-use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
+use super::steering::Controllers;
+use super::{diagnostic::Diagnostics, game, game::Game, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::error::Error;
@@ -26,11 +28,14 @@ pub(super) struct File {
     pub description: String,
     pub duration: f32,
     pub config: WorldConfig,
+    pub chemicals: Chemicals,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
+    pub controllers: Controllers,
     pub commands: Vec<Command>,
     pub checks: Checks,
     pub output: OutputPlan,
+    pub game: Option<Game>,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
@@ -54,16 +59,31 @@ pub(super) fn read_root(table: &DeTable<'_>, report: &Report<'_>) -> File {
     let size = size.or_else(|| room_for(&plans, report)).unwrap_or(config.size);
     let config = WorldConfig { size, ..config };
     let obstacles = obstacle::read(&mut root, size);
-    let controllers = steering::read(&mut root, size);
-    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, size };
+    let chemicals = chemical::read(&mut root, &config);
+    let controllers = steering::read(&mut root, size, &chemicals);
+    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
     let mut groups = group::read_spawns(&mut root, &around);
     groups.extend(lay_out(plans, size, report));
-    let commands = script::read(&mut root, &groups, duration);
+    let commands = script::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
     let output = output::read(&mut root);
+    let game = game::read(&mut root, &groups);
     root.finish();
     group::check_size(&groups, config.max_particles, report);
-    File { name, description, duration, config, obstacles, groups, commands, checks, output }
+    File {
+        name,
+        description,
+        duration,
+        config,
+        chemicals,
+        obstacles,
+        groups,
+        controllers,
+        commands,
+        checks,
+        output,
+        game,
+    }
 }
 
 fn read_schema(root: &mut Fields<'_>) {

@@ -64,8 +64,7 @@ impl Prototype {
 
     /// Whether anything can steer it.
     pub(super) fn can_move(&self) -> bool {
-        use OrganismSpec::{AmoeboidCell, Coccus, Probe, RigidCell};
-        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_) | Coccus(_))
+        self.spec.can_move()
     }
 
     /// Whether it takes others in and grows.

@@ -15,6 +15,8 @@ pub enum Shape {
     Word(&'static [&'static str]),
     /// An array of so many values of one form; of any number without it.
     Array(Box<Self>, Option<usize>),
+    /// A table of any names, with a value of one form each.
+    Table(Box<Self>),
     /// Any of these.
     Either(Vec<Self>),
 }

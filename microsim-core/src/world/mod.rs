@@ -1,6 +1,8 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+pub(crate) mod anatomy;
+mod behaving;
 mod cup;
 pub(crate) mod digest;
 mod division;
@@ -11,6 +13,7 @@ mod ingestion;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
 pub(crate) mod named_measure;
+mod push;
 pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
@@ -20,8 +23,10 @@ pub(crate) mod restore;
 mod rewire;
 mod spawn;
 pub(crate) mod touching;
+pub(crate) mod validate;
 pub(crate) mod view;
 
+use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
@@ -63,6 +68,7 @@ pub struct World {
     pub(crate) templates: Vec<Template>,
     pub(crate) blocks: Vec<Block>,
     pub(crate) fluids: Vec<Fluid>,
+    pub(crate) chemicals: Vec<Chemical>,
     pub(crate) exemptions: Exemptions,
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
@@ -110,6 +116,7 @@ impl World {
             obstacle_digests: Vec::new(),
             blocks: Vec::new(),
             fluids: Vec::new(),
+            chemicals: Vec::new(),
             exemptions: Exemptions::default(),
             organisms: Organisms::default(),
             touching: Touching::default(),
@@ -190,6 +197,7 @@ impl World {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
         self.obstacle_digests.push(digest::of_obstacle(&obstacle));
+        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
     }

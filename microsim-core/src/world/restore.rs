@@ -3,6 +3,7 @@
 
 use super::{Guard, World};
 use crate::capability::Locomotion;
+use crate::chemical;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
@@ -35,6 +36,7 @@ pub(crate) struct State {
     templates: Vec<Template>,
     blocks: Vec<Block>,
     fluids: Vec<Fluid>,
+    chemicals: Vec<chemical::Record>,
     exemptions: Exemptions,
     touching: Touching,
     events: Vec<Event>,
@@ -53,6 +55,11 @@ impl World {
             world.add_obstacle(obstacle).map_err(|error| error.within(&format!("obstacles[{k}]")).to_string())?;
         }
         ensure(world.obstacle_digests == state.obstacle_digests, || "obstacles: not what they were")?;
+        for (k, record) in state.chemicals.into_iter().enumerate() {
+            let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
+            let filled = added.and_then(|()| world.chemicals[k].take_over(record));
+            filled.map_err(|flaw| format!("chemicals[{k}]: {flaw}"))?;
+        }
         world.step_index = state.step_index;
         world.particles = state.particles;
         world.organisms = state.organisms;
@@ -64,6 +71,7 @@ impl World {
         world.events = state.events;
         world.guard = state.guard;
         world.particles.complete()?;
+        world.organisms.complete();
         world.check_structure()?;
         // Measures look at the pairs that the last step found; until the next one these stand for them.
         if world.step_index > 0 {
@@ -90,9 +98,9 @@ impl World {
 
     /// Checks that exactly the empty slots of organisms are free, each once.
     fn check_slots(&self) -> Result<(), String> {
-        let mut free = self.organisms.free_indices().to_vec();
+        let mut free = self.organisms.free_slots().to_vec();
         free.sort_unstable();
-        let empty = (0..self.organisms.capacity()).filter(|&index| self.organisms.id_at(index).is_none());
+        let empty = (0..self.organisms.slot_count()).filter(|&index| self.organisms.id_at(index).is_none());
         ensure(empty.eq(free), || "organisms.free: not the empty slots")
     }
 
@@ -144,6 +152,12 @@ impl World {
         ensure(wanted.is_none_or(|nodes| nodes < MOST_NODES), || "divider.wanted_nodes: too many")?;
         let in_words = |error: Error, field: &str| error.within(field).to_string();
         organism.controller.validate().map_err(|error| in_words(error, "controller"))?;
+        let suits = self.check_controller(&organism.controller, &organism.locomotion, nodes > 0);
+        suits.map_err(|error| error.to_string())?;
+        for exchange in &organism.exchanges {
+            let is_known = self.check_chemical(exchange.chemical, "chemical").and_then(|()| exchange.validate());
+            is_known.map_err(|error| in_words(error, "exchanges"))?;
+        }
         let engulfer = organism.engulfer.as_ref().map_or(Ok(()), |engulfer| engulfer.params.validate());
         engulfer.map_err(|error| in_words(error, "engulfer"))?;
         let divider = organism.divider.as_ref().map_or(Ok(()), |divider| divider.params.validate());
