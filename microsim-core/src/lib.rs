@@ -46,6 +46,8 @@ pub mod microscope;
 mod organism;
 mod parallel;
 mod particle;
+#[cfg(all(feature = "scenario", feature = "snapshot"))]
+pub mod replay;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
@@ -85,6 +87,7 @@ pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
+pub use world::difference::Difference;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;

@@ -92,6 +92,7 @@ pub use script::{Refusal, Script};
 use crate::config::WorldConfig;
 use crate::error::Error;
 use crate::id::OrganismId;
+use crate::inputs::Inputs;
 use crate::world::World;
 use diagnostic::in_words;
 use fields::Report;
@@ -225,6 +226,13 @@ impl Scenario {
 }
 
 impl Built {
+    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
+    pub fn step(&mut self, told: &Inputs) {
+        let mut inputs = self.script.before_step(&mut self.world).clone();
+        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        self.world.step(&inputs);
+    }
+
     fn note(&mut self, group: &Group, id: OrganismId) {
         if group.is_player && self.player.is_none() {
             self.player = Some(id);

@@ -2,6 +2,7 @@
 //! their own.
 
 mod cup;
+pub(crate) mod difference;
 pub(crate) mod digest;
 mod division;
 mod feeding;
