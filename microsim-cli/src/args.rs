@@ -70,6 +70,9 @@ pub(crate) struct RunArgs {
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]
     pub seconds: Option<f64>,
+    /// Check the whole state after every step; the first violation is named on stderr, and the exit code is 1
+    #[arg(long)]
+    pub validate: bool,
     /// Write pictures, measures and events into this folder; it must be empty or not exist
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

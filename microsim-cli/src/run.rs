@@ -31,7 +31,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     let mut built = prepared.built.clone();
     let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &built.world, steps)).transpose()?;
     let bar = console.progress(steps);
-    let (tally, failures) = advance(&mut built, steps, &bar, record.as_mut())?;
+    let (tally, failures) = advance(&mut built, steps, args.validate, &bar, record.as_mut())?;
     bar.finish_and_clear();
     let report = RunReport { failures, ..RunReport::new(&prepared, &built.world, tally) };
     if let (Some(record), Some(outputs)) = (record, &outputs) {
@@ -43,23 +43,29 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     verdict(&report, prepared.name())
 }
 
-/// Takes the steps. Returns also what failed: the first check that broke, then commands that were refused.
+/// Takes the steps. Returns also what failed: the first check that broke, the first violation if the state is to be
+/// validated, then commands that were refused.
 fn advance(
     built: &mut Built,
     steps: u64,
+    validates: bool,
     bar: &ProgressBar,
     mut record: Option<&mut Record>,
 ) -> Result<(Tally, Vec<String>), Failure> {
     let Built { world, script, checks, .. } = built;
     let mut broken = None;
+    let mut invalid = None;
     let see = |world: &World| {
         bar.set_position(world.step_index());
         broken = broken.or_else(|| checks.after_step(world).first().copied());
+        if validates && invalid.is_none() {
+            invalid = world.validate().err().map(|violation| format!("after step {}: {violation}", world.step_index()));
+        }
         record.as_mut().map_or(Ok(()), |record| record.add(world))
     };
     let tally = simulate(world, steps, |world| timed_step(world, script), see)?;
     let refusals = script.refusals().iter().map(ToString::to_string);
-    Ok((tally, broken.iter().map(ToString::to_string).chain(refusals).collect()))
+    Ok((tally, broken.iter().map(ToString::to_string).chain(invalid).chain(refusals).collect()))
 }
 
 fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {

@@ -74,3 +74,9 @@ fn everything_is_written_although_an_invariant_broke() {
     let failure = report["failures"][0].as_str().unwrap();
     assert_eq!(failure, "organisms is 1 after step 1 (0.02 s), accepted: at most 0");
 }
+
+#[test]
+fn a_valid_state_exits_with_0() {
+    let output = run(&["run", "divide", "--steps", "60", "--validate"]);
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+}

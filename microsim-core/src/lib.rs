@@ -93,6 +93,7 @@ pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;
 pub use world::quality::Quality;
 pub use world::query::RayHit;
+pub use world::validate::Violation;
 pub use world::view::{OrganismView, ParticleView, View};
 
 pub use {glam, parry2d};

@@ -11,6 +11,7 @@ pub mod clock;
 pub mod convert;
 pub mod draw;
 pub mod input;
+pub mod microscope;
 pub mod picture;
 pub mod script;
 pub mod shot;

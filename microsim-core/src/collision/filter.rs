@@ -77,6 +77,16 @@ impl Exemptions {
         !self.gates.is_empty() && (is_open(particles[0], owners[1]) || is_open(particles[1], owners[0]))
     }
 
+    /// The open gates, ascending.
+    pub(crate) fn gates(&self) -> &[(u32, u32)] {
+        &self.gates
+    }
+
+    /// The pairs, smaller owner first, ascending.
+    pub(crate) fn pairs(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+
     /// Exempts a new owner from what another one is exempt from.
     pub(crate) fn inherit(&mut self, from: u32, to: u32) {
         let others = self.pairs.iter().filter(|&&(a, b)| a == from || b == from);

@@ -30,6 +30,29 @@ const MAX_RADIUS: f32 = 1e5;
 #[cfg(feature = "snapshot")]
 const MAX_COORDINATE: f32 = 1e6;
 
+/// Instances of a template in one block.
+pub(crate) const LANES: usize = 8;
+
+/// Where a block lies in the store.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockRange {
+    /// Entry of slot 0 in lane 0.
+    pub base: usize,
+    pub slots: usize,
+}
+
+impl BlockRange {
+    /// Entry of a slot in a lane.
+    pub(crate) fn entry(&self, slot: usize, lane: usize) -> usize {
+        self.base + slot * LANES + lane
+    }
+
+    /// Number of its entries.
+    pub(crate) fn len(&self) -> usize {
+        self.slots * LANES
+    }
+}
+
 /// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct CollisionGroups {
@@ -151,6 +174,12 @@ impl Particles {
     /// Origin of particle `i`'s owner.
     pub(crate) fn origin(&self, i: usize) -> Vec2 {
         Vec2::new(self.origin_x[i], self.origin_y[i])
+    }
+
+    /// Position of particle `i` relative to its origin.
+    #[inline(always)]
+    pub(crate) fn offset(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
     }
 
     /// Position of particle `i` in the world.

@@ -98,6 +98,11 @@ impl Membrane {
         Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
     }
 
+    /// Its numbers by the names of their fields: those that are always finite.
+    pub(crate) fn state(&self) -> [f32; 4] {
+        [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
+    }
+
     /// Finds this step's targets from what the membrane holds and whether it is being driven.
     pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
         let drive = if is_driven { 1.0 } else { 0.0 };
@@ -180,16 +185,16 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
     let alpha = TENSION_COMPLIANCE / (h * h);
     for (a, b) in links(ring) {
         let pair = Pair::<1>::load(particles, a as usize, b as usize);
-        let error = pair.length[0] - length;
-        let weight = pair.weight(0);
-        let multiplier = if error > 0.0 {
-            ratio(-error, weight + alpha)
-        } else if pair.length[0] < SHORTEST * length {
-            ratio(SHORTEST * length - pair.length[0], weight)
+        let (present, weight) = (pair.length(0), pair.weight(0));
+        let lack = length - present;
+        let share = if lack < 0.0 {
+            ratio(lack, present * (weight + alpha))
+        } else if present < SHORTEST * length {
+            ratio(SHORTEST * length - present, present * weight)
         } else {
-            SLACK_SHARE * ratio(-error, weight + alpha)
+            SLACK_SHARE * ratio(lack, present * (weight + alpha))
         };
-        pair.push(particles, [multiplier]);
+        pair.push(particles, [share]);
     }
 }
 

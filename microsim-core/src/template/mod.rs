@@ -35,7 +35,7 @@ pub enum Role {
 }
 
 impl Role {
-    const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Plain,
         Self::Membrane,
         Self::InnerRing,

@@ -21,6 +21,7 @@ pub(crate) mod restore;
 mod rewire;
 mod spawn;
 pub(crate) mod touching;
+pub(crate) mod validate;
 pub(crate) mod view;
 
 use crate::collision::broad_phase::BroadPhase;

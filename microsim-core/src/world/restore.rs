@@ -64,6 +64,7 @@ impl World {
         world.events = state.events;
         world.guard = state.guard;
         world.particles.complete()?;
+        world.organisms.complete();
         world.check_structure()?;
         // Measures look at the pairs that the last step found; until the next one these stand for them.
         if world.step_index > 0 {
@@ -90,9 +91,9 @@ impl World {
 
     /// Checks that exactly the empty slots of organisms are free, each once.
     fn check_slots(&self) -> Result<(), String> {
-        let mut free = self.organisms.free_indices().to_vec();
+        let mut free = self.organisms.free_slots().to_vec();
         free.sort_unstable();
-        let empty = (0..self.organisms.capacity()).filter(|&index| self.organisms.id_at(index).is_none());
+        let empty = (0..self.organisms.slot_count()).filter(|&index| self.organisms.id_at(index).is_none());
         ensure(empty.eq(free), || "organisms.free: not the empty slots")
     }
 

@@ -49,6 +49,11 @@ impl World {
 }
 
 impl Touching {
+    /// The pairs.
+    pub(crate) fn pairs(&self) -> &[(OrganismId, OrganismId)] {
+        &self.pairs
+    }
+
     /// Compares the pairs of particles that touched in this step with the last step's and reports what began and what ended.
     pub(crate) fn update(
         &mut self,
