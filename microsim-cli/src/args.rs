@@ -32,6 +32,10 @@ pub(crate) enum Verb {
     Check(ScenarioArgs),
     /// Run a scenario and say what came of it
     Run(RunArgs),
+    /// Make a recorded run again and compare it with the record
+    Replay(crate::replay::ReplayArgs),
+    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
+    Diff(crate::diff::DiffArgs),
     /// Measure how long steps and their phases take, and how well the constraints hold
     Bench(BenchArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
@@ -79,6 +83,8 @@ pub(crate) struct RunArgs {
     /// Allow a folder that is not empty: files of the same names are replaced, all others stay
     #[arg(long, requires = "out")]
     pub force: bool,
+    #[command(flatten)]
+    pub keep: crate::record::KeepArgs,
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,

@@ -7,15 +7,19 @@ mod args;
 mod bench;
 mod console;
 mod diagnostics;
+mod diff;
 mod draw;
 mod failure;
 mod inspect;
 mod interrupt;
 mod moments;
 mod output;
+mod record;
 mod render;
+mod replay;
 mod report;
 mod run;
+mod saved;
 mod simulate;
 mod source;
 
@@ -38,6 +42,8 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::List => inspect::list(),
         Verb::Check(args) => inspect::check(args),
         Verb::Run(args) => run::run(args, console),
+        Verb::Replay(args) => replay::replay(args, console),
+        Verb::Diff(args) => diff::diff(args),
         Verb::Bench(args) => bench::bench(args, console),
         Verb::Render(args) => render::render(args, console),
     }

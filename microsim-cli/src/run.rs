@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::moments::Moments;
 use crate::output::Outputs;
+use crate::record::Recording;
 use crate::report::{EventFile, MeasureFile, RunReport};
 use crate::simulate::{Tally, simulate};
 use crate::source::{Prepared, prepare};
@@ -30,9 +31,13 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
     let mut built = prepared.built.clone();
     let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &built.world, steps)).transpose()?;
+    let mut recording = args.keep.start(prepared.scenario.origin())?;
     let bar = console.progress(steps);
-    let (tally, failures) = advance(&mut built, steps, args.validate, &bar, record.as_mut())?;
+    let keepers = Keepers { record: record.as_mut(), recording: recording.as_mut() };
+    let (tally, failures) = advance(&mut built, steps, args.validate, &bar, keepers)?;
     bar.finish_and_clear();
+    recording.map_or(Ok(()), |recording| recording.finish(&built.world))?;
+    args.keep.save(prepared.scenario.origin(), &built)?;
     let report = RunReport { failures, ..RunReport::new(&prepared, &built.world, tally) };
     if let (Some(record), Some(outputs)) = (record, &outputs) {
         record.finish(outputs, &built.world)?;
@@ -50,7 +55,7 @@ fn advance(
     steps: u64,
     validates: bool,
     bar: &ProgressBar,
-    mut record: Option<&mut Record>,
+    mut keepers: Keepers<'_>,
 ) -> Result<(Tally, Vec<String>), Failure> {
     let Built { world, script, checks, .. } = built;
     let mut broken = None;
@@ -61,7 +66,7 @@ fn advance(
         if validates && invalid.is_none() {
             invalid = world.validate().err().map(|violation| format!("after step {}: {violation}", world.step_index()));
         }
-        record.as_mut().map_or(Ok(()), |record| record.add(world))
+        keepers.add(world)
     };
     let tally = simulate(world, steps, |world| timed_step(world, script), see)?;
     let refusals = script.refusals().iter().map(ToString::to_string);
@@ -84,6 +89,19 @@ fn timed_step(world: &mut World, script: &mut Script) -> Duration {
     let start = Instant::now();
     world.step(inputs);
     start.elapsed()
+}
+
+/// What writes while the run goes on.
+struct Keepers<'a> {
+    record: Option<&'a mut Record>,
+    recording: Option<&'a mut Recording>,
+}
+
+impl Keepers<'_> {
+    fn add(&mut self, world: &World) -> Result<(), Failure> {
+        self.recording.as_mut().map_or(Ok(()), |recording| recording.add(world))?;
+        self.record.as_mut().map_or(Ok(()), |record| record.add(world))
+    }
 }
 
 /// What `--out` collects while the run goes on.

@@ -18,6 +18,10 @@ pub(crate) struct Source {
 }
 
 impl Source {
+    pub(crate) fn new(origin: String, text: String) -> Self {
+        Self { origin, text }
+    }
+
     /// Name of the file, for messages.
     pub(crate) fn origin(&self) -> &str {
         &self.origin
