@@ -40,7 +40,11 @@ pub(crate) enum Verb {
     Run(Box<crate::run::RunArgs>),
     /// Go on with a run that was stopped, bit for bit
     Resume(crate::resume::ResumeArgs),
-    /// Say what is in a snapshot or a checkpoint
+    /// Make a recorded run again and compare it with the record
+    Replay(crate::replay::ReplayArgs),
+    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
+    Diff(crate::diff::DiffArgs),
+    /// Say what is in a snapshot, a checkpoint or a replay
     Inspect(crate::inspect::InspectArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
     Render(crate::render::RenderArgs),

@@ -5,6 +5,7 @@ use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, check_formats};
+use crate::record::KeepArgs;
 use crate::session::{Session, timed_step};
 use crate::source::{Prepared, load};
 use crate::summary::{Table, median};
@@ -43,6 +44,8 @@ pub(crate) struct RunArgs {
     pub force: bool,
     #[command(flatten)]
     pub outputs: OutputArgs,
+    #[command(flatten)]
+    pub keep: KeepArgs,
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
@@ -118,7 +121,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     }
     interrupt::listen();
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
-    Session::start(prepared, steps, outputs.as_ref(), args.validate)?.run(args.json, console)
+    Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
 }
 
 /// Says what a run would be.

@@ -83,6 +83,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("snapshot", &["collision", "fnv", "scenario", "world"]),
+    ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
     ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
 ];
 

@@ -116,6 +116,7 @@ pub use shape::Shape;
 use crate::config::WorldConfig;
 use crate::error::Error;
 use crate::id::{ChemicalId, OrganismId};
+use crate::inputs::Inputs;
 use crate::world::World;
 use diagnostic::in_words;
 use fields::Report;
@@ -292,6 +293,13 @@ impl Scenario {
 }
 
 impl Built {
+    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
+    pub fn step(&mut self, told: &Inputs) {
+        let mut inputs = self.script.before_step(&mut self.world).clone();
+        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        self.world.step(&inputs);
+    }
+
     fn note(&mut self, group: &Group, id: OrganismId) {
         for exchange in &group.exchanges {
             // The group's are checked, and the organism is new.
