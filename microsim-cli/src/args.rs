@@ -145,6 +145,9 @@ pub(crate) struct RenderArgs {
     /// Threads to compute pictures on; without it, one for each processor
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    /// Shade where chemicals are: each shade is half of the next
+    #[arg(long)]
+    pub chemicals: bool,
     /// Leave the scale bar out
     #[arg(long)]
     pub no_scale_bar: bool,

@@ -23,6 +23,8 @@ pub enum Kind {
     RedCell,
     /// A small round bacterium.
     Coccus,
+    /// A small rod-shaped bacterium.
+    Bacillus,
 }
 
 impl Kind {
@@ -39,6 +41,7 @@ impl Kind {
             Self::Custom => "custom",
             Self::RedCell => "red_cell",
             Self::Coccus => "coccus",
+            Self::Bacillus => "bacillus",
         }
     }
 }

@@ -69,6 +69,7 @@ struct Plan {
     view: ViewSpec,
     threads: usize,
     has_scale_bar: bool,
+    shows_chemicals: bool,
 }
 
 impl Plan {
@@ -92,6 +93,7 @@ impl Plan {
             view: args.view.clone().unwrap_or(ViewSpec::Room),
             threads: args.threads.unwrap_or(threads).clamp(1, 256),
             has_scale_bar: !args.no_scale_bar,
+            shows_chemicals: args.chemicals,
         })
     }
 
@@ -130,6 +132,7 @@ impl Plan {
         let exposure = microscope.expose(world, field);
         let exposure = exposure.map_err(|error| Failure::Message(format!("cannot render: {error}")))?;
         let picture = photograph::develop(&exposure, self.threads);
+        let picture = if self.shows_chemicals { overlay::with_chemicals(picture, &field, world) } else { picture };
         Ok(if self.has_scale_bar { overlay::with_scale_bar(picture, &field, optics) } else { picture })
     }
 }
