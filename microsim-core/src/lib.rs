@@ -37,6 +37,7 @@ mod collision;
 mod config;
 mod error;
 mod event;
+mod fnv;
 pub mod geometry;
 mod id;
 mod inputs;
@@ -49,9 +50,12 @@ mod particle;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
+#[cfg(feature = "snapshot")]
+pub mod snapshot;
 mod solver;
 mod step;
 mod template;
+mod walk;
 mod world;
 
 pub use behavior::crawl::MembraneRegion;
@@ -96,11 +100,13 @@ pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
+pub use world::anatomy::Bond;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;
 pub use world::quality::Quality;
 pub use world::query::RayHit;
+pub use world::validate::Violation;
 pub use world::view::{OrganismView, ParticleView, View};
 
 pub use {glam, parry2d};

@@ -1,8 +1,10 @@
 //! Random numbers: one PCG-XSH-RR 64/32 generator per organism, kept in the world's state
 //! (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms").
 
+use serde::{Deserialize, Serialize};
+
 /// A generator; equal seed and stream give equal numbers on every platform.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rng {
     pub(crate) state: u64,
     pub(crate) increment: u64,

@@ -6,6 +6,8 @@ use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
+use crate::particle::BlockRange;
+use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact};
 use crate::world::World;
@@ -119,12 +121,22 @@ fn steer(world: &mut World, inputs: &Inputs) {
     }
 }
 
-fn find_pairs(world: &mut World) {
-    let World { config, particles, organisms, obstacles, exemptions, scratch, .. } = world;
+pub(crate) fn find_pairs(world: &mut World) {
+    let World { config, particles, blocks, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
     let (rings, homes) = (rings.as_slice(), &organisms.homes());
-    scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, rings, homes, size, reach });
+    let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
+    scratch.broad_phase.find_pairs(Surroundings {
+        particles,
+        blocks,
+        obstacles,
+        exemptions,
+        rings,
+        homes,
+        size,
+        reach,
+    });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
@@ -156,7 +168,7 @@ fn project_constraints(world: &mut World, h: f32) {
 
 /// All membranes with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    organisms.iter().flat_map(|(_, organism)| organism.membranes())
+    organisms.with_membrane().flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {
@@ -179,7 +191,7 @@ fn update_velocities(world: &mut World, h: f32) {
         |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
     );
     // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
-    for (_, cell) in organisms.iter().filter(|(_, organism)| organism.crawls()) {
+    for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
     }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));

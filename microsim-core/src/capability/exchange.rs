@@ -2,9 +2,10 @@
 
 use crate::error::{Error, in_range};
 use crate::id::ChemicalId;
+use serde::{Deserialize, Serialize};
 
 /// An organism's source or sink of one chemical, spread evenly over its outline. While somebody holds it, it has none.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exchange {
     /// The chemical.
     pub chemical: ChemicalId,

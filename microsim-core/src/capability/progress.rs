@@ -4,6 +4,7 @@ use super::controller::senses::{Senses, Wish};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::PI;
 
 /// It has got somewhere when it is so far from where it was, in its radii.
@@ -19,7 +20,7 @@ const LONGER: f32 = 0.3;
 const ASTRAY: f32 = 0.5;
 
 /// Where an organism last got to, and its way out when it is stuck.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Progress {
     /// Where it last got somewhere, and where it was before.
     mark: Vec2,

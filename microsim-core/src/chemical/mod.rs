@@ -9,12 +9,13 @@ use crate::config::WorldConfig;
 use crate::error::{Error, in_range, out_of_range};
 use diffusion::Grid;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Most cells of one grid.
 const MAX_CELLS: usize = 1_000_000;
 
 /// How a chemical spreads.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChemicalSpec {
     /// Diffusion coefficient, square units/s, 0 to 100 000, and at most what 256 rounds of diffusion in a step carry: about
     /// 40 `spacing`² over the time of a step.
@@ -71,17 +72,41 @@ impl ChemicalSpec {
 }
 
 /// A chemical in a room.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Chemical {
     spec: ChemicalSpec,
+    #[serde(skip)]
     grid: Grid,
     /// Rounds of diffusion in a step.
+    #[serde(skip)]
     rounds: u32,
     /// Concentration in each cell, amount per square unit: rows from the lower left corner.
     values: Vec<f32>,
 }
 
+/// What a [`Chemical`] writes; the rest follows from the world.
+#[cfg(feature = "snapshot")]
+#[derive(Debug, Deserialize)]
+pub(crate) struct Record {
+    pub spec: ChemicalSpec,
+    values: Vec<f32>,
+}
+
 impl Chemical {
+    /// Takes on the concentrations that were read.
+    ///
+    /// # Errors
+    /// When they are not as many as cells, or one is none.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn take_over(&mut self, record: Record) -> Result<(), String> {
+        let is_sound = |value: &f32| (0.0..=f32::MAX).contains(value);
+        if record.values.len() != self.values.len() || !record.values.iter().all(is_sound) {
+            return Err("its concentrations do not fill the room".to_owned());
+        }
+        self.values = record.values;
+        Ok(())
+    }
+
     /// A chemical in a world of these settings.
     pub(crate) fn new(spec: ChemicalSpec, config: &WorldConfig) -> Result<Self, Error> {
         let (count, rounds) = spec.plan(config)?;

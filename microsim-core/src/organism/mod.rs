@@ -31,6 +31,7 @@ use crate::solver::membrane::{Content, Membrane};
 use crate::template::Template;
 use glam::Vec2;
 use parry2d::bounding_volume::Aabb;
+use serde::{Deserialize, Serialize};
 
 /// Any organism, as plain data.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,7 +208,7 @@ impl Blueprint {
 }
 
 /// Where the particles of an organism lie in the store.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Body {
     /// In one lane of a block. `first` is the particle of slot 0.
     Lane { block: u32, first: u32 },
@@ -240,7 +241,7 @@ impl Body {
 }
 
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Phagosome {
     pub prey: OrganismId,
     /// Particles, counter-clockwise.
@@ -251,7 +252,7 @@ pub(crate) struct Phagosome {
 }
 
 /// One living organism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Organism {
     pub kind: Kind,
     pub body: Body,
@@ -289,9 +290,15 @@ pub(crate) struct Organism {
     pub progress: Progress,
     /// Where it was spawned.
     pub home: Vec2,
-    /// The step in which it was spawned, and the box around it then.
+    /// The step in which it was spawned, and the box around it then: spares the search of what it overlaps.
+    #[serde(skip, default = "long_ago")]
     pub spawned: (u64, Aabb),
     pub is_quarantined: bool,
+}
+
+/// Stands for a step that is not the present one.
+fn long_ago() -> (u64, Aabb) {
+    (u64::MAX, Aabb::new_invalid())
 }
 
 impl Organism {

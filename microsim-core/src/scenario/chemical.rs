@@ -1,6 +1,7 @@
 //! Chemicals: the tables `[chemical.NAME]`, and who secretes and takes up what.
 
 use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
 use super::source::{Value, join, unknown};
 use crate::{ChemicalId, ChemicalSpec, Exchange, WorldConfig};
 
@@ -64,6 +65,15 @@ struct Rates(Vec<(String, f32)>);
 impl Read for Rates {
     fn accepted() -> String {
         "{ CHEMICAL = NUMBER }".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Table(Box::new(Shape::Number))
+    }
+
+    fn written(&self) -> String {
+        let rates = self.0.iter().map(|(name, rate)| format!("{name} = {}", rate.written()));
+        format!("{{ {} }}", rates.collect::<Vec<_>>().join(", "))
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

@@ -4,6 +4,7 @@ use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Read, Report, mismatch};
 use super::grid::{Grid, GridPlan};
 use super::prototype::{Prototype, Prototypes};
+use super::shape::Shape;
 use super::source::{DEGREE, NAME, Value, is_name, unknown};
 use super::steering::{self, Controllers};
 use crate::{Controller, Exchange};
@@ -24,6 +25,10 @@ pub(super) struct Group {
     pub exchanges: Vec<Exchange>,
     pub name: Option<String>,
     pub is_player: bool,
+    /// Time from which on they are there, s.
+    pub from: f32,
+    /// Time after which one that is gone or taken in is replaced, s.
+    pub respawn: Option<f32>,
 }
 
 /// Where organisms are put.
@@ -59,6 +64,17 @@ impl Read for Angle {
         "degrees from -36000 to 36000, or \"random\"".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::Word(&["random"])])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Radians(angle) => (angle / DEGREE).written(),
+            Self::Random => "\"random\"".to_owned(),
+        }
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         if value.get_ref().as_str() == Some("random") {
             return Some(Self::Random);
@@ -80,6 +96,15 @@ struct Scale([f32; 2]);
 impl Read for Scale {
     fn accepted() -> String {
         "a number 0.01 to 100, or [smallest, largest]".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
+    }
+
+    fn written(&self) -> String {
+        let [smallest, largest] = self.0;
+        if smallest == largest { smallest.written() } else { self.0.written() }
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
@@ -122,6 +147,16 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let exchanges = chemical::read_exchanges(fields, around.chemicals);
     let name = read_name(fields, names);
     let is_player = fields.or("player", false);
+    let from = fields.number("from", 0.0, [0.0, 1e6]);
+    let respawn = fields.get("respawn").filter(|&time| fields.is_within("respawn", time, [0.0, 1e6]));
+    for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && (is_player || name.is_some())) {
+        let accepted = "a [[spawn]] without `name` and `player`";
+        fields.report.refuse(
+            &fields.at(field),
+            "one that is known by name is there from the beginning, once",
+            accepted,
+        );
+    }
     let prototype = prototype?;
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];
     for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
@@ -130,7 +165,7 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     }
     let (path, place) = (fields.path.clone(), place?);
     check_box(fields, &place, prototype.extent(scale[1]));
-    Some(Group { path, prototype, place, angle, scale, controller, exchanges, name, is_player })
+    Some(Group { path, prototype, place, angle, scale, controller, exchanges, name, is_player, from, respawn })
 }
 
 /// Checks that an organism of this reach fits into the box that it is to be put into.
@@ -176,7 +211,7 @@ fn read_name(fields: &mut Fields<'_>, names: &mut BTreeSet<String>) -> Option<St
 fn read_place(fields: &mut Fields<'_>, size: Vec2) -> Option<Place> {
     let at: Option<Vec2> = fields.get("at");
     let count = fields.or("count", 1);
-    let within = fields.or("within", [Vec2::ZERO, size]);
+    let within = fields.get("within").unwrap_or([Vec2::ZERO, size]);
     let gap = fields.number("gap", 0.0, [0.0, 1000.0]);
     if !fields.has("at") {
         return is_box_in(&within, size, fields).then_some(Place::Random { count, within, gap });
@@ -225,6 +260,8 @@ impl Group {
             exchanges: Vec::new(),
             name: None,
             is_player: false,
+            from: 0.0,
+            respawn: None,
         }
     }
 

@@ -2,16 +2,21 @@
 
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
+use super::shape::Shape;
 use super::source::{NAME, Value, is_name, unknown};
 use super::steering::{self, Controllers};
+use super::supply::Supply;
+#[cfg(feature = "snapshot")]
+use super::supply::SupplyState;
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The commands of a scenario. Ask it for the inputs before every step.
-#[derive(Clone, Debug, Default)]
+/// The commands of a scenario, and the organisms that come later. Ask it for the inputs before every step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Script {
     commands: Vec<Command>,
     controllers: Controllers,
@@ -19,12 +24,14 @@ pub struct Script {
     /// Who is to divide, and the names for the daughters.
     dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
+    #[serde(skip)]
+    supplies: Vec<Supply>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
 }
 
 /// A command that the world refused.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
     /// Path of the command in the file, for example `command.2`.
     pub command: String,
@@ -37,7 +44,7 @@ pub struct Refusal {
 }
 
 /// One table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Command {
     path: String,
     of: String,
@@ -49,7 +56,7 @@ pub(super) struct Command {
 }
 
 /// What is done to an organism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Action {
     Goal(Goal),
     Digest(bool),
@@ -69,7 +76,7 @@ enum Action {
 type Named<'a> = Vec<(String, &'a Group)>;
 
 /// Where an organism is to go.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Goal {
     Rest,
     Point(Vec2),
@@ -78,7 +85,7 @@ enum Goal {
 }
 
 /// What one organism has been told to do until it is told something else.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Order {
     organism: OrganismId,
     goal: Goal,
@@ -104,16 +111,37 @@ impl Script {
         Self { commands, controllers, named, ..Self::default() }
     }
 
+    /// The same, with organisms that come later.
+    pub(super) fn with_supplies(self, supplies: Vec<Supply>) -> Self {
+        Self { supplies, ..self }
+    }
+
+    /// What changes of the organisms that come later; the rest of them is in the file.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supply_states(&self) -> impl Iterator<Item = &SupplyState> {
+        self.supplies.iter().map(|supply| &supply.state)
+    }
+
+    /// Takes the organisms that come later from the script as the file has it, in this state; `None` if it does not fit.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supplied_by(self, file: Self, states: Vec<SupplyState>) -> Option<Self> {
+        let fits = file.supplies.len() == states.len();
+        let mut supplies = file.supplies;
+        supplies.iter_mut().zip(states).for_each(|(supply, state)| supply.state = state);
+        fits.then(|| self.with_supplies(supplies))
+    }
+
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.commands.is_empty()
+        self.commands.is_empty() && self.supplies.is_empty()
     }
 
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
         self.rename(world.events());
+        self.supplies.iter_mut().for_each(|supply| supply.before_step(world));
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };
@@ -264,7 +292,8 @@ fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Op
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
     let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
-    let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
+    let until = fields.get("until").filter(|&until| fields.is_within("until", until, [at, 1e6]));
+    let until = until.unwrap_or(if duration > at { duration } else { at });
     let path = fields.path.clone();
     let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
     if !ACTIONS.iter().any(|(field, _)| fields.has(field)) {
@@ -336,6 +365,14 @@ struct Always;
 
 impl Read for Always {
     fn accepted() -> String {
+        "true".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Boolean
+    }
+
+    fn written(&self) -> String {
         "true".to_owned()
     }
 

@@ -2,6 +2,7 @@
 
 use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
 use super::source::{DEGREE, Value, unknown};
 use crate::{
     AvoidanceParams, BrownianParams, ChemicalId, ChemotaxisParams, Controller, FleeParams, PersistentWalkParams,
@@ -45,14 +46,17 @@ pub(super) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> 
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
             let known = Known { size, chemicals, controllers: &controllers };
-            let controller = read(&mut fields, &known).unwrap_or_default();
             let (path, report) = (fields.path.clone(), fields.report);
+            let read = || {
+                let controller = read(&mut fields, &known).unwrap_or_default();
+                controller.validate().map(|()| controller)
+            };
+            let controller = report.check_all(&path, read).unwrap_or_default();
             fields.finish();
             if controllers.contains_key(&name) {
                 let accepted = "a name that no other controller has".to_owned();
                 report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
             }
-            report.check(&path, controller.validate());
             controllers.insert(name, controller);
         }
     }
@@ -202,6 +206,18 @@ enum Unit {
 impl Read for Unit {
     fn accepted() -> String {
         "\"units\" or \"room\"".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Word(&["units", "room"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Micrometres => "\"units\"",
+            Self::Rooms => "\"room\"",
+        }
+        .to_owned()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

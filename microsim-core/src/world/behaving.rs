@@ -67,7 +67,7 @@ impl World {
         Ok(())
     }
 
-    fn check_chemical(&self, id: ChemicalId, field: &str) -> Result<(), Error> {
+    pub(super) fn check_chemical(&self, id: ChemicalId, field: &str) -> Result<(), Error> {
         let is_known = (id.0 as usize) < self.chemicals.len();
         is_known.then_some(()).ok_or_else(|| Error::reference(field, "a chemical of this world"))
     }

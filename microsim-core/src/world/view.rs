@@ -5,7 +5,7 @@ use crate::behavior::crawl::{MembraneRegion, region};
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::MealPhase;
+use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, PreyClass};
 use crate::chemical::Chemical;
 use crate::id::{ChemicalId, OrganismId};
 use crate::kind::Kind;
@@ -16,7 +16,7 @@ use glam::Vec2;
 /// Borrows a world for reading.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    world: &'a World,
+    pub(super) world: &'a World,
 }
 
 /// One organism, for reading.
@@ -121,6 +121,31 @@ impl<'a> OrganismView<'a> {
     /// Its prey, in the order in which it was first touched, and where they stand; empty for what takes nothing in.
     pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
         self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
+    }
+
+    /// How it takes prey in; `None` for what does not.
+    #[must_use]
+    pub fn phagocytosis(self) -> Option<&'a PhagocytosisParams> {
+        self.organism.engulfer.as_ref().map(|engulfer| &engulfer.params)
+    }
+
+    /// Area of its cytoplasm, square units: the sum of its particles' areas (seed, 3.3.1), which decides with
+    /// [`PhagocytosisParams::size_ratio`] how large soft prey may be.
+    #[must_use]
+    pub fn cytoplasm_area(self) -> f32 {
+        self.world.engulfer_area(self.organism)
+    }
+
+    /// Whether it is soft prey: one at a time, and only of the right size.
+    #[must_use]
+    pub fn is_soft_prey(self) -> bool {
+        self.organism.prey.is_some_and(|prey| prey.class == PreyClass::Soft)
+    }
+
+    /// Whether the one place for soft prey is taken, or about to be.
+    #[must_use]
+    pub fn is_full(self) -> bool {
+        self.organism.engulfer.as_ref().is_some_and(Engulfer::slot_is_taken)
     }
 
     /// Its phagosomes: the prey in each, and the centres of the membrane around it, counter-clockwise. Only cups make them,

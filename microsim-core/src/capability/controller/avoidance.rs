@@ -9,6 +9,7 @@ use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
 /// Share of its speed from which on it is on its way, ...
@@ -17,7 +18,7 @@ const CRUISING: f32 = 0.6;
 const STOPPED: f32 = 0.3;
 
 /// Parameters of the avoiding reaction, see [`super::Controller::avoidance`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AvoidanceParams {
     /// Shortest and longest time for which it backs up, s, 0.05 to 60.
     pub back: [f32; 2],
@@ -48,7 +49,7 @@ impl Default for AvoidanceParams {
 }
 
 /// A swaying way, and the reaction to what is in it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Avoidance {
     params: AvoidanceParams,
     /// Its way, a unit vector; zero before the first step.

@@ -8,9 +8,10 @@ use super::senses::{Senses, Wish};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Parameters of Brownian motion, see [`super::Controller::brownian`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BrownianParams {
     /// Diffusion coefficient, square units/s, 0 to 10 000.
     pub diffusion: f32,
@@ -25,7 +26,7 @@ impl Default for BrownianParams {
 }
 
 /// Kicks in random directions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Brownian {
     params: BrownianParams,
     /// Of the present kick, units/s.

@@ -13,9 +13,10 @@ use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::id::ChemicalId;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Parameters of chemotaxis, see [`super::Controller::chemotaxis`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChemotaxisParams {
     /// The chemical that attracts it.
     pub chemical: ChemicalId,
@@ -50,7 +51,7 @@ impl ChemotaxisParams {
 }
 
 /// A persistent random walk that turns towards a chemical.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chemotaxis {
     pub(super) params: ChemotaxisParams,
     pub(super) walk: PersistentWalk,

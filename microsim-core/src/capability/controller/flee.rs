@@ -7,9 +7,10 @@ use crate::error::{Error, in_range};
 use crate::geometry::ring::direction_or;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Parameters of flight, see [`super::Controller::flee`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FleeParams {
     /// Gap to a threat from which on it flees, units, 0 to 10 000.
     pub within: f32,
@@ -24,7 +25,7 @@ impl Default for FleeParams {
 }
 
 /// Flight, and what it does otherwise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flee {
     params: FleeParams,
     pub(super) otherwise: Box<Controller>,

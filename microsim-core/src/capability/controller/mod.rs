@@ -32,12 +32,13 @@ use pursue::{Pursue, PursueParams};
 use ram::Ram;
 use run_and_tumble::{RunAndTumble, RunAndTumbleParams};
 use senses::{Senses, Wish};
+use serde::{Deserialize, Serialize};
 use thrash::Thrash;
 use wander::Wander;
 
 /// What steers an organism when no input does: a model of behaviour and its present state. It works for everything that
 /// moves, whatever it is; [`Controller::chemotaxis`] needs an outline to sense with.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Controller {
     /// Nothing: it rests.

@@ -4,9 +4,10 @@ use super::check_point;
 use super::senses::{Senses, Wish};
 use crate::error::Error;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// See [`super::Controller::patrol`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Patrol {
     through: Vec<Vec2>,
     repeats: bool,

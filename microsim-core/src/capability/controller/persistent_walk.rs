@@ -8,10 +8,11 @@ use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
 /// Parameters of the persistent random walk, see [`super::Controller::persistent_walk`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PersistentWalkParams {
     /// Time over which it keeps its direction, s, 0.05 to 10 000.
     pub persistence: f32,
@@ -24,7 +25,7 @@ impl Default for PersistentWalkParams {
 }
 
 /// A heading that diffuses.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PersistentWalk {
     params: PersistentWalkParams,
     /// A unit vector; zero before the first step.

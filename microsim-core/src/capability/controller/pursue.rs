@@ -5,12 +5,13 @@ use super::Controller;
 use super::senses::{Senses, Wish};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
+use serde::{Deserialize, Serialize};
 
 /// Farthest that it looks ahead, s.
 const FORESIGHT: f32 = 2.0;
 
 /// Parameters of pursuit, see [`super::Controller::pursue`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PursueParams {
     /// Distance within which it sees prey, units, 0 to 10 000.
     pub within: f32,
@@ -25,7 +26,7 @@ impl Default for PursueParams {
 }
 
 /// Pursuit, and what it does otherwise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pursue {
     params: PursueParams,
     pub(super) otherwise: Box<Controller>,

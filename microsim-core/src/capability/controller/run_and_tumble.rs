@@ -11,10 +11,11 @@ use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::id::ChemicalId;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
 /// Parameters of run and tumble, see [`super::Controller::run_and_tumble`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunAndTumbleParams {
     /// Mean time of a run where nothing gets better, s, 0.02 to 600.
     pub run: f32,
@@ -48,7 +49,7 @@ impl Default for RunAndTumbleParams {
 }
 
 /// A bacterium's runs and tumbles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunAndTumble {
     pub(super) params: RunAndTumbleParams,
     /// A unit vector; zero before the first run.

@@ -5,10 +5,11 @@ use crate::error::{Error, in_range};
 use crate::geometry::ring::unit_vector;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
 /// See [`super::Controller::thrash`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Thrash {
     interval: f32,
     reversal: f32,

@@ -4,9 +4,10 @@ use super::senses::{Senses, Wish};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// See [`super::Controller::wander`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wander {
     /// Shortest and longest time until the next decision, s.
     interval: [f32; 2],

@@ -7,10 +7,12 @@
 use super::outline::{DistanceMap, smooth};
 use super::spot::{Spot, Thread};
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
+use crate::microscope::formula::Formula;
 use crate::microscope::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
+use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView};
 use glam::{Mat2, Vec2};
@@ -18,10 +20,21 @@ use std::f32::consts::TAU;
 
 /// Cell of the distance map, micrometres.
 const STEP: f32 = 0.2;
+/// Speed at which ruffles run, features per second.
+const RUFFLING: f32 = 0.25;
 /// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
 const CRAWLING: f32 = 12.0;
 /// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
 const SKEWED: f32 = 8.0;
+
+/// Most lobes of a nucleus.
+pub(in crate::microscope) const LOBES: usize = 5;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("amoeboid.glsl"), constants: &[] };
+
+/// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
+/// nucleus.
+const SALTS: [u32; 5] = [0, 7, 3, 11, 5];
 
 /// One cell, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -108,6 +121,38 @@ impl AmoeboidBody {
         plate.add(low, high, |p| self.at(p, softness));
     }
 
+    /// A box around it for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        let (low, high) = self.map.bounds();
+        if slide.sees(0.5 * (low + high), (high - low).length()) {
+            let corners = box_corners(low, high);
+            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(self.map.clone()));
+        }
+    }
+
+    fn uniforms(&self) -> Vec<f32> {
+        let Self { look, front, from_shape: frame, .. } = self;
+        let mut uniforms = vec![self.centre.x, self.centre.y, self.radius, self.rim()];
+        uniforms.extend([frame.x_axis.x, frame.x_axis.y, frame.y_axis.x, frame.y_axis.y]);
+        uniforms.extend([front.way.x, front.way.y, front.strength, front.ahead + front.behind]);
+        let [from, to] = self.border();
+        uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
+        uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
+        uniforms.extend(look.matter.to_array());
+        uniforms.extend(look.nucleus.matter.to_array());
+        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size]);
+        let nowhere = (Vec2::ZERO, -1000.0);
+        let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
+        uniforms.extend(lobes.flat_map(|(at, radius)| [at.x, at.y, radius]));
+        uniforms.extend(SALTS.iter().flat_map(|salt| shift_of(self.seed ^ salt)));
+        uniforms
+    }
+
+    /// Width of the rim in which it rises.
+    fn rim(&self) -> f32 {
+        smaller(self.look.rim, 0.6 * self.radius)
+    }
+
     /// Its matter at a place, without what floats in it.
     fn at(&self, place: Vec2, softness: f32) -> Matter {
         let depth = self.map.at(place);
@@ -116,20 +161,20 @@ impl AmoeboidBody {
         }
         let look = self.look;
         let lamella = self.lamella(place);
-        let rim = smaller(look.rim, 0.6 * self.radius);
+        let rim = self.rim();
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let own = self.from_shape * (place - self.centre);
-        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed);
+        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = look.matter * (dome * texture);
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
-            let along = octaves(own * 0.7 + Vec2::splat(self.time * 0.25), 2, self.seed ^ 7);
+            let along = octaves(own * 0.7 + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
             matter += Matter::phase(look.lamella.ruffle * ruffle * smoothstep(-0.3, 0.7, along));
         }
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ 3);
+            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
             matter += look.nucleus.matter * (nucleus * clumps);
         }
         matter * smoothstep(-softness, softness, depth)
@@ -139,13 +184,20 @@ impl AmoeboidBody {
     fn lamella(&self, place: Vec2) -> f32 {
         let Front { way, strength, ahead, behind, .. } = self.front;
         let length = ahead + behind;
-        let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
         let from_centre = place - self.centre;
         // Its border is uneven, and bends back along the sides.
         let across = from_centre.perp_dot(way);
-        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ 11);
+        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ SALTS[3]);
         let along = from_centre.dot(way) + 0.15 * across * across / self.radius + uneven;
-        strength * smoothstep(ahead - (share + 0.10) * length, ahead - (share - 0.10) * length, along)
+        let [from, to] = self.border();
+        strength * smoothstep(from, to, along)
+    }
+
+    /// Where the clear front begins and where it is clear, along its direction.
+    fn border(&self) -> [f32; 2] {
+        let Front { ahead, behind, .. } = self.front;
+        let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
+        [share + 0.10, share - 0.10].map(|share| ahead - share * (ahead + behind))
     }
 
     /// The front swells and thins.
@@ -163,7 +215,7 @@ impl AmoeboidBody {
             mix(b, a, share) + neck * share * (1.0 - share)
         });
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ 5);
+        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
     }

@@ -1,15 +1,16 @@
 //! The specimen: what there is to see at one moment, as matter with places and sizes, free of pixels and light.
 
-mod amoeboid;
-mod chamber;
-mod ground;
-mod outline;
-mod round;
-mod spot;
+pub(super) mod amoeboid;
+pub(super) mod chamber;
+pub(super) mod ground;
+pub(super) mod outline;
+pub(super) mod round;
+pub(super) mod spot;
 
 use super::look::{Look, SpotShape};
 use super::matter::{Grid, Matter, Plate};
 use super::noise::scramble;
+use super::recipe::Slide;
 use crate::kind::Kind;
 use crate::world::World;
 use crate::world::view::{OrganismView, View};
@@ -79,6 +80,18 @@ impl Specimen {
         self.threads.iter().for_each(|thread| thread.draw(&mut plate));
         self.spots.iter().for_each(|spot| spot.draw(&mut plate));
         plate
+    }
+}
+
+impl Specimen {
+    /// The same matter for a graphics card; an empty target holds `bias`.
+    pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
+        self.ground.draw_on(slide, bias);
+        self.chamber.draw_on(slide);
+        self.amoeboid.iter().for_each(|body| body.draw_on(slide));
+        self.round.iter().for_each(|body| body.draw_on(slide));
+        self.threads.iter().for_each(|thread| thread.draw_on(slide));
+        self.spots.iter().for_each(|spot| spot.draw_on(slide));
     }
 }
 

@@ -1,8 +1,12 @@
 //! Outlines made smooth: a table of radii around a centre, and a map of distances from the edge.
 
 use crate::geometry::{centroid, signed_area};
+use crate::microscope::formula::Formula;
 use crate::microscope::maths::{larger, smaller};
+use crate::microscope::recipe::Map;
 use glam::Vec2;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("outline.glsl"), constants: &[] };
 
 /// Directions in a table of radii.
 const DIRECTIONS: usize = 128;
@@ -114,7 +118,7 @@ fn reach(outline: &[Vec2], from: Vec2, direction: Vec2) -> f32 {
 
 /// Signed distance from an outline, positive inside, on a grid.
 #[derive(Clone, Debug)]
-pub(super) struct DistanceMap {
+pub(in crate::microscope) struct DistanceMap {
     low: Vec2,
     step: f32,
     size: [usize; 2],
@@ -127,7 +131,14 @@ impl DistanceMap {
 
     /// Of an outline and `margin` around it, with cells of about `step`.
     pub(super) fn of(outline: &[Vec2], step: f32, margin: f32) -> Self {
-        let (low, high) = outline.iter().fold((outline[0], outline[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let bounds = outline.iter().fold((outline[0], outline[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let mut map = Self::sampled(bounds, step, margin, |at| signed_distance(outline, at));
+        map.soften();
+        map
+    }
+
+    /// Of any distance, in a box and `margin` around it.
+    pub(super) fn sampled((low, high): (Vec2, Vec2), step: f32, margin: f32, distance: impl Fn(Vec2) -> f32) -> Self {
         let extent = high - low;
         let step = larger(step, larger(extent.x, extent.y) / Self::MOST);
         let low = low - Vec2::splat(margin);
@@ -136,10 +147,9 @@ impl DistanceMap {
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let at = low + Vec2::new(x as f32, y as f32) * step;
-                map.values.push(signed_distance(outline, at));
+                map.values.push(distance(at));
             }
         }
-        map.soften();
         map
     }
 
@@ -156,6 +166,20 @@ impl DistanceMap {
             };
             self.values = (0..old.len()).map(mean).collect();
         }
+    }
+
+    /// As a texture, two bytes for each depth, and what [`FORMULA`] has to know of it.
+    pub(in crate::microscope) fn texture(&self) -> (Map, [f32; 7]) {
+        let [columns, rows] = self.size;
+        let least = self.values.iter().copied().fold(f32::INFINITY, smaller);
+        let most = self.values.iter().copied().fold(f32::NEG_INFINITY, larger);
+        let share = |depth: f32| ((depth - least) / larger(most - least, 1e-6) * 65535.0) as u16;
+        let texel = |&depth: &f32| {
+            let [high, low] = share(depth).to_be_bytes();
+            [high, low, 0, 255]
+        };
+        let map = Map { size: [columns as u16, rows as u16], texels: self.values.iter().flat_map(texel).collect() };
+        (map, [self.low.x, self.low.y, 1.0 / self.step, most, columns as f32, rows as f32, least])
     }
 
     /// Box that the map covers.

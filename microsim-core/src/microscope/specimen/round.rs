@@ -3,10 +3,12 @@
 use super::outline::{Polar, smooth};
 use super::spot::{Spot, Thread};
 use crate::geometry::{direction_or, rotate, unit_vector};
+use crate::microscope::formula::Formula;
 use crate::microscope::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
+use crate::microscope::recipe::{Program, Slide};
 use crate::world::view::OrganismView;
 use glam::Vec2;
 use std::f32::consts::TAU;
@@ -15,6 +17,25 @@ use std::f32::consts::TAU;
 const THICKEST: f32 = 2.56;
 /// Width over which any edge fades, micrometres: what a good lens resolves.
 const EDGE: f32 = 0.06;
+/// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
+/// radius 1 that heads for +x; where it ends at the mouth; half its width at the front, where it is shallow and broad.
+const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
+const GROOVE_END: [f32; 2] = [-0.10, 0.06];
+const GROOVE_WIDTH: f32 = 0.30;
+/// Directions in which a graphics card is told a body's radius.
+const SPOKES: usize = 96;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula {
+    source: include_str!("round.glsl"),
+    constants: &[
+        ("TURN", &[TAU]),
+        ("EDGE", &[EDGE]),
+        ("THICKEST", &[THICKEST]),
+        ("GROOVE", &GROOVE),
+        ("GROOVE_END", &GROOVE_END),
+        ("GROOVE_WIDTH", &[GROOVE_WIDTH]),
+    ],
+};
 
 /// One body, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -56,6 +77,40 @@ impl RoundBody {
         let reach = Vec2::splat(self.polar.farthest + EDGE + plate.grid.pixel);
         let softness = larger(0.6 * plate.grid.pixel, EDGE);
         plate.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
+    }
+
+    /// A fan of triangles for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        if !slide.sees(self.polar.centre, self.polar.farthest + 1.0) {
+            return;
+        }
+        let mut constant = self.facing.to_array().to_vec();
+        constant.extend(self.matter.to_array());
+        constant.extend(match self.look.profile {
+            Profile::Dome(power) => [power, 0.0, 0.0, 0.0],
+            Profile::Biconcave { c2, c4, .. } => [0.0, self.hollow, c2, c4],
+        });
+        constant.extend([self.look.texture.amount, self.look.texture.size]);
+        constant.extend(shift_of(self.seed));
+        let mut vertices = Vec::with_capacity((SPOKES + 1) * (5 + constant.len()));
+        for spoke in 0..=SPOKES {
+            // Even on a disc that is stretched like the body, so that slender ends are round.
+            let on_disc = if spoke == SPOKES { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / SPOKES as f32) };
+            let way = rotate(on_disc * self.axes, self.facing).normalize_or_zero();
+            let radius = if spoke == SPOKES { self.polar.mean } else { self.polar.radius(way) };
+            vertices.extend(self.polar.centre.to_array());
+            vertices.extend([way.x * radius, way.y * radius, radius]);
+            vertices.extend_from_slice(&constant);
+        }
+        let fan = (0..SPOKES as u16).flat_map(|k| [SPOKES as u16, k, (k + 1) % SPOKES as u16]);
+        match self.look.pellicle {
+            None => slide.add(Program::Round, false, &vertices, fan),
+            Some(pellicle) => {
+                let [x, y] = shift_of(self.seed);
+                let relief = [self.axes.x, self.axes.y, x, y, pellicle.furrows, pellicle.furrow_depth, pellicle.groove];
+                slide.add_apart(Program::Ciliate, &vertices, fan.collect(), relief.to_vec(), None);
+            }
+        }
     }
 
     /// Its matter at a place.
@@ -186,11 +241,17 @@ impl Pellicle {
         let meridian = own.y / larger(1.0 - own.x * own.x, 0.02).sqrt();
         let uneven = 0.8 * octaves(own * 3.0, 2, seed);
         let furrow = unit_vector(TAU * (0.5 * self.furrows * meridian) + uneven).y;
-        // The groove runs slanting from the front to the middle.
-        let along = smoothstep(-0.25, 0.05, own.x) * smoothstep(1.0, 0.6, own.x);
-        let groove = bell((own.y + 0.45 - 0.75 * (own.x - 0.1)) / 0.22) * along;
-        1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * groove
+        let [groove, lip] = oral_groove(own);
+        1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * (groove - 0.25 * lip)
     }
+}
+
+/// How much a place belongs to the oral groove and to its lips; it runs slanting from the front to the middle.
+fn oral_groove(own: Vec2) -> [f32; 2] {
+    let along = smoothstep(GROOVE_END[0], GROOVE_END[1], own.x) * smoothstep(1.0, 0.8, own.x);
+    let from_middle = own.y - GROOVE[0] - GROOVE[1] * own.x - GROOVE[2] * own.x * own.x;
+    let width = GROOVE_WIDTH * (0.5 + 0.5 * smoothstep(0.0, 0.8, own.x));
+    [bell(from_middle / width) * along, bell(((from_middle / width).abs() - 1.7) / 0.45) * along]
 }
 
 /// Gives an outline a few low waves of its own, which turn with the body.
