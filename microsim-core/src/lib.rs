@@ -85,6 +85,7 @@ pub use id::{ChemicalId, ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
 pub use kind::Kind;
 pub use organism::agar::AgarSpec;
+pub use organism::bacillus::BacillusSpec;
 pub use organism::coccus::CoccusSpec;
 pub use organism::filled_chain::AmoeboidCellSpec;
 pub use organism::fluid_block::FluidBlockSpec;

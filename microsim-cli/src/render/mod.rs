@@ -69,6 +69,9 @@ pub(crate) struct RenderArgs {
     /// Threads to compute pictures on; without it, one for each processor
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    /// Shade where chemicals are: each shade is half of the next
+    #[arg(long)]
+    pub chemicals: bool,
     /// Leave the scale bar out
     #[arg(long)]
     pub no_scale_bar: bool,
@@ -118,6 +121,7 @@ struct Plan {
     view: ViewSpec,
     threads: usize,
     has_scale_bar: bool,
+    shows_chemicals: bool,
 }
 
 impl Plan {
@@ -141,6 +145,7 @@ impl Plan {
             view: args.view.clone().unwrap_or(ViewSpec::Room),
             threads: args.threads.unwrap_or(threads).clamp(1, 256),
             has_scale_bar: !args.no_scale_bar,
+            shows_chemicals: args.chemicals,
         })
     }
 
@@ -179,6 +184,7 @@ impl Plan {
         let exposure = microscope.expose(world, field);
         let exposure = exposure.map_err(|error| Failure::Message(format!("cannot render: {error}")))?;
         let picture = photograph::develop(&exposure, self.threads);
+        let picture = if self.shows_chemicals { overlay::with_chemicals(picture, &field, world) } else { picture };
         Ok(if self.has_scale_bar { overlay::with_scale_bar(picture, &field, optics) } else { picture })
     }
 }

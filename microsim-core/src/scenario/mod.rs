@@ -46,6 +46,7 @@
 //! | `[probe.NAME]` | [`ProbeSpec`](crate::ProbeSpec); `radius` is required |
 //! | `[red_cell.NAME]` | [`RedCellSpec`](crate::RedCellSpec); `radius` is required |
 //! | `[coccus.NAME]` | [`CoccusSpec`](crate::CoccusSpec); `radius` is required |
+//! | `[bacillus.NAME]` | [`BacillusSpec`](crate::BacillusSpec); `radius` is required |
 //! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
 //! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
