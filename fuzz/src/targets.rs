@@ -13,7 +13,7 @@ const LIMITS: [(&str, &str); 2] = [("world.max_particles", "1500"), ("step.subst
 const STEPS: usize = 3;
 
 /// The text of a scenario.
-pub fn scenario(bytes: &[u8]) {
+pub(crate) fn scenario(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let limits = LIMITS.map(|(key, value)| (key.to_owned(), value.to_owned()));
     let Ok(scenario) = Scenario::parse(text, &limits).or_else(|_| Scenario::parse(text, &[])) else { return };
@@ -28,7 +28,7 @@ pub fn scenario(bytes: &[u8]) {
 
 /// A snapshot or a checkpoint. Of the first byte the lowest bits say which, and whether the rest is the file or only its
 /// content, to be wrapped up with a checksum that is right.
-pub fn snapshot(bytes: &[u8]) {
+pub(crate) fn snapshot(bytes: &[u8]) {
     let Some((&kind, rest)) = bytes.split_first() else { return };
     match kind % 4 {
         0 => world(World::from_snapshot(rest).ok()),
@@ -39,7 +39,7 @@ pub fn snapshot(bytes: &[u8]) {
 }
 
 /// A replay: the file if the first byte is even, else frames for a scenario of its own: kind, length and content of each.
-pub fn replay(bytes: &[u8]) {
+pub(crate) fn replay(bytes: &[u8]) {
     let Some((&kind, rest)) = bytes.split_first() else { return };
     let file = if kind % 2 == 0 { rest.to_vec() } else { framed(rest) };
     let Ok(replay) = Replay::read(&file) else { return };
@@ -81,7 +81,7 @@ fn run(accepted: Option<Checkpoint>) {
 }
 
 /// Content as it lies in a file (docs/determinism.md).
-pub fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
+pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
     let mut bytes = magic.to_vec();
     bytes.extend(VERSION.to_le_bytes());
     bytes.extend((content.len() as u64).to_le_bytes());
@@ -95,7 +95,7 @@ pub fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 const VERSION: u32 = 1;
 
 /// The scenario of replays that are made up.
-pub const ROOM: &str = r#"
+pub(crate) const ROOM: &str = r#"
 schema = 1
 [world]
 size = [30.0, 20.0]

@@ -59,10 +59,10 @@ interval = [0.1, 0.3]
 of = "cell"
 at = [15.0, 15.0]
 name = "cell"
+controller = "idle"
 [[spawn]]
 of = "pellet"
 at = [30.0, 15.0]
-controller = "idle"
 [[spawn]]
 of = "stone"
 at = [34.0, 24.0]

@@ -83,8 +83,8 @@ fn synchronise(steps: u32, seed: u64) -> World {
 }
 
 #[test]
-fn a_hundred_steps_of_the_demonstration_can_be_taken_back() {
-    assert_eq!(synchronise(100, 1).step_index(), 100);
+fn sixty_steps_of_the_demonstration_can_be_taken_back() {
+    assert_eq!(synchronise(60, 1).step_index(), 60);
 }
 
 #[test]
