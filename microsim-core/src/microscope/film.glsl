@@ -23,17 +23,26 @@ vec3 light_at(vec2 place) {
     return sum * LIGHT_RANGE;
 }
 
-void main() {
-    vec2 half_size = 0.5 * stock.zw;
-    vec2 from_middle = (gl_FragCoord.xy - half_size) / max(length(half_size), 1.0);
-    vec3 seen = light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)) * exposure.x * (1.0 - exposure.y * dot(from_middle, from_middle));
+vec3 grain_at(vec3 seen) {
     // Pixels are counted from the upper left.
     vec2 pixel = vec2(gl_FragCoord.x - 0.5, stock.w - gl_FragCoord.y - 0.5);
     float fine = grain(entry(pixel + parts[0]));
     // In the middle between four entries the texture unit gives their mean.
     float coarse = 4.0 * grain(entry(pixel + parts[1] + 0.5));
-    vec3 own = vec3(grain(entry(pixel + parts[2])), grain(entry(pixel + parts[3])), grain(entry(pixel + parts[4])));
-    vec3 middle = sqrt(max(seen * (1.15 - seen), 0.01));
-    vec3 recorded = seen + stock.x * middle * (FINE * fine + COARSE * coarse + stock.y * own);
+    vec3 sum = vec3(FINE * fine + COARSE * coarse);
+    if (stock.y > 0.0) {
+        sum += stock.y * vec3(grain(entry(pixel + parts[2])), grain(entry(pixel + parts[3])), grain(entry(pixel + parts[4])));
+    }
+    return stock.x * sqrt(max(seen * (1.15 - seen), 0.01)) * sum;
+}
+
+void main() {
+    vec2 half_size = 0.5 * stock.zw;
+    vec2 from_middle = (gl_FragCoord.xy - half_size) / max(length(half_size), 1.0);
+    vec3 seen = light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)) * exposure.x * (1.0 - exposure.y * dot(from_middle, from_middle));
+    vec3 recorded = seen;
+    if (stock.x > 0.0) {
+        recorded += grain_at(seen);
+    }
     gl_FragColor = vec4(mix(exposure.zzz, exposure.www, recorded), 1.0);
 }

@@ -34,14 +34,15 @@ pub(super) fn transmitted(matter: Matter) -> f32 {
     if matter.haemoglobin == 0.0 { 1.0 } else { libm::expf(-GREEN_DENSITY * matter.haemoglobin) }
 }
 
-/// Pixels on which the surround wave of a picture is computed: coarse ones, and some beyond the picture.
-pub(super) fn surround_grid(picture: &Grid) -> Grid {
-    let pixel = larger(PIXEL, picture.pixel);
+/// Pixels on which the surround wave of a picture is computed: coarse ones, of at least a side, and some beyond the picture.
+pub(super) fn surround_grid(picture: &Grid, least: f32) -> Grid {
+    let pixel = larger(PIXEL, least);
     let (low, high) = picture.bounds();
     let margin = Vec2::splat(3.0 * FAR + 2.0 * pixel);
-    let size = ((high - low + 2.0 * margin) / pixel).ceil();
-    let corner = Vec2::new(low.x - margin.x, high.y + margin.y);
-    Grid { corner, pixel, columns: size.x as usize, top: 0, rows: size.y as usize }
+    // On a lattice of the world's: what is between its points does not come and go as the camera moves.
+    let (low, high) = (((low - margin) / pixel).floor(), ((high + margin) / pixel).ceil());
+    let corner = Vec2::new(low.x, high.y) * pixel;
+    Grid { corner, pixel, columns: (high.x - low.x) as usize, top: 0, rows: (high.y - low.y) as usize }
 }
 
 /// The weights of both distributions for a graphics card: those of the middle pixel and outwards, near and far in turn.
@@ -61,7 +62,7 @@ pub(super) struct Surround {
 impl Surround {
     /// Of a specimen over what `picture` shows.
     pub(super) fn of(specimen: &Specimen, picture: &Grid) -> Self {
-        let grid = surround_grid(picture);
+        let grid = surround_grid(picture, picture.pixel);
         let pixel = grid.pixel;
         let Plate { matter, .. } = specimen.plate(grid);
         let wave: Vec<Vec2> = matter.into_iter().map(behind).collect();

@@ -15,7 +15,7 @@ const HAEMOGLOBIN: [f32; 3] = [0.100, 0.245, 0.195];
 const CYTOPLASM: [f32; 3] = [0.112, 0.251, 0.020];
 const NUCLEUS: [f32; 3] = [0.26, 0.46, -0.10];
 /// What dries on the glass between the cells: plasma with a little of each dye, and none where it was washed off.
-const PLASMA: [f32; 3] = [0.030, 0.014, 0.055];
+const PLASMA: [f32; 3] = [0.040, 0.016, 0.085];
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
 const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
 /// Distance over which the curvature of the delay is taken, micrometres.

@@ -57,7 +57,8 @@ pub struct Card {
     pub precision: Precision,
     /// Pixels of the image for each pixel of the picture, along each side, 0.1 to 1.
     pub detail: f32,
-    /// Whether the image is blurred as an objective does; without, a pass is saved and edges are too sharp.
+    /// Whether the image is blurred as an objective does. Without, a pass is saved and edges are too sharp, and halos are
+    /// computed on larger pixels.
     pub is_soft: bool,
 }
 
@@ -197,7 +198,8 @@ impl Kitchen {
     fn lit(&self, specimen: &Specimen) -> Recipe {
         let grid = self.image_grid(larger(self.field.pixel() / self.card.detail, FINEST));
         let (scale, bias) = self.coding();
-        let around = self.mode.has_surround.then(|| wave::surround_grid(&grid));
+        let coarse = if self.card.is_soft { grid.pixel } else { 2.0 * grid.pixel };
+        let around = self.mode.has_surround.then(|| wave::surround_grid(&grid, coarse));
         let mut slide = Slide::new(around.unwrap_or(grid).bounds(), grid.pixel);
         specimen.draw_on(&mut slide, bias);
         let mut passes = vec![self.matter(Target::Matter, &grid)];

@@ -11,7 +11,7 @@ use crate::microscope::formula::Formula;
 use crate::microscope::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
+use crate::microscope::noise::{Dice, octaves, scramble, shift_of, wobble};
 use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView};
@@ -20,6 +20,8 @@ use std::f32::consts::TAU;
 
 /// Cell of the distance map, micrometres.
 const STEP: f32 = 0.2;
+/// Time that a bleb takes to come and go, s.
+const BLEB_PERIOD: f32 = 4.0;
 /// Speed at which ruffles run, features per second.
 const RUFFLING: f32 = 0.25;
 /// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
@@ -78,6 +80,7 @@ impl AmoeboidBody {
         }
         let outline = smooth(&surface);
         let shape = stretch(&surface, centre, radius);
+        let is_dividing = organism.dividing_for().is_some();
         let mut body = Self {
             look,
             map: DistanceMap::of(&outline, STEP, 1.0),
@@ -90,7 +93,7 @@ impl AmoeboidBody {
             seed,
             time,
         };
-        body.lobes = body.lobes();
+        body.lobes = if is_dividing { body.parting_lobes(&outline) } else { body.lobes() };
         Some(body)
     }
 
@@ -113,6 +116,28 @@ impl AmoeboidBody {
             (self.map.pushed_inside(place, radius + 0.04 * self.radius), radius)
         };
         (0..count).map(lobe).collect()
+    }
+
+    /// Lobes of a nucleus that divides with its cell: they part as the furrow closes, and end where those of the daughters
+    /// are.
+    fn parting_lobes(&self, outline: &[Vec2]) -> Vec<(Vec2, f32)> {
+        let axis = self.shape.x_axis.normalize_or_zero();
+        let axis =
+            outline.iter().map(|&p| p - self.centre).max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(axis);
+        let axis = axis.normalize_or(Vec2::X);
+        let side = |sign: f32| {
+            let half: Vec<Vec2> =
+                outline.iter().copied().filter(|&p| (p - self.centre).dot(axis) * sign > 0.0).collect();
+            centroid(&half).unwrap_or(self.centre)
+        };
+        let waist = outline.iter().map(|&p| p - self.centre).filter(|p| p.dot(axis).abs() < 0.15 * self.radius);
+        let waist = waist.map(|p| p.perp_dot(axis).abs()).fold(0.0, larger);
+        let parted = smoothstep(0.75 * self.radius, 0.15 * self.radius, waist);
+        let size = mix(1.0, std::f32::consts::FRAC_1_SQRT_2, parted);
+        let halves = self.lobes().into_iter().flat_map(|(at, radius)| {
+            [1.0, -1.0].map(|sign| (at.lerp(at + side(sign) - self.centre, parted), radius * size))
+        });
+        halves.take(LOBES).collect()
     }
 
     pub(super) fn draw(&self, plate: &mut Plate) {
@@ -227,7 +252,8 @@ impl AmoeboidBody {
     }
 
     fn granules_on(&self, carrier: &ParticleView) -> Vec<Spot> {
-        let mut dice = Dice::new(self.seed.wrapping_mul(31).wrapping_add(carrier.index));
+        // Not of the cell: in a division a particle becomes another cell's.
+        let mut dice = Dice::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
         let mut spots = Vec::new();
         for look in self.look.granules {
@@ -257,6 +283,20 @@ impl AmoeboidBody {
         let share = smoothstep(-radius, radius, self.map.at(prey));
         let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
         (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
+    }
+
+    /// A bleb that comes and goes while prey is inside: a round bulge of the membrane at the sides and behind.
+    pub(super) fn bleb(&self, prey: Vec2, seed: u32) -> Option<Spot> {
+        let [smallest, largest] = self.look.blebs;
+        let cycle = self.time / BLEB_PERIOD + Dice::new(seed).unit();
+        let mut dice = Dice::new(seed ^ scramble(cycle as u32));
+        let way = rotate(-self.front.way, unit_vector(dice.range([-1.9, 1.9])));
+        let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
+        let radius = dice.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.map.at(prey));
+        let step = 0.05 * self.radius;
+        let edge = (0..60).map(|k| self.centre + way * (k as f32 * step)).find(|&at| self.map.at(at) < 0.0)?;
+        let matter = Matter { cytoplasm: 0.30, ..Matter::phase(0.35) };
+        (radius > 0.05).then_some(Spot { at: edge + way * (0.3 * radius), radius, matter, shape: SpotShape::Ball })
     }
 
     /// Retraction fibres, which the tail leaves on the glass.

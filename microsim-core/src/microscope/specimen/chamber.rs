@@ -3,7 +3,7 @@
 use super::outline::DistanceMap;
 use crate::collision::obstacle::Obstacle;
 use crate::microscope::formula::Formula;
-use crate::microscope::maths::{larger, smoothstep};
+use crate::microscope::maths::{larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
@@ -15,6 +15,8 @@ const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.12,
 const RIM: f32 = 1.2;
 /// Width over which its edge fades, micrometres.
 const EDGE: f32 = 0.15;
+/// Most cells of an obstacle's map of depths, apart from its margin.
+const MOST_CELLS: f32 = 8192.0;
 /// Strength and size of its unevenness.
 const TEXTURE: f32 = 0.05;
 const TEXTURE_SIZE: f32 = 2.5;
@@ -92,10 +94,15 @@ fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
     }
 }
 
-/// The corners of an obstacle that a slide sees, and a map of depths in it.
+/// The corners of an obstacle that a slide sees, and a map of depths in all of it. Straight edges come out exactly however
+/// coarse the map is, and it may be coarse, because it is made for every picture.
 pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, slide: &Slide) -> Option<(Vec<f32>, DistanceMap)> {
     let bounds = obstacle.bounds();
-    let (low, high) = (bounds.mins.max(slide.bounds().0 - 1.0), bounds.maxs.min(slide.bounds().1 + 1.0));
-    let map = || DistanceMap::sampled((low, high), 0.2, 1.0, |place| depth_in(obstacle, place));
-    low.cmplt(high).all().then(|| (box_corners(low, high), map()))
+    let (low, high) = (bounds.mins, bounds.maxs);
+    let extent = high - low;
+    let finest = (extent.x * extent.y / MOST_CELLS).sqrt();
+    let step = larger(finest, smaller(extent.min_element() / 10.0, extent.max_element() / 64.0));
+    let map = || DistanceMap::sampled((low, high), step, 2.0 * step, |place| depth_in(obstacle, place));
+    let is_seen = slide.sees(0.5 * (low + high), 0.5 * extent.length()) && step > 0.0;
+    is_seen.then(|| (box_corners(low, high), map()))
 }

@@ -64,6 +64,7 @@ impl Specimen {
                 self.spots.extend(body.spots(organism));
                 self.threads.extend(body.threads());
                 self.spots.extend(phagosomes(&body, organism, view));
+                self.spots.extend(blebs(&body, organism, view));
                 self.amoeboid.push(body);
             }
             Look::Drops(matter) => self.spots.extend(drops(organism, *matter)),
@@ -101,6 +102,13 @@ fn phagosomes(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -
     let small = prey.filter(|prey| matches!(prey.kind(), Kind::Agar | Kind::Coccus));
     let discs = small.filter_map(|prey| prey.particles().next());
     discs.filter_map(|disc| body.phagosome(disc.position, disc.radius)).collect()
+}
+
+/// Blebs of a cell that holds prey.
+fn blebs(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
+    let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey)).take(4);
+    let discs = prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))));
+    discs.filter_map(|(at, seed)| body.bleb(at, seed)).collect()
 }
 
 /// A soft drop for each particle; wide enough to run into its neighbours.

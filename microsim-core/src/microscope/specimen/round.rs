@@ -22,8 +22,9 @@ const EDGE: f32 = 0.06;
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
-/// Directions in which a graphics card is told a body's radius.
-const SPOKES: usize = 96;
+/// Fewest and most directions in which a graphics card is told a body's radius, and their number where that is one pixel.
+const SPOKES: [f32; 2] = [24.0, 160.0];
+const SPOKES_PER_ROOT: f32 = 10.0;
 
 pub(in crate::microscope) const FORMULA: Formula = Formula {
     source: include_str!("round.glsl"),
@@ -67,9 +68,12 @@ impl RoundBody {
         let facing = direction_or(first, Vec2::X);
         let mut dice = Dice::new(seed);
         make_uneven(&mut polar, facing, look.unevenness, &mut dice);
+        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
+        if let Some(pellicle) = look.pellicle {
+            make_slipper(&mut polar, facing, axes, pellicle.slipper);
+        }
         let variation = 1.0 + dice.range([-look.variation, look.variation]);
         let hollow = if let Profile::Biconcave { c0, .. } = look.profile { dice.range(c0) } else { 0.0 };
-        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
     }
 
@@ -92,17 +96,20 @@ impl RoundBody {
         });
         constant.extend([self.look.texture.amount, self.look.texture.size]);
         constant.extend(shift_of(self.seed));
-        let mut vertices = Vec::with_capacity((SPOKES + 1) * (5 + constant.len()));
-        for spoke in 0..=SPOKES {
+        // So many that chords are hardly apart from arcs: their distance goes by the radius and by the square of the angle.
+        let in_pixels = self.polar.farthest / slide.pixel();
+        let spokes = (SPOKES_PER_ROOT * in_pixels.sqrt()).clamp(SPOKES[0], SPOKES[1]) as usize;
+        let mut vertices = Vec::with_capacity((spokes + 1) * (5 + constant.len()));
+        for spoke in 0..=spokes {
             // Even on a disc that is stretched like the body, so that slender ends are round.
-            let on_disc = if spoke == SPOKES { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / SPOKES as f32) };
+            let on_disc = if spoke == spokes { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / spokes as f32) };
             let way = rotate(on_disc * self.axes, self.facing).normalize_or_zero();
-            let radius = if spoke == SPOKES { self.polar.mean } else { self.polar.radius(way) };
+            let radius = if spoke == spokes { self.polar.mean } else { self.polar.radius(way) };
             vertices.extend(self.polar.centre.to_array());
             vertices.extend([way.x * radius, way.y * radius, radius]);
             vertices.extend_from_slice(&constant);
         }
-        let fan = (0..SPOKES as u16).flat_map(|k| [SPOKES as u16, k, (k + 1) % SPOKES as u16]);
+        let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
         match self.look.pellicle {
             None => slide.add(Program::Round, false, &vertices, fan),
             Some(pellicle) => {
@@ -172,7 +179,10 @@ impl RoundBody {
             let share = dice.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
             let at = self.place(dice.direction(), rho);
-            let matter = inclusion.matter * dice.range([0.6, 1.3]);
+            // The groove is clear.
+            let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
+            let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
+            let matter = inclusion.matter * (dice.range([0.6, 1.3]) * (1.0 - 0.9 * clear));
             Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
@@ -185,6 +195,18 @@ impl RoundBody {
             let radius = self.polar.mean * pellicle.vacuole * filled.sqrt() * smoothstep(1.0, 0.93, filled);
             (self.place(Vec2::new(side, 0.25).normalize(), 0.52), radius, filled)
         })
+    }
+
+    /// The tube from the mouth, at the end of the groove, into the body.
+    fn gullet(&self, pellicle: &Pellicle) -> Vec<Thread> {
+        let point = |k: usize| {
+            let way = k as f32 / 6.0;
+            let own = Vec2::new(0.02 - 0.26 * way, GROOVE[0] + 0.02 + 0.34 * way * way) * self.axes;
+            self.polar.centre + rotate(own, self.facing)
+        };
+        let radius = |k: usize| self.polar.mean * (0.05 - 0.005 * k as f32);
+        let matter = Matter { cytoplasm: 0.4, ..Matter::phase(pellicle.gullet_phase) };
+        (0..6).map(|k| Thread { from: point(k), to: point(k + 2), radius: radius(k), matter: matter * 0.5 }).collect()
     }
 
     /// Canals that lead to a vacuole; they swell while it is empty.
@@ -205,6 +227,7 @@ impl RoundBody {
         if let Some(pellicle) = self.look.pellicle {
             let vacuoles = self.vacuoles(pellicle, time);
             threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
+            threads.extend(self.gullet(pellicle));
         }
         threads
     }
@@ -266,5 +289,16 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
         let own = rotate(way, back);
         let angle = libm::atan2f(own.y, own.x);
         1.0 + waves.iter().map(|&(order, phase, size)| size * unit_vector(order * angle + phase).x).sum::<f32>()
+    });
+}
+
+/// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.
+fn make_slipper(polar: &mut Polar, facing: Vec2, axes: Vec2, amount: f32) {
+    let back = Vec2::new(facing.x, -facing.y);
+    polar.reshape(|way| {
+        let own = (rotate(way, back) / axes).normalize_or_zero();
+        let pointed = own.x * own.y * own.y;
+        let hollow = if own.y < 0.0 { bell((own.x - 0.45) / 0.35) * own.y * own.y } else { 0.0 };
+        1.0 + amount * (1.6 * pointed - hollow)
     });
 }
