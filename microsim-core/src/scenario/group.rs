@@ -126,7 +126,11 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let respawn = fields.get("respawn").filter(|&time| fields.is_within("respawn", time, [0.0, 1e6]));
     for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && (is_player || name.is_some())) {
         let accepted = "a [[spawn]] without `name` and `player`";
-        fields.report.refuse(&fields.at(field), "one that is known by name is there from the beginning, once", accepted);
+        fields.report.refuse(
+            &fields.at(field),
+            "one that is known by name is there from the beginning, once",
+            accepted,
+        );
     }
     let prototype = prototype?;
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];

@@ -107,7 +107,8 @@ impl Canvas {
     pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
         let steps = (ARC_STEPS * share).ceil().max(1.0);
         let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;
-        let points: Vec<Vec2> = (0..=steps as usize).map(|k| centre + Vec2::from_angle(turn(k as f32)) * radius).collect();
+        let points: Vec<Vec2> =
+            (0..=steps as usize).map(|k| centre + Vec2::from_angle(turn(k as f32)) * radius).collect();
         let (clear, half) = (Color { a: 0.0, ..colour }, 0.5 * width);
         self.line(&points, &[(-half - 0.8, clear), (-half, colour), (half, colour), (half + 0.8, clear)]);
     }

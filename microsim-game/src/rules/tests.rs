@@ -153,7 +153,8 @@ fn the_score_is_the_sum_of_its_gains_and_no_more_than_was_eaten() {
     let (mut gained, mut eaten) = (0, 0);
     let round = play(Policy::AgarOnly, 3, 12.0, |round| {
         gained += round.referee().gains().iter().map(|gain| gain.points).sum::<u32>();
-        let by_player = |event: &&Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == round.player());
+        let by_player =
+            |event: &&Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == round.player());
         eaten += round.world().events().iter().filter(by_player).count() as u32;
     });
     let tallies = round.referee().tallies();

@@ -21,7 +21,11 @@ impl Pause {
     /// Over a game, which can be started over, or over a simulation.
     #[must_use]
     pub fn new(is_game: bool) -> Self {
-        let labels = if is_game { ["Go on", "Restart", "Settings", "Title"].as_slice() } else { &["Go on", "Settings", "Title"] };
+        let labels = if is_game {
+            ["Go on", "Restart", "Settings", "Title"].as_slice()
+        } else {
+            &["Go on", "Settings", "Title"]
+        };
         Self { menu: Menu::new(labels.iter().map(|&label| Item::new(label)).collect()), is_game }
     }
 }

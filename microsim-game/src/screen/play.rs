@@ -11,8 +11,8 @@ use crate::rules::recording::Recording;
 use crate::rules::round::Round;
 use crate::viewer::{Viewer, first_view};
 use macroquad::miniquad;
-use microsim_core::scenario::Scenario;
 use microsim_core::Intent;
+use microsim_core::scenario::Scenario;
 
 /// Units that are seen from bottom to top at first; more as the cell grows.
 const VIEW: f32 = 62.0;
@@ -64,7 +64,8 @@ impl Play {
     pub fn start(context: &mut Context) -> Change {
         // Every round is another one, but for pictures that must come out the same.
         let seed = if context.pace.is_exact { 1 } else { miniquad::date::now() as u64 };
-        let opened = context.game.scenario(seed).and_then(|scenario| Self::open(Recording::new(scenario), false, context));
+        let opened =
+            context.game.scenario(seed).and_then(|scenario| Self::open(Recording::new(scenario), false, context));
         opened.unwrap_or_else(|problem| {
             context.tell(problem);
             Change::Stay

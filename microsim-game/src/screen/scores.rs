@@ -21,7 +21,10 @@ impl ScoreList {
     pub fn new(context: &Context) -> Self {
         let rules = context.game.rules();
         let (game, time) = rules.as_ref().map_or(("game", 90.0), |(name, time)| (name.as_str(), *time));
-        Self { game: format!("High scores: {game}, {time:.0} s"), scores: context.scores.of(game, time).cloned().collect() }
+        Self {
+            game: format!("High scores: {game}, {time:.0} s"),
+            scores: context.scores.of(game, time).cloned().collect(),
+        }
     }
 }
 

@@ -118,7 +118,8 @@ impl Screen for Title {
         let left = place.corner.x;
         let shade = [fade(INK, 0.82), fade(INK, 0.0), fade(INK, 0.0), fade(INK, 0.82)];
         let wide = (left + 1.6 * place.item.x).min(screen.x);
-        pen.canvas().quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
+        pen.canvas()
+            .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
         pen.write(Vec2::new(left, 0.13 * screen.y + 0.3 * line), Size::Huge, Align::Left, HALO, "microsim");
         let motto = Vec2::new(left + 0.05 * line, 0.13 * screen.y + 0.95 * line);
         pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");

@@ -45,7 +45,8 @@ impl Store {
             Ok(value) => (value, None),
             Err(error) => {
                 let aside = path.with_extension("broken");
-                let kept = fs::rename(&path, &aside).map_or(String::new(), |()| format!("; kept as {}", aside.display()));
+                let kept =
+                    fs::rename(&path, &aside).map_or(String::new(), |()| format!("; kept as {}", aside.display()));
                 let line = error.message().lines().next().unwrap_or_default().to_owned();
                 (T::default(), Some(format!("{name} makes no sense: {line}{kept}")))
             }

@@ -61,7 +61,8 @@ impl Place {
     #[must_use]
     pub fn middle(pen: &Pen, top: f32) -> Self {
         let screen = pen.screen();
-        let item = Vec2::new((22.0 * pen.line(Size::Body)).min(0.86 * screen.x).min(460.0), 1.55 * pen.line(Size::Body));
+        let item =
+            Vec2::new((22.0 * pen.line(Size::Body)).min(0.86 * screen.x).min(460.0), 1.55 * pen.line(Size::Body));
         let corner = Vec2::new(0.5 * (screen.x - item.x), top * screen.y);
         let visible = (((0.95 * screen.y - corner.y) / item.y) as usize).max(2);
         Self { corner, item, visible, size: Size::Body }
@@ -125,7 +126,8 @@ impl Menu {
     pub fn update(&mut self, input: &Input, place: &Place) -> Option<Choice> {
         let choice = self.click(input, place).or_else(|| self.walk(input));
         if input.wheel != 0.0 && self.contains(input.cursor, place) {
-            self.focus = self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
+            self.focus =
+                self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
         }
         self.first = self.first.clamp((self.focus + 1).saturating_sub(place.visible), self.focus);
         choice

@@ -135,7 +135,8 @@ impl Pen {
     pub fn flush(&mut self) {
         self.canvas.flush();
         for Text { at, size, colour, text } in self.texts.drain(..) {
-            let params = TextParams { font: self.font.as_ref(), font_size: size, color: colour, ..TextParams::default() };
+            let params =
+                TextParams { font: self.font.as_ref(), font_size: size, color: colour, ..TextParams::default() };
             draw_text_ex(&text, at.x, at.y, params);
         }
     }

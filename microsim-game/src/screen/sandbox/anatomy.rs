@@ -72,7 +72,13 @@ fn draw_regions(canvas: &mut Canvas, camera: &Camera, organism: OrganismView<'_>
 /// What the strokes mean.
 fn draw_legend(pen: &mut Pen) {
     let line = pen.line(Size::Small);
-    let entries = ["circle: particle", "thin: distance, rope", "bold: anchor, membrane", "square: front  bar: rear", "amber: contact"];
+    let entries = [
+        "circle: particle",
+        "thin: distance, rope",
+        "bold: anchor, membrane",
+        "square: front  bar: rear",
+        "amber: contact",
+    ];
     let right = pen.screen().x - 0.5 * line;
     for (k, entry) in entries.into_iter().enumerate() {
         let at = Vec2::new(right, line * (2.2 + 1.2 * k as f32));

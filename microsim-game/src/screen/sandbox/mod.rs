@@ -140,7 +140,13 @@ impl Sandbox {
 
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let (world, census) = (self.stage.world(), self.stage.census());
-        let mut text = format!("{}   {:.2} s   {} bodies   {} particles", self.stage.name(), world.time(), census.bodies, census.particles);
+        let mut text = format!(
+            "{}   {:.2} s   {} bodies   {} particles",
+            self.stage.name(),
+            world.time(),
+            census.bodies,
+            census.particles
+        );
         if !is_exact {
             text += &format!("   step {:.2} ms", self.viewer.step_ms());
         }

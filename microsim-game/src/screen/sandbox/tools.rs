@@ -219,7 +219,11 @@ mod tests {
             }
             let moved = stage.world().centroid(id).unwrap().x - 60.0;
             // A platelet's rope lets it go so far only.
-            assert!(moved > if tools.spawn_name() == "platelet" { 0.3 } else { 12.0 }, "{} {moved}", tools.spawn_name());
+            assert!(
+                moved > if tools.spawn_name() == "platelet" { 0.3 } else { 12.0 },
+                "{} {moved}",
+                tools.spawn_name()
+            );
             stage.world_mut().remove(id).unwrap();
             assert_eq!(stage.world().organisms().count(), 0);
         }
