@@ -1,7 +1,9 @@
 //! What kinds of organisms there are, as a name for events and output.
 
+use serde::{Deserialize, Serialize};
+
 /// What an organism is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 #[repr(u8)]
 pub enum Kind {

@@ -42,6 +42,14 @@ impl FromStr for OpticsList {
     }
 }
 
+/// `--fps`.
+pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (0.001..=1000.0).contains(&rate) => Ok(rate),
+        _ => Err("expected frames per second, 0.001 to 1000".to_owned()),
+    }
+}
+
 /// `--film`.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum FilmStock {

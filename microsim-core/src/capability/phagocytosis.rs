@@ -13,11 +13,12 @@
 
 use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
+use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
 /// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
 /// membrane nodes use a gate whatever is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
     /// The seed's: the membrane next to the prey ignores it until it is inside.
     Gate,
@@ -27,7 +28,7 @@ pub enum IngestionWay {
 }
 
 /// What the seed leaves open about phagocytosis, as numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhagocytosisParams {
     /// How prey gets through the membrane.
     pub way: IngestionWay,
@@ -102,7 +103,7 @@ impl PhagocytosisParams {
 }
 
 /// How prey is taken in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PreyClass {
     /// One disc: any number at a time, always digestible.
     Simple,
@@ -111,7 +112,7 @@ pub enum PreyClass {
 }
 
 /// Where an engulfer and its prey stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MealPhase {
     /// All conditions have held for so long, s.
     Touching(f32),
@@ -132,7 +133,7 @@ impl MealPhase {
 }
 
 /// One prey of an engulfer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Meal {
     pub prey: OrganismId,
     pub class: PreyClass,
@@ -146,7 +147,7 @@ pub(crate) struct Meal {
 }
 
 /// The capability to take others in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Engulfer {
     pub params: PhagocytosisParams,
     /// In the order in which they were first touched.
@@ -162,7 +163,7 @@ pub(crate) struct Engulfer {
 }
 
 /// The capability to be taken in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Prey {
     pub class: PreyClass,
     /// Who holds it, from the beginning of its ingestion on.

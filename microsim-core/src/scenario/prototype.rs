@@ -1,6 +1,7 @@
 //! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
 
 use super::fields::{Fields, Read, Report};
+use super::shape::Shape;
 use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
@@ -42,14 +43,13 @@ pub(super) fn read(root: &mut Fields<'_>) -> Prototypes {
     let mut prototypes = Prototypes::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
-            let spec = read(&mut fields);
             let (path, report) = (fields.path.clone(), fields.report);
+            let prototype = report.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
             fields.finish();
             if prototypes.contains_key(&name) {
                 let accepted = "a name that no other prototype has";
                 report.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
             }
-            let prototype = report.check(&path, Prototype::new(name.clone(), spec));
             prototypes.insert(name, prototype);
         }
     }
@@ -64,8 +64,7 @@ impl Prototype {
 
     /// Whether anything can steer it.
     pub(super) fn can_move(&self) -> bool {
-        use OrganismSpec::{AmoeboidCell, Coccus, Probe, RigidCell};
-        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_) | Coccus(_))
+        self.spec.can_move()
     }
 
     /// Whether it takes others in and grows.
@@ -228,6 +227,18 @@ impl Read for IngestionWay {
         "\"gate\" or \"cup\"".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Word(&["gate", "cup"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Gate => "\"gate\"",
+            Self::Cup => "\"cup\"",
+        }
+        .to_owned()
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         match value.get_ref().as_str() {
             Some("gate") => Some(Self::Gate),
@@ -240,6 +251,18 @@ impl Read for IngestionWay {
 impl Read for FluidMode {
     fn accepted() -> String {
         "\"density\" or \"granular\"".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Word(&["density", "granular"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Density => "\"density\"",
+            Self::Granular => "\"granular\"",
+        }
+        .to_owned()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

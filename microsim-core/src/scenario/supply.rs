@@ -6,6 +6,7 @@ use crate::World;
 use crate::id::OrganismId;
 use crate::rng::Rng;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Streams of random numbers from here on are for supply; those for placing lie below.
 const STREAM: u64 = 3 << 61;
@@ -14,12 +15,18 @@ const STREAM: u64 = 3 << 61;
 #[derive(Clone, Debug)]
 pub(super) struct Supply {
     group: Group,
+    /// Steps until one that is gone is replaced.
+    respawn: Option<u64>,
+    pub state: SupplyState,
+}
+
+/// What changes of a supply.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct SupplyState {
     rng: Rng,
     alive: Vec<OrganismId>,
     /// Steps from which on one each is to come.
     due: Vec<u64>,
-    /// Steps until one that is gone is replaced.
-    respawn: Option<u64>,
 }
 
 impl Supply {
@@ -30,10 +37,12 @@ impl Supply {
         let respawn = group.respawn.map(steps);
         (respawn.is_some() || !due.is_empty()).then(|| Self {
             group: group.clone(),
-            rng: Rng::new(world.config().seed, STREAM + index as u64),
-            alive: there.to_vec(),
-            due,
             respawn,
+            state: SupplyState {
+                rng: Rng::new(world.config().seed, STREAM + index as u64),
+                alive: there.to_vec(),
+                due,
+            },
         })
     }
 
@@ -41,27 +50,27 @@ impl Supply {
     pub(super) fn before_step(&mut self, world: &mut World) {
         let now = world.step_index();
         if let Some(respawn) = self.respawn {
-            let before = self.alive.len();
+            let before = self.state.alive.len();
             let view = world.view();
-            self.alive.retain(|&id| view.organism(id).is_some_and(|organism| organism.held_by().is_none()));
-            self.due.extend((self.alive.len()..before).map(|_| now + respawn));
+            self.state.alive.retain(|&id| view.organism(id).is_some_and(|organism| organism.held_by().is_none()));
+            self.state.due.extend((self.state.alive.len()..before).map(|_| now + respawn));
         }
-        if let Some(next) = self.due.iter().position(|&step| step <= now)
+        if let Some(next) = self.state.due.iter().position(|&step| step <= now)
             && let Some(id) = self.spawn(world)
         {
-            self.due.remove(next);
-            self.alive.push(id);
+            self.state.due.remove(next);
+            self.state.alive.push(id);
         }
     }
 
     fn spawn(&mut self, world: &mut World) -> Option<OrganismId> {
-        let (scale, angle) = placing::draw(&self.group, &mut self.rng);
+        let (scale, angle) = placing::draw(&self.group, &mut self.state.rng);
         let radius = self.group.prototype.extent(scale);
         let (at, gap) = match self.group.place {
             Place::At(at) => (at, 0.0),
             Place::Random { within: [low, high], gap, .. } => {
                 let (low, high) = (low + radius, high - radius);
-                (Vec2::new(self.rng.range(low.x, high.x), self.rng.range(low.y, high.y)), gap)
+                (Vec2::new(self.state.rng.range(low.x, high.x), self.state.rng.range(low.y, high.y)), gap)
             }
             Place::Grid(_) => return None,
         };

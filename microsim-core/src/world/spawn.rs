@@ -3,6 +3,7 @@
 use super::World;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
+use crate::capability::progress::Progress;
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
@@ -67,6 +68,8 @@ impl World {
 
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
+        let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
+        self.check_controller(&placement.controller, &blueprint.locomotion, has_outline)?;
         if blueprint.fluid.is_some() && placement.scale != 1.0 {
             return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
         }
@@ -110,7 +113,10 @@ impl World {
             prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
             phagosomes: Vec::new(),
             divider: blueprint.divider.map(Divider::new),
+            exchanges: Vec::new(),
             goal: None,
+            pace: 1.0,
+            progress: Progress::default(),
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
             is_quarantined: false,

@@ -3,8 +3,11 @@
 use super::World;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::capability::Locomotion;
+use crate::capability::controller::Controller;
+use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, PreyClass};
-use crate::id::OrganismId;
+use crate::chemical::Chemical;
+use crate::id::{ChemicalId, OrganismId};
 use crate::kind::Kind;
 use crate::organism::Organism;
 use crate::template::Role;
@@ -59,6 +62,11 @@ impl<'a> View<'a> {
     pub fn organism(self, id: OrganismId) -> Option<OrganismView<'a>> {
         let organism = self.world.organisms.get(id)?;
         Some(OrganismView { world: self.world, organism, id })
+    }
+
+    /// All chemicals, in the order in which they were added.
+    pub fn chemicals(self) -> impl Iterator<Item = (ChemicalId, &'a Chemical)> {
+        (0..).map(ChemicalId).zip(&self.world.chemicals)
     }
 }
 
@@ -151,6 +159,30 @@ impl<'a> OrganismView<'a> {
     #[must_use]
     pub fn dividing_for(self) -> Option<f32> {
         self.organism.furrow().map(|furrow| furrow.elapsed)
+    }
+
+    /// Its controller, in its present state.
+    #[must_use]
+    pub fn controller(self) -> &'a Controller {
+        &self.organism.controller
+    }
+
+    /// What it secretes and takes up.
+    #[must_use]
+    pub fn exchanges(self) -> &'a [Exchange] {
+        &self.organism.exchanges
+    }
+
+    /// Where it wanted to go in the last step; `None` if it rested, or could not follow its own will.
+    #[must_use]
+    pub fn goal(self) -> Option<Vec2> {
+        self.organism.goal
+    }
+
+    /// Time for which it has wanted to move without getting half its radius away from where it was, s.
+    #[must_use]
+    pub fn stalled_for(self) -> f32 {
+        self.organism.progress.stalled
     }
 
     /// Who has taken it in, or is about to.

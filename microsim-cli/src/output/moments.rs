@@ -1,7 +1,7 @@
 //! Which moments of a run are pictured, and their sheet.
 
+use crate::draw;
 use crate::draw::png::Picture;
-use crate::draw::{self, Drawing};
 use microsim_core::World;
 
 /// Pictures on the sheet, start and end included.
@@ -26,12 +26,23 @@ impl Moments {
         Self { steps: chosen, pictures: Vec::new() }
     }
 
-    /// Takes the picture, if this is a moment for it.
-    pub(crate) fn look_at(&mut self, world: &World) {
-        if self.steps.contains(&world.step_index()) {
-            let drawing: Drawing = draw::draw(world);
-            self.pictures.push(Picture::of(&drawing, TILE));
+    /// Takes the picture, if this is a moment for it, and returns it.
+    pub(crate) fn look_at(&mut self, world: &World) -> Option<&Picture> {
+        if !self.steps.contains(&world.step_index()) {
+            return None;
         }
+        self.pictures.push(Picture::of(&draw::draw(world), TILE));
+        self.pictures.last()
+    }
+
+    /// The moments up to a step.
+    pub(crate) fn until(&self, step: u64) -> impl Iterator<Item = u64> {
+        self.steps.clone().into_iter().filter(move |moment| *moment <= step)
+    }
+
+    /// A picture that was taken before.
+    pub(crate) fn add(&mut self, picture: Picture) {
+        self.pictures.push(picture);
     }
 
     /// All of them, row by row.
