@@ -1,8 +1,6 @@
-//! The command line.
+//! The command line: what all verbs share. The arguments of each verb stand beside it.
 
-use crate::render::{FilmStock, OpticsList, Size, ViewSpec};
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
-use std::path::PathBuf;
 
 /// Everything that the command line says.
 #[derive(Debug, Parser)]
@@ -10,15 +8,19 @@ use std::path::PathBuf;
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 1 an invariant or expectation of the scenario broke; 2 wrong usage, a refused scenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a\n\
+refused scenario or an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, global = true, display_order = 900, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
     /// Show no progress and no notes on stderr
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 901, conflicts_with = "verbose")]
     pub quiet: bool,
+    /// Say more on stderr
+    #[arg(short, long, global = true, display_order = 902)]
+    pub verbose: bool,
     #[command(subcommand)]
     pub verb: Verb,
 }
@@ -26,131 +28,58 @@ pub(crate) struct Args {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
+    /// Write a commented scenario to start from
+    New(crate::new::NewArgs),
+    /// Check a scenario without running it: its text, and that everything finds its place
+    Check(crate::check::CheckArgs),
+    /// Print the JSON Schema of scenario files, for editors
+    Schema,
     /// List the built-in scenarios
     List,
-    /// Check a scenario without running it: its text, and that everything finds its place
-    Check(ScenarioArgs),
     /// Run a scenario and say what came of it
-    Run(RunArgs),
-    /// Measure how long steps and their phases take, and how well the constraints hold
-    Bench(BenchArgs),
+    Run(Box<crate::run::RunArgs>),
+    /// Go on with a run that was stopped, bit for bit
+    Resume(crate::resume::ResumeArgs),
+    /// Make a recorded run again and compare it with the record
+    Replay(crate::replay::ReplayArgs),
+    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
+    Diff(crate::diff::DiffArgs),
+    /// Say what is in a snapshot, a checkpoint or a replay
+    Inspect(crate::inspect::InspectArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
-    Render(RenderArgs),
+    Render(crate::render::RenderArgs),
+    /// Run a scenario many times, with other parameters and seeds each time
+    #[command(subcommand)]
+    Sweep(crate::sweep::SweepVerb),
+    /// Make one HTML page of a run or a sweep
+    Report(crate::report::ReportArgs),
+    /// Measure how long steps and their phases take, and how well the constraints hold
+    Bench(crate::bench::BenchArgs),
+    /// Print the completions of a shell
+    Completions(crate::manual::CompletionsArgs),
+    /// Print the manual page of a verb, or write all of them
+    Man(crate::manual::ManArgs),
 }
 
 /// Which scenario, and what to change in it.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ScenarioArgs {
     /// A built-in scenario, a TOML file, or `-` for stdin
     #[arg(value_name = "NAME|FILE")]
     pub scenario: String,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// What to change in a scenario.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct Changes {
     /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub seed: Option<u64>,
     /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set: Vec<(String, String)>,
-}
-
-/// `run`.
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = "The scenario's invariants and expectations are checked after every step; the first that breaks is named on\n\
-stderr, the run goes on to its end, and the exit code is 1. The census (leaks, improper absorptions) is taken after\n\
-every step, outside the time that is measured.\n\
-With --out, the files are: frame.svg and frame.png (the end), frames.png (six moments), measures.csv (one row per step),\n\
-events.jsonl (one object per event), run.json. Equal scenario, seed and steps give equal bytes in all but run.json."
-)]
-pub(crate) struct RunArgs {
-    #[command(flatten)]
-    pub scenario: ScenarioArgs,
-    /// Number of steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "seconds")]
-    pub steps: Option<u64>,
-    /// Simulated time, s
-    #[arg(long, value_name = "S", value_parser = duration)]
-    pub seconds: Option<f64>,
-    /// Check the whole state after every step; the first violation is named on stderr, and the exit code is 1
-    #[arg(long)]
-    pub validate: bool,
-    /// Write pictures, measures and events into this folder; it must be empty or not exist
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Allow a folder that is not empty: files of the same names are replaced, all others stay
-    #[arg(long, requires = "out")]
-    pub force: bool,
-    /// Print one JSON object instead of the summary
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `bench`.
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Times, events and quality are those of the measured steps. Leaks and improper absorptions are the\n\
-largest counts seen in any step, the warm-up included. Measures are taken outside the time that is measured."
-)]
-pub(crate) struct BenchArgs {
-    #[command(flatten)]
-    pub scenario: ScenarioArgs,
-    /// Number of measured steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
-    pub steps: Option<u64>,
-    /// Number of steps before the measured ones
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 60)]
-    pub warmup: u64,
-    /// Print one JSON object instead of the table
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `render`.
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = "The name of the file says what it is: .png is a still, .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
-Several moments or several optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
-whatever the number of threads."
-)]
-pub(crate) struct RenderArgs {
-    #[command(flatten)]
-    pub scenario: ScenarioArgs,
-    /// The picture or movie to write
-    #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
-    /// Simulated time of a still, s; without it, the scenario's duration
-    #[arg(long, value_name = "S", value_parser = duration, conflicts_with_all = ["from", "to", "fps"])]
-    pub at: Option<f64>,
-    /// Simulated time of the first frame, s
-    #[arg(long, value_name = "S", value_parser = duration)]
-    pub from: Option<f64>,
-    /// Simulated time of the last frame, s; without it, the scenario's duration
-    #[arg(long, value_name = "S", value_parser = duration)]
-    pub to: Option<f64>,
-    /// Frames per second of simulated time, 24 unless said otherwise
-    #[arg(long, value_name = "N", value_parser = frame_rate)]
-    pub fps: Option<f64>,
-    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic; several
-    /// with commas, or all
-    #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
-    pub optics: OpticsList,
-    /// What records the picture
-    #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
-    pub film: FilmStock,
-    /// Width and height, pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720")]
-    pub size: Size,
-    /// What is seen: middle and width in micrometres, or an organism's index or name and a width; without it, the room
-    #[arg(long, value_name = "X,Y,WIDTH|follow:ID[,WIDTH]", allow_hyphen_values = true)]
-    pub view: Option<ViewSpec>,
-    /// Pictures side by side in a contact sheet
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub columns: Option<u32>,
-    /// Threads to compute pictures on; without it, one for each processor
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
-    /// Leave the scale bar out
-    #[arg(long)]
-    pub no_scale_bar: bool,
 }
 
 impl Args {
@@ -174,21 +103,21 @@ fn color_asked_for(arguments: impl Iterator<Item = std::ffi::OsString>) -> Color
     }
 }
 
-fn key_value(text: &str) -> Result<(String, String), String> {
+/// `KEY=VALUE`.
+pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
     }
 }
 
-fn frame_rate(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(rate) if (0.001..=1000.0).contains(&rate) => Ok(rate),
-        _ => Err("expected frames per second, 0.001 to 1000".to_owned()),
-    }
+/// A whole number.
+pub(crate) fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
 }
 
-fn duration(text: &str) -> Result<f64, String> {
+/// A time in seconds.
+pub(crate) fn duration(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if (0.0..=1e9).contains(&seconds) => Ok(seconds),
         _ => Err("expected a number of seconds, 0 to 1e9".to_owned()),

@@ -1,12 +1,12 @@
 //! `bench`: how long steps and their phases take, and how well the constraints hold meanwhile.
 
-use crate::args::BenchArgs;
+use crate::args::{ScenarioArgs, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::report::{RunReport, Table, mean, median};
 use crate::simulate::{Tally, simulate};
 use crate::source::prepare;
+use crate::summary::{RunReport, Table, mean, median};
 use indicatif::ProgressBar;
 use microsim_core::scenario::{Built, Script};
 use microsim_core::{Inputs, Phase, Quality, World};
@@ -14,6 +14,26 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::time::{Duration, Instant};
+
+/// `bench`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Times, events and quality are those of the measured steps. Leaks and improper absorptions are the\n\
+largest counts seen in any step, the warm-up included. Measures are taken outside the time that is measured."
+)]
+pub(crate) struct BenchArgs {
+    #[command(flatten)]
+    pub scenario: ScenarioArgs,
+    /// Number of measured steps; without it, the scenario's duration
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
+    pub steps: Option<u64>,
+    /// Number of steps before the measured ones
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, default_value_t = 60)]
+    pub warmup: u64,
+    /// Print one JSON object instead of the table
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// What a benchmark reports beyond a run.
 #[derive(Debug, Serialize)]
@@ -54,7 +74,7 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     interrupt::listen();
     let Built { mut world, mut script, .. } = prepared.built.clone();
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
-    let bar = console.progress(args.warmup.saturating_add(steps));
+    let bar = console.progress(args.warmup.saturating_add(steps), "step");
     let mut stopwatch = Stopwatch::default();
     let warmup = measure(&mut world, &mut script, args.warmup, &bar, &mut stopwatch, |_| {})?;
     stopwatch = Stopwatch::default();
@@ -66,7 +86,7 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
     let report = BenchReport {
         run: RunReport::new(&prepared, &world, tally),
-        warmup: warmup.steps(),
+        warmup: warmup.steps,
         substeps: world.config().substeps,
         phases: stopwatch.medians(),
         quality: QualityReport::of(&qualities),

@@ -9,17 +9,18 @@ use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 pub(crate) struct Console {
     is_coloured: bool,
     is_quiet: bool,
+    is_verbose: bool,
 }
 
 impl Console {
-    pub(crate) fn new(color: ColorChoice, is_quiet: bool) -> Self {
+    pub(crate) fn new(color: ColorChoice, is_quiet: bool, is_verbose: bool) -> Self {
         let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let is_coloured = match color {
             ColorChoice::Always => true,
             ColorChoice::Never => false,
             ColorChoice::Auto => !refused && io::stderr().is_terminal(),
         };
-        Self { is_coloured, is_quiet }
+        Self { is_coloured, is_quiet, is_verbose }
     }
 
     pub(crate) fn is_coloured(self) -> bool {
@@ -33,18 +34,25 @@ impl Console {
         }
     }
 
+    /// One line for who asked for more.
+    pub(crate) fn detail(self, text: impl FnOnce() -> String) {
+        if self.is_verbose {
+            let _ = writeln!(io::stderr(), "{}", text());
+        }
+    }
+
     /// One line or report about what went wrong; also when quiet.
     pub(crate) fn complain(self, text: &str) {
         let _ = writeln!(io::stderr(), "{}", text.trim_end());
     }
 
     /// A bar on stderr, hidden unless that is a terminal.
-    pub(crate) fn progress(self, steps: u64) -> ProgressBar {
+    pub(crate) fn progress(self, steps: u64, of: &str) -> ProgressBar {
         let is_shown = !self.is_quiet && io::stderr().is_terminal();
         let target = if is_shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(steps), target);
-        let template = "{elapsed:>4} [{bar:40}] step {pos}/{len}, {per_sec}, {eta} left";
-        match ProgressStyle::with_template(template) {
+        let template = format!("{{elapsed:>4}} [{{bar:40}}] {of} {{pos}}/{{len}}, {{per_sec}}, {{eta}} left");
+        match ProgressStyle::with_template(&template) {
             Ok(style) => bar.with_style(style.progress_chars("=> ")),
             Err(_) => bar,
         }

@@ -19,18 +19,24 @@ pub(crate) enum Failure {
     Message(String),
     /// The scenario is refused.
     Scenario(Source, Diagnostics),
+    /// The scenario is refused, and stdout says so.
+    Told,
+    /// Something that was asked about is not so; the answer is on stdout.
+    No,
     /// Whoever reads stdout has enough.
     PipeClosed,
     /// What the scenario says must hold does not; what there was has been written.
     Broken(Vec<String>),
     /// Ctrl-C; what there was has been written.
     Interrupted,
+    /// Ctrl-C; how to go on.
+    Stopped(String),
 }
 
 impl Failure {
     /// A file or folder that cannot be read or written.
     pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
-        Self::Message(format!("cannot {verb} {}: {error}", path.display()))
+        Self::Message(format!("cannot {verb} {}: {error}{}", path.display(), remedy(error.kind())))
     }
 
     /// Tells the user, and says which code to exit with.
@@ -44,7 +50,13 @@ impl Failure {
                 lines.iter().for_each(|line| console.complain(line));
                 return ExitCode::from(BROKEN);
             }
+            Self::Told => {}
+            Self::No => return ExitCode::from(BROKEN),
             Self::PipeClosed => return ExitCode::SUCCESS,
+            Self::Stopped(text) => {
+                console.note(&text);
+                return ExitCode::from(INTERRUPTED);
+            }
             Self::Interrupted => {
                 console.note("interrupted");
                 return ExitCode::from(INTERRUPTED);
@@ -54,13 +66,23 @@ impl Failure {
     }
 }
 
+/// What helps, if anything is known to.
+fn remedy(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; free some space or choose another place",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "; choose a place that you may use",
+        ErrorKind::NotADirectory => "; a part of the path is a file",
+        _ => "",
+    }
+}
+
 /// Errors of stdout; those of files go through [`Failure::file`].
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         if error.kind() == ErrorKind::BrokenPipe {
             Self::PipeClosed
         } else {
-            Self::Message(format!("cannot write to stdout: {error}"))
+            Self::file("write to", Path::new("stdout"), &error)
         }
     }
 }

@@ -1,157 +1,151 @@
 //! `run`: a whole scenario, with its files.
 
-use crate::args::RunArgs;
+use crate::args::{Changes, duration, whole};
 use crate::console::{Console, stdout};
-use crate::draw::png::Picture;
-use crate::draw::{self, svg};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::moments::Moments;
-use crate::output::Outputs;
-use crate::report::{EventFile, MeasureFile, RunReport};
-use crate::simulate::{Tally, simulate};
-use crate::source::{Prepared, prepare};
-use indicatif::ProgressBar;
-use microsim_core::World;
-use microsim_core::scenario::{Built, Script};
-use serde::Serialize;
-use std::io::Write;
-use std::time::{Duration, Instant};
+use crate::output::{Outputs, check_formats};
+use crate::record::KeepArgs;
+use crate::session::{Session, timed_step};
+use crate::source::{Prepared, load};
+use crate::summary::{Table, median};
+use crate::sweep;
+use std::path::PathBuf;
 
-/// Longer side of the picture of the last frame, pixels.
-const FRAME: u32 = 1600;
+/// Steps that are tried to say how long a run would take.
+const TRIED: u64 = 20;
+
+/// `run`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "What must hold is checked after every step; the first that breaks is named on stderr, the run goes on, and the\n\
+exit code is 1. Equal scenario, seed and steps give equal bytes in all files but run.json."
+)]
+pub(crate) struct RunArgs {
+    /// A built-in scenario, a TOML file, or `-` for stdin
+    #[arg(value_name = "NAME|FILE", required_unless_present = "task")]
+    pub scenario: Option<String>,
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Number of steps; without it, the scenario's duration
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, conflicts_with = "seconds")]
+    pub steps: Option<u64>,
+    /// Simulated time, s
+    #[arg(long, value_name = "S", value_parser = duration)]
+    pub seconds: Option<f64>,
+    /// Check the whole state after every step; the first violation is named on stderr, and the exit code is 1
+    #[arg(long)]
+    pub validate: bool,
+    /// Write what the scenario's [output] says into this folder; it must be empty or not exist
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Allow a folder that is not empty: files of the same names are replaced, all others stay
+    #[arg(long, requires = "out")]
+    pub force: bool,
+    #[command(flatten)]
+    pub outputs: OutputArgs,
+    #[command(flatten)]
+    pub keep: KeepArgs,
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    pub json: bool,
+    /// Say what would be simulated, and roughly how long it would take; write nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Run the tasks of a sweep, one a line, from a file or `-`; one that is in the store is done already
+    #[arg(long, value_name = "FILE", requires = "store", conflicts_with_all = ["scenario", "out", "dry_run", "json"])]
+    pub task: Option<String>,
+    /// Where the results of tasks are kept
+    #[arg(long, value_name = "DIR", requires = "task")]
+    pub store: Option<PathBuf>,
+}
+
+/// What to write beside or in place of what the scenario says: the same as `--set output...`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct OutputArgs {
+    /// Formats of the measures over time: csv, jsonl, parquet, several with commas, or none
+    #[arg(long, value_name = "FORMATS", requires = "out")]
+    measures: Option<String>,
+    /// Time between two rows of measures, s; 0 for every step
+    #[arg(long, value_name = "S", value_parser = duration, requires = "out")]
+    every: Option<f64>,
+    /// Formats of the place, speed and area of every organism over time
+    #[arg(long, value_name = "FORMATS", requires = "out")]
+    trajectories: Option<String>,
+    /// Times of more pictures, s, with commas
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
+    frames: Option<String>,
+    /// Times at which the whole state is written, s, with commas
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
+    snapshots: Option<String>,
+    /// Steps between two checkpoints, to go on from with `resume` after Ctrl-C or a crash
+    #[arg(long, value_name = "N", requires = "out")]
+    checkpoint_every: Option<u32>,
+    /// Leave out the pictures of the end and of six moments
+    #[arg(long, requires = "out")]
+    no_pictures: bool,
+}
+
+impl OutputArgs {
+    /// As overrides of the scenario.
+    fn overrides(&self) -> Vec<(String, String)> {
+        let formats = |list: &String| match list.as_str() {
+            "none" => "[]".to_owned(),
+            list => format!("[{}]", list.split(',').map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")),
+        };
+        let set = [
+            ("output.measures.formats", self.measures.as_ref().map(formats)),
+            ("output.measures.every", self.every.map(|every| every.to_string())),
+            ("output.trajectories.formats", self.trajectories.as_ref().map(formats)),
+            ("output.frames.at", self.frames.as_ref().map(|times| format!("[{times}]"))),
+            ("output.snapshots", self.snapshots.as_ref().map(|times| format!("[{times}]"))),
+            ("output.checkpoint_every", self.checkpoint_every.map(|every| every.to_string())),
+            ("output.pictures", self.no_pictures.then(|| "false".to_owned())),
+        ];
+        set.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect()
+    }
+}
 
 /// Runs a scenario, writes its files and says what came of it.
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
-    let prepared = prepare(&args.scenario)?;
-    interrupt::listen();
-    let outputs = args.out.as_deref();
-    let outputs = outputs.map(|folder| Outputs::open(folder, args.force)).transpose()?;
+    if let (Some(tasks), Some(store)) = (&args.task, &args.store) {
+        return sweep::run_tasks(tasks, store, console);
+    }
+    let mut changes = args.changes.clone();
+    changes.set.extend(args.outputs.overrides());
+    let prepared = Prepared::new(load(args.scenario.as_deref().unwrap_or_default())?, &changes)?;
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
+    check_formats(prepared.scenario.output())?;
+    if args.dry_run {
+        return estimate(&prepared, steps);
+    }
+    interrupt::listen();
+    let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
+    Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
+}
+
+/// Says what a run would be.
+fn estimate(prepared: &Prepared, steps: u64) -> Result<(), Failure> {
     let mut built = prepared.built.clone();
-    let mut record = outputs.as_ref().map(|outputs| Record::start(outputs, &built.world, steps)).transpose()?;
-    let bar = console.progress(steps);
-    let (tally, failures) = advance(&mut built, steps, args.validate, &bar, record.as_mut())?;
-    bar.finish_and_clear();
-    let report = RunReport { failures, ..RunReport::new(&prepared, &built.world, tally) };
-    if let (Some(record), Some(outputs)) = (record, &outputs) {
-        record.finish(outputs, &built.world)?;
-        write_description(outputs, &prepared, args, &report)?;
-        console.note(&format!("wrote {}", outputs.folder().display()));
+    let tried: Vec<f64> = (0..steps.min(TRIED)).map(|_| timed_step(&mut built).as_secs_f64()).collect();
+    let seconds = median(&tried) * steps as f64;
+    let census = prepared.built.world.census();
+    let mut table = Table::default();
+    table.row("scenario", prepared.name());
+    table.row("seed", prepared.scenario.seed());
+    table.row("steps", format!("{steps} ({:.2} s)", steps as f64 * f64::from(prepared.scenario.config().dt)));
+    table.row("organisms", census.organisms);
+    table.row("particles", census.particles);
+    table.row("would take", format!("about {} on this machine", rough(seconds)));
+    Ok(table.print(stdout())?)
+}
+
+/// A time in words, to one digit or so.
+fn rough(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "a second or less".to_owned(),
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
     }
-    print(&report, args.json)?;
-    verdict(&report, prepared.name())
-}
-
-/// Takes the steps. Returns also what failed: the first check that broke, the first violation if the state is to be
-/// validated, then commands that were refused.
-fn advance(
-    built: &mut Built,
-    steps: u64,
-    validates: bool,
-    bar: &ProgressBar,
-    mut record: Option<&mut Record>,
-) -> Result<(Tally, Vec<String>), Failure> {
-    let Built { world, script, checks, .. } = built;
-    let mut broken = None;
-    let mut invalid = None;
-    let see = |world: &World| {
-        bar.set_position(world.step_index());
-        broken = broken.or_else(|| checks.after_step(world).first().copied());
-        if validates && invalid.is_none() {
-            invalid = world.validate().err().map(|violation| format!("after step {}: {violation}", world.step_index()));
-        }
-        record.as_mut().map_or(Ok(()), |record| record.add(world))
-    };
-    let tally = simulate(world, steps, |world| timed_step(world, script), see)?;
-    let refusals = script.refusals().iter().map(ToString::to_string);
-    Ok((tally, broken.iter().map(ToString::to_string).chain(invalid).chain(refusals).collect()))
-}
-
-fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
-    if report.interrupted {
-        return Err(Failure::Interrupted);
-    }
-    if report.failures.is_empty() {
-        return Ok(());
-    }
-    let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
-    Err(Failure::Broken(report.failures.iter().map(line).collect()))
-}
-
-fn timed_step(world: &mut World, script: &mut Script) -> Duration {
-    let inputs = script.before_step(world);
-    let start = Instant::now();
-    world.step(inputs);
-    start.elapsed()
-}
-
-/// What `--out` collects while the run goes on.
-#[derive(Debug)]
-struct Record {
-    measures: MeasureFile,
-    events: EventFile,
-    moments: Moments,
-}
-
-impl Record {
-    fn start(outputs: &Outputs, world: &World, steps: u64) -> Result<Self, Failure> {
-        let mut moments = Moments::new(steps);
-        moments.look_at(world);
-        Ok(Self { measures: MeasureFile::create(outputs)?, events: EventFile::create(outputs)?, moments })
-    }
-
-    fn add(&mut self, world: &World) -> Result<(), Failure> {
-        self.moments.look_at(world);
-        self.events.add(world)?;
-        self.measures.add(world)
-    }
-
-    fn finish(self, outputs: &Outputs, world: &World) -> Result<(), Failure> {
-        self.measures.finish()?;
-        self.events.finish()?;
-        let drawing = draw::draw(world);
-        outputs.write("frame.svg", svg::write(&drawing, FRAME).as_bytes())?;
-        outputs.write("frame.png", &Picture::of(&drawing, FRAME).encoded()?)?;
-        outputs.write("frames.png", &self.moments.sheet().encoded()?)
-    }
-}
-
-/// `run.json`: the report, and what is needed to run it again.
-#[derive(Serialize)]
-struct Description<'a> {
-    #[serde(flatten)]
-    report: &'a RunReport,
-    target: String,
-    source: &'a str,
-    overrides: &'a [(String, String)],
-    scenario_text: &'a str,
-}
-
-fn write_description(
-    outputs: &Outputs,
-    prepared: &Prepared,
-    args: &RunArgs,
-    report: &RunReport,
-) -> Result<(), Failure> {
-    let description = Description {
-        report,
-        target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
-        source: prepared.source.origin(),
-        overrides: &args.scenario.set,
-        scenario_text: prepared.source.text(),
-    };
-    let mut text = serde_json::to_string_pretty(&description).map_err(std::io::Error::from)?;
-    text.push('\n');
-    outputs.write("run.json", text.as_bytes())
-}
-
-fn print(report: &RunReport, is_json: bool) -> Result<(), Failure> {
-    let mut out = stdout();
-    if is_json {
-        serde_json::to_writer(&mut out, report).map_err(std::io::Error::from)?;
-        writeln!(out)?;
-        return Ok(out.flush()?);
-    }
-    Ok(report.table().print(out)?)
 }

@@ -1,40 +1,42 @@
-//! The loop that both `run` and `bench` are made of: step, take the census, count.
+//! What is counted over the steps of a run or a benchmark.
 
 use crate::failure::Failure;
 use crate::interrupt;
 use microsim_core::{Census, World};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 /// What was seen over some steps.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Tally {
-    /// Time of each step, ms.
+    /// Number of steps taken.
+    pub steps: u64,
+    /// Time of each step, ms; of a run that was resumed, only of those since.
+    #[serde(skip)]
     pub step_ms: Vec<f64>,
     /// Most leaks seen at the end of a step.
     pub leaks: usize,
     /// Most improper absorptions seen at the end of a step.
     pub improper_absorptions: usize,
     /// Events by the name of their kind.
-    pub events: BTreeMap<&'static str, u64>,
+    pub events: BTreeMap<String, u64>,
     /// Time of everything, measures included.
+    #[serde(skip)]
     pub wall: Duration,
     /// Whether the user stopped it.
     pub is_interrupted: bool,
 }
 
 impl Tally {
-    /// Number of steps taken.
-    pub(crate) fn steps(&self) -> u64 {
-        self.step_ms.len() as u64
-    }
-
-    fn add(&mut self, world: &World, census: &Census, took: Duration) {
+    /// Counts a step.
+    pub(crate) fn add(&mut self, world: &World, census: &Census, took: Duration) {
+        self.steps += 1;
         self.step_ms.push(took.as_secs_f64() * 1e3);
         self.leaks = self.leaks.max(census.leaks);
         self.improper_absorptions = self.improper_absorptions.max(census.improper_absorptions);
         for event in world.events() {
-            *self.events.entry(event.name()).or_default() += 1;
+            *self.events.entry(event.name().to_owned()).or_default() += 1;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Where a scenario comes from: a built-in one, a file or stdin.
 
-use crate::args::ScenarioArgs;
+use crate::args::{Changes, ScenarioArgs};
 use crate::failure::Failure;
 use microsim_core::scenario::{Built, Diagnostics, Scenario, builtin, builtins};
 use std::fs::File;
@@ -26,6 +26,20 @@ impl Source {
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
+
+    /// A text that was handed over by something that knows where it is from.
+    pub(crate) fn new(origin: String, text: String) -> Self {
+        Self { origin, text }
+    }
+
+    fn build(&self, changes: &Changes) -> Result<(Scenario, Built), Diagnostics> {
+        let mut scenario = Scenario::parse(&self.text, &changes.set)?;
+        if let Some(seed) = changes.seed {
+            scenario.set_seed(seed);
+        }
+        let built = scenario.build()?;
+        Ok((scenario, built))
+    }
 }
 
 /// A scenario that was parsed, with what was said about it on the command line.
@@ -34,9 +48,19 @@ pub(crate) struct Prepared {
     pub source: Source,
     pub scenario: Scenario,
     pub built: Built,
+    /// What the command line changes, `key=value`.
+    pub overrides: Vec<(String, String)>,
 }
 
 impl Prepared {
+    /// Reads the text and makes its world.
+    pub(crate) fn new(source: Source, changes: &Changes) -> Result<Self, Failure> {
+        match source.build(changes) {
+            Ok((scenario, built)) => Ok(Self { source, scenario, built, overrides: changes.set.clone() }),
+            Err(problems) => Err(Failure::Scenario(source, problems)),
+        }
+    }
+
     /// The scenario's name; where it has none, its file's.
     pub(crate) fn name(&self) -> &str {
         let name = self.scenario.name();
@@ -52,23 +76,11 @@ impl Prepared {
 
 /// Reads, parses and builds: whatever is wrong with a scenario is found here, before anything is written.
 pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
-    let source = load(&args.scenario)?;
-    match build(&source.text, args) {
-        Ok((scenario, built)) => Ok(Prepared { source, scenario, built }),
-        Err(problems) => Err(Failure::Scenario(source, problems)),
-    }
+    Prepared::new(load(&args.scenario)?, &args.changes)
 }
 
-fn build(text: &str, args: &ScenarioArgs) -> Result<(Scenario, Built), Diagnostics> {
-    let mut scenario = Scenario::parse(text, &args.set)?;
-    if let Some(seed) = args.seed {
-        scenario.set_seed(seed);
-    }
-    let built = scenario.build()?;
-    Ok((scenario, built))
-}
-
-fn load(name: &str) -> Result<Source, Failure> {
+/// Reads the text of a scenario.
+pub(crate) fn load(name: &str) -> Result<Source, Failure> {
     if name == "-" {
         return read("<stdin>", Path::new("stdin"), io::stdin().lock());
     }

@@ -2,12 +2,13 @@
 
 use crate::error::{Error, count_in_range, in_range};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Without protection of its membranes a world lets things move so many times faster than its speed limit.
 const UNPROTECTED: f32 = 15.0;
 
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldConfig {
     /// Width and height of the walled room; its lower left corner is the origin. 1 to 20 000 each.
     pub size: Vec2,

@@ -1,16 +1,17 @@
 //! The one error type: what was wrong, in which field, and what would be accepted.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A value handed in that the library refuses. Nothing was changed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Error {
     kind: ErrorKind,
     field: String,
 }
 
 /// Why a value was refused.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum ErrorKind {
     /// A number is not finite or outside its range.

@@ -2,9 +2,10 @@
 
 use crate::id::OrganismId;
 use crate::kind::Kind;
+use serde::{Deserialize, Serialize};
 
 /// One thing that happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Event {
     /// Two organisms began to touch. Exactly one [`Event::ContactEnded`] follows, even if one is removed.
@@ -106,7 +107,7 @@ pub enum Event {
 }
 
 /// Why a cell does not divide or fuse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Refusal {
     /// It is frozen.

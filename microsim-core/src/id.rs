@@ -1,7 +1,9 @@
 //! Generational handles: a stale one never names a newer organism.
 
+use serde::{Deserialize, Serialize};
+
 /// Names one organism of a world for as long as it lives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct OrganismId {
     pub(crate) index: u32,
     pub(crate) generation: u32,
@@ -33,3 +35,7 @@ pub struct TemplateId(pub(crate) u32);
 /// Names an obstacle of a world; valid as long as the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ObstacleId(pub(crate) u32);
+
+/// Names a chemical of a world; valid as long as the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct ChemicalId(pub(crate) u32);

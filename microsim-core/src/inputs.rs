@@ -3,10 +3,13 @@
 use crate::error::{Error, in_range};
 use crate::id::OrganismId;
 use glam::Vec2;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// The wish of one organism for one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Intent {
+    #[serde(deserialize_with = "read_goal")]
     goal: Option<Vec2>,
     digests: bool,
 }
@@ -45,8 +48,16 @@ impl Intent {
     }
 }
 
+/// A goal that [`Intent::toward`] accepts.
+fn read_goal<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec2>, D::Error> {
+    let goal = Option::<Vec2>::deserialize(from)?;
+    goal.map_or(Ok(()), |goal| Intent::toward(goal).map(drop)).map_err(D::Error::custom)?;
+    Ok(goal)
+}
+
 /// The intents of one step. An organism that is not named here follows its own controller.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Vec<(OrganismId, Intent)>", into = "Vec<(OrganismId, Intent)>")]
 pub struct Inputs {
     intents: Vec<(OrganismId, Intent)>,
 }
@@ -74,9 +85,33 @@ impl Inputs {
         Some(self.intents[at].1)
     }
 
+    /// All commands, by organism.
+    pub fn iter(&self) -> impl Iterator<Item = (OrganismId, Intent)> + '_ {
+        self.intents.iter().copied()
+    }
+
+    /// Takes the command given to `organism` back, if there is one.
+    pub fn remove(&mut self, organism: OrganismId) {
+        self.intents.retain(|&(id, _)| id != organism);
+    }
+
     /// Takes all commands back.
     pub fn clear(&mut self) {
         self.intents.clear();
+    }
+}
+
+impl From<Vec<(OrganismId, Intent)>> for Inputs {
+    fn from(intents: Vec<(OrganismId, Intent)>) -> Self {
+        let mut inputs = Self::new();
+        intents.into_iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        inputs
+    }
+}
+
+impl From<Inputs> for Vec<(OrganismId, Intent)> {
+    fn from(inputs: Inputs) -> Self {
+        inputs.intents
     }
 }
 

@@ -1,7 +1,9 @@
 //! What kinds of organisms there are, as a name for events and output.
 
+use serde::{Deserialize, Serialize};
+
 /// What an organism is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 #[repr(u8)]
 pub enum Kind {
@@ -23,6 +25,8 @@ pub enum Kind {
     RedCell,
     /// A small round bacterium.
     Coccus,
+    /// A small rod-shaped bacterium.
+    Bacillus,
 }
 
 impl Kind {
@@ -39,6 +43,7 @@ impl Kind {
             Self::Custom => "custom",
             Self::RedCell => "red_cell",
             Self::Coccus => "coccus",
+            Self::Bacillus => "bacillus",
         }
     }
 }

@@ -32,10 +32,12 @@
 
 mod behavior;
 mod capability;
+mod chemical;
 mod collision;
 mod config;
 mod error;
 mod event;
+mod fnv;
 pub mod geometry;
 mod id;
 mod inputs;
@@ -45,26 +47,45 @@ pub mod microscope;
 mod organism;
 mod parallel;
 mod particle;
+#[cfg(all(feature = "scenario", feature = "snapshot"))]
+pub mod replay;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
+#[cfg(feature = "snapshot")]
+pub mod snapshot;
 mod solver;
 mod step;
 mod template;
+mod walk;
 mod world;
 
 pub use behavior::crawl::MembraneRegion;
 pub use capability::controller::Controller;
+pub use capability::controller::avoidance::{Avoidance, AvoidanceParams};
+pub use capability::controller::brownian::{Brownian, BrownianParams};
+pub use capability::controller::chemotaxis::{Chemotaxis, ChemotaxisParams};
+pub use capability::controller::flee::{Flee, FleeParams};
+pub use capability::controller::patrol::Patrol;
+pub use capability::controller::persistent_walk::{PersistentWalk, PersistentWalkParams};
+pub use capability::controller::pursue::{Pursue, PursueParams};
+pub use capability::controller::ram::Ram;
+pub use capability::controller::run_and_tumble::{RunAndTumble, RunAndTumbleParams};
+pub use capability::controller::thrash::Thrash;
+pub use capability::controller::wander::Wander;
 pub use capability::division::DivisionParams;
+pub use capability::exchange::Exchange;
 pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
+pub use chemical::{Chemical, ChemicalSpec};
 pub use collision::obstacle::Obstacle;
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::{Event, Refusal};
-pub use id::{ObstacleId, OrganismId, TemplateId};
+pub use id::{ChemicalId, ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
 pub use kind::Kind;
 pub use organism::agar::AgarSpec;
+pub use organism::bacillus::BacillusSpec;
 pub use organism::coccus::CoccusSpec;
 pub use organism::filled_chain::AmoeboidCellSpec;
 pub use organism::fluid_block::FluidBlockSpec;
@@ -81,6 +102,8 @@ pub use solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope};
 pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
+pub use world::anatomy::Bond;
+pub use world::difference::Difference;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;

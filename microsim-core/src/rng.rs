@@ -1,8 +1,10 @@
 //! Random numbers: one PCG-XSH-RR 64/32 generator per organism, kept in the world's state
 //! (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms").
 
+use serde::{Deserialize, Serialize};
+
 /// A generator; equal seed and stream give equal numbers on every platform.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rng {
     pub(crate) state: u64,
     pub(crate) increment: u64,
@@ -38,6 +40,23 @@ impl Rng {
     pub fn range(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit()
     }
+
+    /// Exponential with mean 1: the time to the next of events that happen at a rate of 1.
+    pub fn exponential(&mut self) -> f32 {
+        -libm::logf(1.0 - self.unit())
+    }
+
+    /// Normal with mean 0 and standard deviation 1 (polar method, Marsaglia and Bray 1964; the second deviate is dropped, so
+    /// that the state is the generator alone).
+    pub fn normal(&mut self) -> f32 {
+        loop {
+            let (x, y) = (self.range(-1.0, 1.0), self.range(-1.0, 1.0));
+            let square = x * x + y * y;
+            if square > 0.0 && square < 1.0 {
+                return x * (-2.0 * libm::logf(square) / square).sqrt();
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -59,5 +78,21 @@ mod tests {
         assert!(numbers.iter().all(|n| (-2.0..3.0).contains(n)));
         let mean = numbers.iter().sum::<f32>() / 1000.0;
         assert!((mean - 0.5).abs() < 0.2, "mean {mean}");
+    }
+
+    #[test]
+    fn deviates_have_their_moments() {
+        let mut rng = Rng::new(3, 4);
+        let moments = |next: &mut dyn FnMut() -> f32| {
+            let numbers: Vec<f64> = (0..40_000).map(|_| f64::from(next())).collect();
+            [1, 2, 4].map(|power| numbers.iter().map(|n| n.powi(power)).sum::<f64>() / 40_000.0)
+        };
+        let [mean, square, fourth] = moments(&mut || rng.normal());
+        assert!(
+            mean.abs() < 0.02 && (square - 1.0).abs() < 0.02 && (fourth - 3.0).abs() < 0.2,
+            "{mean} {square} {fourth}"
+        );
+        let [mean, square, _] = moments(&mut || rng.exponential());
+        assert!((mean - 1.0).abs() < 0.02 && (square - 2.0).abs() < 0.1, "{mean} {square}");
     }
 }

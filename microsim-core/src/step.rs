@@ -1,11 +1,13 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{constrict, cup, draw_in_prey, engulfers, steer_organisms};
-use crate::capability::controller;
+use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
+use crate::capability::controller::senses;
 use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
+use crate::particle::BlockRange;
+use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact};
 use crate::world::World;
@@ -31,13 +33,15 @@ pub enum Phase {
     AdvancePhagocytosis,
     /// Furrows close, cells divide and fuse.
     DivideAndFuse,
+    /// Organisms secrete and take up chemicals, which diffuse and decay.
+    DiffuseChemicals,
     /// Contacts become events, and what is no longer finite is frozen.
     Conclude,
 }
 
 impl Phase {
     /// All phases, in their order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::SteerOrganisms,
         Self::FindPairs,
         Self::PredictPositions,
@@ -47,6 +51,7 @@ impl Phase {
         Self::UpdateVelocities,
         Self::AdvancePhagocytosis,
         Self::DivideAndFuse,
+        Self::DiffuseChemicals,
         Self::Conclude,
     ];
 
@@ -63,6 +68,7 @@ impl Phase {
             Self::UpdateVelocities => "update_velocities",
             Self::AdvancePhagocytosis => "advance_phagocytosis",
             Self::DivideAndFuse => "divide_and_fuse",
+            Self::DiffuseChemicals => "diffuse_chemicals",
             Self::Conclude => "conclude",
         }
     }
@@ -94,15 +100,17 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     finished(Phase::AdvancePhagocytosis);
     world.divide_and_fuse();
     finished(Phase::DivideAndFuse);
+    diffuse_chemicals(world);
+    finished(Phase::DiffuseChemicals);
     conclude(world);
     finished(Phase::Conclude);
     world.step_index += 1;
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
-    let World { config, particles, organisms, fluids, events, scratch, .. } = world;
-    let engulfers = engulfers(organisms, particles);
-    let surroundings = controller::Surroundings { size: config.size, dt: config.dt, engulfers };
+    let World { config, particles, organisms, fluids, obstacles, chemicals, events, scratch, .. } = world;
+    let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
+    let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
@@ -113,12 +121,22 @@ fn steer(world: &mut World, inputs: &Inputs) {
     }
 }
 
-fn find_pairs(world: &mut World) {
-    let World { config, particles, organisms, obstacles, exemptions, scratch, .. } = world;
+pub(crate) fn find_pairs(world: &mut World) {
+    let World { config, particles, blocks, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
     let (rings, homes) = (rings.as_slice(), &organisms.homes());
-    scratch.broad_phase.find_pairs(Surroundings { particles, obstacles, exemptions, rings, homes, size, reach });
+    let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
+    scratch.broad_phase.find_pairs(Surroundings {
+        particles,
+        blocks,
+        obstacles,
+        exemptions,
+        rings,
+        homes,
+        size,
+        reach,
+    });
 }
 
 fn predict_positions(world: &mut World, h: f32) {
@@ -150,8 +168,7 @@ fn project_constraints(world: &mut World, h: f32) {
 
 /// All membranes that move, with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    let moving = organisms.iter().filter(|(_, organism)| !organism.is_quarantined);
-    moving.flat_map(|(_, organism)| organism.membranes())
+    organisms.with_membrane().flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {
@@ -174,7 +191,7 @@ fn update_velocities(world: &mut World, h: f32) {
         |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
     );
     // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
-    for (_, cell) in organisms.iter().filter(|(_, organism)| organism.crawls()) {
+    for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
     }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
@@ -188,6 +205,12 @@ fn catch_strays(world: &mut World) {
         let caught = ring_contact::catch_strays(ring, place, &scratch.broad_phase.ring_contacts, particles);
         guard.net_fired += u64::from(caught);
     }
+}
+
+fn diffuse_chemicals(world: &mut World) {
+    let World { config, particles, organisms, chemicals, .. } = world;
+    exchange::exchange(organisms, particles, chemicals, config.dt);
+    chemicals.iter_mut().for_each(|chemical| chemical.advance(config.dt));
 }
 
 fn conclude(world: &mut World) {

@@ -5,9 +5,10 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Anchor, Area, CoccusSpec, Controller, Distance, Error, ErrorKind, FluidBlockSpec,
-    FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec,
-    RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Anchor, Area, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance, Error,
+    ErrorKind, Exchange, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId, OrganismSpec,
+    Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, World,
+    WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -50,6 +51,10 @@ impl Room {
         (0..2).for_each(|k| _ = builder.node(Node::disc(Vec2::X * 500.0 * k as f32, 1.0, 1.0)));
         let id = self.world.add_template(builder.build().unwrap());
         self.world.spawn_template(id, Placement::at(20.0, 20.0)).unwrap_err()
+    }
+
+    fn chemical(&mut self) -> ChemicalId {
+        self.world.add_chemical(ChemicalSpec::default()).unwrap()
     }
 
     fn single(&mut self) -> microsim_core::TemplateId {
@@ -152,6 +157,20 @@ const CASES: &[Case] = &[
     ("World::set_exempt", "Stale", "a", |r| r.world.set_exempt(r.stale, r.cell, true).unwrap_err()),
     ("World::set_exempt", "Stale", "b", |r| r.world.set_exempt(r.cell, r.stale, true).unwrap_err()),
     ("World::set_exempt", "Unsupported", "b", |r| r.world.set_exempt(r.cell, r.cell, true).unwrap_err()),
+    ("ChemicalSpec::validate", "OutOfRange", "decay", |r| ChemicalSpec { decay: -1.0, ..ChemicalSpec::default() }.validate(r.world.config()).unwrap_err()),
+    ("World::add_chemical", "OutOfRange", "spacing", |r| r.world.add_chemical(ChemicalSpec { spacing: 0.0, ..ChemicalSpec::default() }).unwrap_err()),
+    ("World::set_controller", "Stale", "organism", |r| r.world.set_controller(r.stale, Controller::Still).unwrap_err()),
+    ("World::set_controller", "OutOfRange", "controller.interval", |r| r.world.set_controller(r.cell, Controller::thrash(0.0, 0.5)).unwrap_err()),
+    ("World::set_controller", "BadReference", "controller.through", |r| r.world.set_controller(r.cell, Controller::patrol(vec![], true)).unwrap_err()),
+    ("World::set_controller", "Unsupported", "controller", |r| r.world.set_controller(r.agar, Controller::thrash(1.0, 0.5)).unwrap_err()),
+    ("World::set_exchange", "OutOfRange", "uptake", |r| { let chemical = r.chemical(); r.world.set_exchange(r.cell, Exchange { chemical, secretion: 0.0, uptake: -1.0 }).unwrap_err() }),
+    ("World::set_exchange", "Stale", "organism", |r| { let chemical = r.chemical(); r.world.set_exchange(r.stale, Exchange { chemical, secretion: 0.0, uptake: 0.0 }).unwrap_err() }),
+    ("World::set_exchange", "BadReference", "chemical", |r| {
+        let chemical = Room::new().chemical();
+        r.world.set_exchange(r.cell, Exchange { chemical, secretion: 0.0, uptake: 0.0 }).unwrap_err()
+    }),
+    ("World::push", "Stale", "organism", |r| r.world.push(r.stale, Vec2::X).unwrap_err()),
+    ("World::push", "OutOfRange", "velocity.y", |r| r.world.push(r.cell, Vec2::new(0.0, f32::NAN)).unwrap_err()),
     ("World::add_obstacle", "OutOfRange", "pose.translation.x", |r| r.world.add_obstacle(obstacle(SharedShape::ball(1.0), f32::NAN)).unwrap_err()),
     ("World::add_obstacle", "Unsupported", "shape", |r| r.world.add_obstacle(obstacle(SharedShape::ball(f32::NAN), 9.0)).unwrap_err()),
     ("World::add_obstacle", "Overlap", "pose", |r| r.world.add_obstacle(obstacle(SharedShape::ball(40.0), 40.0)).unwrap_err()),

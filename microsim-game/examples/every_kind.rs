@@ -17,7 +17,7 @@ fn main() -> Result<(), String> {
         screenshot: std::env::args().nth(1).map(Into::into),
         frames: std::env::args().nth(1).map(|_| 30),
         size: (1280, 720),
-        script: None,
+        ..Plan::default()
     };
     microsim_game::show(Stage::new("every kind".to_owned(), world, None), plan)
 }

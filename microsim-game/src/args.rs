@@ -1,25 +1,35 @@
 //! The command line.
 
+use crate::scenery::Sight;
+use microsim_core::scenario;
+use std::fmt;
+use std::fs;
 use std::path::PathBuf;
 
 /// What the program says about itself.
 pub const HELP: &str = "\
-microsim-game: a window into microsim
+microsim-game: cells under the microscope, to watch and to play with
 
-USAGE: microsim-game [NAME | FILE.toml] [OPTIONS]
+USAGE: microsim-game [NAME | FILE.toml]... [OPTIONS]
 
-  NAME               a built-in scenario, `demo` if none is named
-  FILE.toml          a scenario file
+  (nothing)          the title: play, or choose a simulation
+  NAME               the simulation of a built-in scenario
+  FILE.toml          the simulation of a scenario file; more files are in the list of simulations
 
+  --play             the game, at once; with a NAME or FILE, that one
+  --set KEY=VALUE    change a value of the scenario, for example game.time=30
+  --seed N           the same round every time
   --screenshot FILE  write a PNG of the last frame and exit; steps exactly once per frame
   --frames N         exit after N frames (with --screenshot: 120 unless told)
   --size WxH         size of the window, 160x90 to 7680x4320 (1280x720 unless told)
-  --script FILE      take the player's actions from a file instead of mouse and keyboard
+  --script FILE      take the player's input from a file instead of mouse and keyboard
+  --optics NAME      how the world is seen: phase-contrast, dic, ..., or drawn, for slow graphics
+  --timings          say at the end how long steps and frames took
   -h, --help         this text
   -V, --version      the version
 
-CONTROLS: hold the left mouse button: move there | A, D or wheel: zoom out, in | Space: pause | N: one step
-          1-9: built-in scenario | F12: screenshot | Escape: quit
+CONTROLS: hold the left mouse button: crawl there | hold Q: digest | A, D or wheel: zoom out, in | Space: pause
+          R: restart | F11: full screen | F12: picture | Escape: menu. Keys can be changed in the settings.
 
 EXIT CODE: 0 fine, 1 no display or a file that cannot be written, 2 a bad argument or scenario";
 
@@ -31,8 +41,8 @@ const SCREENSHOT_FRAMES: u32 = 120;
 pub enum Command {
     /// To read this and be done.
     Say(String),
-    /// To see a scene.
-    Play(Options),
+    /// To see something.
+    Show(Options),
 }
 
 /// Where a scene comes from.
@@ -45,18 +55,28 @@ pub enum Scene {
 }
 
 /// Settings of one run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// What to show.
-    pub scene: Scene,
+    /// What was named, in this order.
+    pub scenes: Vec<Scene>,
+    /// Whether the game is wanted at once.
+    pub plays: bool,
+    /// Values of the scenario to change.
+    pub overrides: Vec<(String, String)>,
+    /// Seed of the scenario.
+    pub seed: Option<u64>,
     /// Picture to write at the end.
     pub screenshot: Option<PathBuf>,
     /// Frames after which to exit.
     pub frames: Option<u32>,
     /// Width and height of the window.
-    pub size: (u32, u32),
-    /// Actions to play back.
+    pub size: Option<(u32, u32)>,
+    /// Input to play back.
     pub script: Option<PathBuf>,
+    /// Name of the way of looking, in place of the one in the settings.
+    pub sight: Option<String>,
+    /// Whether to say how long everything took.
+    pub timings: bool,
 }
 
 /// Reads the arguments.
@@ -64,45 +84,83 @@ pub struct Options {
 /// # Errors
 /// Says which argument is wrong and what would be right.
 pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, String> {
-    let mut options = Options {
-        scene: Scene::Builtin("demo".to_owned()),
-        screenshot: None,
-        frames: None,
-        size: (1280, 720),
-        script: None,
-    };
-    let (mut arguments, mut scenes) = (arguments.into_iter(), 0);
+    let mut options = Options::default();
+    let mut arguments = arguments.into_iter();
     while let Some(argument) = arguments.next() {
         let mut value = |what: &str| arguments.next().ok_or(format!("{argument} needs {what}"));
         match argument.as_str() {
             "-h" | "--help" => return Ok(Command::Say(HELP.to_owned())),
             "-V" | "--version" => return Ok(Command::Say(format!("microsim-game {}", env!("CARGO_PKG_VERSION")))),
+            "--play" => options.plays = true,
+            "--set" => options.overrides.push(pair(&value("KEY=VALUE")?)?),
+            "--seed" => options.seed = Some(seed(&value("a number")?)?),
             "--screenshot" => options.screenshot = Some(value("a file")?.into()),
             "--frames" => options.frames = Some(count(&value("a number")?)?),
-            "--size" => options.size = size(&value("a size such as 640x360")?)?,
+            "--size" => options.size = Some(size(&value("a size such as 640x360")?)?),
             "--script" => options.script = Some(value("a file")?.into()),
+            "--optics" => options.sight = Some(sight(&value("a name")?)?),
+            "--timings" => options.timings = true,
             other if other.starts_with('-') => return Err(format!("unknown option {other}; --help lists all")),
-            other => {
-                options.scene = scene(other);
-                scenes += 1;
-            }
+            other => options.scenes.push(Scene::named(other)),
         }
-    }
-    if scenes > 1 {
-        return Err("more than one scenario named".to_owned());
     }
     if options.screenshot.is_some() {
         options.frames.get_or_insert(SCREENSHOT_FRAMES);
     }
-    Ok(Command::Play(options))
+    Ok(Command::Show(options))
 }
 
-fn scene(text: &str) -> Scene {
-    if text.ends_with(".toml") || text.contains(['/', '\\']) {
-        Scene::File(text.into())
-    } else {
-        Scene::Builtin(text.to_owned())
+impl Scene {
+    fn named(text: &str) -> Self {
+        if text.ends_with(".toml") || text.contains(['/', '\\']) {
+            Self::File(text.into())
+        } else {
+            Self::Builtin(text.to_owned())
+        }
     }
+
+    /// Text of the scenario.
+    ///
+    /// # Errors
+    /// When there is no such built-in scenario, or the file cannot be read.
+    pub fn text(&self) -> Result<String, String> {
+        match self {
+            Self::File(path) => {
+                fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+            }
+            Self::Builtin(name) => scenario::builtin(name).map(|found| found.text.to_owned()).ok_or_else(|| {
+                let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();
+                format!("no built-in scenario {name:?}; there are: {}; a file ends in .toml", names.join(", "))
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Scene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Builtin(name) => f.write_str(name),
+            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().fmt(f),
+        }
+    }
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    let pair = text.split_once('=').map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
+    pair.filter(|(key, _)| !key.is_empty()).ok_or(format!("--set {text}: not KEY=VALUE"))
+}
+
+fn sight(text: &str) -> Result<String, String> {
+    let known = || Sight::all().map(Sight::name);
+    let names = || known().collect::<Vec<_>>().join(", ");
+    known()
+        .find(|name| *name == text)
+        .map(str::to_owned)
+        .ok_or_else(|| format!("--optics {text}: not one of {}", names()))
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("--seed {text}: not a whole number from 0 on"))
 }
 
 fn count(text: &str) -> Result<u32, String> {
@@ -130,30 +188,29 @@ mod tests {
 
     fn options(line: &str) -> Options {
         match parsed(line) {
-            Ok(Command::Play(options)) => options,
+            Ok(Command::Show(options)) => options,
             other => panic!("{line}: {other:?}"),
         }
     }
 
     #[test]
-    fn nothing_named_is_the_demo() {
-        let options = options("");
-        assert_eq!(options.scene, Scene::Builtin("demo".to_owned()));
-        assert_eq!((options.size, options.frames), ((1280, 720), None));
-    }
-
-    #[test]
     fn names_files_and_options_are_told_apart() {
-        assert_eq!(options("dam-break").scene, Scene::Builtin("dam-break".to_owned()));
-        assert_eq!(options("./a.toml").scene, Scene::File("./a.toml".into()));
+        assert_eq!(options(""), Options::default());
+        let two = options("dam-break ./a.toml");
+        assert_eq!(two.scenes, [Scene::Builtin("dam-break".to_owned()), Scene::File("./a.toml".into())]);
         let shot = options("demo --screenshot a.png --size 640x360");
-        assert_eq!((shot.frames, shot.size), (Some(SCREENSHOT_FRAMES), (640, 360)));
+        assert_eq!((shot.frames, shot.size), (Some(SCREENSHOT_FRAMES), Some((640, 360))));
         assert_eq!(options("--screenshot a.png --frames 7").frames, Some(7));
+        let game = options("--play --set game.time=10 --seed 3");
+        assert!(game.plays && game.seed == Some(3));
+        assert_eq!(game.overrides, [("game.time".to_owned(), "10".to_owned())]);
     }
 
     #[test]
     fn mistakes_are_named() {
-        for line in ["--size 10x10", "--size big", "--frames 0", "--frames", "--wrong", "demo platelets"] {
+        for line in
+            ["--size 10x10", "--size big", "--frames 0", "--frames", "--wrong", "--set x", "--seed -1", "--optics x"]
+        {
             assert!(parsed(line).is_err(), "{line}");
         }
         assert!(matches!(parsed("--help"), Ok(Command::Say(text)) if text == HELP));

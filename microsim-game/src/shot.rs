@@ -2,7 +2,8 @@
 
 use crate::convert;
 use macroquad::camera::{Camera2D, set_camera, set_default_camera};
-use macroquad::texture::{RenderTarget, render_target};
+use macroquad::color::WHITE;
+use macroquad::texture::{DrawTextureParams, RenderTarget, draw_texture_ex, render_target};
 use microsim_core::glam::Vec2;
 use std::io;
 use std::path::Path;
@@ -14,18 +15,24 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// Draws a picture of `size` pixels that shows `view` drawing units, and writes it as a PNG.
+    /// From now on everything is drawn into a picture of `size` pixels that shows `view` drawing units.
+    pub fn begin(&mut self, size: (u32, u32), view: Vec2) {
+        let target = self.target_of(size);
+        set_camera(&camera(target, view));
+    }
+
+    /// Writes the picture as a PNG, and shows it in the window.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn take(&mut self, path: &Path, size: (u32, u32), view: Vec2, draw: impl FnOnce()) -> io::Result<()> {
-        let target = self.target_of(size);
-        set_camera(&camera(target.clone(), view));
-        draw();
+    pub fn finish(&mut self, path: &Path, view: Vec2) -> io::Result<()> {
         // Ends the target's pass, so that it can be read.
         set_default_camera();
+        let Some((size, target)) = &self.target else { return Ok(()) };
         let image = target.texture.get_texture_data();
-        write_png(path, size, &upright(&image.bytes, size))
+        let params = DrawTextureParams { dest_size: Some(convert::pair(view)), flip_y: true, ..Default::default() };
+        draw_texture_ex(&target.texture, 0.0, 0.0, WHITE, params);
+        write_png(path, *size, &upright(&image.bytes, *size))
     }
 
     fn target_of(&mut self, size: (u32, u32)) -> RenderTarget {

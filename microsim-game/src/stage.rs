@@ -1,8 +1,7 @@
-//! The scene that is running: a scenario's world, its player, and what is needed to draw between two steps.
+//! The scene that is running: a scenario's world, and who is followed in it.
 
 use crate::args::Scene;
-use crate::picture::Picture;
-use microsim_core::scenario::{self, Scenario, Script};
+use microsim_core::scenario::{Scenario, Script};
 use microsim_core::{Census, Intent, Kind, OrganismId, World};
 
 /// Steps between two counts of what is in the world.
@@ -19,46 +18,43 @@ pub struct Stage {
     /// What the player tells its cell.
     orders: Option<Intent>,
     census: Census,
-    before: Picture,
-    now: Picture,
+    /// To begin anew; not there for a world that was made in code.
+    scenario: Option<Scenario>,
 }
 
 impl Stage {
-    /// Sets up a scene.
+    /// Sets up a scene, with values changed as `key=value` pairs say.
     ///
     /// # Errors
     /// Says what is wrong with it, for the user to read.
-    pub fn open(scene: &Scene) -> Result<Self, String> {
-        match scene {
-            Scene::Builtin(name) => Self::builtin(name),
-            Scene::File(path) => {
-                let shown = path.display();
-                let text = std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
-                Self::parse(&text).map_err(|problem| format!("{shown}:\n{problem}"))
-            }
-        }
+    pub fn open(scene: &Scene, overrides: &[(String, String)]) -> Result<Self, String> {
+        let text = scene.text()?;
+        let opened = Scenario::parse(&text, overrides).map_err(|diagnostics| diagnostics.to_string());
+        opened.and_then(Self::of).map_err(|problem| match scene {
+            Scene::Builtin(_) => problem,
+            Scene::File(path) => format!("{}:\n{problem}", path.display()),
+        })
     }
 
-    /// Sets up the built-in scenario at a position of the list, if the list is that long.
+    /// Sets up a built-in scenario.
     #[must_use]
-    pub fn numbered(position: usize) -> Option<Result<Self, String>> {
-        scenario::builtins().get(position).map(|found| Self::builtin(found.name))
+    pub fn builtin(name: &str) -> Option<Self> {
+        Self::open(&Scene::Builtin(name.to_owned()), &[]).ok()
     }
 
-    fn builtin(name: &str) -> Result<Self, String> {
-        let Some(found) = scenario::builtin(name) else {
-            let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();
-            let list = names.join(", ");
-            return Err(format!("no built-in scenario {name:?}; there are: {list}; a file ends in .toml"));
-        };
-        Self::parse(found.text)
-    }
-
-    fn parse(text: &str) -> Result<Self, String> {
-        let scenario = Scenario::parse(text, &[]).map_err(|diagnostics| diagnostics.to_string())?;
+    fn of(scenario: Scenario) -> Result<Self, String> {
         let built = scenario.build().map_err(|diagnostics| diagnostics.to_string())?;
         let stage = Self::new(scenario.name().to_owned(), built.world, built.player);
-        Ok(Self { script: built.script, ..stage })
+        Ok(Self { script: built.script, scenario: Some(scenario), ..stage })
+    }
+
+    /// The same scene from its beginning.
+    ///
+    /// # Errors
+    /// When it was made in code.
+    pub fn again(&self) -> Result<Self, String> {
+        let scenario = self.scenario.clone().ok_or("this scene has no beginning to go back to")?;
+        Self::of(scenario)
     }
 
     /// A scene of this world. Without a named player, the first amoeboid cell is the player.
@@ -66,17 +62,8 @@ impl Stage {
     pub fn new(name: String, world: World, player: Option<OrganismId>) -> Self {
         let is_amoeboid = |&id: &OrganismId| world.kind(id) == Some(Kind::AmoeboidCell);
         let player = player.or_else(|| world.organisms().find(is_amoeboid));
-        let now = Picture::of(&world);
-        Self {
-            name,
-            census: world.census(),
-            before: now.clone(),
-            now,
-            world,
-            player,
-            script: Script::default(),
-            orders: None,
-        }
+        let (census, script) = (world.census(), Script::default());
+        Self { name, census, world, player, script, orders: None, scenario: None }
     }
 
     /// Its name.
@@ -91,10 +78,20 @@ impl Stage {
         &self.world
     }
 
-    /// The cell that the player steers.
+    /// Its world, to meddle with.
+    pub fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    /// Who is followed, and steered by the player.
     #[must_use]
     pub fn player(&self) -> Option<OrganismId> {
         self.player
+    }
+
+    /// Follows somebody else, or nobody.
+    pub fn set_player(&mut self, player: Option<OrganismId>) {
+        (self.player, self.orders) = (player, None);
     }
 
     /// What there is, counted now and then.
@@ -116,16 +113,9 @@ impl Stage {
         let mut inputs = self.script.before_step(&mut self.world).clone();
         self.player.zip(self.orders).into_iter().for_each(|(player, intent)| inputs.set(player, intent));
         self.world.step(&inputs);
-        self.before = std::mem::replace(&mut self.now, Picture::of(&self.world));
         if self.world.step_index().is_multiple_of(CENSUS_INTERVAL) {
             self.census = self.world.census();
         }
-    }
-
-    /// What there is to see `alpha` of the way from the last step but one to the last.
-    #[must_use]
-    pub fn picture(&self, alpha: f32) -> Picture {
-        self.now.since(&self.before, alpha)
     }
 }
 
@@ -178,10 +168,10 @@ mod tests {
 
     #[test]
     fn every_builtin_opens_and_unknown_names_are_answered_with_the_list() {
-        let known = |position| Stage::numbered(position).map(|stage| stage.map(|stage| stage.census()));
-        let mut opened = (0..).map_while(known);
-        assert!(opened.all(|stage| stage.is_ok()));
-        let problem = Stage::open(&Scene::Builtin("nonsense".to_owned())).unwrap_err();
+        for found in microsim_core::scenario::builtins() {
+            assert!(Stage::builtin(found.name).is_some_and(|stage| stage.again().is_ok()), "{}", found.name);
+        }
+        let problem = Stage::open(&Scene::Builtin("nonsense".to_owned()), &[]).unwrap_err();
         assert!(problem.contains("demo"), "{problem}");
     }
 }

@@ -38,6 +38,19 @@ impl Picture {
         }
     }
 
+    /// As bytes that [`Self::from_raw`] reads: quick to write, large.
+    pub(crate) fn to_raw(&self) -> Vec<u8> {
+        [&(self.width as u32).to_le_bytes()[..], &(self.height as u32).to_le_bytes(), &self.bytes].concat()
+    }
+
+    /// From the bytes of [`Self::to_raw`].
+    pub(crate) fn from_raw(raw: &[u8]) -> Option<Self> {
+        let (width, rest) = raw.split_first_chunk()?;
+        let (height, bytes) = rest.split_first_chunk()?;
+        let [width, height] = [width, height].map(|side| u32::from_le_bytes(*side) as usize);
+        (bytes.len() == 3 * width * height).then(|| Self::new(width, height, bytes.to_vec()))
+    }
+
     /// From three bytes per pixel.
     pub(crate) fn new(width: usize, height: usize, bytes: Vec<u8>) -> Self {
         Self { width, height, bytes }

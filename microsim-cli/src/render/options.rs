@@ -42,12 +42,18 @@ impl FromStr for OpticsList {
     }
 }
 
+/// `--fps`.
+pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (0.001..=1000.0).contains(&rate) => Ok(rate),
+        _ => Err("expected frames per second, 0.001 to 1000".to_owned()),
+    }
+}
+
 /// `--film`.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum FilmStock {
-    /// 16 mm film: grain, gate weave, flicker, vignette
     Cine,
-    /// A digital camera
     Digital,
 }
 

@@ -1,98 +1,46 @@
-//! What a run amounts to, as JSON and as text.
+//! `report`: one HTML page of a run or a sweep, complete in itself.
 
-mod files;
-mod statistics;
-mod table;
+mod chart;
+mod data;
+mod heat_map;
+mod page;
+mod run_page;
+mod scale;
+mod sweep_page;
 
-pub(crate) use files::{EventFile, MeasureFile};
-pub(crate) use statistics::{Spread, mean, median};
-pub(crate) use table::Table;
+use crate::console::{Console, stdout};
+use crate::failure::Failure;
+use crate::output::Outputs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
-use crate::simulate::Tally;
-use crate::source::Prepared;
-use microsim_core::World;
-use serde::Serialize;
-use std::collections::BTreeMap;
-
-/// What every run reports.
-#[derive(Debug, Serialize)]
-pub(crate) struct RunReport {
-    pub version: &'static str,
-    pub scenario: String,
-    pub seed: u64,
-    pub steps: u64,
-    pub simulated_seconds: f64,
-    pub organisms: usize,
-    pub bodies: usize,
-    pub particles: usize,
-    pub constraints: usize,
-    pub quarantined: usize,
-    pub digest: String,
-    pub leaks: usize,
-    pub improper_absorptions: usize,
-    pub events: BTreeMap<&'static str, u64>,
-    pub step_ms: Spread,
-    pub wall_seconds: f64,
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub interrupted: bool,
-    /// The first invariant or expectation that broke, and commands that were refused.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub failures: Vec<String>,
+/// `report`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "The page needs no network: plots are SVG, pictures lie in it. Of a run it shows what the folder has, so the more\n\
+outputs were chosen, the more there is to see:\n\
+  microsim run hunt --out hunt --trajectories csv && microsim report hunt -o hunt.html\n\
+  microsim sweep merge plan.jsonl --store results -o merged.jsonl && microsim report merged.jsonl -o sweep.html"
+)]
+pub(crate) struct ReportArgs {
+    /// The folder of a run, or the merged results of a sweep (.jsonl)
+    #[arg(value_name = "DIR|FILE")]
+    pub input: PathBuf,
+    /// The page to write, or `-` for stdout
+    #[arg(short, long, value_name = "FILE", default_value = "report.html")]
+    pub output: PathBuf,
 }
 
-impl RunReport {
-    /// Of the world as it is now, after the steps of the tally.
-    pub(crate) fn new(prepared: &Prepared, world: &World, tally: Tally) -> Self {
-        let census = world.census();
-        Self {
-            version: env!("CARGO_PKG_VERSION"),
-            scenario: prepared.scenario.name().to_owned(),
-            seed: prepared.scenario.seed(),
-            steps: tally.steps(),
-            simulated_seconds: rounded(tally.steps() as f64 * f64::from(world.config().dt)),
-            organisms: census.organisms,
-            bodies: census.bodies,
-            particles: census.particles,
-            constraints: census.constraints,
-            quarantined: census.quarantined,
-            digest: format!("{:016x}", world.digest()),
-            leaks: tally.leaks,
-            improper_absorptions: tally.improper_absorptions,
-            step_ms: Spread::of(&tally.step_ms),
-            wall_seconds: tally.wall.as_secs_f64(),
-            interrupted: tally.is_interrupted,
-            events: tally.events,
-            failures: Vec::new(),
-        }
+/// Writes the page.
+pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<(), Failure> {
+    let page = if args.input.is_dir() { run_page::make(&args.input)? } else { sweep_page::make(&args.input)? };
+    if args.output == Path::new("-") {
+        let mut out = stdout();
+        out.write_all(page.as_bytes())?;
+        return Ok(out.flush()?);
     }
-
-    /// The rows that a person reads.
-    pub(crate) fn table(&self) -> Table {
-        let mut table = Table::default();
-        table.row("scenario", &self.scenario);
-        table.row("seed", self.seed);
-        table.row("steps", format!("{} ({:.2} s)", self.steps, self.simulated_seconds));
-        table.row("organisms", self.organisms);
-        table.row("bodies", self.bodies);
-        table.row("particles", self.particles);
-        table.row("constraints", self.constraints);
-        table.row("digest", &self.digest);
-        table.row("leaks", self.leaks);
-        table.row("improper absorptions", self.improper_absorptions);
-        if self.quarantined > 0 {
-            table.row("quarantined", self.quarantined);
-        }
-        for (name, count) in &self.events {
-            table.row(&name.replace('_', " "), count);
-        }
-        let Spread { median, p90, p99 } = self.step_ms;
-        table.row("step", format!("{median:.3} ms median, {p90:.3} p90, {p99:.3} p99"));
-        table.row("wall time", format!("{:.2} s", self.wall_seconds));
-        table
-    }
-}
-
-/// A time without the noise of its 32-bit step: to the microsecond.
-pub(crate) fn rounded(seconds: f64) -> f64 {
-    (seconds * 1e6).round() / 1e6
+    let (outputs, name) = Outputs::beside(&args.output)?;
+    outputs.write(&name, page.as_bytes())?;
+    console.note(&format!("wrote {}", args.output.display()));
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! Movement of a rigid cell (seed, 3.1.1): the front body is given a velocity towards the goal and pulls the cell after
-//! it, which also turns it. If the goal is nearer to the opposite body, that one becomes the front.
+//! it, which also turns it. If the goal is nearer to the opposite body, that one becomes the front. A cell that backs up is
+//! pulled by its rear, away from the goal.
 
 use super::heading;
 use crate::organism::Organism;
@@ -19,8 +20,13 @@ pub(crate) fn drive(
     let particle = |k: u32| organism.body.particle(organism.outline[(k % count) as usize]);
     let way = |k: u32| goal - particles.position(particle(k) as usize);
     let opposite = (front + count / 2) % count;
+    if organism.pace < 0.0 {
+        let velocity = heading(way(opposite)) * organism.present_speed();
+        drives.push(Drive { particle: particle(opposite), velocity, max_acceleration: f32::INFINITY });
+        return front;
+    }
     let front = if way(opposite).length_squared() < way(front).length_squared() { opposite } else { front };
-    let velocity = heading(way(front)) * organism.speed;
+    let velocity = heading(way(front)) * organism.present_speed();
     drives.push(Drive { particle: particle(front), velocity, max_acceleration: f32::INFINITY });
     front
 }

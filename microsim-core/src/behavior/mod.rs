@@ -3,10 +3,13 @@
 pub(crate) mod constrict;
 pub(crate) mod crawl;
 pub(crate) mod cup;
+pub(crate) mod exchange;
 pub(crate) mod front_pull;
+pub(crate) mod sensing;
 
+use crate::capability::Locomotion;
+use crate::capability::controller::senses::{Senses, Surroundings, Wish};
 use crate::capability::phagocytosis::MealPhase;
-use crate::capability::{Locomotion, controller};
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::inputs::Inputs;
@@ -15,35 +18,44 @@ use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::drive::Drive;
 use glam::Vec2;
+use sensing::Body;
 
 /// Turns inputs and controllers into the drives of this step.
 pub(crate) fn steer_organisms(
     organisms: &mut Organisms,
     inputs: &Inputs,
     particles: &Particles,
-    surroundings: &controller::Surroundings,
+    surroundings: &Surroundings<'_>,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
     drives.clear();
     for (id, organism) in organisms.iter_mut() {
-        if organism.is_quarantined {
+        if organism.is_quarantined || organism.locomotion == Locomotion::None {
             continue;
         }
-        let at = place(organism, particles);
-        let own = organism.controller.advance(id, at, &mut organism.rng, surroundings);
+        let body = Body::of(organism, particles);
+        let senses = body.senses(id, organism, surroundings);
+        let own = decide(organism, &senses);
         let intent = inputs.get(id);
-        let goal = intent.map_or(own, |intent| intent.goal());
+        let wish = intent.map_or(own, |intent| intent.goal().map(Wish::to));
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
-        organism.goal = goal.filter(|_| may_move);
+        organism.goal = wish.map(|wish| wish.goal).filter(|_| may_move);
+        organism.pace = wish.map_or(1.0, |wish| wish.pace);
+        organism.progress.note(organism.goal.is_some(), &senses);
         move_towards(id, organism, particles, drives, events);
     }
 }
 
-/// All organisms that take others in, and where they are.
-pub(crate) fn engulfers(organisms: &Organisms, particles: &Particles) -> Vec<(OrganismId, Vec2)> {
-    let engulfers = organisms.iter().filter(|(_, organism)| organism.engulfer.is_some() && !organism.is_quarantined);
-    engulfers.map(|(id, organism)| (id, place(organism, particles))).collect()
+/// What an organism's controller wants, unless it is stuck and tries to get away first.
+fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
+    let Organism { controller, progress, rng, .. } = organism;
+    let wish = controller.decide(senses, rng)?;
+    let way_out = if controller.insists() { None } else { progress.way_out(wish, senses, rng) };
+    Some(way_out.map_or(wish, |way| {
+        controller.head(way);
+        senses.along(way)
+    }))
 }
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
@@ -86,7 +98,7 @@ fn move_towards(
         Locomotion::Tow { max_acceleration } => {
             let particle = organism.body.particle(0);
             let way = goal.map_or(Vec2::ZERO, |goal| goal - particles.position(particle as usize));
-            let velocity = heading(way) * organism.speed;
+            let velocity = heading(way) * organism.present_speed();
             drives.push(Drive { particle, velocity, max_acceleration });
         }
     }

@@ -11,6 +11,7 @@
 use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Circles that a membrane can go round at most while its furrow closes: the neck takes more than two circles need.
 const LOBES_AT_CLOSING: f32 = 3.0;
@@ -18,7 +19,7 @@ const LOBES_AT_CLOSING: f32 = 3.0;
 const ROUNDING_TIME: f32 = 2.0;
 
 /// How an amoeboid cell divides and fuses.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DivisionParams {
     /// Speed with which each side of the furrow moves towards the other, units/s, 0.1 to 20.
     pub furrow_speed: f32,
@@ -50,7 +51,7 @@ impl DivisionParams {
 }
 
 /// What a cell is told to do with the next step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Order {
     /// Divide along this axis, or along its longest one.
     Divide { axis: Option<Vec2> },
@@ -59,7 +60,7 @@ pub(crate) enum Order {
 }
 
 /// A furrow that is closing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Furrow {
     /// The membrane nodes at its bottom, on both sides.
     pub nodes: [u32; 2],
@@ -70,7 +71,7 @@ pub(crate) struct Furrow {
 }
 
 /// The capability to divide and to fuse.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Divider {
     pub params: DivisionParams,
     pub order: Option<Order>,

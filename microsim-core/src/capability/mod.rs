@@ -1,12 +1,16 @@
 //! Capabilities: what an organism can do, as data that it carries, and the rules that need nothing but that data. How they
 //! act on the world is [`crate::behavior`] and the world's feeding.
 
+use serde::{Deserialize, Serialize};
+
 pub(crate) mod controller;
 pub(crate) mod division;
+pub(crate) mod exchange;
 pub(crate) mod phagocytosis;
+pub(crate) mod progress;
 
 /// How an organism moves towards its goal, and what it remembers of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Locomotion {
     /// It does not.
     None,

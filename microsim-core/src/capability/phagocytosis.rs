@@ -13,11 +13,12 @@
 
 use crate::error::{Error, count_in_range, in_range};
 use crate::id::OrganismId;
+use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
 /// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
 /// membrane nodes use a gate whatever is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
     /// The seed's: the membrane next to the prey ignores it until it is inside.
     Gate,
@@ -27,7 +28,7 @@ pub enum IngestionWay {
 }
 
 /// What the seed leaves open about phagocytosis, as numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhagocytosisParams {
     /// How prey gets through the membrane.
     pub way: IngestionWay,
@@ -53,8 +54,8 @@ pub struct PhagocytosisParams {
     pub closing_length: f32,
     /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
     pub soft_prey_scale: f32,
-    /// Time of digestion of simple and of soft prey, s, 0.05 to 60.
-    pub digestion_time: [f32; 2],
+    /// Time of digestion of simple prey, of bacteria and of soft prey, s, 0.05 to 60.
+    pub digestion_time: [f32; 3],
     /// Share of its speed that an engulfer keeps while it digests, 0 to 1.
     pub digestion_speed: f32,
     /// Area gained over area digested, 0 to 4.
@@ -75,7 +76,7 @@ impl Default for PhagocytosisParams {
             lip_speed: 6.0,
             closing_length: 1.35,
             soft_prey_scale: 0.5,
-            digestion_time: [0.6, 2.0],
+            digestion_time: [0.6, 1.2, 2.0],
             digestion_speed: 0.35,
             growth_yield: 1.0,
         }
@@ -96,22 +97,25 @@ impl PhagocytosisParams {
         in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
         in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
         in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
+        in_range("digestion_time[2]", self.digestion_time[2], 0.05, 60.0)?;
         in_range("digestion_speed", self.digestion_speed, 0.0, 1.0)?;
         in_range("growth_yield", self.growth_yield, 0.0, 4.0)
     }
 }
 
 /// How prey is taken in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PreyClass {
     /// One disc: any number at a time, always digestible.
     Simple,
+    /// A bacterium: taken in like simple prey, harder to digest.
+    Bacterium,
     /// A soft body: one at a time, of the right size, with the engulfer at rest.
     Soft,
 }
 
 /// Where an engulfer and its prey stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MealPhase {
     /// All conditions have held for so long, s.
     Touching(f32),
@@ -132,7 +136,7 @@ impl MealPhase {
 }
 
 /// One prey of an engulfer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Meal {
     pub prey: OrganismId,
     pub class: PreyClass,
@@ -146,7 +150,7 @@ pub(crate) struct Meal {
 }
 
 /// The capability to take others in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Engulfer {
     pub params: PhagocytosisParams,
     /// In the order in which they were first touched.
@@ -162,7 +166,7 @@ pub(crate) struct Engulfer {
 }
 
 /// The capability to be taken in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Prey {
     pub class: PreyClass,
     /// Who holds it, from the beginning of its ingestion on.
@@ -215,7 +219,7 @@ impl Engulfer {
     fn conditions_hold(&self, encounter: &Encounter) -> bool {
         let heads_for_it = encounter.heading.is_some_and(|cosine| cosine >= self.params.heading_cosine);
         let is_absorbable = match encounter.class {
-            PreyClass::Simple => encounter.contacts > 0,
+            PreyClass::Simple | PreyClass::Bacterium => encounter.contacts > 0,
             PreyClass::Soft => {
                 encounter.contacts >= self.params.soft_prey_contacts
                     && encounter.size_ratio >= self.params.size_ratio
@@ -247,7 +251,7 @@ impl Engulfer {
         let mut begun = Vec::new();
         for k in 0..self.meals.len() {
             let MealPhase::Touching(held) = self.meals[k].phase else { continue };
-            let is_free = self.meals[k].class == PreyClass::Simple || !self.slot_is_taken();
+            let is_free = self.meals[k].class != PreyClass::Soft || !self.slot_is_taken();
             if held + dt >= self.params.hold_time && is_free {
                 self.meals[k].phase = MealPhase::Ingesting(0.0);
                 begun.push(k);

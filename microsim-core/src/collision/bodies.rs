@@ -7,11 +7,14 @@
 use super::crowd::{Crowd, Disc};
 use super::grid::Grid;
 use crate::parallel;
+use crate::particle::{BlockRange, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
 
 /// Rows of cells that are searched at a time, a fixed number whatever the number of threads.
 const STRIP: usize = 4;
+/// Blocks that are collected at a time, likewise.
+const PORTION: usize = 16;
 
 /// A body: its discs, and the box around what they can reach in the step.
 #[derive(Clone, Debug)]
@@ -22,13 +25,14 @@ pub(super) struct Body {
 }
 
 impl Body {
-    fn around(discs: &[Disc], range: Range<usize>) -> Self {
+    /// The body of these discs, the first of which is at `first` of all.
+    fn around(discs: &[Disc], first: usize) -> Self {
         let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        for disc in &discs[range.clone()] {
+        for disc in discs {
             low = low.min(disc.at - disc.reach);
             high = high.max(disc.at + disc.reach);
         }
-        Self { low, high, discs: range }
+        Self { low, high, discs: first..first + discs.len() }
     }
 
     fn centre(&self) -> Vec2 {
@@ -57,7 +61,7 @@ struct Layer {
 /// All bodies.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
-    /// Body by body.
+    /// Body by body; what lies between two bodies means nothing.
     pub discs: Vec<Disc>,
     found: Vec<Body>,
     small: Layer,
@@ -65,11 +69,47 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Forms bodies of the discs in `ranges` of [`Bodies::discs`].
-    pub(super) fn sort(&mut self, ranges: impl Iterator<Item = Range<usize>>, size: Vec2) {
-        let Self { discs, found, small, large } = self;
+    /// Makes a body of each instance in some blocks, in place of all there were.
+    pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, reach: f32) {
+        let Self { discs, found, .. } = self;
+        discs.resize(blocks.iter().map(BlockRange::len).sum(), Disc::default());
+        let (mut portions, mut rest, mut start) = (Vec::new(), discs.as_mut_slice(), 0);
+        for blocks in blocks.chunks(PORTION) {
+            let len = blocks.iter().map(BlockRange::len).sum();
+            let (discs, others) = rest.split_at_mut(len);
+            portions.push((blocks, start, discs));
+            (rest, start) = (others, start + len);
+        }
+        let collected = parallel::map(portions, |(blocks, start, discs)| {
+            let mut bodies = Vec::with_capacity(blocks.len() * LANES);
+            let mut end = 0;
+            for (block, lane) in blocks.iter().flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
+                let first = end;
+                for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
+                    if particles.groups[i].memberships != 0 {
+                        discs[end] = Disc::of(particles, i, reach);
+                        end += 1;
+                    }
+                }
+                if end > first {
+                    bodies.push(Body::around(&discs[first..end], start + first));
+                }
+            }
+            bodies
+        });
         found.clear();
-        found.extend(ranges.filter(|range| !range.is_empty()).map(|range| Body::around(discs, range)));
+        collected.into_iter().for_each(|bodies| found.extend(bodies));
+    }
+
+    /// Makes a body of a disc on its own.
+    pub(super) fn add_single(&mut self, disc: Disc) {
+        self.found.push(Body::around(&[disc], self.discs.len()));
+        self.discs.push(disc);
+    }
+
+    /// Sorts the bodies for the search.
+    pub(super) fn sort(&mut self, size: Vec2) {
+        let Self { found, small, large, .. } = self;
         let mean = found.iter().map(Body::extent).sum::<f32>() / found.len() as f32;
         let larger = found.extract_if(.., |body| body.extent() > 2.0 * mean).collect::<Vec<_>>();
         small.sort(found, size);

@@ -12,8 +12,8 @@ use super::crowd::{Crowd, Disc};
 use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
-use super::{Contact, ObstacleContact, combine};
-use crate::particle::{NO_OWNER, Particles};
+use super::{Contact, ObstacleContact};
+use crate::particle::{BlockRange, NO_OWNER, Particles};
 use glam::Vec2;
 use parry2d::bounding_volume::BoundingVolume;
 
@@ -26,14 +26,14 @@ pub(crate) struct BroadPhase {
     bodies: Bodies,
     membranes: Crowd,
     fluid: Crowd,
-    /// First disc of each owner in the bodies, and one past the last one's.
-    starts: Vec<u32>,
 }
 
 /// What a pair search needs to know of the world.
 #[derive(Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     pub particles: &'a Particles,
+    /// The blocks, in the order in which they lie in the store.
+    pub blocks: &'a [BlockRange],
     pub obstacles: &'a [Obstacle],
     pub exemptions: &'a Exemptions,
     /// Rings whose links collide. Without any, ring nodes collide as discs.
@@ -52,7 +52,7 @@ impl BroadPhase {
         self.sort(around);
         let Self { contacts, bodies, membranes, fluid, .. } = self;
         contacts.clear();
-        bodies.pairs(|a, b| contact(a, b, around), contacts);
+        bodies.pairs(|a, b| contact_of_bodies(a, b, around), contacts);
         let mut consider = |a: &Disc, b: &Disc| contacts.extend(contact(a, b, around));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
@@ -87,36 +87,20 @@ impl BroadPhase {
 
     /// Sorts the colliding particles into bodies, membranes and fluid.
     fn sort(&mut self, around: Surroundings<'_>) {
-        let Surroundings { particles: p, size, reach, .. } = around;
-        let Self { bodies, membranes, fluid, starts, .. } = self;
+        let Surroundings { particles: p, blocks, size, reach, .. } = around;
+        let Self { bodies, membranes, fluid, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
-        starts.clear();
-        let colliding = || (0..p.len()).filter(|&i| p.groups[i].memberships != 0 && p.is_live(i));
-        let is_in_body = |i: usize| p.fluid[i] == 0 && p.next_in_ring[i] == NO_OWNER;
-        for i in colliding() {
-            if is_in_body(i) {
-                let owner = p.owner[i] as usize;
-                starts.resize(starts.len().max(owner + 2), 0);
-                starts[owner] += 1;
-            } else {
-                let crowd = if p.fluid[i] == 0 { &mut *membranes } else { &mut *fluid };
-                crowd.found.push(Disc::of(p, i, reach));
+        bodies.collect(blocks, p, reach);
+        for i in loose(blocks, p.len()).filter(|&i| p.groups[i].memberships != 0) {
+            let disc = Disc::of(p, i, reach);
+            match (p.fluid[i], p.next_in_ring[i]) {
+                (0, NO_OWNER) => bodies.add_single(disc),
+                (0, _) => membranes.found.push(disc),
+                _ => fluid.found.push(disc),
             }
         }
-        let mut end = 0;
-        for start in &mut *starts {
-            end += *start;
-            *start = end;
-        }
-        bodies.discs.resize(end as usize, Disc::default());
-        // Each start is the end of its body so far; filling backwards turns it into the first disc and keeps the order.
-        for i in colliding().rev().filter(|&i| is_in_body(i)) {
-            let start = &mut starts[p.owner[i] as usize];
-            *start -= 1;
-            bodies.discs[*start as usize] = Disc::of(p, i, reach);
-        }
-        bodies.sort(starts.windows(2).map(|pair| pair[0] as usize..pair[1] as usize), size);
+        bodies.sort(size);
         membranes.sort(size);
         fluid.sort(size);
     }
@@ -142,6 +126,13 @@ impl BroadPhase {
     }
 }
 
+/// Entries of the store that are in no block.
+fn loose(blocks: &[BlockRange], len: usize) -> impl Iterator<Item = usize> + '_ {
+    let ends = blocks.iter().map(|block| block.base + block.len());
+    let gaps = std::iter::once(0).chain(ends).zip(blocks.iter().map(|block| block.base).chain([len]));
+    gaps.flat_map(|(start, end)| start..end)
+}
+
 /// Whether a disc's fluid is not that of the first disc: then there are several.
 fn is_of_another_fluid(disc: &Disc, fluid: &Crowd, p: &Particles) -> bool {
     let first = fluid.iter().next();
@@ -152,10 +143,18 @@ fn is_of_another_fluid(disc: &Disc, fluid: &Crowd, p: &Particles) -> bool {
 fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
     let (p, i, j) = (around.particles, a.index as usize, b.index as usize);
     let is_for_rings = !around.rings.is_empty() && is_for_rings(p, i, j);
-    (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| {
-        let (friction, restitution) = combine(p.material[i], p.material[j]);
-        Contact { i: a.index, j: b.index, friction, restitution, touched: false }
-    })
+    (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| Contact::new(p, i, j))
+}
+
+/// The same for discs of two bodies, which are in no fluid and no ring.
+fn contact_of_bodies(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
+    let (p, i, j) = (around.particles, a.index as usize, b.index as usize);
+    let owners = [p.owner[i], p.owner[j]];
+    let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0
+        && p.groups[i].meets(p.groups[j])
+        && owners[0] != owners[1]
+        && !around.exemptions.contains(owners[0], owners[1]);
+    collide.then(|| Contact::new(p, i, j))
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
@@ -208,6 +207,7 @@ mod tests {
         let size = Vec2::new(40.0, 30.0);
         broad.find_pairs(Surroundings {
             particles,
+            blocks: &[],
             obstacles: &[],
             exemptions,
             rings: &[],

@@ -1,6 +1,7 @@
 //! Pairs of owners that do not collide, whatever their groups say, and the sides of rings on which owners stay.
 
 use super::ring::Ring;
+use serde::{Deserialize, Serialize};
 
 /// Where all particles of an owner are at home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub(crate) fn side_of(owner: u32, ring: Ring<'_>, homes: &[Home]) -> Side {
 }
 
 /// A symmetric set of owner pairs, sorted.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Exemptions {
     pairs: Vec<(u32, u32)>,
     /// Membrane nodes and the owner that each ignores, sorted.
@@ -81,6 +82,11 @@ impl Exemptions {
         &self.gates
     }
 
+    /// The pairs, smaller owner first, ascending.
+    pub(crate) fn pairs(&self) -> &[(u32, u32)] {
+        &self.pairs
+    }
+
     /// Exempts a new owner from what another one is exempt from.
     pub(crate) fn inherit(&mut self, from: u32, to: u32) {
         let others = self.pairs.iter().filter(|&&(a, b)| a == from || b == from);
@@ -92,11 +98,6 @@ impl Exemptions {
     pub(crate) fn forget(&mut self, owner: u32) {
         self.pairs.retain(|&(a, b)| a != owner && b != owner);
         self.gates.retain(|&(_, other)| other != owner);
-    }
-
-    /// The pairs, smaller owner first, ascending.
-    pub(crate) fn pairs(&self) -> &[(u32, u32)] {
-        &self.pairs
     }
 }
 
@@ -117,7 +118,7 @@ mod tests {
         exemptions.set(3, 7, false);
         assert!(!exemptions.contains(7, 3));
         exemptions.forget(9);
-        assert!(exemptions.pairs().is_empty());
+        assert!(exemptions.pairs.is_empty());
     }
 
     #[test]
@@ -132,6 +133,6 @@ mod tests {
         exemptions.close_gate(&[4], 9);
         assert!(!exemptions.gate_is_open([4, 70], [1, 9]) && exemptions.gate_is_open([5, 70], [1, 9]));
         exemptions.forget(9);
-        assert!(exemptions.gates().is_empty());
+        assert!(exemptions.gates.is_empty());
     }
 }

@@ -7,18 +7,39 @@ pub(crate) mod filter;
 pub(crate) mod grid;
 pub(crate) mod obstacle;
 pub(crate) mod ring;
+pub(crate) mod shape;
 
-use crate::particle::Material;
+use crate::particle::{Material, Particles};
+use glam::Vec2;
 
 /// Two discs near enough that they may touch during the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
     pub i: u32,
     pub j: u32,
+    /// From the origin of `i` to the origin of `j`; origins stay where they are during a step.
+    pub between_origins: Vec2,
+    /// Sum of the radii.
+    pub reach: f32,
     pub friction: f32,
     pub restitution: f32,
     /// Touched in any substep since the pair was found.
     pub touched: bool,
+}
+
+impl Contact {
+    pub(crate) fn new(p: &Particles, i: usize, j: usize) -> Self {
+        let (friction, restitution) = combine(p.material[i], p.material[j]);
+        Self {
+            i: i as u32,
+            j: j as u32,
+            between_origins: p.origin(j) - p.origin(i),
+            reach: p.radius[i] + p.radius[j],
+            friction,
+            restitution,
+            touched: false,
+        }
+    }
 }
 
 /// A disc and an obstacle that may touch during the step.

@@ -65,7 +65,7 @@ impl Microscope {
         let (image, margin) = image_grid(&picture, mode);
         let scene = match mode.shade {
             Shade::Painted => Scene::Painted(Painting::of(world)),
-            Shade::Light(shade) => {
+            Shade::Light(shade, _) => {
                 let specimen = Specimen::of(world, field.centre);
                 let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
                 Scene::Lit { specimen, surround, shade }

@@ -1,7 +1,8 @@
 //! What records the image: film with grain, weave and flicker, or a camera.
 
+use super::formula::Formula;
 use super::maths::{larger, mix};
-use super::noise::{hash, wobble};
+use super::noise::{Dice, grain, hash, shift, wobble};
 use crate::error::{Error, in_range};
 use glam::{IVec2, Vec2};
 
@@ -47,15 +48,15 @@ impl Film {
     /// One frame of it, at a time in seconds.
     pub(super) fn frame(&self, time: f64, seed: u32) -> Frame {
         let number = (time * f64::from(self.rate)).floor() as i64 as i32;
-        let seed = hash(IVec2::new(number, 0), seed);
-        Frame { film: *self, seed, weave: self.weave_at(number, seed), level: 1.0 + self.flicker * normal(seed ^ 5) }
-    }
-
-    /// A slow walk of the gate and a little shake on it, pixels.
-    fn weave_at(&self, number: i32, seed: u32) -> Vec2 {
+        let mut dice = Dice::new(hash(IVec2::new(number, 0), seed));
+        // A slow walk of the gate and a little shake on it.
         let slow = number as f32 / 17.0;
         let walk = Vec2::new(wobble(slow, 101), wobble(slow, 102)) * 1.5;
-        (walk + Vec2::new(normal(seed ^ 1), normal(seed ^ 2)) * 0.3) * self.weave
+        let shake = Vec2::new(dice.normal(), dice.normal()) * 0.3;
+        let mut part = || shift(dice.bits());
+        let grain = Parts { fine: part(), coarse: part(), colours: [part(), part(), part()] };
+        let level = 1.0 + self.flicker * dice.normal();
+        Frame { film: *self, grain, weave: (walk + shake) * self.weave, level }
     }
 }
 
@@ -63,11 +64,27 @@ impl Film {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     film: Film,
-    seed: u32,
+    grain: Parts,
     /// By how much the picture is shifted, pixels.
     pub weave: Vec2,
     level: f32,
 }
+
+/// Which parts of the table of noise a frame's grain is.
+#[derive(Clone, Copy, Debug)]
+struct Parts {
+    fine: IVec2,
+    coarse: IVec2,
+    colours: [IVec2; 3],
+}
+
+/// Shares of grain of a pixel's size and of larger grain; of the grain that all colours share, and each one's own.
+const FINE: f32 = 0.6;
+const COARSE: f32 = 0.4;
+const OWN: f32 = 0.4;
+
+pub(super) const FORMULA: Formula =
+    Formula { source: include_str!("film.glsl"), constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE])] };
 
 impl Frame {
     /// Records light at a pixel: 0 to 255 for each channel. `half` is half the picture's size.
@@ -76,42 +93,45 @@ impl Frame {
         light: [f32; N],
         x: usize,
         y: usize,
-        grain: f32,
+        strength: f32,
         half: Vec2,
     ) -> [u8; N] {
         let from_middle = (Vec2::new(x as f32, y as f32) + 0.5 - half) / larger(half.length(), 1.0);
         let exposure = self.level * (1.0 - self.film.vignette * from_middle.length_squared());
         let [black, white] = self.film.levels;
-        let strength = self.film.grain * grain;
-        let common = if strength > 0.0 { self.grain(x as i32, y as i32) } else { 0.0 };
-        let mut channel = 0;
-        light.map(|light| {
-            channel += 1;
-            let light = light * exposure;
-            let own = if N > 1 && strength > 0.0 {
-                normal(hash(IVec2::new(x as i32, y as i32), self.seed ^ (channel << 8)))
-            } else {
-                0.0
-            };
+        let strength = self.film.grain * strength;
+        let pixel = IVec2::new(x as i32, y as i32);
+        let common = if strength > 0.0 { self.common_grain(pixel) } else { 0.0 };
+        std::array::from_fn(|channel| {
+            let light = light[channel] * exposure;
+            let has_own = N > 1 && strength > 0.0;
+            let own = if has_own { grain(pixel.wrapping_add(self.grain.colours[channel])) } else { 0.0 };
             // Grain is strongest in the middle greys, and never quite gone.
             let middle = larger(light * (1.15 - light), 0.01).sqrt();
-            let light = light + strength * middle * (common + 0.4 * own);
+            let light = light + strength * middle * (common + OWN * own);
             (mix(black, white, light) * 255.0 + 0.5).clamp(0.0, 255.0) as u8
         })
     }
 
     /// Grain of two sizes, standard deviation 1.
-    fn grain(&self, x: i32, y: i32) -> f32 {
-        let at = |x: i32, y: i32, salt: u32| normal(hash(IVec2::new(x, y), self.seed ^ salt));
-        let fine = at(x, y, 3);
-        // Coarse grain: 2 x 2 pixels of another lattice, so that it is correlated over about 1.6 pixels.
-        let coarse = at(x, y, 4) + at(x + 1, y, 4) + at(x, y + 1, 4) + at(x + 1, y + 1, 4);
-        0.6 * fine + 0.4 * coarse
+    fn common_grain(&self, pixel: IVec2) -> f32 {
+        let fine = grain(pixel.wrapping_add(self.grain.fine));
+        // Two by two pixels of another part, so that it is correlated over about 1.6 pixels.
+        let corners = [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE];
+        let coarse = |corner: IVec2| grain(pixel.wrapping_add(self.grain.coarse).wrapping_add(corner));
+        FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>()
     }
-}
 
-/// Nearly normal, mean 0 and standard deviation 1, from 32 bits.
-fn normal(bits: u32) -> f32 {
-    let [a, b, c, d] = bits.to_le_bytes().map(f32::from);
-    ((a + b + c + d) / 255.0 - 2.0) * 1.732
+    /// What [`FORMULA`] is fed for a picture of this size: levels and vignette, grain, and its parts.
+    pub(super) fn uniforms(&self, strength: f32, is_grey: bool, [width, height]: [usize; 2]) -> Vec<f32> {
+        let [black, white] = self.film.levels;
+        let own = if is_grey { 0.0 } else { OWN };
+        let mut uniforms = vec![self.level, self.film.vignette, black, white];
+        uniforms.extend([self.film.grain * strength, own, width as f32, height as f32]);
+        let [red, green, blue] = self.grain.colours;
+        uniforms.extend(
+            [self.grain.fine, self.grain.coarse, red, green, blue].iter().flat_map(|part| part.as_vec2().to_array()),
+        );
+        uniforms
+    }
 }

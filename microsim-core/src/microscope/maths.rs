@@ -1,5 +1,9 @@
 //! Small functions that pictures are made of. Results have the same bits on every platform.
 
+use super::formula::Formula;
+
+pub(super) const FORMULA: Formula = Formula { source: include_str!("maths.glsl"), constants: &[] };
+
 pub(super) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }

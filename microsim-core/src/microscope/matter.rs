@@ -1,7 +1,10 @@
 //! What light meets: how much a place of the specimen delays it and how much of what dyes it there is.
 
+use super::formula::Formula;
 use glam::Vec2;
 use std::ops::{AddAssign, Mul};
+
+pub(super) const FORMULA: Formula = Formula { source: include_str!("matter.glsl"), constants: &[] };
 
 /// What lies in the light's way at one place; amounts of things that lie over each other add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,6 +21,11 @@ pub(super) struct Matter {
 
 impl Matter {
     pub(super) const NONE: Self = Self { phase: 0.0, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.0 };
+
+    /// As a graphics card keeps it.
+    pub(super) fn to_array(self) -> [f32; 4] {
+        [self.phase, self.haemoglobin, self.cytoplasm, self.nucleus]
+    }
 
     /// Nothing but a delay.
     pub(super) const fn phase(phase: f32) -> Self {

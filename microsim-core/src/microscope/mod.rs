@@ -31,12 +31,14 @@
 mod exposure;
 mod field;
 mod film;
+mod formula;
 mod look;
 mod maths;
 mod matter;
 mod noise;
 mod optics;
 mod painting;
+pub mod recipe;
 mod specimen;
 mod wave;
 

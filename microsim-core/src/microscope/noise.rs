@@ -1,6 +1,37 @@
 //! Noise without state: the same place always has the same value, so that texture neither flickers nor swims.
+//!
+//! What pixels are asked for comes from one table of random bytes, which repeats itself: a graphics card, which may know no
+//! integers, holds it as a texture. A seed is a shift of the table.
 
+use super::formula::Formula;
 use glam::{IVec2, Vec2};
+
+pub(super) const FORMULA: Formula = Formula {
+    source: include_str!("noise.glsl"),
+    constants: &[("TABLE", &[SIDE as f32]), ("NEXT_OCTAVE", &[NEXT_OCTAVE.x as f32, NEXT_OCTAVE.y as f32])],
+};
+
+/// Entries along each side of the table.
+pub(super) const SIDE: i32 = 256;
+/// From an octave's part of the table to the next one's.
+const NEXT_OCTAVE: IVec2 = IVec2::new(37, 101);
+
+/// The bytes of an entry.
+pub(super) fn entry(at: IVec2) -> [u8; 4] {
+    hash(at & (SIDE - 1), 0).to_le_bytes()
+}
+
+/// Where a seed's noise begins in the table.
+pub(super) const fn shift(seed: u32) -> IVec2 {
+    let bits = scramble(seed) as i32;
+    IVec2::new(bits & (SIDE - 1), bits >> 16 & (SIDE - 1))
+}
+
+/// The same for a graphics card.
+pub(super) const fn shift_of(seed: u32) -> [f32; 2] {
+    let shift = shift(seed);
+    [shift.x as f32, shift.y as f32]
+}
 
 /// 32 bits for a place on the lattice (the finaliser of MurmurHash3, applied to each coordinate in turn).
 pub(super) fn hash(at: IVec2, seed: u32) -> u32 {
@@ -8,7 +39,7 @@ pub(super) fn hash(at: IVec2, seed: u32) -> u32 {
 }
 
 /// 32 bits for a number.
-pub(super) fn scramble(mut bits: u32) -> u32 {
+pub(super) const fn scramble(mut bits: u32) -> u32 {
     bits = bits.wrapping_add(0x9e37_79b9);
     bits = (bits ^ (bits >> 16)).wrapping_mul(0x85eb_ca6b);
     bits = (bits ^ (bits >> 13)).wrapping_mul(0xc2b2_ae35);
@@ -55,13 +86,13 @@ impl Dice {
     }
 }
 
-/// Smooth noise from -1 to 1 with features of size 1.
-pub(super) fn value(at: Vec2, seed: u32) -> f32 {
+/// Smooth noise from -1 to 1 with features of size 1; `shift` as for a seed.
+fn value(at: Vec2, shift: IVec2) -> f32 {
     let cell = at.floor();
     let f = at - cell;
     let t = f * f * f * (f * (f * 6.0 - Vec2::splat(15.0)) + Vec2::splat(10.0));
-    let cell = cell.as_ivec2();
-    let corner = |x: i32, y: i32| unit(hash(cell.wrapping_add(IVec2::new(x, y)), seed));
+    let cell = cell.as_ivec2().wrapping_add(shift);
+    let corner = |x: i32, y: i32| f32::from(entry(cell.wrapping_add(IVec2::new(x, y)))[0]) / 255.0;
     let low = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * t.x;
     let high = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * t.x;
     (low + (high - low) * t.y) * 2.0 - 1.0
@@ -69,19 +100,31 @@ pub(super) fn value(at: Vec2, seed: u32) -> f32 {
 
 /// Several octaves of noise, each half as large and half as strong.
 pub(super) fn octaves(at: Vec2, count: u32, seed: u32) -> f32 {
-    let (mut sum, mut strength, mut at) = (0.0, 1.0, at);
-    for octave in 0..count {
-        sum += strength * value(at, seed.wrapping_add(octave));
+    let (mut sum, mut strength, mut at, mut shift) = (0.0, 1.0, at, shift(seed));
+    for _ in 0..count {
+        sum += strength * value(at, shift);
         strength *= 0.5;
         // Turned, so that the lattices of the octaves do not line up.
         at = Vec2::new(1.6 * at.x - 1.2 * at.y, 1.2 * at.x + 1.6 * at.y);
+        shift += NEXT_OCTAVE;
     }
     sum
 }
 
+/// Nearly normal, mean 0 and standard deviation 1, for a place of the table.
+pub(super) fn grain(at: IVec2) -> f32 {
+    normal(entry(at))
+}
+
+/// Nearly normal, mean 0 and standard deviation 1, from four random bytes.
+pub(super) fn normal(bytes: [u8; 4]) -> f32 {
+    let [a, b, c, d] = bytes.map(f32::from);
+    ((a + b + c + d) / 255.0 - 2.0) * 1.732
+}
+
 /// Smooth noise along time, from -1 to 1, with features of 1.
 pub(super) fn wobble(time: f32, seed: u32) -> f32 {
-    value(Vec2::new(time, 0.5), seed)
+    value(Vec2::new(time, 0.5), shift(seed))
 }
 
 #[cfg(test)]
@@ -93,7 +136,8 @@ mod tests {
         let along = |k: i32, seed| octaves(Vec2::new(k as f32 * 0.01, 3.3), 1, seed);
         assert!((0..2000).all(|k| (along(k, 1) - along(k + 1, 1)).abs() < 0.05 && along(k, 1).abs() <= 1.0));
         assert!((0..100).any(|k| (along(k, 1) - along(k, 2)).abs() > 0.1));
-        assert!(value(Vec2::new(f32::NAN, 1e30), 1).is_nan() || value(Vec2::new(f32::NAN, 1e30), 1).abs() <= 1.0);
+        let nowhere = octaves(Vec2::new(f32::NAN, 1e30), 1, 1);
+        assert!(nowhere.is_nan() || nowhere.abs() <= 1.0);
     }
 
     #[test]

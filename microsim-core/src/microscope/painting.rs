@@ -7,9 +7,12 @@
 //!   particles, blurred (3.2.2).
 //! - Background: sprites at points that wander (3.2.3).
 
+use super::formula::Formula;
 use super::maths::{mix, smoothstep};
 use super::matter::Grid;
-use super::noise::{Dice, octaves, scramble, wobble};
+use super::noise::{Dice, octaves, scramble, shift_of, wobble};
+use super::recipe::{Program, QUAD, Slide};
+use super::specimen::chamber::obstacle_map;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::kind::Kind;
@@ -24,6 +27,12 @@ const DRIFTING: u32 = 60;
 /// Samples of a pixel along each side.
 const SAMPLES: usize = 2;
 const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
+
+/// The noise that mottles the page.
+const PAGE_SEED: u32 = 1;
+
+pub(super) const FORMULA: Formula =
+    Formula { source: include_str!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
 
 /// A painted picture: things that cover each other, the lowest first.
 #[derive(Clone, Debug)]
@@ -141,15 +150,49 @@ impl Painting {
         (0..grid.len()).map(mean).collect()
     }
 
+    /// The same for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        let [x, y] = shift_of(PAGE_SEED);
+        let room = vec![self.room.x, self.room.y, x, y];
+        let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+        slide.add_apart(Program::Page, &corners, QUAD.to_vec(), room.clone(), None);
+        for obstacle in &self.obstacles {
+            if let Some((_, map)) = obstacle_map(obstacle, slide) {
+                slide.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(map));
+            }
+        }
+        self.things.iter().for_each(|thing| thing.draw_on(slide));
+    }
+
     /// The page, darker where the chamber is.
     fn page(&self, place: Vec2) -> Vec3 {
         let is_outside = place.cmplt(Vec2::ZERO).any() || place.cmpgt(self.room).any();
         let is_solid = is_outside || self.obstacles.iter().any(|obstacle| obstacle.nearest(place).1);
-        PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, 1)) * if is_solid { 0.7 } else { 1.0 }
+        PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, PAGE_SEED)) * if is_solid { 0.7 } else { 1.0 }
     }
 }
 
 impl Thing {
+    fn draw_on(&self, slide: &mut Slide) {
+        match *self {
+            Self::Triangle { corners, texture, skin } => {
+                let [x, y] = shift_of(skin.seed);
+                let colours = [skin.body.x, skin.body.y, skin.body.z, 1.0, skin.rim.x, skin.rim.y, skin.rim.z, 1.0];
+                let vertex = |k: usize| [corners[k].to_array(), texture[k].to_array()].concat();
+                let vertices = (0..3).map(|k| [&vertex(k)[..], &colours, &[skin.mottle, x, y]].concat());
+                slide.add(Program::Painted, false, &vertices.collect::<Vec<_>>().concat(), [0, 1, 2]);
+            }
+            Self::Disc { at, radius, colour, alpha, softness } => {
+                // A negative rim tells discs from triangles.
+                let colours = [colour.x, colour.y, colour.z, alpha, 0.0, 0.0, 0.0, -1.0];
+                let corners = [Vec2::NEG_ONE, Vec2::new(1.0, -1.0), Vec2::ONE, Vec2::new(-1.0, 1.0)];
+                let vertex = |way: Vec2| [(at + way * radius).to_array(), way.to_array()].concat();
+                let vertices = corners.map(|way| [&vertex(way)[..], &colours, &[softness, 0.0, 0.0]].concat());
+                slide.add(Program::Painted, false, &vertices.concat(), QUAD);
+            }
+        }
+    }
+
     fn paint(&self, grid: &Grid, canvas: &mut [Vec3]) {
         match *self {
             Self::Triangle { corners: [a, b, c], texture, skin } => {
@@ -192,7 +235,7 @@ fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
         Kind::RigidCell => (Vec3::new(0.80, 0.72, 0.44), Vec3::new(0.45, 0.36, 0.18), 0.22),
         Kind::Platelet => (Vec3::new(0.82, 0.66, 0.70), Vec3::new(0.58, 0.38, 0.46), 0.12),
         Kind::RedCell => (Vec3::new(0.85, 0.50, 0.46), Vec3::new(0.66, 0.24, 0.24), 0.06),
-        Kind::Coccus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
+        Kind::Coccus | Kind::Bacillus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
         Kind::Agar => (Vec3::new(0.86, 0.60, 0.30), Vec3::new(0.6, 0.4, 0.2), 0.0),
         _ => (Vec3::new(0.55, 0.62, 0.70), Vec3::new(0.3, 0.35, 0.42), 0.05),
     };

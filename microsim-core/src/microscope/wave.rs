@@ -1,6 +1,7 @@
 //! The wave behind the specimen, and the surround wave that phase contrast and dark field set against it.
 
-use super::maths::gaussian;
+use super::formula::Formula;
+use super::maths::{gaussian, larger};
 use super::matter::{Grid, Matter, Plate};
 use super::specimen::Specimen;
 use glam::Vec2;
@@ -17,6 +18,11 @@ const NEAR_SHARE: f32 = 0.52;
 /// Pixel on which the surround is computed, micrometres: half of what it could show.
 const PIXEL: f32 = 0.33;
 
+pub(super) const FORMULA: Formula =
+    Formula { source: include_str!("wave.glsl"), constants: &[("GREEN_DENSITY", &[GREEN_DENSITY])] };
+pub(super) const SURROUND: Formula =
+    Formula { source: include_str!("surround.glsl"), constants: &[("NEAR_SHARE", &[NEAR_SHARE])] };
+
 /// The wave behind some matter, relative to the one behind nothing: amplitude and phase as a vector.
 pub(super) fn behind(matter: Matter) -> Vec2 {
     let wave = Vec2::new(libm::cosf(matter.phase), libm::sinf(matter.phase));
@@ -26,6 +32,24 @@ pub(super) fn behind(matter: Matter) -> Vec2 {
 /// The share of green light that matter without stain lets through.
 pub(super) fn transmitted(matter: Matter) -> f32 {
     if matter.haemoglobin == 0.0 { 1.0 } else { libm::expf(-GREEN_DENSITY * matter.haemoglobin) }
+}
+
+/// Pixels on which the surround wave of a picture is computed: coarse ones, of at least a side, and some beyond the picture.
+pub(super) fn surround_grid(picture: &Grid, least: f32) -> Grid {
+    let pixel = larger(PIXEL, least);
+    let (low, high) = picture.bounds();
+    let margin = Vec2::splat(3.0 * FAR + 2.0 * pixel);
+    // On a lattice of the world's: what is between its points does not come and go as the camera moves.
+    let (low, high) = (((low - margin) / pixel).floor(), ((high + margin) / pixel).ceil());
+    let corner = Vec2::new(low.x, high.y) * pixel;
+    Grid { corner, pixel, columns: (high.x - low.x) as usize, top: 0, rows: (high.y - low.y) as usize }
+}
+
+/// The weights of both distributions for a graphics card: those of the middle pixel and outwards, near and far in turn.
+pub(super) fn surround_weights(pixel: f32) -> Vec<f32> {
+    let (near, far) = (gaussian(NEAR / pixel), gaussian(FAR / pixel));
+    let at = |weights: &[f32], k: usize| weights.get(weights.len() / 2 + k).copied().unwrap_or(0.0);
+    (0..=far.len() / 2).flat_map(|k| [at(&near, k), at(&far, k)]).collect()
 }
 
 /// The surround wave over a whole picture.
@@ -38,12 +62,8 @@ pub(super) struct Surround {
 impl Surround {
     /// Of a specimen over what `picture` shows.
     pub(super) fn of(specimen: &Specimen, picture: &Grid) -> Self {
-        let pixel = super::maths::larger(PIXEL, picture.pixel);
-        let (low, high) = picture.bounds();
-        let margin = Vec2::splat(3.0 * FAR + 2.0 * pixel);
-        let size = ((high - low + 2.0 * margin) / pixel).ceil();
-        let corner = Vec2::new(low.x - margin.x, high.y + margin.y);
-        let grid = Grid { corner, pixel, columns: size.x as usize, top: 0, rows: size.y as usize };
+        let grid = surround_grid(picture, picture.pixel);
+        let pixel = grid.pixel;
         let Plate { matter, .. } = specimen.plate(grid);
         let wave: Vec<Vec2> = matter.into_iter().map(behind).collect();
         let near = blurred(&wave, &grid, NEAR / pixel);

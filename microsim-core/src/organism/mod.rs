@@ -2,6 +2,7 @@
 //! constraints and locomotion it amounts to.
 
 pub(crate) mod agar;
+pub(crate) mod bacillus;
 pub(crate) mod coccus;
 pub(crate) mod filled_chain;
 pub(crate) mod fluid_block;
@@ -15,7 +16,9 @@ pub(crate) mod table;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::division::{Divider, DivisionParams, Furrow};
+use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
+use crate::capability::progress::Progress;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
 use crate::id::OrganismId;
@@ -28,6 +31,7 @@ use crate::solver::membrane::{Content, Membrane};
 use crate::template::Template;
 use glam::Vec2;
 use parry2d::bounding_volume::Aabb;
+use serde::{Deserialize, Serialize};
 
 /// Any organism, as plain data.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +53,8 @@ pub enum OrganismSpec {
     RedCell(red_cell::RedCellSpec),
     /// See [`coccus::CoccusSpec`].
     Coccus(coccus::CoccusSpec),
+    /// See [`bacillus::BacillusSpec`].
+    Bacillus(bacillus::BacillusSpec),
 }
 
 impl OrganismSpec {
@@ -63,6 +69,7 @@ impl OrganismSpec {
             Self::FluidBlock(spec) => spec.blueprint(),
             Self::RedCell(spec) => spec.blueprint(),
             Self::Coccus(spec) => spec.blueprint(),
+            Self::Bacillus(spec) => spec.blueprint(),
         }
     }
 
@@ -72,6 +79,12 @@ impl OrganismSpec {
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         self.blueprint().map(drop)
+    }
+
+    /// Whether it moves by itself, so that a controller or an input can steer it.
+    #[must_use]
+    pub fn can_move(&self) -> bool {
+        self.blueprint().is_ok_and(|blueprint| blueprint.locomotion != Locomotion::None)
     }
 
     /// Number of particles that it takes.
@@ -195,7 +208,7 @@ impl Blueprint {
 }
 
 /// Where the particles of an organism lie in the store.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Body {
     /// In one lane of a block. `first` is the particle of slot 0.
     Lane { block: u32, first: u32 },
@@ -228,7 +241,7 @@ impl Body {
 }
 
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Phagosome {
     pub prey: OrganismId,
     /// Particles, counter-clockwise.
@@ -239,7 +252,7 @@ pub(crate) struct Phagosome {
 }
 
 /// One living organism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Organism {
     pub kind: Kind,
     pub body: Body,
@@ -267,13 +280,25 @@ pub(crate) struct Organism {
     pub phagosomes: Vec<Phagosome>,
     /// The capability to divide and to fuse.
     pub divider: Option<Divider>,
+    /// What it gives to chemicals and takes from them.
+    pub exchanges: Vec<Exchange>,
     /// Where it wanted to go in the last step.
     pub goal: Option<Vec2>,
+    /// Speed that it wanted then, in its own; negative: backwards.
+    pub pace: f32,
+    /// Whether it gets anywhere.
+    pub progress: Progress,
     /// Where it was spawned.
     pub home: Vec2,
-    /// The step in which it was spawned, and the box around it then.
+    /// The step in which it was spawned, and the box around it then: spares the search of what it overlaps.
+    #[serde(skip, default = "long_ago")]
     pub spawned: (u64, Aabb),
     pub is_quarantined: bool,
+}
+
+/// Stands for a step that is not the present one.
+fn long_ago() -> (u64, Aabb) {
+    (u64::MAX, Aabb::new_invalid())
 }
 
 impl Organism {
@@ -314,8 +339,13 @@ impl Organism {
         self.divider.as_ref().and_then(|divider| divider.furrow)
     }
 
-    /// Speed when it moves, units/s: less while it digests.
+    /// Speed that it wants to move with, units/s; negative: backwards.
     pub(crate) fn present_speed(&self) -> f32 {
+        self.pace * self.own_speed()
+    }
+
+    /// Speed that it is capable of, units/s: less while it digests.
+    pub(crate) fn own_speed(&self) -> f32 {
         let slowed = self.engulfer.as_ref().filter(|engulfer| engulfer.is_digesting());
         slowed.map_or(self.speed, |engulfer| self.speed * engulfer.params.digestion_speed)
     }

@@ -16,7 +16,7 @@ use std::ops::Range;
 /// Nodes on both sides of one that is taken out which share its place.
 const SHARING: usize = 5;
 /// Fewest nodes of a ring.
-const LEAST_NODES: usize = 5;
+pub(crate) const LEAST_NODES: usize = 5;
 
 /// Two links that can be swapped: `first` to its follower and `second` to its follower become `first` to the follower of
 /// `second` and `second` to the follower of `first`. Positions in one ring, or in two.

@@ -5,16 +5,20 @@ use crate::collision::filter::Home;
 use crate::collision::ring::Ring;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Phagosome};
+use serde::{Deserialize, Serialize};
 
 /// Slots of organisms, in the order of their index.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Organisms {
     slots: Vec<Slot>,
+    /// Indices of the organisms that have a membrane, ascending: few among many, and asked for in every substep.
+    #[serde(skip)]
+    with_membrane: Vec<u32>,
     /// Indices of empty slots, the last freed first.
     free: Vec<u32>,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Slot {
     generation: u32,
     organism: Option<Organism>,
@@ -33,8 +37,20 @@ impl Organisms {
         if self.free.pop().is_none() {
             self.slots.push(Slot::default());
         }
+        if organism.body.membrane().is_some()
+            && let Err(at) = self.with_membrane.binary_search(&id.index)
+        {
+            self.with_membrane.insert(at, id.index);
+        }
         self.slots[id.index as usize].organism = Some(organism);
         id
+    }
+
+    /// Makes what is not read with a table: who has a membrane.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn complete(&mut self) {
+        let has_membrane = |organism: &Organism| organism.body.membrane().is_some();
+        self.with_membrane = self.iter().filter(|(_, it)| has_membrane(it)).map(|(id, _)| id.index).collect();
     }
 
     pub(crate) fn remove(&mut self, id: OrganismId) -> Option<Organism> {
@@ -42,6 +58,7 @@ impl Organisms {
         let slot = &mut self.slots[id.index as usize];
         slot.generation = slot.generation.wrapping_add(1);
         self.free.push(id.index);
+        self.with_membrane.retain(|&index| index != id.index);
         slot.organism.take()
     }
 
@@ -76,9 +93,17 @@ impl Organisms {
         })
     }
 
-    /// The membranes of all organisms that move, and those of their phagosomes.
+    /// Those that have a membrane and are not frozen, by index.
+    pub(crate) fn with_membrane(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
+        self.with_membrane.iter().filter_map(|&index| {
+            let id = self.id_at(index)?;
+            self.get(id).filter(|organism| !organism.is_quarantined).map(|organism| (id, organism))
+        })
+    }
+
+    /// Their membranes, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
-        self.iter().filter(|(_, organism)| !organism.is_quarantined).flat_map(|(id, organism)| {
+        self.with_membrane().flat_map(|(id, organism)| {
             let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
             let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
             let is_full = |inner: &&Phagosome| self.get(inner.prey).is_some();
@@ -126,11 +151,6 @@ impl Organisms {
     /// Indices of empty slots, the last freed last.
     pub(crate) fn free_slots(&self) -> &[u32] {
         &self.free
-    }
-
-    /// Generations of all slots, free ones included, and the order in which free ones are handed out.
-    pub(crate) fn bookkeeping(&self) -> impl Iterator<Item = u32> + '_ {
-        self.slots.iter().map(|slot| slot.generation).chain(self.free.iter().copied())
     }
 }
 

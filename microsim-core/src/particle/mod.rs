@@ -20,12 +20,41 @@ mod columns;
 
 pub(crate) use columns::Columns;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
+/// No disc is larger, nor farther away or faster, in whatever units.
+#[cfg(feature = "snapshot")]
+const MAX_RADIUS: f32 = 1e5;
+#[cfg(feature = "snapshot")]
+const MAX_COORDINATE: f32 = 1e6;
+
+/// Instances of a template in one block.
+pub(crate) const LANES: usize = 8;
+
+/// Where a block lies in the store.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockRange {
+    /// Entry of slot 0 in lane 0.
+    pub base: usize,
+    pub slots: usize,
+}
+
+impl BlockRange {
+    /// Entry of a slot in a lane.
+    pub(crate) fn entry(&self, slot: usize, lane: usize) -> usize {
+        self.base + slot * LANES + lane
+    }
+
+    /// Number of its entries.
+    pub(crate) fn len(&self) -> usize {
+        self.slots * LANES
+    }
+}
 
 /// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct CollisionGroups {
     /// Groups that this particle is in, one bit each.
     pub memberships: u32,
@@ -47,7 +76,7 @@ impl CollisionGroups {
 }
 
 /// Surface of a particle in contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Coulomb friction coefficient, 0 to 10; of two materials the geometric mean counts.
     pub friction: f32,
@@ -88,7 +117,7 @@ impl Particle {
 }
 
 /// The store: one column per property, all of the same length.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Particles {
     /// Origin that the owner's particles share, whole length units.
     pub origin_x: Vec<f32>,
@@ -96,8 +125,10 @@ pub(crate) struct Particles {
     /// Position relative to the origin, length units.
     pub x: Vec<f32>,
     pub y: Vec<f32>,
-    /// Position at the start of the substep.
+    /// Position at the start of the substep; the next one sets it anew.
+    #[serde(skip)]
     pub prev_x: Vec<f32>,
+    #[serde(skip)]
     pub prev_y: Vec<f32>,
     /// Velocity, length units per second.
     pub vx: Vec<f32>,
@@ -114,6 +145,7 @@ pub(crate) struct Particles {
     pub fluid: Vec<u32>,
     /// Freed loose indices, the last freed first.
     free: Vec<u32>,
+    #[serde(skip)]
     live_count: usize,
 }
 
@@ -142,6 +174,12 @@ impl Particles {
     /// Origin of particle `i`'s owner.
     pub(crate) fn origin(&self, i: usize) -> Vec2 {
         Vec2::new(self.origin_x[i], self.origin_y[i])
+    }
+
+    /// Position of particle `i` relative to its origin.
+    #[inline(always)]
+    pub(crate) fn offset(&self, i: usize) -> Vec2 {
+        Vec2::new(self.x[i], self.y[i])
     }
 
     /// Position of particle `i` in the world.
@@ -301,6 +339,36 @@ impl Particles {
     /// Where entry `i` was when the substep began.
     pub(crate) fn last_position(&self, i: usize) -> Vec2 {
         self.origin(i) + Vec2::new(self.prev_x[i], self.prev_y[i])
+    }
+
+    /// Makes what is not read with a store: positions at the start of the substep, and how many live.
+    ///
+    /// # Errors
+    /// When columns differ in length, or a number is not finite or outside its range.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn complete(&mut self) -> Result<(), String> {
+        let len = self.len();
+        let Self { origin_x, origin_y, x, y, vx, vy, inv_mass, radius, groups, material, role, .. } = &*self;
+        let columns = [origin_x, origin_y, x, y, vx, vy, inv_mass, radius];
+        let others = [groups.len(), material.len(), role.len(), self.next_in_ring.len(), self.owner.len()];
+        let lengths = columns.iter().map(|column| column.len()).chain(others).chain([self.fluid.len()]);
+        if lengths.into_iter().any(|other| other != len) || len >= NO_OWNER as usize - 1 {
+            return Err("particles: columns differ in length".to_owned());
+        }
+        let is_length = |value: f32| (0.0..=MAX_RADIUS).contains(&value);
+        let is_sound = |i: usize| {
+            let Material { friction, restitution } = material[i];
+            let is_place = columns[..6].iter().all(|column| column[i].abs() <= MAX_COORDINATE);
+            let is_surface = (0.0..=10.0).contains(&friction) && (0.0..=1.0).contains(&restitution);
+            is_place && inv_mass[i] >= 0.0 && inv_mass[i].is_finite() && is_length(radius[i]) && is_surface
+        };
+        if let Some(i) = (0..len).find(|&i| !is_sound(i)) {
+            return Err(format!("particles[{i}]: a number is not finite or out of range"));
+        }
+        self.prev_x.clone_from(&self.x);
+        self.prev_y.clone_from(&self.y);
+        self.live_count = self.live().count();
+        Ok(())
     }
 
     /// Freed loose indices, in the reverse order in which they are handed out again.

@@ -11,7 +11,12 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 13] = [
+const BUILTINS: [Builtin; 14] = [
+    Builtin {
+        name: "game",
+        summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",
+        text: include_str!("../../scenarios/game.toml"),
+    },
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",

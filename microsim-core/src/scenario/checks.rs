@@ -1,16 +1,19 @@
 //! Checks: the tables `[invariants]` and `[[expect]]`.
 
 use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
 use super::source::{Value, unknown};
 use crate::event::Event;
 use crate::{Measure, World};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 use toml::de::DeValue;
 
 /// What must hold while a scenario runs. Show it the world after every step.
 ///
 /// Only what the file names is measured. Events are counted from the first step that is shown.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Checks {
     invariants: Vec<Bound>,
     expectations: Vec<Expectation>,
@@ -32,14 +35,14 @@ pub struct Violation {
 }
 
 /// A quantity and the range that it must keep to.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Bound {
     quantity: Quantity,
     range: [f64; 2],
 }
 
 /// Something that must have come to pass at some time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Expectation {
     bound: Bound,
     by: f64,
@@ -47,7 +50,8 @@ struct Expectation {
 }
 
 /// What a file can name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(into = "(String, u64)")]
 enum Quantity {
     Measure(Measure),
     /// Events of a kind so far.
@@ -116,10 +120,32 @@ impl Quantity {
         match self {
             Self::Measure(measure) => measure.of(world),
             Self::Events { name, count } => {
-                *count += world.events().iter().filter(|event| event.name() == *name).count() as u64;
+                *count =
+                    count.saturating_add(world.events().iter().filter(|event| event.name() == *name).count() as u64);
                 *count as f64
             }
         }
+    }
+}
+
+/// Its name, and how many events there were so far.
+impl From<Quantity> for (String, u64) {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Measure(measure) => (measure.name().to_owned(), 0),
+            Quantity::Events { name, count } => (name.to_owned(), count),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (name, so_far) = <(String, u64)>::deserialize(from)?;
+        let mut quantity = Self::named(&name).ok_or_else(|| D::Error::custom("a measure or a kind of events"))?;
+        if let Self::Events { count, .. } = &mut quantity {
+            *count = so_far;
+        }
+        Ok(quantity)
     }
 }
 
@@ -137,6 +163,11 @@ impl fmt::Display for Violation {
 /// Measures and limits are `f32` where they are not counts: the shortest digits that mean them.
 fn digits(value: f64) -> String {
     if value.fract() == 0.0 { value.to_string() } else { (value as f32).to_string() }
+}
+
+/// Whether something that can be bounded goes by this name.
+pub(super) fn is_quantity(name: &str) -> bool {
+    Quantity::named(name).is_some()
 }
 
 /// Reads the `[invariants]` and `[[expect]]` tables.
@@ -177,6 +208,14 @@ struct Range([f64; 2]);
 impl Read for Range {
     fn accepted() -> String {
         "a number, the most that it may be, or [least, most]".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
+    }
+
+    fn written(&self) -> String {
+        self.0.map(|limit| limit as f32).written()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

@@ -1,8 +1,11 @@
 //! Reading tables: every field is asked for by name and type, and what nobody asked for is refused.
 //!
-//! Reading goes on after an error with a value that makes sense, so that one pass finds all that is wrong.
+//! Reading goes on after an error with a value that makes sense, so that one pass finds all that is wrong. What is asked
+//! for is also the description of the format: see [`super::describe`].
 
+use super::describe::{Entry, Note};
 use super::diagnostic::{Diagnostic, in_words};
+use super::shape::Shape;
 use super::source::{NAME, Source, Value, is_name, join, unknown};
 use crate::error::Error;
 use glam::Vec2;
@@ -14,12 +17,30 @@ use toml::de::{DeTable, DeValue};
 pub(super) struct Report<'s> {
     pub source: &'s Source,
     pub found: RefCell<Vec<Diagnostic>>,
+    /// Every field that was asked for, if the format is being described.
+    pub notes: Option<RefCell<Vec<Note>>>,
+    /// Paths of values that were refused by themselves and are read as if they were not there.
+    refused: RefCell<Vec<String>>,
 }
 
 impl<'s> Report<'s> {
     pub(super) fn new(source: &'s Source) -> Self {
-        let found = RefCell::default();
-        Self { source, found }
+        Self { source, found: RefCell::default(), notes: None, refused: RefCell::default() }
+    }
+
+    /// One that takes notes of what is asked for instead of reading.
+    pub(super) fn describing(source: &'s Source) -> Self {
+        Self { notes: Some(RefCell::default()), ..Self::new(source) }
+    }
+
+    fn note(&self, path: String, entry: impl FnOnce() -> Entry) {
+        if let Some(notes) = &self.notes {
+            let note = Note { path, entry: entry() };
+            let mut notes = notes.borrow_mut();
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
     }
 
     /// Refuses the value at a path.
@@ -40,6 +61,31 @@ impl<'s> Report<'s> {
         result.map_err(refuse).ok()
     }
 
+    /// Reads something of the table at `path` and has it checked. Where the library refuses a value, that is reported and it
+    /// is read once more without that value, so that whatever else is wrong shows too.
+    pub(super) fn check_all<T>(&self, path: &str, mut read: impl FnMut() -> Result<T, Error>) -> Option<T> {
+        let mut result = read();
+        let is_sound = result.is_ok();
+        while let Err(error) = &result {
+            let diagnostic = self.diagnostic(path, error);
+            let refused = diagnostic.field.clone();
+            self.found.borrow_mut().push(diagnostic);
+            if !self.source.has(&refused) || self.is_refused(&refused) {
+                return None;
+            }
+            self.refused.borrow_mut().push(refused);
+            result = read();
+        }
+        result.ok().filter(|_| is_sound)
+    }
+
+    /// Whether the value at a path, or an element of it, was refused.
+    fn is_refused(&self, path: &str) -> bool {
+        let is_within =
+            |refused: &String| refused.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        self.refused.borrow().iter().any(is_within)
+    }
+
     /// What the library says of a value in the table at `path`.
     pub(super) fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
         let (message, accepted) = in_words(error);
@@ -53,6 +99,12 @@ impl<'s> Report<'s> {
 pub(super) trait Read: Sized {
     /// What is accepted, in words.
     fn accepted() -> String;
+
+    /// What it looks like.
+    fn shape() -> Shape;
+
+    /// The value as a file would have it.
+    fn written(&self) -> String;
 
     /// Reads the value at `path`; reports what is wrong with it.
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self>;
@@ -76,6 +128,14 @@ impl Read for f32 {
         "a number".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Number
+    }
+
+    fn written(&self) -> String {
+        self.to_string()
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         let number = match value.get_ref() {
             DeValue::Float(number) => number.as_str().parse::<f64>().ok(),
@@ -93,6 +153,14 @@ impl Read for u64 {
         format!("a whole number, 0 to {}", i64::MAX)
     }
 
+    fn shape() -> Shape {
+        Shape::Whole(i64::MAX as Self)
+    }
+
+    fn written(&self) -> String {
+        self.to_string()
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         let whole = value.get_ref().as_integer();
         let whole = whole.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
@@ -103,6 +171,14 @@ impl Read for u64 {
 impl Read for u32 {
     fn accepted() -> String {
         format!("a whole number, 0 to {}", Self::MAX)
+    }
+
+    fn shape() -> Shape {
+        Shape::Whole(Self::MAX.into())
+    }
+
+    fn written(&self) -> String {
+        self.to_string()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
@@ -117,6 +193,14 @@ impl Read for bool {
         "true or false".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Boolean
+    }
+
+    fn written(&self) -> String {
+        self.to_string()
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         value.get_ref().as_bool().or_else(|| mismatch(value, path, report))
     }
@@ -125,6 +209,14 @@ impl Read for bool {
 impl Read for String {
     fn accepted() -> String {
         "a string in quotes".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Text
+    }
+
+    fn written(&self) -> String {
+        format!("{self:?}")
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
@@ -137,6 +229,14 @@ impl<T: Read> Read for Vec<T> {
         format!("an array, of each: {}", T::accepted())
     }
 
+    fn shape() -> Shape {
+        Shape::list(T::shape())
+    }
+
+    fn written(&self) -> String {
+        format!("[{}]", self.iter().map(T::written).collect::<Vec<_>>().join(", "))
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         let Some(array) = value.get_ref().as_array() else {
             return mismatch(value, path, report);
@@ -146,14 +246,23 @@ impl<T: Read> Read for Vec<T> {
     }
 }
 
-impl<T: Read> Read for [T; 2] {
+impl<T: Read, const N: usize> Read for [T; N] {
     fn accepted() -> String {
-        format!("[a, b], of each: {}", T::accepted())
+        let names: Vec<String> = ('a'..).take(N).map(String::from).collect();
+        format!("[{}], of each: {}", names.join(", "), T::accepted())
+    }
+
+    fn shape() -> Shape {
+        Shape::array(T::shape(), N)
+    }
+
+    fn written(&self) -> String {
+        format!("[{}]", self.iter().map(T::written).collect::<Vec<_>>().join(", "))
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         match value.get_ref().as_array().map(|array| array.len()) {
-            Some(2) => Vec::read(value, path, report)?.try_into().ok(),
+            Some(count) if count == N => Vec::read(value, path, report)?.try_into().ok(),
             _ => mismatch(value, path, report),
         }
     }
@@ -162,6 +271,14 @@ impl<T: Read> Read for [T; 2] {
 impl Read for Vec2 {
     fn accepted() -> String {
         "[x, y], two numbers".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::array(Shape::Number, 2)
+    }
+
+    fn written(&self) -> String {
+        self.to_array().written()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
@@ -208,8 +325,20 @@ impl<'a> Fields<'a> {
     }
 
     fn ask(&mut self, field: &'static str) -> Option<&'a Value<'a>> {
-        self.asked.push(field);
-        self.table.and_then(|table| table.get(field))
+        if !self.asked.contains(&field) {
+            self.asked.push(field);
+        }
+        let value = self.table.and_then(|table| table.get(field))?;
+        let is_refused = !value.get_ref().is_table() && self.report.is_refused(&self.at(field));
+        (!is_refused).then_some(value)
+    }
+
+    /// Reads a field of which the default is noted.
+    fn read<T: Read>(&mut self, field: &'static str, is_required: bool, default: Option<&T>) -> Option<T> {
+        let entry = || Entry::Value { shape: T::shape(), is_required, default: default.map(T::written) };
+        self.report.note(self.at(field), entry);
+        let value = self.ask(field)?;
+        T::read(value, &self.at(field), self.report)
     }
 
     /// Whether the field is there.
@@ -219,21 +348,25 @@ impl<'a> Fields<'a> {
 
     /// The field, if it is there.
     pub(super) fn get<T: Read>(&mut self, field: &'static str) -> Option<T> {
-        let value = self.ask(field)?;
-        T::read(value, &self.at(field), self.report)
+        self.read(field, false, None)
     }
 
     /// The field, or a default.
     pub(super) fn or<T: Read>(&mut self, field: &'static str, default: T) -> T {
-        self.get(field).unwrap_or(default)
+        self.read(field, false, Some(&default)).unwrap_or(default)
+    }
+
+    /// Reports that a field is not there, if it is not.
+    pub(super) fn require(&self, field: &str, accepted: &str) {
+        if !self.is_broken && !self.has(field) {
+            self.report.refuse(&self.at(field), format!("missing field `{field}`"), accepted);
+        }
     }
 
     /// The field. Where it is missing, that is reported.
     pub(super) fn required<T: Read>(&mut self, field: &'static str) -> Option<T> {
-        if !self.is_broken && !self.has(field) {
-            self.report.refuse(&self.at(field), format!("missing field `{field}`"), T::accepted());
-        }
-        self.get(field)
+        self.require(field, &T::accepted());
+        self.read(field, true, None)
     }
 
     /// A number within a range, or a default within it.
@@ -255,6 +388,7 @@ impl<'a> Fields<'a> {
     /// A table of this table; where it is missing, one without fields.
     pub(super) fn table(&mut self, field: &'static str) -> Self {
         let path = self.at(field);
+        self.report.note(path.clone(), || Entry::Table);
         match self.ask(field) {
             Some(value) => Self::of(value, path, self.report),
             None => Self::new(None, false, path, self.report),
@@ -264,6 +398,11 @@ impl<'a> Fields<'a> {
     /// The tables `[field.NAME]`, each with its name.
     pub(super) fn named(&mut self, field: &'static str) -> Vec<(String, Self)> {
         let tables = self.table(field);
+        if self.report.notes.is_some() {
+            let path = tables.at(Note::ANY);
+            self.report.note(path.clone(), || Entry::Table);
+            return vec![(Note::ANY.to_owned(), Self::new(None, false, path, self.report))];
+        }
         let mut named = Vec::new();
         for (key, value) in tables.table.into_iter().flatten() {
             let path = tables.at(key.get_ref());
@@ -278,6 +417,10 @@ impl<'a> Fields<'a> {
     /// The tables `[[field]]`.
     pub(super) fn list(&mut self, field: &'static str) -> Vec<Self> {
         let path = self.at(field);
+        self.report.note(path.clone(), || Entry::Tables);
+        if self.report.notes.is_some() {
+            return vec![Self::new(None, false, join(&path, Note::ANY), self.report)];
+        }
         let Some(value) = self.ask(field) else {
             return Vec::new();
         };
@@ -291,9 +434,15 @@ impl<'a> Fields<'a> {
 
     /// Refuses what was not asked for.
     pub(super) fn finish(self) {
+        let asked = self.asked.clone();
+        self.finish_with(&asked);
+    }
+
+    /// Refuses what is none of these fields.
+    pub(super) fn finish_with(self, known: &[&'static str]) {
         let keys = self.table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref().as_ref());
-        for key in keys.filter(|key| !self.asked.contains(key)) {
-            let (message, accepted) = unknown("field", key, &self.asked);
+        for key in keys.filter(|key| !known.contains(key)) {
+            let (message, accepted) = unknown("field", key, known);
             self.report.refuse_key(&self.at(key), message, accepted);
         }
     }

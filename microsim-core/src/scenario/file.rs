@@ -1,14 +1,18 @@
 //! The whole file: from a tree of values to what a scenario is made of.
 
 use super::checks::{self, Checks};
+use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Report};
 use super::group::{self, Group, Surroundings};
+use super::output::{self, OutputPlan};
 use super::prototype::{self, Prototype};
 use super::script::{self, Command};
 use super::source::Source;
-use super::{diagnostic::Diagnostics, grid::GridPlan, obstacle, steering};
+use super::steering::Controllers;
+use super::{diagnostic::Diagnostics, game, game::Game, grid::GridPlan, obstacle, steering};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
+use crate::error::Error;
 use glam::Vec2;
 use toml::de::DeTable;
 
@@ -24,16 +28,27 @@ pub(super) struct File {
     pub description: String,
     pub duration: f32,
     pub config: WorldConfig,
+    pub chemicals: Chemicals,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
+    pub controllers: Controllers,
     pub commands: Vec<Command>,
     pub checks: Checks,
+    pub output: OutputPlan,
+    pub game: Option<Game>,
 }
 
 /// Reads a file. Reports all that is wrong with it, as far as one thing does not follow from another.
 pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnostics> {
     let report = Report::new(source);
-    let mut root = Fields::root(table, &report);
+    let file = read_root(table, &report);
+    Diagnostics::check(report.found.into_inner())?;
+    Ok(file)
+}
+
+/// Reads the table of the whole file. What is wrong is in the report.
+pub(super) fn read_root(table: &DeTable<'_>, report: &Report<'_>) -> File {
+    let mut root = Fields::root(table, report);
     read_schema(&mut root);
     root.table("parameters");
     let (name, description) = (root.or("name", String::new()), root.or("description", String::new()));
@@ -41,19 +56,34 @@ pub(super) fn read(table: &DeTable<'_>, source: &Source) -> Result<File, Diagnos
     let (config, size) = read_config(&mut root);
     let prototypes = prototype::read(&mut root);
     let plans = group::read_fields(&mut root, &prototypes);
-    let size = size.or_else(|| room_for(&plans, &report)).unwrap_or(config.size);
+    let size = size.or_else(|| room_for(&plans, report)).unwrap_or(config.size);
     let config = WorldConfig { size, ..config };
-    let obstacles = obstacle::read(&mut root);
-    let controllers = steering::read(&mut root, size);
-    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, size };
+    let obstacles = obstacle::read(&mut root, size);
+    let chemicals = chemical::read(&mut root, &config);
+    let controllers = steering::read(&mut root, size, &chemicals);
+    let around = Surroundings { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
     let mut groups = group::read_spawns(&mut root, &around);
-    groups.extend(lay_out(plans, size, &report));
-    let commands = script::read(&mut root, &groups, duration);
+    groups.extend(lay_out(plans, size, report));
+    let commands = script::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
+    let output = output::read(&mut root);
+    let game = game::read(&mut root, &groups);
     root.finish();
-    group::check_size(&groups, config.max_particles, &report);
-    Diagnostics::check(report.found.into_inner())?;
-    Ok(File { name, description, duration, config, obstacles, groups, commands, checks })
+    group::check_size(&groups, config.max_particles, report);
+    File {
+        name,
+        description,
+        duration,
+        config,
+        chemicals,
+        obstacles,
+        groups,
+        controllers,
+        commands,
+        checks,
+        output,
+        game,
+    }
 }
 
 fn read_schema(root: &mut Fields<'_>) {
@@ -67,36 +97,33 @@ fn read_schema(root: &mut Fields<'_>) {
 fn read_config(root: &mut Fields<'_>) -> (WorldConfig, Option<Vec2>) {
     let default = WorldConfig::default();
     let seed = root.or("seed", default.seed);
-    let mut step = root.table("step");
-    let (dt, substeps) = (step.or("dt", default.dt), step.or("substeps", default.substeps));
-    step.finish();
-    let mut world = root.table("world");
+    let (mut step, mut world) = (root.table("step"), root.table("world"));
     let is_sized_by_field = root.has("field") && !world.has("size");
-    let size = if is_sized_by_field { None } else { world.required::<Vec2>("size").or(Some(default.size)) };
-    let config = WorldConfig {
-        size: size.unwrap_or(default.size),
-        dt,
-        substeps,
-        gravity: world.or("gravity", default.gravity),
-        damping: world.or("damping", default.damping),
-        max_speed: world.or("max_speed", default.max_speed),
-        seed,
-        protects_membranes: world.or("protects_membranes", default.protects_membranes),
-        max_particles: world.or("max_particles", default.max_particles),
+    if !is_sized_by_field {
+        world.require("size", "[x, y], two numbers, or a [[field]] that sizes the room");
+    }
+    let mut size = None;
+    let read = || {
+        size = world.get::<Vec2>("size");
+        let config = WorldConfig {
+            size: size.unwrap_or(default.size),
+            dt: step.or("dt", default.dt),
+            substeps: step.or("substeps", default.substeps),
+            gravity: world.or("gravity", default.gravity),
+            damping: world.or("damping", default.damping),
+            max_speed: world.or("max_speed", default.max_speed),
+            seed,
+            protects_membranes: world.or("protects_membranes", default.protects_membranes),
+            max_particles: world.or("max_particles", default.max_particles),
+        };
+        let table = |error: &Error| if matches!(error.field(), "dt" | "substeps") { "step" } else { "world" };
+        config.validate().map(|()| config).map_err(|error| error.clone().within(table(&error)))
     };
+    let config = root.report.check_all("", read).unwrap_or_default();
+    step.finish();
     world.finish();
-    check_config(config, size, root.report)
-}
-
-fn check_config(config: WorldConfig, size: Option<Vec2>, report: &Report<'_>) -> (WorldConfig, Option<Vec2>) {
-    let Err(error) = config.validate() else {
-        return (config, size);
-    };
-    let is_step = matches!(error.field(), "dt" | "substeps");
-    report.check::<()>(if is_step { "step" } else { "world" }, Err(error));
-    let default = WorldConfig::default();
-    let size = size.map(|_| default.size);
-    (default, size)
+    let size = if is_sized_by_field { None } else { Some(config.size) };
+    (config, size)
 }
 
 /// Size of the room that holds every field.

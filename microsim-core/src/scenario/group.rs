@@ -1,11 +1,13 @@
 //! Groups of organisms: the tables `[[spawn]]` and `[[field]]`.
 
+use super::chemical::{self, Chemicals};
 use super::fields::{Fields, Read, Report, mismatch};
 use super::grid::{Grid, GridPlan};
 use super::prototype::{Prototype, Prototypes};
+use super::shape::Shape;
 use super::source::{DEGREE, NAME, Value, is_name, unknown};
-use super::steering::Controllers;
-use crate::capability::controller::Controller;
+use super::steering::{self, Controllers};
+use crate::{Controller, Exchange};
 use glam::Vec2;
 use std::collections::BTreeSet;
 
@@ -20,8 +22,13 @@ pub(super) struct Group {
     /// Smallest and largest scale.
     pub scale: [f32; 2],
     pub controller: Controller,
+    pub exchanges: Vec<Exchange>,
     pub name: Option<String>,
     pub is_player: bool,
+    /// Time from which on they are there, s.
+    pub from: f32,
+    /// Time after which one that is gone or taken in is replaced, s.
+    pub respawn: Option<f32>,
 }
 
 /// Where organisms are put.
@@ -57,6 +64,17 @@ impl Read for Angle {
         "degrees from -36000 to 36000, or \"random\"".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::Word(&["random"])])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Radians(angle) => (angle / DEGREE).written(),
+            Self::Random => "\"random\"".to_owned(),
+        }
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         if value.get_ref().as_str() == Some("random") {
             return Some(Self::Random);
@@ -80,6 +98,15 @@ impl Read for Scale {
         "a number 0.01 to 100, or [smallest, largest]".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
+    }
+
+    fn written(&self) -> String {
+        let [smallest, largest] = self.0;
+        if smallest == largest { smallest.written() } else { self.0.written() }
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         let range = if value.get_ref().is_array() {
             <[f32; 2]>::read(value, path, report)?
@@ -95,6 +122,7 @@ impl Read for Scale {
 pub(super) struct Surroundings<'a> {
     pub prototypes: &'a Prototypes,
     pub controllers: &'a Controllers,
+    pub chemicals: &'a Chemicals,
     pub size: Vec2,
 }
 
@@ -115,18 +143,29 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let place = read_place(fields, around.size);
     let angle = fields.or("angle", Angle::Radians(0.0));
     let Scale(scale) = fields.or("scale", Scale([1.0, 1.0]));
-    let controller = read_controller(fields, around.controllers);
+    let controller = steering::read_named(fields, "controller", around.controllers).unwrap_or_default();
+    let exchanges = chemical::read_exchanges(fields, around.chemicals);
     let name = read_name(fields, names);
     let is_player = fields.or("player", false);
+    let from = fields.number("from", 0.0, [0.0, 1e6]);
+    let respawn = fields.get("respawn").filter(|&time| fields.is_within("respawn", time, [0.0, 1e6]));
+    for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && (is_player || name.is_some())) {
+        let accepted = "a [[spawn]] without `name` and `player`";
+        fields.report.refuse(
+            &fields.at(field),
+            "one that is known by name is there from the beginning, once",
+            accepted,
+        );
+    }
     let prototype = prototype?;
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];
     for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
         let message = format!("`{}` cannot move", prototype.name);
-        fields.report.refuse(&fields.at(field), message, "an amoeboid_cell, a rigid_cell, a coccus or a probe");
+        fields.report.refuse(&fields.at(field), message, "an amoeboid_cell, a rigid_cell, a bacterium or a probe");
     }
     let (path, place) = (fields.path.clone(), place?);
     check_box(fields, &place, prototype.extent(scale[1]));
-    Some(Group { path, prototype, place, angle, scale, controller, name, is_player })
+    Some(Group { path, prototype, place, angle, scale, controller, exchanges, name, is_player, from, respawn })
 }
 
 /// Checks that an organism of this reach fits into the box that it is to be put into.
@@ -154,18 +193,6 @@ fn read_prototype(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Option<Pr
     None
 }
 
-fn read_controller(fields: &mut Fields<'_>, controllers: &Controllers) -> Controller {
-    let Some(name) = fields.get::<String>("controller") else {
-        return Controller::Still;
-    };
-    controllers.get(&name).cloned().unwrap_or_else(|| {
-        let known: Vec<&str> = controllers.keys().map(String::as_str).collect();
-        let (message, accepted) = unknown("controller", &name, &known);
-        fields.report.refuse(&fields.at("controller"), message, accepted);
-        Controller::Still
-    })
-}
-
 fn read_name(fields: &mut Fields<'_>, names: &mut BTreeSet<String>) -> Option<String> {
     let name: String = fields.get("name")?;
     let path = fields.at("name");
@@ -184,7 +211,7 @@ fn read_name(fields: &mut Fields<'_>, names: &mut BTreeSet<String>) -> Option<St
 fn read_place(fields: &mut Fields<'_>, size: Vec2) -> Option<Place> {
     let at: Option<Vec2> = fields.get("at");
     let count = fields.or("count", 1);
-    let within = fields.or("within", [Vec2::ZERO, size]);
+    let within = fields.get("within").unwrap_or([Vec2::ZERO, size]);
     let gap = fields.number("gap", 0.0, [0.0, 1000.0]);
     if !fields.has("at") {
         return is_box_in(&within, size, fields).then_some(Place::Random { count, within, gap });
@@ -230,8 +257,11 @@ impl Group {
             angle: Angle::Radians(0.0),
             scale: [1.0, 1.0],
             controller: Controller::Still,
+            exchanges: Vec::new(),
             name: None,
             is_player: false,
+            from: 0.0,
+            respawn: None,
         }
     }
 

@@ -46,20 +46,33 @@
 //! | `[probe.NAME]` | [`ProbeSpec`](crate::ProbeSpec); `radius` is required |
 //! | `[red_cell.NAME]` | [`RedCellSpec`](crate::RedCellSpec); `radius` is required |
 //! | `[coccus.NAME]` | [`CoccusSpec`](crate::CoccusSpec); `radius` is required |
+//! | `[bacillus.NAME]` | [`BacillusSpec`](crate::BacillusSpec); `radius` is required |
 //! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
 //! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
 //! | `[thrash.NAME]` | `interval`, `reversal = 1.0` (see [`Controller::Thrash`](crate::Controller)) |
 //! | `[ram.NAME]` | `charge`, `retreat`, `distance` (see [`Controller::Ram`](crate::Controller)) |
-//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false` |
+//! | `[persistent_walk.NAME]` | [`PersistentWalkParams`](crate::PersistentWalkParams) |
+//! | `[chemotaxis.NAME]` | [`ChemotaxisParams`](crate::ChemotaxisParams); `chemical`, a name, is required |
+//! | `[run_and_tumble.NAME]` | [`RunAndTumbleParams`](crate::RunAndTumbleParams) |
+//! | `[brownian.NAME]` | [`BrownianParams`](crate::BrownianParams) |
+//! | `[avoidance.NAME]` | [`AvoidanceParams`](crate::AvoidanceParams) |
+//! | `[pursue.NAME]` | [`PursueParams`](crate::PursueParams); `otherwise`: a controller of a kind above, or it rests |
+//! | `[flee.NAME]` | [`FleeParams`](crate::FleeParams); `otherwise`: the same |
+//! | `[chemical.NAME]` | [`ChemicalSpec`](crate::ChemicalSpec) |
+//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false`; `from = 0.0`: when they come; `respawn`: time after which one that is gone or taken in is replaced, at another random place |
 //! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
 //! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
 //! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //!
-//! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then) |
+//! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
+//! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
+//! | `[output]` | what is written while it runs: `events = true`, `pictures = true`, `snapshots = [times]`, `checkpoint_every = 0` steps |
+//! | `[output.measures]`, `[output.trajectories]` | `formats = ["csv"]`, `every = 0.1` (0: each step); for measures also `of = [names]` |
+//! | `[output.frames]` | `at = [times]`, `every = 0.0`, `width = 1280` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
 //! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
@@ -69,27 +82,42 @@
 
 mod builtin;
 mod checks;
+mod chemical;
+mod describe;
 mod diagnostic;
+mod effective;
 mod fields;
 mod file;
+mod game;
 mod grid;
 mod group;
 mod obstacle;
+mod origin;
+mod output;
 mod overrides;
 mod placing;
 mod prototype;
 mod script;
+mod shape;
 mod source;
 mod steering;
+pub(crate) mod supply;
+mod words;
 
 pub use builtin::{Builtin, builtin, builtins};
 pub use checks::{Checks, Violation};
+pub use describe::{Description, Entry, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use game::{Game, Points};
+pub use origin::Origin;
+pub use output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 pub use script::{Refusal, Script};
+pub use shape::Shape;
 
 use crate::config::WorldConfig;
 use crate::error::Error;
-use crate::id::OrganismId;
+use crate::id::{ChemicalId, OrganismId};
+use crate::inputs::Inputs;
 use crate::world::World;
 use diagnostic::in_words;
 use fields::Report;
@@ -97,6 +125,7 @@ use file::File;
 use group::{Group, Place};
 use placing::Placed;
 use source::Source;
+use supply::Supply;
 
 /// Errors after which building gives up: the rest would be more of the same.
 const MAX_ERRORS: usize = 20;
@@ -106,6 +135,7 @@ const MAX_ERRORS: usize = 20;
 pub struct Scenario {
     file: File,
     source: Source,
+    effective: toml::Table,
 }
 
 /// A world made from a scenario.
@@ -118,10 +148,14 @@ pub struct Built {
     pub player: Option<OrganismId>,
     /// Organisms that have a `name`, in the order in which they were spawned.
     pub named: Vec<(String, OrganismId)>,
+    /// Its chemicals by name, in the order in which the world has them.
+    pub chemicals: Vec<(String, ChemicalId)>,
     /// What is done to organisms while the world runs.
     pub script: Script,
     /// What must hold meanwhile.
     pub checks: Checks,
+    /// What makes a game of it.
+    pub game: Option<Game>,
 }
 
 impl Scenario {
@@ -137,7 +171,7 @@ impl Scenario {
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
         let (table, source) = Source::read(text, overrides)?;
         let file = file::read(&table, &source)?;
-        Ok(Self { file, source })
+        Ok(Self { file, source, effective: effective::table(&table) })
     }
 
     /// Its name; empty if the file has none.
@@ -169,10 +203,39 @@ impl Scenario {
         self.file.duration
     }
 
+    /// What makes a game of it, if anything does.
+    #[must_use]
+    pub fn game(&self) -> Option<&Game> {
+        self.file.game.as_ref()
+    }
+
     /// Settings of its world.
     #[must_use]
     pub fn config(&self) -> &WorldConfig {
         &self.file.config
+    }
+
+    /// What it was read from.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        let Source { text, overrides, .. } = &self.source;
+        Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
+    }
+
+    /// What is to be written while it runs.
+    #[must_use]
+    pub fn output(&self) -> &OutputPlan {
+        &self.file.output
+    }
+
+    /// The scenario as it is run: a file with overrides, parameters and seed put in and keys in order, so that scenarios that
+    /// differ only in how they are written have equal texts.
+    #[must_use]
+    pub fn effective(&self) -> String {
+        let mut table = self.effective.clone();
+        let seed = i64::try_from(self.seed()).unwrap_or(i64::MAX);
+        table.insert("seed".to_owned(), toml::Value::Integer(seed));
+        table.to_string()
     }
 
     /// Makes the world. Equal text, overrides and seed give equal worlds.
@@ -186,37 +249,63 @@ impl Scenario {
             world: world.map_err(|error| report.diagnostic("world", &error))?,
             player: None,
             named: Vec::new(),
+            chemicals: Vec::new(),
             script: Script::default(),
             checks: self.file.checks.clone(),
+            game: self.file.game.clone(),
         };
-        self.fill(&mut built, &report);
-        built.script = Script::new(self.file.commands.clone(), built.named.clone());
+        let supplies = self.fill(&mut built, &report);
+        built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
+            .with_supplies(supplies);
         Diagnostics::check(report.found.into_inner())?;
         Ok(built)
     }
 
-    fn fill(&self, built: &mut Built, report: &Report<'_>) {
-        let File { config, obstacles, groups, .. } = &self.file;
+    /// Puts everything into the world that is there from the beginning, and returns what is to come.
+    fn fill(&self, built: &mut Built, report: &Report<'_>) -> Vec<Supply> {
+        let File { config, chemicals, obstacles, groups, .. } = &self.file;
+        for (name, spec) in chemicals {
+            let id = report.check(&format!("chemical.{name}"), built.world.add_chemical(*spec));
+            built.chemicals.extend(id.map(|id| (name.clone(), id)));
+        }
         for obstacle in obstacles {
             report.check("", built.world.add_obstacle(obstacle.clone()));
         }
         let placed = placing::place_all(groups, obstacles, config.seed, report);
-        for (group, placed) in groups.iter().zip(placed) {
+        let mut supplies = Vec::new();
+        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
+            let mut there = Vec::new();
             for Placed { spec, placement } in placed {
                 if report.found.borrow().len() >= MAX_ERRORS {
-                    return;
+                    return supplies;
                 }
                 match built.world.spawn(&spec, placement) {
-                    Ok(id) => built.note(group, id),
+                    Ok(id) => {
+                        built.note(group, id);
+                        there.push(id);
+                    }
                     Err(error) => report.spawn_error(group, &error),
                 }
             }
+            supplies.extend(Supply::new(index, group, &there, &built.world));
         }
+        supplies
     }
 }
 
 impl Built {
+    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
+    pub fn step(&mut self, told: &Inputs) {
+        let mut inputs = self.script.before_step(&mut self.world).clone();
+        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        self.world.step(&inputs);
+    }
+
     fn note(&mut self, group: &Group, id: OrganismId) {
+        for exchange in &group.exchanges {
+            // The group's are checked, and the organism is new.
+            let _ = self.world.set_exchange(id, *exchange);
+        }
         if group.is_player && self.player.is_none() {
             self.player = Some(id);
         }
@@ -230,7 +319,7 @@ impl Report<'_> {
         let (message, accepted) = in_words(error);
         let is_given = matches!(group.place, Place::At(_));
         let path = match error.field() {
-            "scale" => format!("{}.scale", group.path),
+            field @ ("scale" | "controller") => format!("{}.{field}", group.path),
             at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
             _ => group.count_path(self),
         };

@@ -7,6 +7,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::geometry::{is_simple, signed_area, triangulate};
 use crate::particle::Material;
 use glam::Vec2;
+use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 
@@ -21,13 +22,16 @@ type ReadShape = fn(&mut Fields<'_>) -> Option<(SharedShape, Pose)>;
 /// Tables of obstacles and how they are read.
 const KINDS: [(&str, ReadShape); 4] = [("wall", wall), ("block", block), ("disc", disc), ("polygon", polygon)];
 
-/// Reads all obstacles of a file.
-pub(super) fn read(root: &mut Fields<'_>) -> Vec<Obstacle> {
+/// Reads all obstacles of a file for a room of this size.
+pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Vec<Obstacle> {
     let mut obstacles = Vec::new();
     for (kind, read) in KINDS {
         for mut fields in root.list(kind) {
             let shape = read(&mut fields);
             let friction = fields.number("friction", Material::default().friction, [0.0, 10.0]);
+            if let Some((shape, pose)) = &shape {
+                check_place(&fields, shape.compute_aabb(pose), size);
+            }
             fields.finish();
             obstacles.extend(shape.map(|(shape, pose)| {
                 let material = Material { friction, ..Material::default() };
@@ -36,6 +40,15 @@ pub(super) fn read(root: &mut Fields<'_>) -> Vec<Obstacle> {
         }
     }
     obstacles
+}
+
+/// An obstacle that nothing in the room can touch is a slip.
+fn check_place(fields: &Fields<'_>, bounds: Aabb, size: Vec2) {
+    if !bounds.intersects(&Aabb::new(Vec2::ZERO, size)) {
+        let place = ["at", "from", "points"].into_iter().find(|field| fields.has(field)).unwrap_or_default();
+        let accepted = format!("something within 0 to {} by 0 to {}", size.x, size.y);
+        fields.report.refuse(&fields.at(place), "lies wholly outside the room", accepted);
+    }
 }
 
 /// A straight wall with round ends.

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 /// Top-level fields that an override may set by their bare name.
 const SETTABLE: [&str; 4] = ["name", "description", "seed", "duration"];
 /// Tables that a path may name although the file does not have them.
-const OPTIONAL: [&str; 3] = ["world", "step", "invariants"];
+const OPTIONAL: [&str; 7] = ["world", "step", "invariants", "output", "measures", "trajectories", "frames"];
 
 /// What is wrong, and what would be accepted.
 type Refusal = (String, String);

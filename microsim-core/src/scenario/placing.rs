@@ -21,7 +21,7 @@ pub(super) struct Placed {
     pub placement: Placement,
 }
 
-/// Finds places for all organisms, group by group. Fixed places count before random ones do, wherever they stand in the
+/// Finds places for all organisms that are there from the beginning, group by group. Fixed places count before random ones do, wherever they stand in the
 /// file, so that random placement never takes a place that is asked for.
 pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, report: &Report<'_>) -> Vec<Vec<Placed>> {
     let reach = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
@@ -30,7 +30,9 @@ pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, rep
     let mut placed: Vec<Vec<Placed>> =
         groups.iter().enumerate().map(|(index, group)| fixed(group, rng(index), &mut taken)).collect();
     for (index, group) in groups.iter().enumerate() {
-        if let Place::Random { count, within, gap } = group.place {
+        if let Place::Random { count, within, gap } = group.place
+            && group.from == 0.0
+        {
             placed[index] = random(group, within, gap, rng(index), &mut taken);
             let found = placed[index].len();
             if found < count as usize {
@@ -47,6 +49,7 @@ pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, rep
 /// Those of a group whose places are given.
 fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
     let places: Vec<Vec2> = match &group.place {
+        _ if group.from > 0.0 => Vec::new(),
         Place::At(at) => vec![*at],
         Place::Grid(grid) => grid.places(&mut rng).collect(),
         Place::Random { .. } => Vec::new(),
@@ -77,7 +80,7 @@ fn random(group: &Group, [low, high]: [Vec2; 2], gap: f32, mut rng: Rng, taken: 
 }
 
 /// Scale and angle of the next organism.
-fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
+pub(super) fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
     let [smallest, largest] = group.scale;
     let scale = if smallest < largest { rng.range(smallest, largest) } else { smallest };
     let angle = match group.angle {
@@ -87,7 +90,7 @@ fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
     (scale, angle)
 }
 
-fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
+pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
     let (spec, scale) = group.prototype.scaled(scale);
     let placement = Placement { at, angle, scale, controller: group.controller.clone() };
     Placed { spec, placement }

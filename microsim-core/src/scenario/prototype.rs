@@ -1,13 +1,14 @@
 //! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
 
 use super::fields::{Fields, Read, Report};
+use super::shape::Shape;
 use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams,
-    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay,
+    PhagocytosisParams, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
 };
 use std::collections::BTreeMap;
 
@@ -26,7 +27,7 @@ pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
 type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
 
 /// Tables of prototypes and how they are read.
-const KINDS: [(&str, ReadSpec); 8] = [
+const KINDS: [(&str, ReadSpec); 9] = [
     ("rigid_cell", rigid_cell),
     ("amoeboid_cell", amoeboid_cell),
     ("platelet", platelet),
@@ -35,6 +36,7 @@ const KINDS: [(&str, ReadSpec); 8] = [
     ("fluid", fluid),
     ("red_cell", red_cell),
     ("coccus", coccus),
+    ("bacillus", bacillus),
 ];
 
 /// Reads all prototypes of a file.
@@ -42,14 +44,13 @@ pub(super) fn read(root: &mut Fields<'_>) -> Prototypes {
     let mut prototypes = Prototypes::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
-            let spec = read(&mut fields);
             let (path, report) = (fields.path.clone(), fields.report);
+            let prototype = report.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
             fields.finish();
             if prototypes.contains_key(&name) {
                 let accepted = "a name that no other prototype has";
                 report.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
             }
-            let prototype = report.check(&path, Prototype::new(name.clone(), spec));
             prototypes.insert(name, prototype);
         }
     }
@@ -64,8 +65,7 @@ impl Prototype {
 
     /// Whether anything can steer it.
     pub(super) fn can_move(&self) -> bool {
-        use OrganismSpec::{AmoeboidCell, Coccus, Probe, RigidCell};
-        matches!(self.spec, RigidCell(_) | AmoeboidCell(_) | Probe(_) | Coccus(_))
+        self.spec.can_move()
     }
 
     /// Whether it takes others in and grows.
@@ -210,6 +210,15 @@ fn coccus(fields: &mut Fields<'_>) -> OrganismSpec {
     })
 }
 
+fn bacillus(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = BacillusSpec::default();
+    OrganismSpec::from(BacillusSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        density: fields.or("density", default.density),
+        speed: fields.or("speed", default.speed),
+    })
+}
+
 fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
     let default = FluidBlockSpec::default();
     OrganismSpec::from(FluidBlockSpec {
@@ -228,6 +237,18 @@ impl Read for IngestionWay {
         "\"gate\" or \"cup\"".to_owned()
     }
 
+    fn shape() -> Shape {
+        Shape::Word(&["gate", "cup"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Gate => "\"gate\"",
+            Self::Cup => "\"cup\"",
+        }
+        .to_owned()
+    }
+
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         match value.get_ref().as_str() {
             Some("gate") => Some(Self::Gate),
@@ -240,6 +261,18 @@ impl Read for IngestionWay {
 impl Read for FluidMode {
     fn accepted() -> String {
         "\"density\" or \"granular\"".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Word(&["density", "granular"])
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Density => "\"density\"",
+            Self::Granular => "\"granular\"",
+        }
+        .to_owned()
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {

@@ -2,27 +2,36 @@
 
 use super::fields::{Fields, Read, Report};
 use super::group::Group;
+use super::shape::Shape;
 use super::source::{NAME, Value, is_name, unknown};
+use super::steering::{self, Controllers};
+use super::supply::Supply;
+#[cfg(feature = "snapshot")]
+use super::supply::SupplyState;
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The commands of a scenario. Ask it for the inputs before every step.
-#[derive(Clone, Debug, Default)]
+/// The commands of a scenario, and the organisms that come later. Ask it for the inputs before every step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Script {
     commands: Vec<Command>,
+    controllers: Controllers,
     named: Vec<(String, OrganismId)>,
     /// Who is to divide, and the names for the daughters.
     dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
+    #[serde(skip)]
+    supplies: Vec<Supply>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
 }
 
 /// A command that the world refused.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
     /// Path of the command in the file, for example `command.2`.
     pub command: String,
@@ -35,7 +44,7 @@ pub struct Refusal {
 }
 
 /// One table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Command {
     path: String,
     of: String,
@@ -47,7 +56,7 @@ pub(super) struct Command {
 }
 
 /// What is done to an organism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Action {
     Goal(Goal),
     Digest(bool),
@@ -59,13 +68,15 @@ enum Action {
     Divide(String),
     /// With the one of this name.
     Fuse(String),
+    /// To do as the controller of this name says, in place of all that it was told.
+    Controller(String),
 }
 
 /// Organisms that commands may name.
 type Named<'a> = Vec<(String, &'a Group)>;
 
 /// Where an organism is to go.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 enum Goal {
     Rest,
     Point(Vec2),
@@ -74,7 +85,7 @@ enum Goal {
 }
 
 /// What one organism has been told to do until it is told something else.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Order {
     organism: OrganismId,
     goal: Goal,
@@ -84,7 +95,7 @@ struct Order {
 type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
 
 /// The fields that are actions and how they are read.
-const ACTIONS: [(&str, ReadAction); 7] = [
+const ACTIONS: [(&str, ReadAction); 8] = [
     ("goal", |fields| fields.get("goal").map(Goal::Point).map(Action::Goal)),
     ("follow", |fields| fields.get("follow").map(Goal::Organism).map(Action::Goal)),
     ("rest", |fields| fields.get("rest").map(|Always| Action::Goal(Goal::Rest))),
@@ -92,23 +103,45 @@ const ACTIONS: [(&str, ReadAction); 7] = [
     ("grow", grow),
     ("divide", |fields| fields.get("divide").map(Action::Divide)),
     ("fuse", |fields| fields.get("fuse").map(Action::Fuse)),
+    ("controller", |fields| fields.get("controller").map(Action::Controller)),
 ];
 
 impl Script {
-    pub(super) fn new(commands: Vec<Command>, named: Vec<(String, OrganismId)>) -> Self {
-        Self { commands, named, ..Self::default() }
+    pub(super) fn new(commands: Vec<Command>, controllers: Controllers, named: Vec<(String, OrganismId)>) -> Self {
+        Self { commands, controllers, named, ..Self::default() }
+    }
+
+    /// The same, with organisms that come later.
+    pub(super) fn with_supplies(self, supplies: Vec<Supply>) -> Self {
+        Self { supplies, ..self }
+    }
+
+    /// What changes of the organisms that come later; the rest of them is in the file.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supply_states(&self) -> impl Iterator<Item = &SupplyState> {
+        self.supplies.iter().map(|supply| &supply.state)
+    }
+
+    /// Takes the organisms that come later from the script as the file has it, in this state; `None` if it does not fit.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn supplied_by(self, file: Self, states: Vec<SupplyState>) -> Option<Self> {
+        let fits = file.supplies.len() == states.len();
+        let mut supplies = file.supplies;
+        supplies.iter_mut().zip(states).for_each(|(supply, state)| supply.state = state);
+        fits.then(|| self.with_supplies(supplies))
     }
 
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.commands.is_empty()
+        self.commands.is_empty() && self.supplies.is_empty()
     }
 
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
         self.rename(world.events());
+        self.supplies.iter_mut().for_each(|supply| supply.before_step(world));
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };
@@ -119,6 +152,7 @@ impl Script {
             }
         }
         self.commands = commands;
+        self.inputs.clear();
         for Order { organism, goal, digests } in &self.orders {
             let place = match goal {
                 Goal::Rest => None,
@@ -174,6 +208,10 @@ impl Script {
                     world.fuse(id, with)?;
                 }
             }
+            Action::Controller(name) => {
+                world.set_controller(id, self.controllers.get(name).cloned().unwrap_or_default())?;
+                self.orders.retain(|order| order.organism != id);
+            }
         }
         Ok(())
     }
@@ -223,11 +261,12 @@ impl fmt::Display for Refusal {
 }
 
 /// Reads the `[[command]]` tables.
-pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], duration: f32) -> Vec<Command> {
+pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], controllers: &Controllers, duration: f32) -> Vec<Command> {
     let mut named: Named<'_> = groups.iter().filter_map(|group| Some((group.name.clone()?, group))).collect();
     let mut commands = Vec::new();
     for mut fields in root.list("command") {
         let command = read_command(&mut fields, &named, duration);
+        steering::read_named(&mut fields, "controller", controllers);
         fields.finish();
         let daughter = command.as_ref().and_then(|command| daughter(command, &named));
         named.extend(daughter);
@@ -253,7 +292,8 @@ fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Op
     let at = fields.number("at", 0.0, [0.0, 1e6]);
     let of = fields.required::<String>("of");
     let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
-    let until = fields.number("until", if duration > at { duration } else { at }, [at, 1e6]);
+    let until = fields.get("until").filter(|&until| fields.is_within("until", until, [at, 1e6]));
+    let until = until.unwrap_or(if duration > at { duration } else { at });
     let path = fields.path.clone();
     let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
     if !ACTIONS.iter().any(|(field, _)| fields.has(field)) {
@@ -299,8 +339,8 @@ fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
     };
     for action in actions {
         match action {
-            Action::Goal(_) if !group.prototype.can_move() => {
-                let field = ["goal", "follow", "rest"].into_iter().find(|field| fields.has(field));
+            Action::Goal(_) | Action::Controller(_) if !group.prototype.can_move() => {
+                let field = ["goal", "follow", "rest", "controller"].into_iter().find(|field| fields.has(field));
                 refuse(field.unwrap_or_default(), "move", "an amoeboid_cell, a rigid_cell or a probe");
             }
             Action::Digest(_) if !group.prototype.can_grow() => refuse("digest", "digest", "an amoeboid_cell"),
@@ -325,6 +365,14 @@ struct Always;
 
 impl Read for Always {
     fn accepted() -> String {
+        "true".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Boolean
+    }
+
+    fn written(&self) -> String {
         "true".to_owned()
     }
 

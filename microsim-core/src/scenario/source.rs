@@ -15,11 +15,10 @@ pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 ///
 /// A value that an override brought does not stand in the text: its span begins beyond the end of the text, by one plus
 /// the index of the override. Values that a parameter brought stand where the parameter does: there they can be changed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Source {
-    text: String,
-    /// As they were given, `key=value`.
-    overrides: Vec<String>,
+    pub text: String,
+    pub overrides: Vec<(String, String)>,
     places: BTreeMap<String, Place>,
 }
 
@@ -35,12 +34,13 @@ impl Source {
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
-        let mut source = Self {
-            text: text.to_owned(),
-            overrides: overrides.iter().map(|(key, value)| format!("{key}={value}")).collect(),
-            places: BTreeMap::new(),
-        };
-        let root = DeTable::parse(text).map_err(|error| source.syntax_error(&error))?;
+        let mut source = Self { text: text.to_owned(), overrides: overrides.to_vec(), places: BTreeMap::new() };
+        let (root, errors) = DeTable::parse_recoverable(text);
+        // What follows from a syntax error is no use to anybody: at most one for each line.
+        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| source.syntax_error(error)).collect();
+        broken.dedup_by_key(|diagnostic| diagnostic.line);
+        broken.truncate(super::MAX_ERRORS);
+        Diagnostics::check(broken)?;
         let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
         let mut found = Vec::new();
         for (index, (key, value)) in overrides.iter().enumerate() {
@@ -84,8 +84,8 @@ impl Source {
         accepted: Option<String>,
     ) -> Diagnostic {
         let beyond = span.start.checked_sub(self.text.len() + 1);
-        if let Some(given) = beyond.and_then(|index| self.overrides.get(index)) {
-            message = format!("{message}, as set by `{given}`");
+        if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
+            message = format!("{message}, as set by `{key}={value}`");
         }
         let (line, column) = line_and_column(&self.text, span.start);
         let is_in_text = beyond.is_none();
@@ -99,7 +99,7 @@ impl Source {
         }
     }
 
-    fn syntax_error(&self, error: &toml::de::Error) -> Diagnostics {
+    fn syntax_error(&self, error: &toml::de::Error) -> Diagnostic {
         let span = error.span().unwrap_or(0..0);
         let key = self.text.get(span.clone()).unwrap_or_default();
         let is_duplicate = error.message().contains("duplicate key");
@@ -108,7 +108,7 @@ impl Source {
             _ if is_duplicate => "each key once".to_owned(),
             _ => "TOML: `key = value` lines under `[table]` headers, strings in quotes".to_owned(),
         };
-        self.diagnostic_at(span, field, error.message().to_owned(), Some(accepted)).into()
+        self.diagnostic_at(span, field, error.message().to_owned(), Some(accepted))
     }
 
     /// The path as the file spells it (`at.0` for `at.x`) and the place of it or of the nearest table around it.

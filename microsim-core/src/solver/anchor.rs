@@ -3,11 +3,12 @@
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
 
-use super::lanes::{Pair, Span, each, ratio};
+use super::lanes::{Pair, Span, each};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// A node held to a static anchor by a contracting rope.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// The held node.
     pub node: u32,
@@ -33,12 +34,10 @@ pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles:
 #[inline(always)]
 fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Columns<'_>) {
     let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
-    let multiplier = each(|l| {
-        let excess = pair.length[l] - length * span.scale[l];
-        let active = if excess > 0.0 { excess } else { 0.0 };
-        ratio(-active, pair.weight(l) + alpha)
-    });
-    pair.push(particles, multiplier);
+    let longest: [f32; L] = each(|l| length * span.scale[l]);
+    if pair.is_longer(longest) {
+        pair.push(particles, pair.shortening(longest, alpha));
+    }
 }
 
 #[cfg(test)]

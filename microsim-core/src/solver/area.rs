@@ -6,9 +6,10 @@
 use super::lanes::{Span, ratio};
 use crate::particle::Columns;
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// A ring of nodes around a given area.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Area {
     /// The ring, counter-clockwise, at least three nodes.
     pub ring: Vec<u32>,

@@ -4,13 +4,14 @@ use super::ConstraintSet;
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, Span};
 use crate::parallel;
-use crate::particle::{NO_OWNER, Particles};
+use crate::particle::{BlockRange, NO_OWNER, Particles};
+use serde::{Deserialize, Serialize};
 
 /// Blocks that are projected side by side.
 const BATCH: usize = 4;
 
 /// Eight instances of a template; empty lanes hold dead particles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Block {
     /// Index of the template in the world.
     pub template: u32,
@@ -44,6 +45,11 @@ impl Block {
         self.owner.iter().all(|&owner| owner == NO_OWNER)
     }
 
+    /// Where it lies in the store.
+    pub(crate) fn range(&self) -> BlockRange {
+        BlockRange { base: self.base as usize, slots: self.slots as usize }
+    }
+
     /// Where it lies in a stretch of the store that begins at `start`.
     fn span(&self, start: usize) -> Span<LANES> {
         Span { base: self.base as usize - start, scale: self.scale }
@@ -51,7 +57,7 @@ impl Block {
 
     /// One past its last particle.
     fn end(&self) -> usize {
-        self.base as usize + self.slots as usize * LANES
+        self.base as usize + self.range().len()
     }
 }
 

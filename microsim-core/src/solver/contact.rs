@@ -30,22 +30,21 @@ pub(crate) struct Impact {
 pub(crate) fn project(contacts: &mut [Contact], particles: &mut Particles, impacts: &mut Vec<Impact>) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
-        let between = particles.between(i, j);
-        let reach = particles.radius[i] + particles.radius[j];
+        let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
         let squared = between.length_squared();
-        if squared < reach * reach {
+        if squared < contact.reach * contact.reach {
             contact.touched = true;
-            separate(contact, between, squared, reach, particles, impacts);
+            separate(contact, between, squared, particles, impacts);
         }
     }
 }
 
-fn separate(c: &Contact, between: Vec2, squared: f32, reach: f32, p: &mut Particles, impacts: &mut Vec<Impact>) {
+fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts: &mut Vec<Impact>) {
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
     let (wi, wj) = (no_heavier(p.inv_mass[i], p.inv_mass[j]), no_heavier(p.inv_mass[j], p.inv_mass[i]));
-    let depth = reach - length;
+    let depth = c.reach - length;
     if c.restitution > 0.0 {
         let approach = (p.velocity(j) - p.velocity(i)).dot(normal);
         if approach < 0.0 {
@@ -116,7 +115,7 @@ mod tests {
     use super::*;
 
     fn touching(friction: f32, restitution: f32) -> Contact {
-        Contact { i: 0, j: 1, friction, restitution, touched: false }
+        Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1) }
     }
 
     #[test]

@@ -4,13 +4,15 @@
 //! (Macklin, Mueller, Chentanez 2016, eqs. 18 and 26; Macklin et al. 2019, "Small Steps"):
 //!
 //! `lambda = (-C - g n.(dx_b - dx_a)) / ((1 + g)(w_a + w_b) + alpha / h^2)`, with `g = tau / h`,
-//! where `dx` is the move since the substep began.
+//! where `dx` is the move since the substep began. `n` is the vector between the nodes over its length: with
+//! numerator and denominator multiplied by that length as needed, one square root and one division do.
 
 use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
     /// First node.
     pub a: u32,
@@ -29,13 +31,17 @@ pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particle
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
         let gamma = c.damping / h;
-        let resisted = if c.damping > 0.0 { pair.opening(particles) } else { [0.0; L] };
         let alpha = c.compliance / (h * h);
-        let multiplier = each(|l| {
-            let error = pair.length[l] - c.rest_length * span.scale[l];
-            ratio(-error - gamma * resisted[l], (1.0 + gamma) * pair.weight(l) + alpha)
-        });
-        pair.push(particles, multiplier);
+        let weight: [f32; L] = each(|l| (1.0 + gamma) * pair.weight(l) + alpha);
+        let length: [f32; L] = each(|l| pair.length(l));
+        let error: [f32; L] = each(|l| c.rest_length * span.scale[l] - length[l]);
+        let share = if c.damping > 0.0 {
+            let resisted = pair.opening(particles);
+            each(|l| ratio(error[l] * length[l] - gamma * resisted[l], pair.squared[l] * weight[l]))
+        } else {
+            each(|l| ratio(error[l], length[l] * weight[l]))
+        };
+        pair.push(particles, share);
     }
 }
 

@@ -9,12 +9,7 @@
 //! The number of lanes is fixed here and never taken from the CPU: results do not depend on it.
 
 use crate::particle::Columns;
-
-/// Instances of a template in one block.
-pub(crate) const LANES: usize = 8;
-
-/// Nearer than this, two points have no direction between them.
-const MIN_LENGTH: f32 = 1e-6;
+pub(crate) use crate::particle::LANES;
 
 /// Where the slots of a constraint list lie in the particle store, and how large each instance is.
 #[derive(Clone, Copy, Debug)]
@@ -63,15 +58,17 @@ pub(crate) fn add<const L: usize>(column: &mut [f32], at: usize, amount: [f32; L
     }
 }
 
-/// Two slots and the unit vector from the first to the second, in each lane.
+/// Two slots and the vector from the first to the second, in each lane. It is left unnormalised: what moves the two
+/// along it is divided by its length together with the rest of the multiplier, once.
 pub(crate) struct Pair<const L: usize> {
     a: usize,
     b: usize,
-    normal_x: [f32; L],
-    normal_y: [f32; L],
+    across_x: [f32; L],
+    across_y: [f32; L],
     inv_mass_a: [f32; L],
     inv_mass_b: [f32; L],
-    pub(crate) length: [f32; L],
+    /// Squared length.
+    pub(crate) squared: [f32; L],
 }
 
 impl<const L: usize> Pair<L> {
@@ -79,24 +76,36 @@ impl<const L: usize> Pair<L> {
     pub(crate) fn load(particles: &Columns<'_>, a: usize, b: usize) -> Self {
         let (ax, ay) = (load::<L>(particles.x, a), load::<L>(particles.y, a));
         let (bx, by) = (load::<L>(particles.x, b), load::<L>(particles.y, b));
-        let mut pair = Self {
-            a,
-            b,
-            normal_x: [0.0; L],
-            normal_y: [0.0; L],
-            inv_mass_a: load(particles.inv_mass, a),
-            inv_mass_b: load(particles.inv_mass, b),
-            length: [0.0; L],
-        };
-        for l in 0..L {
-            let (dx, dy) = (bx[l] - ax[l], by[l] - ay[l]);
-            let length = (dx * dx + dy * dy).sqrt();
-            let inverse = if length > MIN_LENGTH { 1.0 / length } else { 0.0 };
-            pair.length[l] = length;
-            pair.normal_x[l] = dx * inverse;
-            pair.normal_y[l] = dy * inverse;
+        let (across_x, across_y): ([f32; L], [f32; L]) = (each(|l| bx[l] - ax[l]), each(|l| by[l] - ay[l]));
+        let squared = each(|l| across_x[l] * across_x[l] + across_y[l] * across_y[l]);
+        let (inv_mass_a, inv_mass_b) = (load(particles.inv_mass, a), load(particles.inv_mass, b));
+        Self { a, b, across_x, across_y, inv_mass_a, inv_mass_b, squared }
+    }
+
+    /// Distance of the two slots.
+    #[inline(always)]
+    pub(crate) fn length(&self, lane: usize) -> f32 {
+        self.squared[lane].sqrt()
+    }
+
+    /// Whether the two slots are farther apart than a length in any lane.
+    #[inline(always)]
+    pub(crate) fn is_longer(&self, than: [f32; L]) -> bool {
+        let mut longer = false;
+        for (squared, than) in self.squared.iter().zip(&than) {
+            longer |= *squared > than * than;
         }
-        pair
+        longer
+    }
+
+    /// Whether the two slots are nearer than a length in any lane.
+    #[inline(always)]
+    pub(crate) fn is_shorter(&self, than: [f32; L]) -> bool {
+        let mut shorter = false;
+        for (squared, than) in self.squared.iter().zip(&than) {
+            shorter |= *squared < than * than;
+        }
+        shorter
     }
 
     /// Sum of the two inverse masses.
@@ -105,12 +114,22 @@ impl<const L: usize> Pair<L> {
         self.inv_mass_a[lane] + self.inv_mass_b[lane]
     }
 
-    /// How far the two slots have moved apart, along the line between them, since the substep began.
+    /// How far the two slots have moved apart, along the line between them, since the substep began; times their distance.
     #[inline(always)]
     pub(crate) fn opening(&self, particles: &Columns<'_>) -> [f32; L] {
         let dx = self.parted(particles.x, particles.prev_x);
         let dy = self.parted(particles.y, particles.prev_y);
-        each(|l| dx[l] * self.normal_x[l] + dy[l] * self.normal_y[l])
+        each(|l| dx[l] * self.across_x[l] + dy[l] * self.across_y[l])
+    }
+
+    /// What [`Pair::push`] needs to bring the two slots to within a length of each other, where they are farther apart.
+    #[inline(always)]
+    pub(crate) fn shortening(&self, longest: [f32; L], alpha: f32) -> [f32; L] {
+        each(|l| {
+            let excess = self.length(l) - longest[l];
+            let active = if excess > 0.0 { excess } else { 0.0 };
+            ratio(-active, self.length(l) * (self.weight(l) + alpha))
+        })
     }
 
     /// How far the two slots have moved apart in one coordinate.
@@ -121,16 +140,16 @@ impl<const L: usize> Pair<L> {
         each(|l| (b[l] - b_prev[l]) - (a[l] - a_prev[l]))
     }
 
-    /// Moves both slots apart by `multiplier` times their inverse masses (together if it is negative).
+    /// Moves both slots apart by `share` of the vector between them, times their inverse masses (together if negative).
     #[inline(always)]
-    pub(crate) fn push(&self, particles: &mut Columns<'_>, multiplier: [f32; L]) {
+    pub(crate) fn push(&self, particles: &mut Columns<'_>, share: [f32; L]) {
         let mut shift = [[0.0; L]; 4];
         for l in 0..L {
-            let (ma, mb) = (-multiplier[l] * self.inv_mass_a[l], multiplier[l] * self.inv_mass_b[l]);
-            shift[0][l] = ma * self.normal_x[l];
-            shift[1][l] = ma * self.normal_y[l];
-            shift[2][l] = mb * self.normal_x[l];
-            shift[3][l] = mb * self.normal_y[l];
+            let (ma, mb) = (-share[l] * self.inv_mass_a[l], share[l] * self.inv_mass_b[l]);
+            shift[0][l] = ma * self.across_x[l];
+            shift[1][l] = ma * self.across_y[l];
+            shift[2][l] = mb * self.across_x[l];
+            shift[3][l] = mb * self.across_y[l];
         }
         add(particles.x, self.a, shift[0]);
         add(particles.y, self.a, shift[1]);

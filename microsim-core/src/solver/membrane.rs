@@ -20,6 +20,7 @@ use super::{Rope, rope};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
+use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
 /// No link gets longer than this many rest lengths: the promise ...
@@ -52,7 +53,7 @@ const SHRINK_TIME: f32 = 0.6;
 const CLEARANCE: f32 = 0.1;
 
 /// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Membrane {
     /// Length of every link when the membrane was made; a new node adds one more of it.
     pub rest_length: f32,
@@ -97,7 +98,7 @@ impl Membrane {
         Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
     }
 
-    /// State for the digest.
+    /// Its numbers by the names of their fields: those that are always finite.
     pub(crate) fn state(&self) -> [f32; 4] {
         [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
     }
@@ -184,16 +185,16 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
     let alpha = TENSION_COMPLIANCE / (h * h);
     for (a, b) in links(ring) {
         let pair = Pair::<1>::load(particles, a as usize, b as usize);
-        let error = pair.length[0] - length;
-        let weight = pair.weight(0);
-        let multiplier = if error > 0.0 {
-            ratio(-error, weight + alpha)
-        } else if pair.length[0] < SHORTEST * length {
-            ratio(SHORTEST * length - pair.length[0], weight)
+        let (present, weight) = (pair.length(0), pair.weight(0));
+        let lack = length - present;
+        let share = if lack < 0.0 {
+            ratio(lack, present * (weight + alpha))
+        } else if present < SHORTEST * length {
+            ratio(SHORTEST * length - present, present * weight)
         } else {
-            SLACK_SHARE * ratio(-error, weight + alpha)
+            SLACK_SHARE * ratio(lack, present * (weight + alpha))
         };
-        pair.push(particles, [multiplier]);
+        pair.push(particles, [share]);
     }
 }
 

@@ -5,9 +5,10 @@
 
 use super::lanes::{Pair, Span, each, ratio};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// Two nodes at least so far apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MinDistance {
     /// First node.
     pub a: u32,
@@ -21,12 +22,15 @@ pub struct MinDistance {
 pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Columns<'_>) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let multiplier = each(|l| {
-            let deficit = c.min_length * span.scale[l] - pair.length[l];
-            let active = if deficit > 0.0 { deficit } else { 0.0 };
-            ratio(active, pair.weight(l))
-        });
-        pair.push(particles, multiplier);
+        let shortest: [f32; L] = each(|l| c.min_length * span.scale[l]);
+        if pair.is_shorter(shortest) {
+            let share = each(|l| {
+                let deficit = shortest[l] - pair.length(l);
+                let active = if deficit > 0.0 { deficit } else { 0.0 };
+                ratio(active, pair.length(l) * pair.weight(l))
+            });
+            pair.push(particles, share);
+        }
     }
 }
 

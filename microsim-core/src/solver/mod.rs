@@ -30,12 +30,13 @@ pub use distance::Distance;
 use lanes::Span;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
+use serde::{Deserialize, Serialize};
 
 /// Largest length or area that a constraint may ask for.
 const MAX_LENGTH: f32 = 1e6;
 
 /// The constraints of one body, one homogeneous list per kind. Nodes are slots of a template, or particle indices.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ConstraintSet {
     /// Springs and rigid links.
     pub distances: Vec<Distance>,

@@ -223,6 +223,7 @@ mod tests {
         let mut broad_phase = BroadPhase::default();
         broad_phase.find_pairs(Surroundings {
             particles: &p,
+            blocks: &[],
             obstacles: &[],
             exemptions: &Exemptions::default(),
             rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],

@@ -3,11 +3,12 @@
 //! `C = |x_b - x_a| - l_max <= 0`, projected rigidly when violated (Macklin et al. 2014, section 4: inequality
 //! constraints are projected only while `C > 0`). The seed's rope joint.
 
-use super::lanes::{Pair, Span, each, ratio};
+use super::lanes::{Pair, Span, each};
 use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
 
 /// Two nodes at most so far apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rope {
     /// First node.
     pub a: u32,
@@ -21,12 +22,10 @@ pub struct Rope {
 pub(crate) fn project<const L: usize>(list: &[Rope], span: Span<L>, particles: &mut Columns<'_>) {
     for c in list {
         let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let multiplier = each(|l| {
-            let excess = pair.length[l] - c.max_length * span.scale[l];
-            let active = if excess > 0.0 { excess } else { 0.0 };
-            ratio(-active, pair.weight(l))
-        });
-        pair.push(particles, multiplier);
+        let longest: [f32; L] = each(|l| c.max_length * span.scale[l]);
+        if pair.is_longer(longest) {
+            pair.push(particles, pair.shortening(longest, 0.0));
+        }
     }
 }
 

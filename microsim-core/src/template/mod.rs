@@ -7,9 +7,10 @@ use crate::error::{Error, in_range};
 use crate::particle::{CollisionGroups, Material};
 use crate::solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope, check_ring};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// What a particle is to its organism; for drawing and for rules, not for the solver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 #[repr(u8)]
 pub enum Role {
@@ -52,7 +53,7 @@ impl Role {
 }
 
 /// One particle of a template, in the template's own frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Node {
     /// Position relative to the instance's place, units, components within ±10 000.
     pub position: Vec2,
@@ -97,7 +98,8 @@ impl Node {
 }
 
 /// A validated recipe of a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "TemplateBuilder")]
 pub struct Template {
     nodes: Vec<Node>,
     constraints: ConstraintSet,
@@ -139,6 +141,14 @@ impl Template {
     }
 }
 
+impl TryFrom<TemplateBuilder> for Template {
+    type Error = Error;
+
+    fn try_from(builder: TemplateBuilder) -> Result<Self, Error> {
+        builder.build()
+    }
+}
+
 /// Collects nodes and constraints; [`TemplateBuilder::build`] checks them.
 ///
 /// ```
@@ -152,7 +162,7 @@ impl Template {
 /// assert_eq!(dumbbell.constraints().distances[0].rest_length, 1.0);
 /// # Ok::<(), microsim_core::Error>(())
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct TemplateBuilder {
     nodes: Vec<Node>,
     constraints: ConstraintSet,

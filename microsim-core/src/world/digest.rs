@@ -1,36 +1,34 @@
 //! Digest: 64 bits that stand for the whole state.
 //!
-//! FNV-1a over fixed-width little-endian words. Order: step index; settings, templates, fluids, obstacles; every particle entry by index (owner, then for live
-//! ones origin, x, y, vx, vy, inverse mass, radius, role, fluid, groups, material); every organism by index (kind, outline, locomotion,
-//! controller, random generator); blocks (owners and scales); touching pairs, exemptions, free lists. Zeros are made
-//! positive and every NaN the same, so that equal states have equal digests.
+//! FNV-1a over all state, in the order in which [`World`] and the types in it declare their fields; what is left out is
+//! marked `#[serde(skip)]` there. Each value has a fixed width, little-endian: integers of up to 32 bits, booleans,
+//! variants and the number of a list's elements one word, 64-bit integers and numbers two, text its bytes a word each after
+//! their number. Zeros are made positive and every NaN the same, so that equal states have equal digests.
 
 use super::World;
-use crate::capability::Locomotion;
-use crate::capability::controller::Controller;
-use crate::capability::division::{Divider, Furrow, Order};
-use crate::capability::phagocytosis::{Engulfer, MealPhase};
 use crate::collision::obstacle::Obstacle;
-use crate::config::WorldConfig;
-use crate::organism::Organism;
+use crate::collision::shape::ObstacleRecord;
+use crate::fnv::Fnv1a;
+use crate::walk::{Leaf, Visitor, walk};
 use glam::Vec2;
+use serde::Serialize;
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-struct Digest(u64);
+/// The words that were hashed so far.
+struct Digest(Fnv1a);
 
 impl Digest {
-    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    fn of(value: &(impl Serialize + ?Sized)) -> u64 {
+        let mut digest = Self(Fnv1a::new());
+        walk(value, &mut digest);
+        digest.0.finish()
+    }
 
     fn word(&mut self, word: u32) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(Self::PRIME);
-        }
+        self.0.bytes(&word.to_le_bytes());
     }
 
     fn long(&mut self, long: u64) {
-        self.word(long as u32);
-        self.word((long >> 32) as u32);
+        self.0.bytes(&long.to_le_bytes());
     }
 
     fn float(&mut self, value: f32) {
@@ -38,22 +36,26 @@ impl Digest {
         self.word(if value.is_nan() { f32::NAN.to_bits() & 0x7fff_ffff } else { canonical.to_bits() });
     }
 
-    fn vector(&mut self, v: Vec2) {
-        self.float(v.x);
-        self.float(v.y);
+    fn double(&mut self, value: f64) {
+        let canonical = if value == 0.0 { 0.0 } else { value };
+        self.long(if value.is_nan() { f64::NAN.to_bits() & (u64::MAX >> 1) } else { canonical.to_bits() });
     }
+}
 
-    fn text(&mut self, text: &str) {
-        self.words(text.bytes().map(u32::from));
-    }
-
-    fn words(&mut self, words: impl IntoIterator<Item = u32>) {
-        let mut count = 0;
-        for word in words {
-            self.word(word);
-            count += 1;
+impl Visitor for Digest {
+    fn leaf(&mut self, leaf: Leaf<'_>) {
+        match leaf {
+            Leaf::Word(value) => self.word(value),
+            Leaf::Long(value) => self.long(value),
+            Leaf::Single(value) => self.float(value),
+            Leaf::Double(value) => self.double(value),
+            Leaf::Text(text) => {
+                self.word(text.len() as u32);
+                text.bytes().for_each(|byte| self.word(u32::from(byte)));
+            }
+            Leaf::Variant(place, _) => self.word(place),
+            Leaf::Count(count) => self.word(count as u32),
         }
-        self.word(count);
     }
 }
 
@@ -62,179 +64,25 @@ impl World {
     /// anywhere in what the next step depends on differ in it (up to chance, 2^-64).
     #[must_use]
     pub fn digest(&self) -> u64 {
-        let mut digest = Digest(Digest::OFFSET);
-        digest.long(self.step_index);
-        digest.long(self.guard.wrong_side);
-        digest.long(self.guard.net_fired);
-        self.digest_settings(&mut digest);
-        self.digest_particles(&mut digest);
-        for (id, organism) in self.organisms.iter() {
-            digest.words([id.index, id.generation]);
-            digest_organism(organism, &mut digest);
-        }
-        digest.words(self.organisms.bookkeeping());
-        for block in &self.blocks {
-            digest.words(block.owner);
-            block.scale.iter().for_each(|&scale| digest.float(scale));
-        }
-        digest.words(self.touching.pairs().iter().flat_map(|(a, b)| [a.index, a.generation, b.index, b.generation]));
-        digest.words(self.exemptions.pairs().iter().flat_map(|&(a, b)| [a, b]));
-        digest.words(self.exemptions.gates().iter().flat_map(|&(a, b)| [a, b]));
-        for fluid in &self.fluids {
-            digest.words(fluid.particles.iter().copied());
-        }
-        digest.0
-    }
-
-    /// What was fixed when the world, its templates and its fluids were made.
-    fn digest_settings(&self, digest: &mut Digest) {
-        let WorldConfig { size, dt, substeps, gravity, damping, max_speed, seed, protects_membranes, max_particles } =
-            &self.config;
-        digest.vector(*size);
-        digest.vector(*gravity);
-        [*dt, *damping, *max_speed].into_iter().for_each(|value| digest.float(value));
-        digest.words([*substeps, *max_particles, u32::from(*protects_membranes)]);
-        digest.long(*seed);
-        self.template_digests.iter().for_each(|&template| digest.long(template));
-        self.fluids.iter().for_each(|fluid| digest.text(&format!("{:?}", fluid.params)));
-        self.obstacle_digests.iter().for_each(|&obstacle| digest.long(obstacle));
-    }
-
-    fn digest_particles(&self, digest: &mut Digest) {
-        let p = &self.particles;
-        for i in 0..p.len() {
-            digest.word(p.owner[i]);
-            if p.is_live(i) {
-                for value in
-                    [p.origin_x[i], p.origin_y[i], p.x[i], p.y[i], p.vx[i], p.vy[i], p.inv_mass[i], p.radius[i]]
-                {
-                    digest.float(value);
-                }
-                digest.word(u32::from(p.role[i]));
-                digest.word(p.fluid[i]);
-                digest.word(p.groups[i].memberships);
-                digest.word(p.groups[i].filter);
-                digest.float(p.material[i].friction);
-                digest.float(p.material[i].restitution);
-            }
-        }
-        digest.words(p.free_indices().iter().copied());
+        Digest::of(self)
     }
 }
 
-/// Digest of something that never changes, by its text, which gives every number exactly.
-pub(super) fn of_text(value: &impl std::fmt::Debug) -> u64 {
-    let mut digest = Digest(Digest::OFFSET);
-    digest.text(&format!("{value:?}"));
-    digest.0
-}
-
-/// Digest of an obstacle by what the step sees of it: its surface from a grid of points around it.
+/// Digest of an obstacle: the numbers that it is made from, or for shapes without such a record what the step sees of it,
+/// its surface from a grid of points around it.
 pub(super) fn of_obstacle(obstacle: &Obstacle) -> u64 {
     const POINTS: u8 = 8;
-    let mut digest = Digest(Digest::OFFSET);
+    if let Some(record) = ObstacleRecord::of(obstacle) {
+        return Digest::of(&record);
+    }
     let bounds = obstacle.bounds();
     let extent = bounds.maxs - bounds.mins;
-    for k in 0..POINTS * POINTS {
+    let nearest = |k: u8| {
         let share = Vec2::new(f32::from(k % POINTS), f32::from(k / POINTS)) / f32::from(POINTS - 1);
-        let (surface, is_inside) = obstacle.nearest(bounds.mins + extent * share);
-        digest.vector(surface);
-        digest.word(u32::from(is_inside));
-    }
-    digest.float(obstacle.material.friction);
-    digest.float(obstacle.material.restitution);
-    digest.words([obstacle.groups.memberships, obstacle.groups.filter]);
-    digest.0
-}
-
-fn digest_organism(organism: &Organism, digest: &mut Digest) {
-    digest.word(organism.kind as u32);
-    digest.words(organism.particles());
-    digest.words(organism.outline.iter().copied());
-    if let Some(membrane) = organism.body.membrane() {
-        membrane.state().into_iter().for_each(|value| digest.float(value));
-    }
-    for phagosome in &organism.phagosomes {
-        digest.words(phagosome.ring.iter().copied());
-        phagosome.membrane.state().into_iter().for_each(|value| digest.float(value));
-    }
-    match organism.locomotion {
-        Locomotion::None => digest.word(0),
-        Locomotion::FrontPull { front } => digest.words([1, front]),
-        Locomotion::Crawl { front_centre } => digest.words([2, front_centre.map_or(u32::MAX, |k| k)]),
-        Locomotion::Tow { max_acceleration } => digest.float(max_acceleration),
-    }
-    [organism.speed, organism.spawn_area, organism.spawn_scale].into_iter().for_each(|value| digest.float(value));
-    organism.engulfer.iter().for_each(|engulfer| digest_engulfer(engulfer, digest));
-    organism.divider.iter().for_each(|divider| digest_divider(divider, digest));
-    organism.prey.and_then(|prey| prey.held_by).into_iter().for_each(|id| digest.words([id.index, id.generation]));
-    digest_controller(&organism.controller, digest);
-    digest.long(organism.rng.state);
-    digest.long(organism.rng.increment);
-    digest.word(u32::from(organism.is_quarantined));
-}
-
-fn digest_engulfer(engulfer: &Engulfer, digest: &mut Digest) {
-    digest.text(&format!("{:?}", engulfer.params));
-    digest.word(u32::from(engulfer.digests));
-    digest.float(engulfer.held_area);
-    digest.float(engulfer.fold_length);
-    digest.float(engulfer.pending_growth);
-    for meal in &engulfer.meals {
-        digest.words([meal.prey.index, meal.prey.generation, meal.way as u32]);
-        match meal.phase {
-            MealPhase::Touching(time) => digest.float(time),
-            MealPhase::Ingesting(time) => digest.float(1000.0 + time),
-            MealPhase::Ingested => digest.float(-1.0),
-            MealPhase::Digesting(progress) => digest.float(-2.0 - progress),
-        }
-        digest.words(meal.gate.iter().copied().chain(meal.is_expelled.then_some(u32::MAX)));
-    }
-}
-
-/// Nothing for a cell that has never been told to divide or fuse.
-fn digest_divider(divider: &Divider, digest: &mut Digest) {
-    if *divider == Divider::new(divider.params) {
-        return;
-    }
-    match divider.order {
-        None => digest.word(0),
-        Some(Order::Divide { axis }) => digest.vector(axis.unwrap_or(Vec2::NAN)),
-        Some(Order::Fuse { with }) => digest.words([with.index, with.generation]),
-    }
-    if let Some(Furrow { nodes, width, elapsed }) = divider.furrow {
-        digest.words(nodes);
-        digest.float(width);
-        digest.float(elapsed);
-    }
-    digest.float(divider.lobes);
-    digest.float(divider.nodes_per_root.unwrap_or(f32::NAN));
-    digest.words(divider.wanted_nodes);
-}
-
-fn digest_controller(controller: &Controller, digest: &mut Digest) {
-    match controller {
-        Controller::Still => digest.word(0),
-        Controller::Wander { interval, rest, goal, remaining } => {
-            digest.word(1);
-            [interval[0], interval[1], *rest, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(goal.unwrap_or(Vec2::NAN));
-        }
-        Controller::Patrol { through, repeats, next } => {
-            digest.words([2, u32::from(*repeats), *next]);
-            through.iter().for_each(|&point| digest.vector(point));
-        }
-        Controller::Thrash { interval, reversal, direction, remaining } => {
-            digest.word(3);
-            [*interval, *reversal, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(*direction);
-        }
-        Controller::Ram { charge, retreat, distance, aside, remaining } => {
-            digest.word(4);
-            [*charge, *retreat, *distance, *remaining].into_iter().for_each(|value| digest.float(value));
-            digest.vector(aside.unwrap_or(Vec2::NAN));
-        }
-    }
+        obstacle.nearest(bounds.mins + extent * share)
+    };
+    let surface: Vec<(Vec2, bool)> = (0..POINTS * POINTS).map(nearest).collect();
+    Digest::of(&(surface, obstacle.material, obstacle.groups))
 }
 
 #[cfg(test)]
@@ -243,21 +91,16 @@ mod tests {
 
     #[test]
     fn zeros_and_nans_are_canonical_and_order_matters() {
-        let of = |values: &[f32]| {
-            let mut digest = Digest(Digest::OFFSET);
-            values.iter().for_each(|&value| digest.float(value));
-            digest.0
-        };
-        assert_eq!(of(&[0.0]), of(&[-0.0]));
-        assert_eq!(of(&[f32::NAN]), of(&[-f32::NAN]));
-        assert_ne!(of(&[1.0, 2.0]), of(&[2.0, 1.0]));
+        assert_eq!(Digest::of(&[0.0f32]), Digest::of(&[-0.0f32]));
+        assert_eq!(Digest::of(&[f32::NAN]), Digest::of(&[-f32::NAN]));
+        assert_eq!(Digest::of(&[0.0, f64::NAN]), Digest::of(&[-0.0, -f64::NAN]));
+        assert_ne!(Digest::of(&[1.0, 2.0]), Digest::of(&[2.0, 1.0]));
     }
 
     #[test]
-    fn words_are_hashed_as_fnv1a_does() {
-        // FNV-1a of the four bytes "abcd".
-        let mut digest = Digest(Digest::OFFSET);
-        digest.word(u32::from_le_bytes(*b"abcd"));
-        assert_eq!(digest.0, 0xfc17_9f83_ee07_24dd);
+    fn what_a_list_ends_with_does_not_begin_the_next_one() {
+        assert_ne!(Digest::of(&[vec![1, 2], vec![3]]), Digest::of(&[vec![1], vec![2, 3]]));
+        assert_ne!(Digest::of(&["ab", "c"]), Digest::of(&["a", "bc"]));
+        assert_ne!(Digest::of(&(None::<u32>, 1u32)), Digest::of(&(Some(1u32), 0u32)));
     }
 }

@@ -122,7 +122,7 @@ impl World {
     }
 
     /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
-    fn engulfer_area(&self, organism: &Organism) -> f32 {
+    pub(super) fn engulfer_area(&self, organism: &Organism) -> f32 {
         let radius = |&i: &u32| self.particles.radius[i as usize];
         organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()
     }

@@ -1,7 +1,10 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
+pub(crate) mod anatomy;
+mod behaving;
 mod cup;
+pub(crate) mod difference;
 pub(crate) mod digest;
 mod division;
 mod feeding;
@@ -11,16 +14,20 @@ mod ingestion;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
 pub(crate) mod named_measure;
+mod push;
 pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
+#[cfg(feature = "snapshot")]
+pub(crate) mod restore;
 mod rewire;
 mod spawn;
 pub(crate) mod touching;
 pub(crate) mod validate;
 pub(crate) mod view;
 
+use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
@@ -43,34 +50,42 @@ use crate::template::Template;
 use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
+use serde::{Deserialize, Serialize};
 use touching::Touching;
 
 /// Obstacles that every world has: its four walls.
 const WALLS: usize = 4;
 
 /// A room with organisms in it. Cloning it is a snapshot: the clone has the same future.
-#[derive(Clone, Debug)]
+///
+/// Serialised, it is its whole state but the shapes of obstacles, for which a digest stands; feature `snapshot` keeps those
+/// too.
+#[derive(Clone, Debug, Serialize)]
 pub struct World {
+    pub(crate) step_index: u64,
     pub(crate) config: WorldConfig,
     pub(crate) particles: Particles,
+    pub(crate) organisms: Organisms,
     pub(crate) templates: Vec<Template>,
-    template_digests: Vec<u64>,
-    obstacle_digests: Vec<u64>,
     pub(crate) blocks: Vec<Block>,
     pub(crate) fluids: Vec<Fluid>,
-    pub(crate) obstacles: Vec<Obstacle>,
+    pub(crate) chemicals: Vec<Chemical>,
     pub(crate) exemptions: Exemptions,
-    pub(crate) organisms: Organisms,
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
-    pub(crate) step_index: u64,
     pub(crate) guard: Guard,
+    /// Of each obstacle, see [`digest::of_obstacle`].
+    obstacle_digests: Vec<u64>,
+    #[serde(skip)]
+    pub(crate) obstacles: Vec<Obstacle>,
+    #[serde(skip)]
     pub(crate) scratch: Scratch,
+    #[serde(skip)]
     pub(crate) dispatch: Dispatch,
 }
 
 /// How often the membranes' protections had to do what must never be needed, since the world was made.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Guard {
     /// A disc was found on the wrong side of the link nearest to it.
     pub wrong_side: u64,
@@ -99,10 +114,10 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Vec::new(),
-            template_digests: Vec::new(),
             obstacle_digests: Vec::new(),
             blocks: Vec::new(),
             fluids: Vec::new(),
+            chemicals: Vec::new(),
             exemptions: Exemptions::default(),
             organisms: Organisms::default(),
             touching: Touching::default(),
@@ -163,7 +178,6 @@ impl World {
     pub(crate) fn template_index(&mut self, template: Template) -> u32 {
         let known = self.templates.iter().position(|other| *other == template);
         known.unwrap_or_else(|| {
-            self.template_digests.push(digest::of_text(&template));
             self.templates.push(template);
             self.templates.len() - 1
         }) as u32
@@ -188,6 +202,7 @@ impl World {
             return Err(Error::new(ErrorKind::Overlap { with }, "pose"));
         }
         self.obstacle_digests.push(digest::of_obstacle(&obstacle));
+        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
     }

@@ -33,6 +33,7 @@ impl Measure {
         Self::new("width_ratio_mean", |world| world.width_ratio_mean().into()),
         Self::new("speed_kept_mean", |world| world.speed_kept_mean().into()),
         Self::new("ingestion_time_max", |world| world.ingestion_time_max().into()),
+        Self::new("stalled_max", |world| world.stalled_max().into()),
     ];
 
     const fn new(name: &'static str, of: fn(&World) -> f64) -> Self {

@@ -37,6 +37,8 @@ pub struct Quality {
     pub speed_kept_mean: f32,
     /// Longest time since the conditions of an ingestion began to hold that is not over yet, s.
     pub ingestion_time_max: f32,
+    /// Longest time for which something has wanted to move without getting a third of its radius away from where it was, s.
+    pub stalled_max: f32,
 }
 
 impl World {
@@ -57,6 +59,7 @@ impl World {
             width_ratio_mean: self.width_ratio_mean(),
             speed_kept_mean: self.speed_kept_mean(),
             ingestion_time_max: self.ingestion_time_max(),
+            stalled_max: self.stalled_max(),
         }
     }
 
@@ -105,6 +108,11 @@ impl World {
                 MealPhase::Ingested | MealPhase::Digesting(_) => 0.0,
             })
         }))
+    }
+
+    pub(super) fn stalled_max(&self) -> f32 {
+        let wanting = self.organisms.iter().filter(|(_, organism)| organism.goal.is_some());
+        largest(wanting.map(|(_, organism)| organism.progress.stalled))
     }
 
     fn crawls(&self) -> impl Iterator<Item = CrawlQuality> + '_ {

@@ -3,6 +3,7 @@
 use super::World;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
+use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
@@ -68,6 +69,8 @@ impl World {
 
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
+        let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
+        self.check_controller(&placement.controller, &blueprint.locomotion, has_outline)?;
         if blueprint.fluid.is_some() && placement.scale != 1.0 {
             return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
         }
@@ -111,7 +114,10 @@ impl World {
             prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
             phagosomes: Vec::new(),
             divider: blueprint.divider.map(Divider::new),
+            exchanges: Vec::new(),
             goal: None,
+            pace: 1.0,
+            progress: Progress::default(),
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
             is_quarantined: false,
@@ -144,7 +150,7 @@ impl World {
         }
         let bounds = bounds_of(discs);
         let (hit, _) = self.organisms.iter().find(|(_, organism)| self.overlaps(organism, discs, &bounds))?;
-        self.in_words(hit)
+        self.named(hit)
     }
 
     /// Names what an obstacle that is to be added would overlap, if anything.
@@ -152,10 +158,10 @@ impl World {
         let is_hit =
             |organism: &Organism| organism.particles().any(|i| is_blocked(obstacle, &self.particles.get(i as usize)));
         let (hit, _) = self.organisms.iter().find(|(_, organism)| is_hit(organism))?;
-        self.in_words(hit)
+        self.named(hit)
     }
 
-    fn in_words(&self, id: OrganismId) -> Option<String> {
+    fn named(&self, id: OrganismId) -> Option<String> {
         let centre = self.centroid(id)?;
         Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }

@@ -7,11 +7,13 @@ use crate::id::OrganismId;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::ring_contact;
+use serde::{Deserialize, Serialize};
 
 /// Pairs of organisms that touched in the last step, sorted.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Touching {
     pairs: Vec<(OrganismId, OrganismId)>,
+    #[serde(skip)]
     now: Vec<(OrganismId, OrganismId)>,
 }
 
@@ -47,6 +49,7 @@ impl World {
 }
 
 impl Touching {
+    /// The pairs.
     pub(crate) fn pairs(&self) -> &[(OrganismId, OrganismId)] {
         &self.pairs
     }

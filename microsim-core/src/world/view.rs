@@ -3,8 +3,11 @@
 use super::World;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::capability::Locomotion;
-use crate::capability::phagocytosis::MealPhase;
-use crate::id::OrganismId;
+use crate::capability::controller::Controller;
+use crate::capability::exchange::Exchange;
+use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, PreyClass};
+use crate::chemical::Chemical;
+use crate::id::{ChemicalId, OrganismId};
 use crate::kind::Kind;
 use crate::organism::Organism;
 use crate::template::Role;
@@ -13,7 +16,7 @@ use glam::Vec2;
 /// Borrows a world for reading.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    world: &'a World,
+    pub(super) world: &'a World,
 }
 
 /// One organism, for reading.
@@ -59,6 +62,11 @@ impl<'a> View<'a> {
     pub fn organism(self, id: OrganismId) -> Option<OrganismView<'a>> {
         let organism = self.world.organisms.get(id)?;
         Some(OrganismView { world: self.world, organism, id })
+    }
+
+    /// All chemicals, in the order in which they were added.
+    pub fn chemicals(self) -> impl Iterator<Item = (ChemicalId, &'a Chemical)> {
+        (0..).map(ChemicalId).zip(&self.world.chemicals)
     }
 }
 
@@ -115,6 +123,31 @@ impl<'a> OrganismView<'a> {
         self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
     }
 
+    /// How it takes prey in; `None` for what does not.
+    #[must_use]
+    pub fn phagocytosis(self) -> Option<&'a PhagocytosisParams> {
+        self.organism.engulfer.as_ref().map(|engulfer| &engulfer.params)
+    }
+
+    /// Area of its cytoplasm, square units: the sum of its particles' areas (seed, 3.3.1), which decides with
+    /// [`PhagocytosisParams::size_ratio`] how large soft prey may be.
+    #[must_use]
+    pub fn cytoplasm_area(self) -> f32 {
+        self.world.engulfer_area(self.organism)
+    }
+
+    /// Whether it is soft prey: one at a time, and only of the right size.
+    #[must_use]
+    pub fn is_soft_prey(self) -> bool {
+        self.organism.prey.is_some_and(|prey| prey.class == PreyClass::Soft)
+    }
+
+    /// Whether the one place for soft prey is taken, or about to be.
+    #[must_use]
+    pub fn is_full(self) -> bool {
+        self.organism.engulfer.as_ref().is_some_and(Engulfer::slot_is_taken)
+    }
+
     /// Its phagosomes: the prey in each, and the centres of the membrane around it, counter-clockwise. Only cups make them,
     /// see [`crate::IngestionWay`].
     pub fn phagosomes(self) -> impl Iterator<Item = (OrganismId, Vec<Vec2>)> + 'a {
@@ -126,6 +159,30 @@ impl<'a> OrganismView<'a> {
     #[must_use]
     pub fn dividing_for(self) -> Option<f32> {
         self.organism.furrow().map(|furrow| furrow.elapsed)
+    }
+
+    /// Its controller, in its present state.
+    #[must_use]
+    pub fn controller(self) -> &'a Controller {
+        &self.organism.controller
+    }
+
+    /// What it secretes and takes up.
+    #[must_use]
+    pub fn exchanges(self) -> &'a [Exchange] {
+        &self.organism.exchanges
+    }
+
+    /// Where it wanted to go in the last step; `None` if it rested, or could not follow its own will.
+    #[must_use]
+    pub fn goal(self) -> Option<Vec2> {
+        self.organism.goal
+    }
+
+    /// Time for which it has wanted to move without getting a third of its radius away from where it was, s.
+    #[must_use]
+    pub fn stalled_for(self) -> f32 {
+        self.organism.progress.stalled
     }
 
     /// Who has taken it in, or is about to.

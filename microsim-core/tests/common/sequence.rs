@@ -7,9 +7,10 @@
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, Error, FluidBlockSpec, FluidMode, FluidParams, IngestionWay,
-    Inputs, InstructionSet, Intent, Measure, Node, Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec,
-    ProbeSpec, RedCellSpec, RigidCellSpec, Template, TemplateId, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Error, Exchange,
+    FluidBlockSpec, FluidMode, FluidParams, IngestionWay, Inputs, InstructionSet, Intent, Measure, Node, Obstacle,
+    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Template, TemplateId,
+    World, WorldConfig,
 };
 
 /// Most calls and steps of a sequence.
@@ -68,6 +69,7 @@ struct Sequence<'a> {
     saved: World,
     handles: Vec<OrganismId>,
     templates: Vec<TemplateId>,
+    chemicals: Vec<ChemicalId>,
     inputs: Inputs,
     tally: Tally,
 }
@@ -81,8 +83,16 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
     let config = config(&mut choices);
     let Ok(world) = World::new(config) else { return Ok(Tally::default()) };
     let (handles, templates, tally) = (Vec::new(), Vec::new(), Tally::default());
-    let mut sequence =
-        Sequence { choices, saved: world.clone(), world, handles, templates, inputs: Inputs::new(), tally };
+    let mut sequence = Sequence {
+        choices,
+        saved: world.clone(),
+        world,
+        handles,
+        templates,
+        chemicals: Vec::new(),
+        inputs: Inputs::new(),
+        tally,
+    };
     for _ in 0..CALLS {
         if sequence.choices.0.is_empty() {
             break;
@@ -118,7 +128,7 @@ fn config(choices: &mut Choices<'_>) -> WorldConfig {
 impl Sequence<'_> {
     /// One call, and its name.
     fn call(&mut self) -> (&'static str, Result<(), Error>) {
-        match self.choices.below(26) {
+        match self.choices.below(28) {
             0..=6 => ("spawn", self.spawn()),
             7..=12 => ("step", self.step()),
             13..=15 => ("input", self.input()),
@@ -131,6 +141,8 @@ impl Sequence<'_> {
             22 => ("spawn_template", self.spawn_template()),
             23 => ("clone", self.save_or_restore()),
             24 => ("queries", self.ask()),
+            25 => ("push", self.push()),
+            26 => ("set_exchange", self.set_exchange()),
             _ => ("set_instruction_set", self.set_instruction_set()),
         }
     }
@@ -153,12 +165,14 @@ impl Sequence<'_> {
     fn placement(&mut self) -> Placement {
         let at = self.place();
         let c = &mut self.choices;
-        let controller = match c.below(5) {
-            0 => Controller::Still,
+        let controller = match c.below(12) {
+            5.. => Controller::Still,
             1 => Controller::wander([c.number(0.1, 0.5), c.number(0.5, 1.0)], c.number(0.0, 1.0)),
             2 => Controller::thrash(c.number(0.05, 1.0), c.number(0.0, 1.0)),
             3 => Controller::ram(c.number(0.1, 1.0), c.number(0.1, 1.0), c.number(5.0, 20.0)),
-            _ => Controller::patrol((0..c.below(4)).map(|_| Vec2::new(c.number(0.0, 60.0), 20.0)).collect(), c.is_so()),
+            0 | 4 => {
+                Controller::patrol((0..c.below(4)).map(|_| Vec2::new(c.number(0.0, 60.0), 20.0)).collect(), c.is_so())
+            }
         };
         let scale = if c.byte() < 220 { 1.0 } else { c.number(0.5, 2.0) };
         Placement::at(at.x, at.y).turned(c.number(-4.0, 4.0)).scaled(scale).steered_by(controller)
@@ -166,7 +180,7 @@ impl Sequence<'_> {
 
     fn spec(&mut self) -> OrganismSpec {
         let c = &mut self.choices;
-        match c.below(8) {
+        match c.below(9) {
             0 => AgarSpec { radius: c.number(0.3, 2.0), density: c.number(0.5, 2.0) }.into(),
             1 => CoccusSpec { radius: c.number(0.3, 1.5), speed: c.number(0.0, 20.0), ..CoccusSpec::default() }.into(),
             2 => PlateletSpec { radius: c.number(1.0, 4.0), satellites: c.byte().into(), ..PlateletSpec::default() }
@@ -195,6 +209,7 @@ impl Sequence<'_> {
                 },
             }
             .into(),
+            7 => BacillusSpec { speed: c.number(0.0, 20.0), ..BacillusSpec::default() }.into(),
             _ => self.amoeboid_cell().into(),
         }
     }
@@ -207,7 +222,7 @@ impl Sequence<'_> {
         spec.phagocytosis.way = if c.is_so() { IngestionWay::Cup } else { IngestionWay::Gate };
         spec.phagocytosis.hold_time = c.number(0.0, 0.3);
         spec.phagocytosis.time_limit = c.number(0.2, 2.0);
-        spec.phagocytosis.digestion_time = [c.number(0.05, 0.5), c.number(0.05, 1.0)];
+        spec.phagocytosis.digestion_time = [c.number(0.05, 0.5), c.number(0.05, 1.0), c.number(0.05, 0.5)];
         spec.division.time_limit = c.number(0.5, 5.0);
         spec.division.furrow_speed = c.number(1.0, 20.0);
         spec
@@ -265,6 +280,24 @@ impl Sequence<'_> {
         let Some((a, b)) = self.handle().zip(self.handle()) else { return Ok(()) };
         let is_exempt = self.choices.is_so();
         self.world.set_exempt(a, b, is_exempt)
+    }
+
+    fn push(&mut self) -> Result<(), Error> {
+        let Some(id) = self.handle() else { return Ok(()) };
+        let velocity = Vec2::new(self.choices.number(-50.0, 50.0), self.choices.number(-50.0, 50.0));
+        self.world.push(id, velocity)
+    }
+
+    fn set_exchange(&mut self) -> Result<(), Error> {
+        let (Some(id), count) = (self.handle(), self.chemicals.len()) else { return Ok(()) };
+        if count < 2 && self.choices.is_so() {
+            let spec = ChemicalSpec { diffusion: self.choices.number(0.0, 200.0), ..ChemicalSpec::default() };
+            // A kept world that is returned to may not have it.
+            return self.world.add_chemical(spec).map(|chemical| self.chemicals.push(chemical));
+        }
+        let Some(&chemical) = self.chemicals.first() else { return Ok(()) };
+        let (secretion, uptake) = (self.choices.number(0.0, 100.0), self.choices.number(0.0, 100.0));
+        self.world.set_exchange(id, Exchange { chemical, secretion, uptake })
     }
 
     fn add_obstacle(&mut self) -> Result<(), Error> {

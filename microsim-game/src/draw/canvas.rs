@@ -9,6 +9,8 @@ use macroquad::texture::Texture2D;
 use microsim_core::glam::Vec2;
 use std::fmt;
 
+/// Pieces of a whole ring.
+const ARC_STEPS: f32 = 40.0;
 /// Points of an outline that share their vertices with the next ones.
 const RUN: usize = 256;
 /// What a mesh may hold: macroquad cuts off one that fills a draw call to the brim.
@@ -79,6 +81,36 @@ impl Canvas {
         });
         self.triangle(a, b, c);
         self.triangle(a, c, d);
+    }
+
+    /// A plain triangle.
+    pub(crate) fn corner(&mut self, corners: [Vec2; 3], colour: Color) {
+        self.reserve(3, 3);
+        let [a, b, c] = corners.map(|corner| self.vertex(corner, atlas::plain(), colour));
+        self.triangle(a, b, c);
+    }
+
+    /// A straight line.
+    pub(crate) fn segment(&mut self, from: Vec2, to: Vec2, width: f32, colour: Color) {
+        let half = (to - from).perp().normalize_or_zero() * (0.5 * width);
+        self.quad([from - half, from + half, to + half, to - half], [colour; 4]);
+    }
+
+    /// A ring in few pieces, for many small ones.
+    pub(crate) fn circle(&mut self, centre: Vec2, radius: f32, width: f32, colour: Color) {
+        const PIECES: usize = 12;
+        let at = |k: usize| centre + Vec2::from_angle(k as f32 * std::f32::consts::TAU / PIECES as f32) * radius;
+        (0..PIECES).for_each(|k| self.segment(at(k), at(k + 1), width, colour));
+    }
+
+    /// Part of a ring, clockwise from its top; `share` of it.
+    pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
+        let steps = (ARC_STEPS * share).ceil().max(1.0);
+        let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;
+        let points: Vec<Vec2> =
+            (0..=steps as usize).map(|k| centre + Vec2::from_angle(turn(k as f32)) * radius).collect();
+        let (clear, half) = (Color { a: 0.0, ..colour }, 0.5 * width);
+        self.line(&points, &[(-half - 0.8, clear), (-half, colour), (half, colour), (half + 0.8, clear)]);
     }
 
     /// A polygon that was cut into triangles.

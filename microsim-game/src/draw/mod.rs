@@ -3,10 +3,9 @@
 mod amoeba;
 mod atlas;
 mod background;
-mod canvas;
-pub mod hud;
+pub(crate) mod canvas;
 mod obstacle;
-mod palette;
+pub(crate) mod palette;
 mod simple;
 mod soft_body;
 
@@ -14,7 +13,6 @@ use crate::camera::Camera;
 use crate::picture::{Picture, Shape};
 use background::Background;
 use canvas::Canvas;
-use hud::Hud;
 use microsim_core::glam::Vec2;
 use microsim_core::{Kind, World};
 
@@ -29,8 +27,6 @@ pub struct Frame<'a> {
     pub camera: &'a Camera,
     /// For what moves in the scenery, s.
     pub time: f32,
-    /// The line of text.
-    pub hud: Hud,
 }
 
 /// Draws frames. Holds the textures.
@@ -43,8 +39,8 @@ pub struct Painter {
 /// Kinds from the bottom of the slide to its top: what is eaten lies below what eats it.
 const LAYERS: [fn(Kind) -> bool; 4] = [
     |kind| kind == Kind::FluidBlock,
-    |kind| kind == Kind::Platelet,
-    |kind| !matches!(kind, Kind::FluidBlock | Kind::Platelet | Kind::AmoeboidCell),
+    |kind| matches!(kind, Kind::Platelet | Kind::RedCell),
+    |kind| !matches!(kind, Kind::FluidBlock | Kind::Platelet | Kind::RedCell | Kind::AmoeboidCell),
     |kind| kind == Kind::AmoeboidCell,
 ];
 
@@ -52,7 +48,6 @@ impl Painter {
     /// Makes the textures. Needs an open window.
     #[must_use]
     pub fn new() -> Self {
-        hud::warm_up();
         Self { canvas: Canvas::new(), background: Background::new() }
     }
 
@@ -70,9 +65,7 @@ impl Painter {
         }
         obstacle::draw_walls(canvas, frame.camera);
         background::draw_film(canvas, frame.camera.screen());
-        frame.hud.draw_panels(canvas, frame.camera.screen());
         canvas.flush();
-        frame.hud.draw_text(frame.camera.screen());
     }
 }
 
@@ -85,7 +78,7 @@ impl Default for Painter {
 fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     match shape.kind {
         Kind::AmoeboidCell => amoeba::draw_halo(canvas, frame, shape),
-        Kind::RigidCell | Kind::Platelet => soft_body::draw_halo(canvas, frame, shape),
+        Kind::RigidCell | Kind::Platelet | Kind::RedCell => soft_body::draw_halo(canvas, frame, shape),
         Kind::FluidBlock => {}
         _ => simple::draw_halo(canvas, frame, shape),
     }
@@ -96,6 +89,8 @@ fn draw_shape(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
         Kind::AmoeboidCell => amoeba::draw(canvas, frame, shape),
         Kind::RigidCell => soft_body::draw_rigid_cell(canvas, frame, shape),
         Kind::Platelet => soft_body::draw_platelet(canvas, frame, shape),
+        Kind::RedCell => soft_body::draw_red_cell(canvas, frame, shape),
+        Kind::Coccus => simple::draw_coccus(canvas, frame, shape),
         Kind::Agar => simple::draw_agar(canvas, frame, shape),
         Kind::Probe => simple::draw_probe(canvas, frame, shape),
         Kind::FluidBlock => simple::draw_fluid(canvas, frame, shape),

@@ -3,7 +3,7 @@
 use super::Frame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
-use super::palette::{AGAR, CUSTOM, FLUID, HALO, INK, PROBE, fade, mix};
+use super::palette::{AGAR, COCCUS, CUSTOM, FLUID, HALO, INK, PROBE, fade, mix};
 use crate::picture::Shape;
 use microsim_core::Role;
 use microsim_core::glam::Vec2;
@@ -32,6 +32,15 @@ pub(super) fn draw_agar(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
         canvas.sprite(at, radius + 0.5, Tile::Disc, fade(mix(AGAR, INK, 0.55), 0.9));
         canvas.sprite(at, 0.86 * radius, Tile::Disc, AGAR);
         canvas.sprite(at + Vec2::new(-0.25, -0.3) * radius, 0.55 * radius, Tile::Soft, fade(HALO, 0.9));
+    }
+}
+
+/// A small dark body with a bright middle.
+pub(super) fn draw_coccus(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
+    for (at, radius, _) in discs(frame, shape) {
+        canvas.sprite(at, radius + 0.5, Tile::Disc, fade(mix(COCCUS, INK, 0.7), 0.95));
+        canvas.sprite(at, 0.8 * radius, Tile::Disc, COCCUS);
+        canvas.sprite(at, 0.6 * radius, Tile::Soft, fade(HALO, 0.55));
     }
 }
 

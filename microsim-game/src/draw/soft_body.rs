@@ -3,8 +3,9 @@
 use super::Frame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
-use super::palette::{HALO, INK, NUCLEUS, PLATELET, RIGID, chance, fade};
+use super::palette::{HALO, INK, NUCLEUS, PLATELET, RED_CELL, RIGID, chance, fade};
 use crate::picture::Shape;
+use macroquad::color::Color;
 use microsim_core::Role;
 use microsim_core::glam::Vec2;
 use std::f32::consts::TAU;
@@ -41,12 +42,25 @@ pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Sh
     }
 }
 
+/// A disc that is thinner in its middle.
+pub(super) fn draw_red_cell(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
+    let Some(body) = Body::of(frame, shape) else { return };
+    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(RED_CELL, shape));
+    let size = (body.surface[0] - body.centre).length();
+    canvas.sprite(body.centre, 0.62 * size, Tile::Soft, fade(HALO, 0.38));
+    body.draw_rim(canvas, 0.40);
+}
+
+/// A colour that differs a little from one individual to the next.
+fn tinted(colour: Color, shape: &Shape) -> Color {
+    let tint = 0.92 + 0.12 * chance(shape.id.index() as usize);
+    Color::new(colour.r * tint, colour.g * tint, colour.b * tint, 0.93)
+}
+
 pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     let Some(body) = Body::of(frame, shape) else { return };
     let size = (body.surface[0] - body.centre).length();
-    let tint = 0.92 + 0.12 * chance(shape.id.index() as usize);
-    let colour = macroquad::color::Color::new(PLATELET.r * tint, PLATELET.g * tint, PLATELET.b * tint, 0.93);
-    canvas.fan(body.centre, &body.surface, Tile::Platelet, colour);
+    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(PLATELET, shape));
     body.draw_rim(canvas, 0.45);
     if let Some((at, _)) = frame.picture.find(shape, Role::Nucleus) {
         canvas.sprite(frame.camera.to_screen(at), 0.20 * size, Tile::Soft, fade(NUCLEUS, 0.40));

@@ -11,12 +11,13 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     nucleus: NucleusLook {
         lobes: [1, 1],
         radius: [0.22, 0.25],
-        spread: 0.2,
+        spread: 0.05,
         matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
         texture: Texture { amount: 0.2, size: 1.5 },
     },
     granules: &[GRANULES, VACUOLES],
     fibres: 0,
+    blebs: [0.0, 0.0],
 };
 
 const GRANULES: GranuleLook = GranuleLook {

@@ -4,6 +4,7 @@
 
 mod agar;
 mod amoeba;
+mod bacillus;
 mod coccus;
 mod fluid;
 mod neutrophil;
@@ -15,13 +16,15 @@ mod red_cell;
 
 use super::matter::Matter;
 use crate::kind::Kind;
+use crate::template::Role;
 use crate::world::view::OrganismView;
 
 /// Refraction: radians of delay per micrometre of something whose index exceeds the medium's by 1, at 0.55 micrometres.
 pub(super) const WAVE: f32 = std::f32::consts::TAU / 0.55;
 
-/// Spawn radius, micrometres, from which an amoeboid cell is an amoeba rather than a blood cell.
-const AMOEBA_RADIUS: f32 = 16.0;
+/// Radius of the membrane's discs, micrometres, from which an amoeboid cell is an amoeba rather than a blood cell: its
+/// daughters have the same.
+const AMOEBA_NODE: f32 = 0.6;
 
 /// The way in which an organism is imaged.
 #[derive(Clone, Copy, Debug)]
@@ -39,14 +42,16 @@ impl Look {
         match organism.kind() {
             Kind::RigidCell => Self::Round(&paramecium::LOOK),
             Kind::AmoeboidCell => {
-                let is_large = organism.spawn_area() > std::f32::consts::PI * AMOEBA_RADIUS * AMOEBA_RADIUS;
-                Self::Amoeboid(if is_large { &amoeba::LOOK } else { &neutrophil::LOOK })
+                let node = organism.particles().find(|particle| particle.role == Role::Membrane);
+                let is_amoeba = node.is_some_and(|node| node.radius > AMOEBA_NODE);
+                Self::Amoeboid(if is_amoeba { &amoeba::LOOK } else { &neutrophil::LOOK })
             }
             Kind::Platelet => Self::Round(&platelet::LOOK),
             Kind::RedCell => Self::Round(&red_cell::LOOK),
             Kind::Agar => Self::Round(&agar::LOOK),
             Kind::Coccus => Self::Round(&coccus::LOOK),
             Kind::Probe => Self::Round(&probe::LOOK),
+            Kind::Bacillus => Self::Drops(&bacillus::LOOK),
             Kind::FluidBlock => Self::Drops(&fluid::LOOK),
             Kind::Custom => Self::Round(&plain::LOOK),
         }
@@ -149,6 +154,10 @@ pub(super) struct Pellicle {
     pub furrow_depth: f32,
     /// Share of the matter that the oral groove lacks.
     pub groove: f32,
+    /// Of the tube that leads on from its end.
+    pub gullet_phase: f32,
+    /// Share by which the outline differs from the body's: blunt in front, pointed behind, hollow along the groove.
+    pub slipper: f32,
     /// Radius of a full contractile vacuole, and the time between two emptyings, s.
     pub vacuole: f32,
     pub vacuole_period: f32,
@@ -169,6 +178,8 @@ pub(super) struct AmoeboidLook {
     pub granules: &'static [GranuleLook],
     /// Retraction fibres that the tail drags behind it.
     pub fibres: u32,
+    /// Smallest and largest bleb of those that come and go while it holds prey.
+    pub blebs: [f32; 2],
 }
 
 /// The thin front without organelles.

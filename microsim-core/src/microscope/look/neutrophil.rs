@@ -17,6 +17,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     },
     granules: &[DENSE, CLEAR, VACUOLES],
     fibres: 3,
+    blebs: [0.6, 1.1],
 };
 
 const DENSE: GranuleLook = GranuleLook {

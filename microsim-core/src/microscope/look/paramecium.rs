@@ -15,6 +15,8 @@ pub(super) const LOOK: RoundLook = RoundLook {
         furrows: 22.0,
         furrow_depth: 0.012,
         groove: 0.42,
+        gullet_phase: 1.0,
+        slipper: 0.10,
         vacuole: 0.15,
         vacuole_period: 12.0,
         vacuole_phase: -1.2,

@@ -3,6 +3,7 @@
 //! `I = exp(-OD) (1 - z Lap phi)`, the transport of intensity over a small defocus.
 
 use super::{Mode, Shade, Sight, grey};
+use crate::microscope::formula::Formula;
 use crate::microscope::wave::transmitted;
 
 /// Defocus over the wave number, square micrometres per radian.
@@ -12,8 +13,13 @@ const STEP: f32 = 0.13;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
+const FORMULA: Formula = Formula {
+    source: include_str!("bright_field.glsl"),
+    constants: &[("DEFOCUS", &[DEFOCUS]), ("STEP", &[STEP]), ("BACKGROUND", &[BACKGROUND])],
+};
+
 pub(super) const MODE: Mode =
-    Mode { channels: 1, has_surround: false, blur: 0.10, grain: 0.7, shade: Shade::Light(shade) };
+    Mode { channels: 1, has_surround: false, blur: 0.10, grain: 0.7, shade: Shade::Light(shade, &FORMULA) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);

@@ -4,6 +4,7 @@
 //! `I = [sin((phi(x + d) - phi(x - d) + b) / 2) / sin(b / 2)]^2` with shear `d` and bias `b`.
 
 use super::{Mode, Shade, Sight, grey};
+use crate::microscope::formula::Formula;
 use glam::Vec2;
 
 /// Half the shear, micrometres: towards the upper left, where the light seems to come from.
@@ -13,8 +14,13 @@ const BIAS: f32 = 0.9;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.43;
 
+const FORMULA: Formula = Formula {
+    source: include_str!("dic.glsl"),
+    constants: &[("SHEAR", &[SHEAR.x, SHEAR.y]), ("BIAS", &[BIAS]), ("BACKGROUND", &[BACKGROUND])],
+};
+
 pub(super) const MODE: Mode =
-    Mode { channels: 1, has_surround: false, blur: 0.09, grain: 0.8, shade: Shade::Light(shade) };
+    Mode { channels: 1, has_surround: false, blur: 0.09, grain: 0.8, shade: Shade::Light(shade, &FORMULA) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let difference = sight.phase_beside(x, y, -SHEAR) - sight.phase_beside(x, y, SHEAR);

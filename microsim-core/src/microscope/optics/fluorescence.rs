@@ -1,14 +1,23 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
 use super::{Mode, Shade, Sight};
+use crate::microscope::formula::Formula;
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.012, 0.014, 0.016];
 const NUCLEUS: [f32; 3] = [0.10, 0.50, 1.00];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
+/// How soon the camera saturates.
+const SATURATION: f32 = 1.15;
+
+const FORMULA: Formula = Formula {
+    source: include_str!("fluorescence.glsl"),
+    constants: &[("DARK", &DARK), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
+};
+
 pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.17, grain: 0.5, shade: Shade::Light(shade) };
+    Mode { channels: 3, has_surround: false, blur: 0.17, grain: 0.5, shade: Shade::Light(shade, &FORMULA) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);
@@ -16,7 +25,6 @@ fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let (nucleus, cytoplasm) = (shines(matter.nucleus), shines(matter.cytoplasm));
     std::array::from_fn(|k| {
         let light = DARK[k] + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
-        // The camera saturates softly.
-        1.0 - libm::expf(-1.15 * light)
+        1.0 - libm::expf(-SATURATION * light)
     })
 }

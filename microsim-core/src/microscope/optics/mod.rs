@@ -8,6 +8,7 @@ mod fluorescence;
 mod phase_contrast;
 mod stained;
 
+use super::formula::Formula;
 use super::matter::{Matter, Plate};
 use super::wave::{self, Surround};
 use glam::Vec2;
@@ -83,6 +84,8 @@ impl Optics {
     }
 }
 
+pub(super) const SIGHT: Formula = Formula { source: include_str!("sight.glsl"), constants: &[] };
+
 /// How light becomes an image.
 #[derive(Debug)]
 pub(super) struct Mode {
@@ -99,8 +102,8 @@ pub(super) struct Mode {
 /// Where an image comes from.
 #[derive(Debug)]
 pub(super) enum Shade {
-    /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three.
-    Light(fn(&Sight<'_>, usize, usize) -> [f32; 3]),
+    /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three. The formula is the same.
+    Light(fn(&Sight<'_>, usize, usize) -> [f32; 3], &'static Formula),
     /// There is no light: it is painted.
     Painted,
 }

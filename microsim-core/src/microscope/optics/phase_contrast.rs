@@ -5,6 +5,7 @@
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
 use super::{Mode, Shade, Sight, grey};
+use crate::microscope::formula::Formula;
 
 /// Amplitude that the phase plate leaves of the surround wave.
 const TRANSMISSION: f32 = 0.46;
@@ -12,16 +13,26 @@ const TRANSMISSION: f32 = 0.46;
 const BACKGROUND: f32 = 0.40;
 const GAMMA: f32 = 0.85;
 
+const SOURCE: &str = include_str!("phase_contrast.glsl");
+const POSITIVE_FORMULA: Formula = Formula {
+    source: SOURCE,
+    constants: &[("TRANSMISSION", &[TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
+};
+const NEGATIVE_FORMULA: Formula = Formula {
+    source: SOURCE,
+    constants: &[("TRANSMISSION", &[-TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
+};
+
 pub(super) const POSITIVE: Mode = Mode {
     channels: 1,
     has_surround: true,
     blur: 0.09,
     grain: 1.0,
-    shade: Shade::Light(|sight, x, y| shade(sight, x, y, TRANSMISSION)),
+    shade: Shade::Light(|sight, x, y| shade(sight, x, y, TRANSMISSION), &POSITIVE_FORMULA),
 };
 
 pub(super) const NEGATIVE: Mode =
-    Mode { shade: Shade::Light(|sight, x, y| shade(sight, x, y, -TRANSMISSION)), ..POSITIVE };
+    Mode { shade: Shade::Light(|sight, x, y| shade(sight, x, y, -TRANSMISSION), &NEGATIVE_FORMULA), ..POSITIVE };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize, transmission: f32) -> [f32; 3] {
     let (wave, surround) = sight.waves(x, y);

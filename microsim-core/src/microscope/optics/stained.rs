@@ -5,7 +5,8 @@
 //! one plane, which puts a faint coloured line along every edge.
 
 use super::{Mode, Shade, Sight};
-use crate::microscope::noise::octaves;
+use crate::microscope::formula::Formula;
+use crate::microscope::noise::{octaves, shift_of};
 
 /// A field without a specimen: 198, 198, 193 of 255.
 const BACKGROUND: [f32; 3] = [0.776, 0.780, 0.757];
@@ -14,21 +15,43 @@ const HAEMOGLOBIN: [f32; 3] = [0.100, 0.245, 0.195];
 const CYTOPLASM: [f32; 3] = [0.112, 0.251, 0.020];
 const NUCLEUS: [f32; 3] = [0.26, 0.46, -0.10];
 /// What dries on the glass between the cells: plasma with a little of each dye, and none where it was washed off.
-const PLASMA: [f32; 3] = [0.030, 0.014, 0.055];
+const PLASMA: [f32; 3] = [0.040, 0.016, 0.085];
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
 const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.15;
 
+/// Size of its blotches, micrometres, and the noise that they are.
+const PLASMA_SIZE: f32 = 9.0;
+const PLASMA_SEED: u32 = 0x57a1;
+/// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.
+const DRY: [f32; 2] = [0.45, 0.55];
+
+const FORMULA: Formula = Formula {
+    source: include_str!("stained.glsl"),
+    constants: &[
+        ("BACKGROUND", &BACKGROUND),
+        ("HAEMOGLOBIN", &HAEMOGLOBIN),
+        ("CYTOPLASM", &CYTOPLASM),
+        ("NUCLEUS", &NUCLEUS),
+        ("PLASMA", &PLASMA),
+        ("DEFOCUS", &DEFOCUS),
+        ("STEP", &[STEP]),
+        ("DRY", &DRY),
+        ("PLASMA_SIZE", &[PLASMA_SIZE]),
+        ("PLASMA_SHIFT", &shift_of(PLASMA_SEED)),
+    ],
+};
+
 pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.15, grain: 0.25, shade: Shade::Light(shade) };
+    Mode { channels: 3, has_surround: false, blur: 0.15, grain: 0.25, shade: Shade::Light(shade, &FORMULA) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);
-    // A dry smear is not thicker where a living cell is: thick places saturate, and the middle of a red cell sinks in.
-    let cytoplasm = matter.cytoplasm / (0.45 + 0.55 * matter.cytoplasm.abs());
+    let cytoplasm = matter.cytoplasm / (DRY[0] + DRY[1] * matter.cytoplasm.abs());
+    // The middle of a dry red cell sinks in.
     let haemoglobin = matter.haemoglobin * matter.haemoglobin.abs().sqrt();
-    let plasma = octaves(sight.plate.grid.place(x, y) / 9.0, 3, 0x57a1);
+    let plasma = octaves(sight.plate.grid.place(x, y) / PLASMA_SIZE, 3, PLASMA_SEED);
     let curvature = sight.curvature(x, y, STEP).clamp(-20.0, 20.0);
     std::array::from_fn(|k| {
         let dyes = HAEMOGLOBIN[k] * haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus;

@@ -7,10 +7,12 @@
 use super::outline::{DistanceMap, smooth};
 use super::spot::{Spot, Thread};
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
+use crate::microscope::formula::Formula;
 use crate::microscope::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::microscope::noise::{Dice, octaves, scramble, shift_of, wobble};
+use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView};
 use glam::{Mat2, Vec2};
@@ -18,10 +20,23 @@ use std::f32::consts::TAU;
 
 /// Cell of the distance map, micrometres.
 const STEP: f32 = 0.2;
+/// Time that a bleb takes to come and go, s.
+const BLEB_PERIOD: f32 = 4.0;
+/// Speed at which ruffles run, features per second.
+const RUFFLING: f32 = 0.25;
 /// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
 const CRAWLING: f32 = 12.0;
 /// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
 const SKEWED: f32 = 8.0;
+
+/// Most lobes of a nucleus.
+pub(in crate::microscope) const LOBES: usize = 5;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("amoeboid.glsl"), constants: &[] };
+
+/// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
+/// nucleus.
+const SALTS: [u32; 5] = [0, 7, 3, 11, 5];
 
 /// One cell, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -65,6 +80,7 @@ impl AmoeboidBody {
         }
         let outline = smooth(&surface);
         let shape = stretch(&surface, centre, radius);
+        let is_dividing = organism.dividing_for().is_some();
         let mut body = Self {
             look,
             map: DistanceMap::of(&outline, STEP, 1.0),
@@ -77,7 +93,7 @@ impl AmoeboidBody {
             seed,
             time,
         };
-        body.lobes = body.lobes();
+        body.lobes = if is_dividing { body.parting_lobes(&outline) } else { body.lobes() };
         Some(body)
     }
 
@@ -102,10 +118,64 @@ impl AmoeboidBody {
         (0..count).map(lobe).collect()
     }
 
+    /// Lobes of a nucleus that divides with its cell: they part as the furrow closes, and end where those of the daughters
+    /// are.
+    fn parting_lobes(&self, outline: &[Vec2]) -> Vec<(Vec2, f32)> {
+        let axis = self.shape.x_axis.normalize_or_zero();
+        let axis =
+            outline.iter().map(|&p| p - self.centre).max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(axis);
+        let axis = axis.normalize_or(Vec2::X);
+        let side = |sign: f32| {
+            let half: Vec<Vec2> =
+                outline.iter().copied().filter(|&p| (p - self.centre).dot(axis) * sign > 0.0).collect();
+            centroid(&half).unwrap_or(self.centre)
+        };
+        let waist = outline.iter().map(|&p| p - self.centre).filter(|p| p.dot(axis).abs() < 0.15 * self.radius);
+        let waist = waist.map(|p| p.perp_dot(axis).abs()).fold(0.0, larger);
+        let parted = smoothstep(0.75 * self.radius, 0.15 * self.radius, waist);
+        let size = mix(1.0, std::f32::consts::FRAC_1_SQRT_2, parted);
+        let halves = self.lobes().into_iter().flat_map(|(at, radius)| {
+            [1.0, -1.0].map(|sign| (at.lerp(at + side(sign) - self.centre, parted), radius * size))
+        });
+        halves.take(LOBES).collect()
+    }
+
     pub(super) fn draw(&self, plate: &mut Plate) {
         let (low, high) = self.map.bounds();
         let softness = larger(0.7 * plate.grid.pixel, 0.08);
         plate.add(low, high, |p| self.at(p, softness));
+    }
+
+    /// A box around it for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        let (low, high) = self.map.bounds();
+        if slide.sees(0.5 * (low + high), (high - low).length()) {
+            let corners = box_corners(low, high);
+            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(self.map.clone()));
+        }
+    }
+
+    fn uniforms(&self) -> Vec<f32> {
+        let Self { look, front, from_shape: frame, .. } = self;
+        let mut uniforms = vec![self.centre.x, self.centre.y, self.radius, self.rim()];
+        uniforms.extend([frame.x_axis.x, frame.x_axis.y, frame.y_axis.x, frame.y_axis.y]);
+        uniforms.extend([front.way.x, front.way.y, front.strength, front.ahead + front.behind]);
+        let [from, to] = self.border();
+        uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
+        uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
+        uniforms.extend(look.matter.to_array());
+        uniforms.extend(look.nucleus.matter.to_array());
+        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size]);
+        let nowhere = (Vec2::ZERO, -1000.0);
+        let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
+        uniforms.extend(lobes.flat_map(|(at, radius)| [at.x, at.y, radius]));
+        uniforms.extend(SALTS.iter().flat_map(|salt| shift_of(self.seed ^ salt)));
+        uniforms
+    }
+
+    /// Width of the rim in which it rises.
+    fn rim(&self) -> f32 {
+        smaller(self.look.rim, 0.6 * self.radius)
     }
 
     /// Its matter at a place, without what floats in it.
@@ -116,20 +186,20 @@ impl AmoeboidBody {
         }
         let look = self.look;
         let lamella = self.lamella(place);
-        let rim = smaller(look.rim, 0.6 * self.radius);
+        let rim = self.rim();
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let own = self.from_shape * (place - self.centre);
-        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed);
+        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = look.matter * (dome * texture);
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
-            let along = octaves(own * 0.7 + Vec2::splat(self.time * 0.25), 2, self.seed ^ 7);
+            let along = octaves(own * 0.7 + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
             matter += Matter::phase(look.lamella.ruffle * ruffle * smoothstep(-0.3, 0.7, along));
         }
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ 3);
+            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
             matter += look.nucleus.matter * (nucleus * clumps);
         }
         matter * smoothstep(-softness, softness, depth)
@@ -139,13 +209,20 @@ impl AmoeboidBody {
     fn lamella(&self, place: Vec2) -> f32 {
         let Front { way, strength, ahead, behind, .. } = self.front;
         let length = ahead + behind;
-        let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
         let from_centre = place - self.centre;
         // Its border is uneven, and bends back along the sides.
         let across = from_centre.perp_dot(way);
-        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ 11);
+        let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ SALTS[3]);
         let along = from_centre.dot(way) + 0.15 * across * across / self.radius + uneven;
-        strength * smoothstep(ahead - (share + 0.10) * length, ahead - (share - 0.10) * length, along)
+        let [from, to] = self.border();
+        strength * smoothstep(from, to, along)
+    }
+
+    /// Where the clear front begins and where it is clear, along its direction.
+    fn border(&self) -> [f32; 2] {
+        let Front { ahead, behind, .. } = self.front;
+        let share = self.look.lamella.length * (0.85 + 0.15 * self.pulse());
+        [share + 0.10, share - 0.10].map(|share| ahead - share * (ahead + behind))
     }
 
     /// The front swells and thins.
@@ -163,7 +240,7 @@ impl AmoeboidBody {
             mix(b, a, share) + neck * share * (1.0 - share)
         });
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ 5);
+        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
     }
@@ -175,7 +252,8 @@ impl AmoeboidBody {
     }
 
     fn granules_on(&self, carrier: &ParticleView) -> Vec<Spot> {
-        let mut dice = Dice::new(self.seed.wrapping_mul(31).wrapping_add(carrier.index));
+        // Not of the cell: in a division a particle becomes another cell's.
+        let mut dice = Dice::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
         let mut spots = Vec::new();
         for look in self.look.granules {
@@ -205,6 +283,20 @@ impl AmoeboidBody {
         let share = smoothstep(-radius, radius, self.map.at(prey));
         let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
         (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
+    }
+
+    /// A bleb that comes and goes while prey is inside: a round bulge of the membrane at the sides and behind.
+    pub(super) fn bleb(&self, prey: Vec2, seed: u32) -> Option<Spot> {
+        let [smallest, largest] = self.look.blebs;
+        let cycle = self.time / BLEB_PERIOD + Dice::new(seed).unit();
+        let mut dice = Dice::new(seed ^ scramble(cycle as u32));
+        let way = rotate(-self.front.way, unit_vector(dice.range([-1.9, 1.9])));
+        let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
+        let radius = dice.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.map.at(prey));
+        let step = 0.05 * self.radius;
+        let edge = (0..60).map(|k| self.centre + way * (k as f32 * step)).find(|&at| self.map.at(at) < 0.0)?;
+        let matter = Matter { cytoplasm: 0.30, ..Matter::phase(0.35) };
+        (radius > 0.05).then_some(Spot { at: edge + way * (0.3 * radius), radius, matter, shape: SpotShape::Ball })
     }
 
     /// Retraction fibres, which the tail leaves on the glass.

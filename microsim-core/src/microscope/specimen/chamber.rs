@@ -1,15 +1,36 @@
 //! The chamber: walls and obstacles, of a clear polymer that is a little denser than the medium.
 
+use super::outline::DistanceMap;
 use crate::collision::obstacle::Obstacle;
-use crate::microscope::maths::{larger, smoothstep};
+use crate::microscope::formula::Formula;
+use crate::microscope::maths::{larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::octaves;
+use crate::microscope::noise::{octaves, shift_of};
+use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
 const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.12, nucleus: 0.0 };
 /// Width of the rim in which it rises, micrometres.
 const RIM: f32 = 1.2;
+/// Width over which its edge fades, micrometres.
+const EDGE: f32 = 0.15;
+/// Most cells of an obstacle's map of depths, apart from its margin.
+const MOST_CELLS: f32 = 8192.0;
+/// Strength and size of its unevenness.
+const TEXTURE: f32 = 0.05;
+const TEXTURE_SIZE: f32 = 2.5;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula {
+    source: include_str!("chamber.glsl"),
+    constants: &[
+        ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
+        ("RIM", &[RIM]),
+        ("EDGE", &[EDGE]),
+        ("TEXTURE", &[TEXTURE]),
+        ("TEXTURE_SIZE", &[TEXTURE_SIZE]),
+    ],
+};
 
 /// What nothing passes.
 #[derive(Clone, Debug)]
@@ -28,12 +49,22 @@ impl Chamber {
         }
         for obstacle in &self.obstacles {
             let bounds = obstacle.bounds();
-            // A compound's parts have edges inside it, which are no rim.
-            let has_rim = obstacle.shape.as_compound().is_none();
-            plate.add(bounds.mins, bounds.maxs, |p| match obstacle.nearest(p) {
-                (nearest, true) => self.polymer(p, if has_rim { (nearest - p).length() } else { RIM }),
-                (_, false) => Matter::NONE,
-            });
+            plate.add(bounds.mins, bounds.maxs, |p| self.polymer(p, depth_in(obstacle, p)));
+        }
+    }
+
+    /// Walls and obstacles for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        let [x, y] = shift_of(self.seed);
+        let room = vec![self.size.x, self.size.y, x, y];
+        let (low, high) = slide.bounds();
+        if low.min_element() < 0.0 || high.x > self.size.x || high.y > self.size.y {
+            slide.add_apart(Program::Walls, &box_corners(low, high), QUAD.to_vec(), room.clone(), None);
+        }
+        for obstacle in &self.obstacles {
+            if let Some((corners, map)) = obstacle_map(obstacle, slide) {
+                slide.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(map));
+            }
         }
     }
 
@@ -42,7 +73,36 @@ impl Chamber {
             return Matter::NONE;
         }
         let rim = larger(1.0 - depth / RIM, 0.0);
-        let texture = 1.0 + 0.05 * octaves(place / 2.5, 3, self.seed);
-        POLYMER * ((1.0 - rim * rim).sqrt() * smoothstep(0.0, 0.15, depth) * texture)
+        let texture = 1.0 + TEXTURE * octaves(place / TEXTURE_SIZE, 3, self.seed);
+        POLYMER * ((1.0 - rim * rim).sqrt() * smoothstep(0.0, EDGE, depth) * texture)
     }
+}
+
+/// How deep a place lies in an obstacle, negative outside.
+fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
+    // A compound's parts have edges inside it, which are no rim.
+    let has_rim = obstacle.shape.as_compound().is_none();
+    match obstacle.nearest(place) {
+        (nearest, true) => {
+            if has_rim {
+                (nearest - place).length()
+            } else {
+                RIM
+            }
+        }
+        (nearest, false) => -(nearest - place).length(),
+    }
+}
+
+/// The corners of an obstacle that a slide sees, and a map of depths in all of it. Straight edges come out exactly however
+/// coarse the map is, and it may be coarse, because it is made for every picture.
+pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, slide: &Slide) -> Option<(Vec<f32>, DistanceMap)> {
+    let bounds = obstacle.bounds();
+    let (low, high) = (bounds.mins, bounds.maxs);
+    let extent = high - low;
+    let finest = (extent.x * extent.y / MOST_CELLS).sqrt();
+    let step = larger(finest, smaller(extent.min_element() / 10.0, extent.max_element() / 64.0));
+    let map = || DistanceMap::sampled((low, high), step, 2.0 * step, |place| depth_in(obstacle, place));
+    let is_seen = slide.sees(0.5 * (low + high), 0.5 * extent.length()) && step > 0.0;
+    is_seen.then(|| (box_corners(low, high), map()))
 }

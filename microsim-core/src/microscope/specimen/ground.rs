@@ -2,10 +2,12 @@
 //! is stored.
 
 use super::spot::Spot;
+use crate::microscope::formula::Formula;
 use crate::microscope::look::SpotShape;
 use crate::microscope::maths::smoothstep;
-use crate::microscope::matter::{Grid, Matter, Plate};
-use crate::microscope::noise::{Dice, hash, octaves, wobble};
+use crate::microscope::matter::{Matter, Plate};
+use crate::microscope::noise::{Dice, hash, octaves, shift_of, wobble};
+use crate::microscope::recipe::{Program, QUAD, Slide};
 use glam::{IVec2, Vec2};
 
 /// Side of the cells in which dust is strewn, micrometres, and specks in each on average.
@@ -16,8 +18,25 @@ const FAR_CELL: f32 = 26.0;
 const FAR: f32 = 0.75;
 /// Share of the camera's movement that things out of focus seem to make.
 const PARALLAX: f32 = 0.15;
-/// Pixel from which on dust is too small to be seen, micrometres.
-const COARSE: f32 = 2.0;
+/// Pixels from and to which dust fades because it is too small to be seen, and those where the other things are,
+/// micrometres.
+const DUST_FADES: [f32; 2] = [0.3, 0.6];
+const FAR_ENDS: f32 = 2.0;
+/// Strength and size of the glass's unevenness, radians and micrometres.
+const FINE: f32 = 0.018;
+const FINE_SIZE: f32 = 1.2;
+const COARSE: f32 = 0.05;
+const COARSE_SIZE: f32 = 15.0;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula {
+    source: include_str!("ground.glsl"),
+    constants: &[
+        ("FINE", &[FINE]),
+        ("FINE_SIZE", &[FINE_SIZE]),
+        ("COARSE", &[COARSE]),
+        ("COARSE_SIZE", &[COARSE_SIZE]),
+    ],
+};
 
 /// The ground of one picture.
 #[derive(Clone, Copy, Debug)]
@@ -32,28 +51,46 @@ impl Ground {
     pub(super) fn draw(&self, plate: &mut Plate) {
         let grid = plate.grid;
         // Features below a pixel would alias.
-        let fine = 0.018 * smoothstep(1.2, 0.3, grid.pixel);
-        let coarse = 0.05 * smoothstep(15.0, 4.0, grid.pixel);
+        let fine = FINE * smoothstep(1.2, 0.3, grid.pixel);
+        let coarse = COARSE * smoothstep(15.0, 4.0, grid.pixel);
         for y in 0..grid.rows {
             for x in 0..grid.columns {
                 let place = grid.place(x, y);
-                let slow = if coarse > 0.0 { coarse * octaves(place / 15.0, 3, self.seed) } else { 0.0 };
-                let quick = if fine > 0.0 { fine * octaves(place / 1.2, 3, self.seed ^ 9) } else { 0.0 };
+                let slow = if coarse > 0.0 { coarse * octaves(place / COARSE_SIZE, 3, self.seed) } else { 0.0 };
+                let quick = if fine > 0.0 { fine * octaves(place / FINE_SIZE, 3, self.seed ^ 9) } else { 0.0 };
                 plate.matter[y * grid.columns + x].phase += slow + quick;
             }
         }
-        if grid.pixel < COARSE {
-            strewn(&grid, Vec2::ZERO, DUST_CELL, DUST, self.seed ^ 21, |at, dice| self.speck(at, dice), plate);
+        self.each_spot(grid.bounds(), grid.pixel, |spot| spot.draw(plate));
+    }
+
+    /// The same for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
+        let mut uniforms = bias.to_vec();
+        uniforms.extend([shift_of(self.seed), shift_of(self.seed ^ 9)].concat());
+        let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+        slide.add_apart(Program::Ground, &corners, QUAD.to_vec(), uniforms, None);
+        self.each_spot(slide.bounds(), slide.pixel(), |spot| spot.draw_on(slide));
+    }
+
+    /// Dust, and what is out of focus, in a box.
+    fn each_spot(&self, bounds: (Vec2, Vec2), pixel: f32, mut visit: impl FnMut(Spot)) {
+        let strength = smoothstep(DUST_FADES[1], DUST_FADES[0], pixel);
+        if strength > 0.0 {
+            let speck = |at, dice: &mut Dice| self.speck(at, strength, dice);
+            strewn(bounds, Vec2::ZERO, DUST_CELL, DUST, self.seed ^ 21, speck, &mut visit);
+        }
+        if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
-            strewn(&grid, shift, FAR_CELL, FAR, self.seed ^ 22, |at, dice| self.far(at, dice), plate);
+            strewn(bounds, shift, FAR_CELL, FAR, self.seed ^ 22, |at, dice| self.far(at, dice), &mut visit);
         }
     }
 
     /// Dust: mostly tiny, some denser than the medium and some less.
-    fn speck(&self, at: Vec2, dice: &mut Dice) -> Spot {
+    fn speck(&self, at: Vec2, strength: f32, dice: &mut Dice) -> Spot {
         let size = dice.unit();
         let radius = 0.06 + 0.34 * size * size * size * size;
-        let sign = if dice.unit() < 0.65 { 1.0 } else { -1.0 };
+        let sign = if dice.unit() < 0.65 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * dice.range([0.08, 0.32])) };
         Spot { at, radius, matter, shape: SpotShape::Bump }
     }
@@ -68,17 +105,16 @@ impl Ground {
     }
 }
 
-/// Draws what lies in the cells of an endless square grid that a plate can see; `shift` moves the grid.
+/// Visits what lies in the cells of an endless square grid that a box touches; `shift` moves the grid.
 fn strewn(
-    grid: &Grid,
+    (low, high): (Vec2, Vec2),
     shift: Vec2,
     cell: f32,
     expected: f32,
     seed: u32,
     spot: impl Fn(Vec2, &mut Dice) -> Spot,
-    plate: &mut Plate,
+    visit: &mut impl FnMut(Spot),
 ) {
-    let (low, high) = grid.bounds();
     let [first, last] = [low, high].map(|corner| ((corner - shift) / cell).floor().as_ivec2());
     for j in first.y - 1..=last.y + 1 {
         for i in first.x - 1..=last.x + 1 {
@@ -86,7 +122,7 @@ fn strewn(
             let count = (2.0 * expected * dice.unit() + 0.5) as u32;
             for _ in 0..count {
                 let at = (Vec2::new(i as f32, j as f32) + Vec2::new(dice.unit(), dice.unit())) * cell + shift;
-                spot(at, &mut dice).draw(plate);
+                visit(spot(at, &mut dice));
             }
         }
     }

@@ -1,15 +1,16 @@
 //! The specimen: what there is to see at one moment, as matter with places and sizes, free of pixels and light.
 
-mod amoeboid;
-mod chamber;
-mod ground;
-mod outline;
-mod round;
-mod spot;
+pub(super) mod amoeboid;
+pub(super) mod chamber;
+pub(super) mod ground;
+pub(super) mod outline;
+pub(super) mod round;
+pub(super) mod spot;
 
 use super::look::{Look, SpotShape};
 use super::matter::{Grid, Matter, Plate};
 use super::noise::scramble;
+use super::recipe::Slide;
 use crate::kind::Kind;
 use crate::world::World;
 use crate::world::view::{OrganismView, View};
@@ -63,6 +64,7 @@ impl Specimen {
                 self.spots.extend(body.spots(organism));
                 self.threads.extend(body.threads());
                 self.spots.extend(phagosomes(&body, organism, view));
+                self.spots.extend(blebs(&body, organism, view));
                 self.amoeboid.push(body);
             }
             Look::Drops(matter) => self.spots.extend(drops(organism, *matter)),
@@ -82,12 +84,31 @@ impl Specimen {
     }
 }
 
+impl Specimen {
+    /// The same matter for a graphics card; an empty target holds `bias`.
+    pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
+        self.ground.draw_on(slide, bias);
+        self.chamber.draw_on(slide);
+        self.amoeboid.iter().for_each(|body| body.draw_on(slide));
+        self.round.iter().for_each(|body| body.draw_on(slide));
+        self.threads.iter().for_each(|thread| thread.draw_on(slide));
+        self.spots.iter().for_each(|spot| spot.draw_on(slide));
+    }
+}
+
 /// Walls around the prey that a cell holds.
 fn phagosomes(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
     let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey));
     let small = prey.filter(|prey| matches!(prey.kind(), Kind::Agar | Kind::Coccus));
     let discs = small.filter_map(|prey| prey.particles().next());
     discs.filter_map(|disc| body.phagosome(disc.position, disc.radius)).collect()
+}
+
+/// Blebs of a cell that holds prey.
+fn blebs(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
+    let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey)).take(4);
+    let discs = prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))));
+    discs.filter_map(|(at, seed)| body.bleb(at, seed)).collect()
 }
 
 /// A soft drop for each particle; wide enough to run into its neighbours.

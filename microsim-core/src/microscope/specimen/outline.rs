@@ -1,9 +1,15 @@
 //! Outlines made smooth: a table of radii around a centre, and a map of distances from the edge.
 
 use crate::geometry::{centroid, signed_area};
+use crate::microscope::formula::Formula;
 use crate::microscope::maths::{larger, smaller};
+use crate::microscope::recipe::Map;
 use glam::Vec2;
 
+pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("outline.glsl"), constants: &[] };
+
+/// Cells of a block of a map along each side.
+const BLOCK: usize = 6;
 /// Directions in a table of radii.
 const DIRECTIONS: usize = 128;
 /// Points of a smooth outline per node.
@@ -114,7 +120,7 @@ fn reach(outline: &[Vec2], from: Vec2, direction: Vec2) -> f32 {
 
 /// Signed distance from an outline, positive inside, on a grid.
 #[derive(Clone, Debug)]
-pub(super) struct DistanceMap {
+pub(in crate::microscope) struct DistanceMap {
     low: Vec2,
     step: f32,
     size: [usize; 2],
@@ -127,19 +133,55 @@ impl DistanceMap {
 
     /// Of an outline and `margin` around it, with cells of about `step`.
     pub(super) fn of(outline: &[Vec2], step: f32, margin: f32) -> Self {
-        let (low, high) = outline.iter().fold((outline[0], outline[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let bounds = outline.iter().fold((outline[0], outline[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let extent = bounds.1 - bounds.0;
+        let step = larger(step, extent.max_element() / Self::MOST);
+        let mut map = Self::sampled(bounds, step, margin, |_| 0.0);
+        map.measure(outline);
+        map.soften();
+        map
+    }
+
+    /// Distances from an outline, block after block: near a block only a few edges can be the nearest.
+    fn measure(&mut self, outline: &[Vec2]) {
+        let [columns, rows] = self.size;
+        let edges: Vec<Edge> = (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]).collect();
+        for top in (0..rows).step_by(BLOCK) {
+            for left in (0..columns).step_by(BLOCK) {
+                let half = 0.5 * (BLOCK - 1) as f32 * self.step;
+                let middle = self.low + Vec2::new(left as f32, top as f32) * self.step + Vec2::splat(half);
+                let squares: Vec<f32> = edges.iter().map(|edge| distance_squared(edge, middle)).collect();
+                let nearest = squares.iter().copied().fold(f32::INFINITY, smaller).sqrt();
+                let reach = nearest + 2.0 * half * std::f32::consts::SQRT_2;
+                let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= reach * reach);
+                let near: Vec<Edge> = near.map(|(edge, _)| *edge).collect();
+                // The outline passes through no block that is farther from it than its corners from its middle.
+                let whole = (nearest > half * std::f32::consts::SQRT_2).then(|| is_inside(&edges, middle));
+                for (y, x) in
+                    (top..rows.min(top + BLOCK)).flat_map(|y| (left..columns.min(left + BLOCK)).map(move |x| (y, x)))
+                {
+                    let at = self.low + Vec2::new(x as f32, y as f32) * self.step;
+                    let distance =
+                        near.iter().map(|edge| distance_squared(edge, at)).fold(f32::INFINITY, smaller).sqrt();
+                    let is_inside = whole.unwrap_or_else(|| is_inside(&edges, at));
+                    self.values[y * columns + x] = if is_inside { distance } else { -distance };
+                }
+            }
+        }
+    }
+
+    /// Of any distance, in a box and `margin` around it.
+    pub(super) fn sampled((low, high): (Vec2, Vec2), step: f32, margin: f32, distance: impl Fn(Vec2) -> f32) -> Self {
         let extent = high - low;
-        let step = larger(step, larger(extent.x, extent.y) / Self::MOST);
         let low = low - Vec2::splat(margin);
         let size = ((extent + 2.0 * margin) / step).ceil().to_array().map(|cells| cells as usize + 1);
         let mut map = Self { low, step, size, values: Vec::with_capacity(size[0] * size[1]) };
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let at = low + Vec2::new(x as f32, y as f32) * step;
-                map.values.push(signed_distance(outline, at));
+                map.values.push(distance(at));
             }
         }
-        map.soften();
         map
     }
 
@@ -156,6 +198,20 @@ impl DistanceMap {
             };
             self.values = (0..old.len()).map(mean).collect();
         }
+    }
+
+    /// As a texture, two bytes for each depth, and what [`FORMULA`] has to know of it.
+    pub(in crate::microscope) fn texture(&self) -> (Map, [f32; 7]) {
+        let [columns, rows] = self.size;
+        let least = self.values.iter().copied().fold(f32::INFINITY, smaller);
+        let most = self.values.iter().copied().fold(f32::NEG_INFINITY, larger);
+        let share = |depth: f32| ((depth - least) / larger(most - least, 1e-6) * 65535.0) as u16;
+        let texel = |&depth: &f32| {
+            let [high, low] = share(depth).to_be_bytes();
+            [high, low, 0, 255]
+        };
+        let map = Map { size: [columns as u16, rows as u16], texels: self.values.iter().flat_map(texel).collect() };
+        (map, [self.low.x, self.low.y, 1.0 / self.step, most, columns as f32, rows as f32, least])
     }
 
     /// Box that the map covers.
@@ -202,20 +258,19 @@ impl DistanceMap {
     }
 }
 
-fn signed_distance(outline: &[Vec2], at: Vec2) -> f32 {
-    let (mut nearest, mut is_inside) = (f32::INFINITY, false);
-    let mut a = outline[outline.len() - 1];
-    for &b in outline {
-        let (edge, to) = (b - a, at - a);
-        let share = (to.dot(edge) / larger(edge.length_squared(), 1e-12)).clamp(0.0, 1.0);
-        nearest = smaller(nearest, (to - edge * share).length_squared());
-        if (a.y > at.y) != (b.y > at.y) && at.x < a.x + edge.x * (at.y - a.y) / edge.y {
-            is_inside = !is_inside;
-        }
-        a = b;
-    }
-    let distance = nearest.sqrt();
-    if is_inside { distance } else { -distance }
+/// A side of an outline, from one corner to the next.
+type Edge = [Vec2; 2];
+
+fn distance_squared([a, b]: &Edge, at: Vec2) -> f32 {
+    let (edge, to) = (*b - *a, at - *a);
+    let share = (to.dot(edge) / larger(edge.length_squared(), 1e-12)).clamp(0.0, 1.0);
+    (to - edge * share).length_squared()
+}
+
+/// Whether a place lies within all of an outline's edges: a ray from it crosses an odd number.
+fn is_inside(edges: &[Edge], at: Vec2) -> bool {
+    let crosses = |[a, b]: &Edge| (a.y > at.y) != (b.y > at.y) && at.x < a.x + (b.x - a.x) * (at.y - a.y) / (b.y - a.y);
+    edges.iter().filter(|edge| crosses(edge)).count() % 2 == 1
 }
 
 #[cfg(test)]

@@ -3,10 +3,12 @@
 use super::outline::{Polar, smooth};
 use super::spot::{Spot, Thread};
 use crate::geometry::{direction_or, rotate, unit_vector};
+use crate::microscope::formula::Formula;
 use crate::microscope::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, wobble};
+use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
+use crate::microscope::recipe::{Program, Slide};
 use crate::world::view::OrganismView;
 use glam::Vec2;
 use std::f32::consts::TAU;
@@ -15,6 +17,26 @@ use std::f32::consts::TAU;
 const THICKEST: f32 = 2.56;
 /// Width over which any edge fades, micrometres: what a good lens resolves.
 const EDGE: f32 = 0.06;
+/// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
+/// radius 1 that heads for +x; where it ends at the mouth; half its width at the front, where it is shallow and broad.
+const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
+const GROOVE_END: [f32; 2] = [-0.10, 0.06];
+const GROOVE_WIDTH: f32 = 0.30;
+/// Fewest and most directions in which a graphics card is told a body's radius, and their number where that is one pixel.
+const SPOKES: [f32; 2] = [24.0, 160.0];
+const SPOKES_PER_ROOT: f32 = 10.0;
+
+pub(in crate::microscope) const FORMULA: Formula = Formula {
+    source: include_str!("round.glsl"),
+    constants: &[
+        ("TURN", &[TAU]),
+        ("EDGE", &[EDGE]),
+        ("THICKEST", &[THICKEST]),
+        ("GROOVE", &GROOVE),
+        ("GROOVE_END", &GROOVE_END),
+        ("GROOVE_WIDTH", &[GROOVE_WIDTH]),
+    ],
+};
 
 /// One body, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -46,9 +68,12 @@ impl RoundBody {
         let facing = direction_or(first, Vec2::X);
         let mut dice = Dice::new(seed);
         make_uneven(&mut polar, facing, look.unevenness, &mut dice);
+        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
+        if let Some(pellicle) = look.pellicle {
+            make_slipper(&mut polar, facing, axes, pellicle.slipper);
+        }
         let variation = 1.0 + dice.range([-look.variation, look.variation]);
         let hollow = if let Profile::Biconcave { c0, .. } = look.profile { dice.range(c0) } else { 0.0 };
-        let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
     }
 
@@ -56,6 +81,43 @@ impl RoundBody {
         let reach = Vec2::splat(self.polar.farthest + EDGE + plate.grid.pixel);
         let softness = larger(0.6 * plate.grid.pixel, EDGE);
         plate.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
+    }
+
+    /// A fan of triangles for [`FORMULA`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        if !slide.sees(self.polar.centre, self.polar.farthest + 1.0) {
+            return;
+        }
+        let mut constant = self.facing.to_array().to_vec();
+        constant.extend(self.matter.to_array());
+        constant.extend(match self.look.profile {
+            Profile::Dome(power) => [power, 0.0, 0.0, 0.0],
+            Profile::Biconcave { c2, c4, .. } => [0.0, self.hollow, c2, c4],
+        });
+        constant.extend([self.look.texture.amount, self.look.texture.size]);
+        constant.extend(shift_of(self.seed));
+        // So many that chords are hardly apart from arcs: their distance goes by the radius and by the square of the angle.
+        let in_pixels = self.polar.farthest / slide.pixel();
+        let spokes = (SPOKES_PER_ROOT * in_pixels.sqrt()).clamp(SPOKES[0], SPOKES[1]) as usize;
+        let mut vertices = Vec::with_capacity((spokes + 1) * (5 + constant.len()));
+        for spoke in 0..=spokes {
+            // Even on a disc that is stretched like the body, so that slender ends are round.
+            let on_disc = if spoke == spokes { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / spokes as f32) };
+            let way = rotate(on_disc * self.axes, self.facing).normalize_or_zero();
+            let radius = if spoke == spokes { self.polar.mean } else { self.polar.radius(way) };
+            vertices.extend(self.polar.centre.to_array());
+            vertices.extend([way.x * radius, way.y * radius, radius]);
+            vertices.extend_from_slice(&constant);
+        }
+        let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
+        match self.look.pellicle {
+            None => slide.add(Program::Round, false, &vertices, fan),
+            Some(pellicle) => {
+                let [x, y] = shift_of(self.seed);
+                let relief = [self.axes.x, self.axes.y, x, y, pellicle.furrows, pellicle.furrow_depth, pellicle.groove];
+                slide.add_apart(Program::Ciliate, &vertices, fan.collect(), relief.to_vec(), None);
+            }
+        }
     }
 
     /// Its matter at a place.
@@ -117,7 +179,10 @@ impl RoundBody {
             let share = dice.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
             let at = self.place(dice.direction(), rho);
-            let matter = inclusion.matter * dice.range([0.6, 1.3]);
+            // The groove is clear.
+            let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
+            let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
+            let matter = inclusion.matter * (dice.range([0.6, 1.3]) * (1.0 - 0.9 * clear));
             Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
@@ -130,6 +195,18 @@ impl RoundBody {
             let radius = self.polar.mean * pellicle.vacuole * filled.sqrt() * smoothstep(1.0, 0.93, filled);
             (self.place(Vec2::new(side, 0.25).normalize(), 0.52), radius, filled)
         })
+    }
+
+    /// The tube from the mouth, at the end of the groove, into the body.
+    fn gullet(&self, pellicle: &Pellicle) -> Vec<Thread> {
+        let point = |k: usize| {
+            let way = k as f32 / 6.0;
+            let own = Vec2::new(0.02 - 0.26 * way, GROOVE[0] + 0.02 + 0.34 * way * way) * self.axes;
+            self.polar.centre + rotate(own, self.facing)
+        };
+        let radius = |k: usize| self.polar.mean * (0.05 - 0.005 * k as f32);
+        let matter = Matter { cytoplasm: 0.4, ..Matter::phase(pellicle.gullet_phase) };
+        (0..6).map(|k| Thread { from: point(k), to: point(k + 2), radius: radius(k), matter: matter * 0.5 }).collect()
     }
 
     /// Canals that lead to a vacuole; they swell while it is empty.
@@ -150,6 +227,7 @@ impl RoundBody {
         if let Some(pellicle) = self.look.pellicle {
             let vacuoles = self.vacuoles(pellicle, time);
             threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
+            threads.extend(self.gullet(pellicle));
         }
         threads
     }
@@ -186,11 +264,17 @@ impl Pellicle {
         let meridian = own.y / larger(1.0 - own.x * own.x, 0.02).sqrt();
         let uneven = 0.8 * octaves(own * 3.0, 2, seed);
         let furrow = unit_vector(TAU * (0.5 * self.furrows * meridian) + uneven).y;
-        // The groove runs slanting from the front to the middle.
-        let along = smoothstep(-0.25, 0.05, own.x) * smoothstep(1.0, 0.6, own.x);
-        let groove = bell((own.y + 0.45 - 0.75 * (own.x - 0.1)) / 0.22) * along;
-        1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * groove
+        let [groove, lip] = oral_groove(own);
+        1.0 - self.furrow_depth * (1.0 - furrow) - self.groove * (groove - 0.25 * lip)
     }
+}
+
+/// How much a place belongs to the oral groove and to its lips; it runs slanting from the front to the middle.
+fn oral_groove(own: Vec2) -> [f32; 2] {
+    let along = smoothstep(GROOVE_END[0], GROOVE_END[1], own.x) * smoothstep(1.0, 0.8, own.x);
+    let from_middle = own.y - GROOVE[0] - GROOVE[1] * own.x - GROOVE[2] * own.x * own.x;
+    let width = GROOVE_WIDTH * (0.5 + 0.5 * smoothstep(0.0, 0.8, own.x));
+    [bell(from_middle / width) * along, bell(((from_middle / width).abs() - 1.7) / 0.45) * along]
 }
 
 /// Gives an outline a few low waves of its own, which turn with the body.
@@ -205,5 +289,16 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
         let own = rotate(way, back);
         let angle = libm::atan2f(own.y, own.x);
         1.0 + waves.iter().map(|&(order, phase, size)| size * unit_vector(order * angle + phase).x).sum::<f32>()
+    });
+}
+
+/// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.
+fn make_slipper(polar: &mut Polar, facing: Vec2, axes: Vec2, amount: f32) {
+    let back = Vec2::new(facing.x, -facing.y);
+    polar.reshape(|way| {
+        let own = (rotate(way, back) / axes).normalize_or_zero();
+        let pointed = own.x * own.y * own.y;
+        let hollow = if own.y < 0.0 { bell((own.x - 0.45) / 0.35) * own.y * own.y } else { 0.0 };
+        1.0 + amount * (1.6 * pointed - hollow)
     });
 }

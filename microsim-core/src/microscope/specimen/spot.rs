@@ -1,9 +1,14 @@
 //! Small things: round spots and thin threads.
 
+use crate::microscope::formula::Formula;
 use crate::microscope::look::SpotShape;
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
+use crate::microscope::recipe::{Program, QUAD, Slide};
 use glam::Vec2;
+
+pub(in crate::microscope) const SPOT: Formula = Formula { source: include_str!("spot.glsl"), constants: &[] };
+pub(in crate::microscope) const THREAD: Formula = Formula { source: include_str!("thread.glsl"), constants: &[] };
 
 /// A small round thing.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +22,25 @@ pub(super) struct Spot {
 }
 
 impl Spot {
+    /// A square for [`SPOT`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        if !slide.sees(self.at, 2.0 * self.radius) {
+            return;
+        }
+        let (is_less, matter) = magnitude(self.matter);
+        let shape = match self.shape {
+            SpotShape::Bump => 0.0,
+            SpotShape::Ball => 1.0,
+            SpotShape::Ring => 2.0,
+        };
+        let mut vertices = Vec::with_capacity(40);
+        for corner in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+            vertices.extend([self.at.x, self.at.y, corner[0], corner[1], self.radius, shape]);
+            vertices.extend(matter.to_array());
+        }
+        slide.add(Program::Spot, is_less, &vertices, QUAD);
+    }
+
     /// Adds the spot to a plate. What is smaller than a pixel is spread over one and loses no matter.
     pub(super) fn draw(&self, plate: &mut Plate) {
         let blur = 0.7 * plate.grid.pixel;
@@ -51,6 +75,20 @@ pub(super) struct Thread {
 }
 
 impl Thread {
+    /// A quadrangle for [`THREAD`].
+    pub(super) fn draw_on(&self, slide: &mut Slide) {
+        if !slide.sees(self.from, (self.to - self.from).length() + 2.0 * self.radius) {
+            return;
+        }
+        let (is_less, matter) = magnitude(self.matter);
+        let mut vertices = Vec::with_capacity(44);
+        for corner in [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]] {
+            vertices.extend([self.from.x, self.from.y, self.to.x, self.to.y, corner[0], corner[1], self.radius]);
+            vertices.extend(matter.to_array());
+        }
+        slide.add(Program::Thread, is_less, &vertices, QUAD);
+    }
+
     pub(super) fn draw(&self, plate: &mut Plate) {
         let blur = 0.7 * plate.grid.pixel;
         let radius = (self.radius * self.radius + blur * blur).sqrt();
@@ -64,4 +102,9 @@ impl Thread {
             matter * (bell(apart) * (1.0 - along * along))
         });
     }
+}
+
+/// Whether matter is rather missing than there, and how much: what is drawn adds to the rest or is taken from it.
+fn magnitude(matter: Matter) -> (bool, Matter) {
+    if matter.phase < 0.0 { (true, matter * -1.0) } else { (false, matter) }
 }

@@ -19,12 +19,13 @@ use crate::particle::Particles;
 use density::{SUPPORT, Shares, Sums};
 use glam::Vec2;
 use neighbours::{Group, Lanes, Sorted};
+use serde::{Deserialize, Serialize};
 
 /// Groups that are worked on at a time, a fixed number whatever the number of threads.
 const PORTION: usize = 64;
 
 /// How the particles of a fluid keep apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FluidMode {
     /// Incompressible: a density constraint on each particle.
     Density,
@@ -33,7 +34,7 @@ pub enum FluidMode {
 }
 
 /// A kind of fluid.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidParams {
     /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
     pub spacing: f32,
@@ -64,17 +65,21 @@ impl FluidParams {
 }
 
 /// All particles of one fluid, wherever they are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Fluid {
     pub params: FluidParams,
     /// Whether a membrane of its own holds it.
     pub is_enclosed: bool,
     /// Indices into the particle store, in the order in which they were added.
     pub particles: Vec<u32>,
+    #[serde(skip, default = "density::lattice_density")]
     rest_density: f32,
+    #[serde(skip)]
     sorted: Sorted,
     /// Of each group.
+    #[serde(skip)]
     sums: Vec<Sums>,
+    #[serde(skip)]
     shifts: Vec<[Lanes; 2]>,
 }
 

@@ -50,7 +50,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.blocks[0].scale[0] = 0.0, "scale of lane 0");
     finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
     finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
-    finds(|w| _ = w.template_digests.pop(), "digests");
+    finds(|w| w.obstacle_digests.push(7), "digests");
 }
 
 #[test]

@@ -1,0 +1,73 @@
+//! The file that an unfinished run can be resumed from: one line of JSON about its files, then the run as bytes.
+
+use crate::failure::Failure;
+use crate::output::{Outputs, Progress};
+use crate::simulate::Tally;
+use microsim_core::snapshot::Checkpoint;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::Path;
+
+/// Its name in the folder of the run.
+pub(crate) const FILE: &str = "checkpoint";
+
+/// What the program knows beside the run itself.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Saved {
+    /// Where the scenario was from.
+    pub source: String,
+    /// Steps that the run takes in all.
+    pub steps: u64,
+    /// How far its files are.
+    pub progress: Progress,
+    pub tally: Tally,
+    pub validates: bool,
+    pub broken: Option<String>,
+    pub digest_at_start: String,
+}
+
+/// Writes the checkpoint in place of the one before.
+pub(crate) fn write(outputs: &Outputs, saved: &Saved, run: &Checkpoint) -> Result<(), Failure> {
+    let mut bytes = serde_json::to_vec(saved).map_err(std::io::Error::from)?;
+    bytes.push(b'\n');
+    let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
+    bytes.extend(run);
+    outputs.replace(FILE, &bytes)
+}
+
+/// Reads the checkpoint of a folder.
+pub(crate) fn read(folder: &Path) -> Result<(Saved, Checkpoint), Failure> {
+    let path = folder.join(FILE);
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let is_done = folder.join("run.json").exists();
+            let why = if is_done { "its run is finished" } else { "there is no checkpoint in it" };
+            let accepted = "accepted: the folder of a run with output.checkpoint_every that was stopped";
+            return Err(Failure::Message(format!("{}: {why}, {accepted}", folder.display())));
+        }
+        Err(error) => return Err(Failure::file("read", &path, &error)),
+    };
+    parse(&bytes).map_err(|why| Failure::Message(format!("{}: {why}; run the scenario anew", path.display())))
+}
+
+/// The two parts of a checkpoint.
+fn parse(bytes: &[u8]) -> Result<(Saved, Checkpoint), String> {
+    let run = run_of(bytes).ok_or("not a checkpoint")?;
+    let saved = &bytes[..bytes.len() - run.len()];
+    let saved = serde_json::from_slice(saved).map_err(|error| format!("not a checkpoint: {error}"))?;
+    let run = Checkpoint::from_bytes(run).map_err(|error| error.to_string())?;
+    Ok((saved, run))
+}
+
+/// The run behind the line about its files; `None` where there is no such line.
+pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    bytes.starts_with(b"{").then(|| &bytes[end + 1..])
+}
+
+/// Removes what only an unfinished run needs.
+pub(crate) fn remove(folder: &Path) {
+    // It does no harm where it cannot be removed: `run.json` says that the run is finished.
+    let _ = fs::remove_file(folder.join(FILE));
+}

@@ -1,0 +1,33 @@
+//! What a run leaves behind: tables, events, pictures, and what is needed to run it again.
+
+mod description;
+mod events;
+mod folder;
+mod measures;
+mod moments;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod recorder;
+mod table;
+mod trajectories;
+
+pub(crate) use description::write_description;
+pub(crate) use folder::{Outputs, PendingFile, hex};
+pub(crate) use recorder::{Progress, Recorder, check_formats};
+
+use microsim_core::World;
+
+/// Which steps are sampled.
+#[derive(Clone, Copy, Debug)]
+struct Rhythm(u64);
+
+impl Rhythm {
+    /// Every so many seconds, to the nearest step; 0 for every step.
+    fn every(seconds: f32, world: &World) -> Self {
+        Self(((f64::from(seconds) / f64::from(world.config().dt)).round() as u64).max(1))
+    }
+
+    fn is_due(self, world: &World) -> bool {
+        world.step_index().is_multiple_of(self.0)
+    }
+}

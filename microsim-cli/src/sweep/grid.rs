@@ -1,0 +1,123 @@
+//! The values that a sweep goes through.
+
+use std::str::FromStr;
+
+/// Most values of one axis.
+const MOST: u64 = 1_000_000;
+
+/// `--grid KEY=VALUES`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub key: String,
+    pub values: Vec<String>,
+}
+
+/// `--seeds`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Seeds(pub Vec<u64>);
+
+impl FromStr for Axis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = "expected KEY=a..b, KEY=a..b/n or KEY=x,y,z, for example count=1..5 or speed=0.5..2/4";
+        let (key, values) = text.split_once('=').ok_or(expected)?;
+        let (key, values) = (key.trim(), values.trim());
+        if key.is_empty() || values.is_empty() {
+            return Err(expected.to_owned());
+        }
+        let values = range(values)?.unwrap_or_else(|| listed(values));
+        Ok(Self { key: key.to_owned(), values })
+    }
+}
+
+impl FromStr for Seeds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let values = range(text)?.unwrap_or_else(|| listed(text));
+        let seed = |value: &String| {
+            value.parse().map_err(|_| format!("{value:?} is not a seed, expected 0..99 or whole numbers with commas"))
+        };
+        values.iter().map(seed).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+/// The numbers of `a..b` and `a..b/n`, ends included; `None` for anything else.
+fn range(text: &str) -> Result<Option<Vec<String>>, String> {
+    let Some((low, high)) = text.split_once("..") else {
+        return Ok(None);
+    };
+    if let Some((high, count)) = high.split_once('/') {
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let ends = number(low).zip(number(high)).filter(|(low, high)| low < high);
+        let count = count.trim().parse::<u64>().ok().filter(|count| (2..=MOST).contains(count));
+        let ((low, high), count) =
+            ends.zip(count).ok_or("expected a..b/n: two numbers in order and 2 or more values")?;
+        let at = |k: u64| low + (high - low) * k as f64 / (count - 1) as f64;
+        return Ok(Some((0..count).map(|k| shortest(at(k))).collect()));
+    }
+    let ends = low.trim().parse::<i64>().ok().zip(high.trim().parse::<i64>().ok());
+    let (low, high) = ends.filter(|(low, high)| low <= high).ok_or("expected a..b: two whole numbers in order")?;
+    if high.abs_diff(low) >= MOST {
+        return Err(format!("more than {MOST} values"));
+    }
+    Ok(Some((low..=high).map(|value| value.to_string()).collect()))
+}
+
+/// To nine digits: what is left of a division is noise. Whole numbers without a fraction, so that they can be counts.
+fn shortest(value: f64) -> String {
+    format!("{value:.9}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Values between commas that are not within brackets or quotes.
+fn listed(text: &str) -> Vec<String> {
+    let (mut values, mut depth, mut quote) = (vec![String::new()], 0_i32, None);
+    for c in text.chars() {
+        match (c, quote) {
+            (_, Some(open)) if c == open => quote = None,
+            ('"' | '\'', None) => quote = Some(c),
+            ('[' | '{', None) => depth += 1,
+            (']' | '}', None) => depth -= 1,
+            _ => {}
+        }
+        match values.last_mut() {
+            _ if c == ',' && depth == 0 && quote.is_none() => values.push(String::new()),
+            Some(last) => last.push(c),
+            None => {}
+        }
+    }
+    values.iter().map(|value| value.trim().to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<String> {
+        format!("k={text}").parse::<Axis>().unwrap().values
+    }
+
+    #[test]
+    fn ranges_include_both_ends() {
+        assert_eq!(values("1..4"), ["1", "2", "3", "4"]);
+        assert_eq!(values("-1..1"), ["-1", "0", "1"]);
+        assert_eq!(values("0..1/5"), ["0", "0.25", "0.5", "0.75", "1"]);
+        assert_eq!(values("0.1..0.3/3"), ["0.1", "0.2", "0.3"]);
+        assert_eq!("3..5".parse(), Ok(Seeds(vec![3, 4, 5])));
+    }
+
+    #[test]
+    fn values_are_split_where_nothing_is_open() {
+        assert_eq!(values("[1, 2],[3, 4]"), ["[1, 2]", "[3, 4]"]);
+        assert_eq!(values("a,\"b,c\""), ["a", "\"b,c\""]);
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for text in ["k", "k=", "=1", "k=5..1", "k=0..99999999", "k=0..1/1", "k=x..y"] {
+            assert!(text.parse::<Axis>().is_err(), "{text}");
+        }
+        assert!("a".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());
+    }
+}

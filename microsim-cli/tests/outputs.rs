@@ -1,0 +1,234 @@
+//! Outputs that are chosen in the scenario or by flags, and runs that are stopped and resumed.
+
+mod common;
+
+use common::{Folder, run, stderr};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+/// Everything that is in a folder but for what depends on the clock, by name.
+fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            all.extend(content(&entry.path()).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+        } else if name != "run.json" {
+            all.insert(name, fs::read(entry.path()).unwrap());
+        }
+    }
+    all
+}
+
+fn json(path: &Path) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+const CHOSEN: &str = "[output]\nsnapshots = [0.25]\nevents = false\npictures = false\n\
+[output.measures]\nformats = ['csv', 'jsonl']\nevery = 0.0\nof = ['leaks', 'bodies']\n\
+[output.trajectories]\nformats = ['csv', 'jsonl']\n[output.frames]\nat = [0.1]\nwidth = 200\n";
+
+#[test]
+fn a_scenario_chooses_its_outputs() {
+    let folder = Folder::new("chosen");
+    let file = folder.file("s.toml", (common::crowd() + CHOSEN).as_bytes());
+    let output = run(&["run", &file, "--steps", "30", "--out", &folder.path("out")]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let files = content(&folder.root().join("out"));
+    let names: Vec<&str> = files.keys().map(String::as_str).collect();
+    let expected = [
+        "frames/00000006.png",
+        "measures.csv",
+        "measures.jsonl",
+        "snapshots/00000015.snapshot",
+        "trajectories.csv",
+        "trajectories.jsonl",
+    ];
+    assert_eq!(names, expected);
+    let measures = String::from_utf8(files["measures.csv"].clone()).unwrap();
+    assert_eq!(measures.lines().next(), Some("step,time,events,leaks,bodies"));
+    assert_eq!(measures.lines().count(), 32);
+    let line: serde_json::Value =
+        serde_json::from_slice(files["trajectories.jsonl"].split(|b| *b == b'\n').next().unwrap()).unwrap();
+    assert_eq!((&line["step"], &line["kind"], &line["x"]), (&0.into(), &"amoeboid_cell".into(), &25.0.into()));
+    // Every file is in the description, with its digest.
+    let described = json(&folder.root().join("out/run.json"));
+    assert_eq!(described["files"].as_object().unwrap().keys().collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
+    assert_eq!(described["files"]["measures.csv"].as_str().unwrap().len(), 64);
+}
+
+#[test]
+fn the_effective_scenario_makes_the_same_run() {
+    let folder = Folder::new("effective");
+    let out = |name: &str| folder.path(name);
+    let arguments = ["run", "platelets", "--set", "count=7", "--seed", "4", "--steps", "20", "--no-pictures", "--out"];
+    assert!(run(&[&arguments[..], &[&out("a")]].concat()).status.success());
+    let first = json(&folder.root().join("a/run.json"));
+    let file = folder.file("effective.toml", first["effective_scenario"].as_str().unwrap().as_bytes());
+    assert!(run(&["run", &file, "--steps", "20", "--out", &out("b")]).status.success());
+    let second = json(&folder.root().join("b/run.json"));
+    assert_eq!(first["digest"], second["digest"]);
+    assert_eq!(first["files"], second["files"]);
+    assert_eq!(first["effective_scenario"], second["effective_scenario"]);
+}
+
+#[test]
+fn a_dry_run_writes_nothing() {
+    let folder = Folder::new("dry");
+    let output = run(&["run", "empty", "--out", &folder.path("out"), "--dry-run"]);
+    assert!(output.status.success() && common::stdout(&output).contains("would take"), "{}", stderr(&output));
+    assert!(!folder.root().join("out").exists());
+}
+
+/// All formats that can be resumed, and pictures.
+const STREAMS: &str = "[output]\ncheckpoint_every = 7\nsnapshots = [0.5]\n[output.measures]\nformats = ['csv', 'jsonl']\n\
+[output.trajectories]\nformats = ['csv', 'jsonl']\n[output.frames]\nat = [0.2]\nwidth = 100\n\
+[invariants]\norganisms = 3\n[[spawn]]\nof = 'food'\nat = [10, 10]\nname = 'f'\n";
+
+/// A reference and the digests that a run has, however often it is stopped.
+struct Trial {
+    folder: Folder,
+    scenario: String,
+    reference: BTreeMap<String, Vec<u8>>,
+}
+
+impl Trial {
+    const STEPS: &'static str = "400";
+
+    fn new(name: &str) -> Self {
+        let folder = Folder::new(name);
+        let scenario = folder.file("s.toml", (common::crowd() + STREAMS).as_bytes());
+        let output = run(&["run", &scenario, "--steps", Self::STEPS, "--out", &folder.path("whole")]);
+        assert_eq!(output.status.code(), Some(1), "an invariant breaks at once: {}", stderr(&output));
+        let reference = content(&folder.root().join("whole"));
+        Self { folder, scenario, reference }
+    }
+
+    /// Starts the run or goes on with it, and stops it after a time; whether it was done before.
+    fn stop_after(&self, out: &str, first: bool, after: Duration, signal: &str) -> bool {
+        let start = ["run", &self.scenario, "--steps", Self::STEPS, "--out", out];
+        let resume = ["resume", out];
+        let mut command = common::microsim(if first { &start[..] } else { &resume[..] });
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(after);
+        let _ = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status();
+        let code = child.wait().unwrap().code();
+        assert!(matches!(code, None | Some(1 | 130)), "{signal} {code:?}");
+        code == Some(1)
+    }
+
+    fn check(&self, name: &str) {
+        let out = self.folder.root().join(name);
+        let files = content(&out);
+        assert_eq!(files.keys().collect::<Vec<_>>(), self.reference.keys().collect::<Vec<_>>(), "{name}");
+        for (file, bytes) in &files {
+            assert_eq!(bytes, &self.reference[file], "{name}: {file}");
+        }
+        let [whole, resumed] = [self.folder.root().join("whole"), out].map(|folder| json(&folder.join("run.json")));
+        for field in
+            ["digest", "digest_at_start", "steps", "events", "failures", "leaks", "files", "effective_scenario"]
+        {
+            assert_eq!(whole[field], resumed[field], "{name}: {field}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_stopped_at_20_moments_is_resumed_to_the_same_bytes() {
+    let trial = Trial::new("resume");
+    let mut stops = 0;
+    // 20 different moments, half of them killed, half interrupted; some runs are stopped several times.
+    for k in 0..20_u64 {
+        let name = format!("stopped-{k}");
+        let out = trial.folder.path(&name);
+        let signal = if k % 2 == 0 { "-KILL" } else { "-INT" };
+        let mut first = true;
+        for _ in 0..3 {
+            let after = Duration::from_millis(60 + (k * 7919 + stops * 104_729) % 700);
+            if trial.stop_after(&out, first, after, signal) {
+                break;
+            }
+            stops += 1;
+            // Killed before its first checkpoint it has to begin anew.
+            first = !trial.folder.root().join(&name).join("checkpoint").exists();
+            if first {
+                let _ = fs::remove_dir_all(&out);
+            }
+        }
+        if !trial.folder.root().join(&name).join("run.json").exists() {
+            let again = if first {
+                vec!["run", &trial.scenario, "--steps", Trial::STEPS, "--out", &out]
+            } else {
+                vec!["resume", &out]
+            };
+            let output = run(&again);
+            assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        }
+        trial.check(&name);
+    }
+    assert!(stops >= 20, "only {stops} stops");
+}
+
+#[test]
+fn inspect_says_what_is_in_a_file() {
+    let folder = Folder::new("inspect");
+    let out = folder.path("out");
+    let arguments = ["run", "empty", "--steps", "30", "--snapshots", "0.25", "--out", &out];
+    assert!(run(&arguments).status.success());
+    let output = run(&["inspect", &format!("{out}/snapshots/00000015.snapshot")]);
+    let text = common::stdout(&output);
+    assert!(text.contains("snapshot of a world") && text.contains("15 (0.25 s)"), "{text}{}", stderr(&output));
+    let other = folder.file("other", b"something else");
+    let output = run(&["inspect", &other]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("accepted: "), "{}", stderr(&output));
+}
+
+#[test]
+fn a_finished_run_has_nothing_to_resume() {
+    let folder = Folder::new("finished");
+    let out = folder.path("out");
+    assert!(run(&["run", "empty", "--steps", "5", "--checkpoint-every", "2", "--out", &out]).status.success());
+    let output = run(&["resume", &out]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("its run is finished"), "{}", stderr(&output));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn a_parquet_file_has_the_rows_of_the_other_formats() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+    let folder = Folder::new("parquet");
+    let file = folder.file("s.toml", common::crowd().as_bytes());
+    for out in ["a", "b"] {
+        let arguments =
+            ["run", &file, "--steps", "30", "--measures", "csv,parquet", "--trajectories", "parquet", "--out"];
+        let output = run(&[&arguments[..], &[&folder.path(out)]].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let [a, b] = ["a", "b"].map(|out| content(&folder.root().join(out)));
+    assert!(a == b && a.contains_key("trajectories.parquet") && !a.keys().any(|name| name.ends_with("-rows")));
+    let csv = String::from_utf8(a["measures.csv"].clone()).unwrap();
+    let reader = SerializedFileReader::new(fs::File::open(folder.root().join("a/measures.parquet")).unwrap()).unwrap();
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+    assert_eq!(rows.len() + 1, csv.lines().count());
+    for (row, line) in rows.iter().zip(csv.lines().skip(1)) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(row.get_long(0).unwrap() as f64, cells[0]);
+        assert!((3..cells.len()).all(|k| row.get_double(k).unwrap() as f32 == cells[k] as f32), "{line}");
+    }
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_is_refused_where_it_was_not_built_in() {
+    let folder = Folder::new("no-parquet");
+    let output = run(&["run", "empty", "--measures", "parquet", "--out", &folder.path("out")]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("--features parquet"), "{}", stderr(&output));
+    assert!(!folder.root().join("out").exists());
+}

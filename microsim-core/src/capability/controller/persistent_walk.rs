@@ -1,0 +1,80 @@
+//! Persistent random walk of a cell that senses nothing: its heading diffuses, so that after a time `t` it is correlated with
+//! what it was by `exp(-t / P)`. The mean squared displacement is that of Fuerth 1920 (Z. Phys. 2, 244),
+//! `2 S^2 P (t - P (1 - exp(-t / P)))`; for crawling cells see Gail and Boone 1970 (Biophys. J. 10, 980) and Li,
+//! Norrelykke and Cox 2008 (PLoS ONE 3, e2093).
+
+use super::senses::{Senses, Wish};
+use crate::error::{Error, in_range};
+use crate::geometry::ring::{direction_or, rotate, unit_vector};
+use crate::rng::Rng;
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+use std::f32::consts::TAU;
+
+/// Parameters of the persistent random walk, see [`super::Controller::persistent_walk`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PersistentWalkParams {
+    /// Time over which it keeps its direction, s, 0.05 to 10 000.
+    pub persistence: f32,
+}
+
+impl Default for PersistentWalkParams {
+    fn default() -> Self {
+        Self { persistence: 10.0 }
+    }
+}
+
+/// A heading that diffuses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PersistentWalk {
+    params: PersistentWalkParams,
+    /// A unit vector; zero before the first step.
+    pub(super) heading: Vec2,
+}
+
+impl PersistentWalk {
+    pub(super) fn new(params: PersistentWalkParams) -> Self {
+        Self { params, heading: Vec2::ZERO }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), Error> {
+        in_range("persistence", self.params.persistence, 0.05, 1e4)
+    }
+
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+        self.turn(senses.around.dt, rng);
+        self.heading = senses.along_walls(self.heading);
+        Some(senses.along(self.heading))
+    }
+
+    /// Lets the heading diffuse for a step.
+    pub(super) fn turn(&mut self, dt: f32, rng: &mut Rng) {
+        if self.heading == Vec2::ZERO {
+            self.heading = unit_vector(rng.range(0.0, TAU));
+        }
+        let angle = rng.normal() * (2.0 * dt / self.params.persistence).sqrt();
+        self.heading = direction_or(rotate(self.heading, unit_vector(angle)), Vec2::X);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Controller;
+    use super::super::testing::mean_squared_displacement;
+    use super::*;
+
+    #[test]
+    fn the_mean_squared_displacement_is_fuerths() {
+        let (persistence, speed) = (2.0, 3.0);
+        let walk = Controller::persistent_walk(PersistentWalkParams { persistence });
+        for periods in [0.5, 1.0, 3.0, 10.0] {
+            let time = periods * persistence;
+            let measured = mean_squared_displacement(&walk, speed, time, 5000);
+            let p = f64::from(persistence);
+            let expected =
+                2.0 * f64::from(speed).powi(2) * p * (f64::from(time) - p * (1.0 - (-f64::from(periods)).exp()));
+            println!("t = {periods} P: {measured:.2}, Fuerth {expected:.2}");
+            assert!((measured / expected - 1.0).abs() < 0.05, "after {periods} P: {measured} instead of {expected}");
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What an organism may know of itself and of what is around it, and what it wants.
+
+use crate::chemical::Chemical;
+use crate::collision::obstacle::Obstacle;
+use crate::geometry::ring::direction_or;
+use crate::id::{ChemicalId, OrganismId};
+use glam::Vec2;
+
+/// Distance of a goal that stands for a direction, units.
+const FAR: f32 = 1000.0;
+/// Gap from which on an organism keeps from swimming or crawling into a wall, in its radii.
+const WHISKERS: f32 = 0.35;
+/// Share of its speed with which it then leaves the wall, so that it does not rub along.
+const DETACH: f32 = 0.05;
+
+/// Where an organism wants to go in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wish {
+    pub goal: Vec2,
+    /// Speed, in its own; negative: away from the goal, with the rear ahead.
+    pub pace: f32,
+}
+
+impl Wish {
+    /// To go to a point.
+    pub(crate) fn to(goal: Vec2) -> Self {
+        Self { goal, pace: 1.0 }
+    }
+}
+
+/// What all organisms may know.
+#[derive(Clone, Debug)]
+pub(crate) struct Surroundings<'a> {
+    /// Upper right corner of the room.
+    pub size: Vec2,
+    /// Time of a step, s.
+    pub dt: f32,
+    pub chemicals: &'a [Chemical],
+    /// Walls among them.
+    pub obstacles: &'a [Obstacle],
+    /// Organisms that take others in, and those that can be taken in.
+    pub others: &'a [Other],
+}
+
+/// An organism as others see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Other {
+    pub id: OrganismId,
+    pub at: Vec2,
+    pub velocity: Vec2,
+    /// Largest distance of its surface from its place, units.
+    pub radius: f32,
+    pub is_engulfer: bool,
+    /// Whether it can be taken in, and nobody has.
+    pub is_prey: bool,
+}
+
+/// What one organism knows in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Senses<'a> {
+    pub me: OrganismId,
+    /// Mean of its outline, or its one disc.
+    pub at: Vec2,
+    pub velocity: Vec2,
+    /// Speed that it has when it moves, units/s.
+    pub speed: f32,
+    /// Distance of its surface from its place on average, units.
+    pub radius: f32,
+    /// Goals nearer than this are reached, units.
+    pub arrival: f32,
+    /// Centres of its outline, counter-clockwise.
+    pub outline: &'a [Vec2],
+    pub around: &'a Surroundings<'a>,
+}
+
+/// A wall next to an organism.
+#[derive(Clone, Copy, Debug)]
+struct Wall {
+    /// Unit vector away from it.
+    away: Vec2,
+    /// Gap between it and the organism's surface, units.
+    gap: f32,
+}
+
+impl Senses<'_> {
+    /// The wish to move along a direction.
+    pub(crate) fn along(&self, heading: Vec2) -> Wish {
+        Wish::to(self.at + heading * FAR)
+    }
+
+    /// Concentration of a chemical at a point; nothing of one that is not there.
+    pub(crate) fn concentration(&self, chemical: ChemicalId, at: Vec2) -> f32 {
+        self.around.chemicals.get(chemical.0 as usize).map_or(0.0, |chemical| chemical.concentration(at))
+    }
+
+    /// The others that something is true of.
+    pub(crate) fn others(&self, is_so: impl Fn(&Other) -> bool) -> impl Iterator<Item = &Other> {
+        self.around.others.iter().filter(move |other| other.id != self.me && is_so(other))
+    }
+
+    /// The nearest of the others that something is true of.
+    pub(crate) fn nearest(&self, is_so: impl Fn(&Other) -> bool) -> Option<&Other> {
+        let distance = |other: &Other| (other.at - self.at).length_squared();
+        self.others(is_so).reduce(|a, b| if distance(b) < distance(a) { b } else { a })
+    }
+
+    /// A direction without what leads into walls next to it. One that is head-on becomes a direction along the wall.
+    pub(crate) fn along_walls(&self, heading: Vec2) -> Vec2 {
+        let mut way = heading;
+        for Wall { away, gap } in self.walls() {
+            let into = -way.dot(away);
+            if gap < WHISKERS * self.radius && into > -DETACH {
+                let side = if way.perp_dot(away) > 0.0 { away.perp() } else { -away.perp() };
+                let slide = direction_or(way + away * into, side);
+                way = direction_or(slide + away * DETACH, side);
+            }
+        }
+        way
+    }
+
+    /// The wall that a direction leads into soonest, if there is one next to it: the unit vector away from it.
+    pub(crate) fn wall_ahead(&self, heading: Vec2) -> Option<Vec2> {
+        let ahead = self.walls().filter(|wall| wall.gap < WHISKERS * self.radius && wall.away.dot(heading) < 0.0);
+        let nearest = ahead.reduce(|a, b| if b.away.dot(heading) < a.away.dot(heading) { b } else { a });
+        nearest.map(|wall| wall.away)
+    }
+
+    fn walls(&self) -> impl Iterator<Item = Wall> {
+        self.around.obstacles.iter().filter_map(|obstacle| {
+            let (surface, is_inside) = obstacle.nearest(self.at);
+            let way = self.at - surface;
+            let away = direction_or(if is_inside { -way } else { way }, Vec2::Y);
+            let reach = self.outline.iter().map(|&node| (self.at - node).dot(away));
+            let reach = reach.fold(if self.outline.is_empty() { self.radius } else { 0.0 }, larger);
+            (!is_inside).then(|| Wall { away, gap: way.length() - reach })
+        })
+    }
+}
+
+pub(super) fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}

@@ -1,0 +1,126 @@
+//! Diffusion on a grid: explicit and in flux form, in as many rounds a step as keep it stable. What leaves a cell enters the
+//! next one, so nothing is lost, and no round makes anything negative or a peak higher.
+
+use glam::Vec2;
+
+/// Largest share of a cell's content that crosses one of its faces in a round. 1/4 is the limit of stability; with 1/6 a
+/// third of the finest ripple is left after a round.
+const SHARE: f32 = 1.0 / 6.0;
+/// Most rounds in a step.
+const MAX_ROUNDS: f32 = 256.0;
+
+/// Rounds that a step needs with cells of this size, or the largest diffusion coefficient for which they are not too many.
+pub(super) fn rounds(cell: Vec2, diffusion: f32, dt: f32) -> Result<u32, f32> {
+    let shorter = cell.min_element();
+    let each = dt / (SHARE * shorter * shorter);
+    let rounds = (diffusion * each).ceil();
+    if rounds > MAX_ROUNDS { Err(MAX_ROUNDS / each) } else { Ok((rounds as u32).max(1)) }
+}
+
+/// The cells of a room and the faces between them.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    /// Columns and rows.
+    pub count: [usize; 2],
+    /// Width and height of a cell, units.
+    pub cell: Vec2,
+    /// Cells that lie in no obstacle.
+    pub is_open: Vec<bool>,
+    /// 1 for faces that something crosses, else 0: in each row from the left wall to the right one, ...
+    across: Vec<f32>,
+    /// ... and in rows from the lower wall to the upper one.
+    upwards: Vec<f32>,
+}
+
+impl Grid {
+    pub(super) fn new(count: [usize; 2], size: Vec2) -> Self {
+        let [columns, rows] = count;
+        let is_inner = |k: usize, of: usize| f32::from(u8::from(k > 0 && k < of));
+        let across = (0..rows).flat_map(|_| (0..=columns).map(|k| is_inner(k, columns)));
+        let upwards = (0..=rows).flat_map(|k| std::iter::repeat_n(is_inner(k, rows), columns));
+        Self {
+            count,
+            cell: size / Vec2::new(columns as f32, rows as f32),
+            is_open: vec![true; columns * rows],
+            across: across.collect(),
+            upwards: upwards.collect(),
+        }
+    }
+
+    pub(super) fn cell_area(&self) -> f32 {
+        self.cell.x * self.cell.y
+    }
+
+    /// Closes cells whose centre is inside of something, and the faces of which the middle is.
+    pub(super) fn close(&mut self, is_inside: impl Fn(Vec2) -> bool) {
+        let [columns, rows] = self.count;
+        let corner = |x: f32, y: f32| is_inside(Vec2::new(x, y) * self.cell);
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+            let (x, y, at) = (column as f32, row as f32, row * columns + column);
+            let (left, below) = (at + row, at);
+            if corner(x + 0.5, y + 0.5) {
+                self.is_open[at] = false;
+                for face in [left, left + 1] {
+                    self.across[face] = 0.0;
+                }
+                for face in [below, below + columns] {
+                    self.upwards[face] = 0.0;
+                }
+            }
+            if corner(x, y + 0.5) {
+                self.across[left] = 0.0;
+            }
+            if corner(x + 0.5, y) {
+                self.upwards[below] = 0.0;
+            }
+        }
+    }
+
+    /// One round: `spread` is the diffusion coefficient times the time of the round, `keep` the share that does not decay.
+    pub(super) fn diffuse(&self, values: &mut [f32], spread: f32, keep: f32) {
+        let [columns, rows] = self.count;
+        let share = spread / (self.cell * self.cell);
+        // The old values of the row that is being written, with a cell beyond each wall, and of the one below.
+        let (mut here, mut below) = (vec![0.0; columns + 2], vec![0.0; columns]);
+        let none = vec![0.0; columns];
+        for row in 0..rows {
+            let (written, next) = values[row * columns..].split_at_mut(columns);
+            here[1..=columns].copy_from_slice(written);
+            let above = if row + 1 < rows { &next[..columns] } else { &none[..] };
+            let left = &self.across[row * (columns + 1)..][..columns];
+            let right = &self.across[row * (columns + 1) + 1..][..columns];
+            let low = &self.upwards[row * columns..][..columns];
+            let high = &self.upwards[(row + 1) * columns..][..columns];
+            let (before, now, after) = (&here[..columns], &here[1..=columns], &here[2..columns + 2]);
+            for k in 0..columns {
+                let c = now[k];
+                let sideways = left[k] * (before[k] - c) + right[k] * (after[k] - c);
+                let lengthways = low[k] * (below[k] - c) + high[k] * (above[k] - c);
+                written[k] = (c + (share.x * sideways + share.y * lengthways)) * keep;
+            }
+            below.copy_from_slice(&here[1..=columns]);
+        }
+    }
+
+    /// The open ones of the four cells whose centres are around a point, with their shares in a bilinear interpolation.
+    pub(super) fn around(&self, at: Vec2) -> [(usize, f32); 4] {
+        let [columns, rows] = self.count;
+        let last = Vec2::new(columns as f32 - 1.0, rows as f32 - 1.0);
+        let place = (at / self.cell - 0.5).clamp(Vec2::ZERO, last);
+        // Places that are no numbers become the first cell.
+        let (column, row) = (place.x as usize, place.y as usize);
+        let part = place - Vec2::new(column as f32, row as f32);
+        let (right, up) = ((column + 1).min(columns - 1), (row + 1).min(rows - 1));
+        let mut cells = [
+            (row * columns + column, (1.0 - part.x) * (1.0 - part.y)),
+            (row * columns + right, part.x * (1.0 - part.y)),
+            (up * columns + column, (1.0 - part.x) * part.y),
+            (up * columns + right, part.x * part.y),
+        ];
+        let is_open = |cell: usize| f32::from(u8::from(self.is_open[cell]));
+        cells.iter_mut().for_each(|(cell, share)| *share *= is_open(*cell));
+        let sum: f32 = cells.iter().map(|(_, share)| share).sum();
+        cells.iter_mut().for_each(|(_, share)| *share = if sum > 0.0 { *share / sum } else { 0.0 });
+        cells
+    }
+}

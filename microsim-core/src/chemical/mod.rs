@@ -1,0 +1,320 @@
+//! Chemicals: concentrations on a grid over the room, which organisms add to, take from and sense.
+//!
+//! The diffusing half of Keller and Segel 1970 (J. Theor. Biol. 26, 399), `dc/dt = D lap c - k c + sources`; the other half
+//! are the organisms. Nothing flows through the walls of the room or through obstacles.
+
+mod diffusion;
+
+use crate::config::WorldConfig;
+use crate::error::{Error, in_range, out_of_range};
+use diffusion::Grid;
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Most cells of one grid.
+const MAX_CELLS: usize = 1_000_000;
+
+/// How a chemical spreads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChemicalSpec {
+    /// Diffusion coefficient, square units/s, 0 to 100 000, and at most what 256 rounds of diffusion in a step carry: about
+    /// 40 `spacing`² over the time of a step.
+    pub diffusion: f32,
+    /// Share that decays in a second where little of it does, 1/s, 0 to 100.
+    pub decay: f32,
+    /// Side of a cell of the grid, units, 0.1 to 1000; made a little smaller or larger so that cells fill the room.
+    pub spacing: f32,
+    /// Concentration everywhere to begin with, amount per square unit, 0 to 1 000 000.
+    pub initial: f32,
+}
+
+impl Default for ChemicalSpec {
+    fn default() -> Self {
+        Self { diffusion: 100.0, decay: 0.05, spacing: 2.0, initial: 0.0 }
+    }
+}
+
+impl ChemicalSpec {
+    /// Distance over which the concentration around a source falls to about a third: the root of diffusion over decay,
+    /// units.
+    #[must_use]
+    pub fn range(&self) -> f32 {
+        (self.diffusion / self.decay).sqrt()
+    }
+
+    /// Checks every field for a world of these settings.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub fn validate(&self, config: &WorldConfig) -> Result<(), Error> {
+        self.plan(config).map(drop)
+    }
+
+    /// Columns and rows of its grid, and the rounds of diffusion that a step takes.
+    fn plan(&self, config: &WorldConfig) -> Result<([usize; 2], u32), Error> {
+        in_range("diffusion", self.diffusion, 0.0, 1e5)?;
+        in_range("decay", self.decay, 0.0, 100.0)?;
+        in_range("spacing", self.spacing, 0.1, 1000.0)?;
+        in_range("initial", self.initial, 0.0, 1e6)?;
+        let count = config.size.to_array().map(|side| ((side / self.spacing + 0.5) as usize).max(1));
+        if count[0] * count[1] > MAX_CELLS {
+            let accepted = format!("so large that {MAX_CELLS} cells fill the room");
+            return Err(out_of_range("spacing", self.spacing.into(), accepted));
+        }
+        let rounds =
+            diffusion::rounds(config.size / Vec2::from(count.map(|count| count as f32)), self.diffusion, config.dt);
+        let rounds = rounds.map_err(|most| {
+            let accepted = format!("0 to {most} with this spacing and time step");
+            out_of_range("diffusion", self.diffusion.into(), accepted)
+        })?;
+        Ok((count, rounds))
+    }
+}
+
+/// A chemical in a room.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chemical {
+    spec: ChemicalSpec,
+    #[serde(skip)]
+    grid: Grid,
+    /// Rounds of diffusion in a step.
+    #[serde(skip)]
+    rounds: u32,
+    /// Concentration in each cell, amount per square unit: rows from the lower left corner.
+    values: Vec<f32>,
+}
+
+/// What a [`Chemical`] writes; the rest follows from the world.
+#[cfg(feature = "snapshot")]
+#[derive(Debug, Deserialize)]
+pub(crate) struct Record {
+    pub spec: ChemicalSpec,
+    values: Vec<f32>,
+}
+
+impl Chemical {
+    /// Takes on the concentrations that were read.
+    ///
+    /// # Errors
+    /// When they are not as many as cells, or one is none.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn take_over(&mut self, record: Record) -> Result<(), String> {
+        let is_sound = |value: &f32| (0.0..=f32::MAX).contains(value);
+        if record.values.len() != self.values.len() || !record.values.iter().all(is_sound) {
+            return Err("its concentrations do not fill the room".to_owned());
+        }
+        self.values = record.values;
+        Ok(())
+    }
+
+    /// A chemical in a world of these settings.
+    pub(crate) fn new(spec: ChemicalSpec, config: &WorldConfig) -> Result<Self, Error> {
+        let (count, rounds) = spec.plan(config)?;
+        let grid = Grid::new(count, config.size);
+        Ok(Self { spec, values: vec![spec.initial; count[0] * count[1]], grid, rounds })
+    }
+
+    /// Closes the cells that lie in an obstacle, and the faces that it crosses. Walls thinner than half a cell may leak.
+    pub(crate) fn close(&mut self, is_inside: impl Fn(Vec2) -> bool) {
+        self.grid.close(is_inside);
+        for (value, is_open) in self.values.iter_mut().zip(&self.grid.is_open) {
+            *value = if *is_open { *value } else { 0.0 };
+        }
+    }
+
+    /// One step: diffusion and decay.
+    pub(crate) fn advance(&mut self, dt: f32) {
+        let h = dt / self.rounds as f32;
+        for _ in 0..self.rounds {
+            self.grid.diffuse(&mut self.values, self.spec.diffusion * h, 1.0 / (1.0 + self.spec.decay * h));
+        }
+    }
+
+    /// Adds an amount at a point.
+    pub(crate) fn add(&mut self, at: Vec2, amount: f32) {
+        let density = amount / self.grid.cell_area();
+        for (cell, share) in self.grid.around(at) {
+            self.values[cell] += share * density;
+        }
+    }
+
+    /// Clears `area` square units at a point of what is in them, or as good as, so that nothing becomes negative.
+    pub(crate) fn take(&mut self, at: Vec2, area: f32) {
+        let cells = area / self.grid.cell_area();
+        for (cell, share) in self.grid.around(at) {
+            self.values[cell] /= 1.0 + share * cells;
+        }
+    }
+
+    /// How it spreads.
+    #[must_use]
+    pub fn spec(&self) -> &ChemicalSpec {
+        &self.spec
+    }
+
+    /// Columns and rows of its grid.
+    #[must_use]
+    pub fn cells(&self) -> [usize; 2] {
+        self.grid.count
+    }
+
+    /// Width and height of a cell, units.
+    #[must_use]
+    pub fn cell_size(&self) -> Vec2 {
+        self.grid.cell
+    }
+
+    /// Concentration in each cell, amount per square unit: rows from the lower left corner of the room.
+    #[must_use]
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// Concentration at a point, amount per square unit, interpolated between the cells around it.
+    #[must_use]
+    pub fn concentration(&self, at: Vec2) -> f32 {
+        self.grid.around(at).into_iter().map(|(cell, share)| share * self.values[cell]).sum()
+    }
+
+    /// How the concentration rises, amount per square unit and unit: a difference over two cells.
+    #[must_use]
+    pub fn gradient(&self, at: Vec2) -> Vec2 {
+        let Vec2 { x, y } = self.grid.cell;
+        let rise = |by: Vec2| self.concentration(at + by) - self.concentration(at - by);
+        Vec2::new(rise(Vec2::new(x, 0.0)), rise(Vec2::new(0.0, y))) / (2.0 * self.grid.cell)
+    }
+
+    /// All of it that is in the room.
+    #[must_use]
+    pub fn amount(&self) -> f64 {
+        self.values.iter().map(|&value| f64::from(value)).sum::<f64>() * f64::from(self.grid.cell_area())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const DT: f32 = 1.0 / 60.0;
+
+    fn room(width: f32, height: f32) -> WorldConfig {
+        WorldConfig { size: Vec2::new(width, height), dt: DT, ..WorldConfig::default() }
+    }
+
+    fn chemical(spec: ChemicalSpec) -> Chemical {
+        Chemical::new(spec, &room(80.0, 60.0)).unwrap()
+    }
+
+    #[test]
+    fn what_flows_in_is_there_or_has_decayed() {
+        let spec = ChemicalSpec { diffusion: 300.0, decay: 0.5, ..ChemicalSpec::default() };
+        let mut chemical = chemical(spec);
+        let (mut expected, keep) = (0.0, (1.0 + f64::from(0.5 * DT) / f64::from(chemical.rounds)).powi(-1));
+        for _ in 0..3600 {
+            chemical.add(Vec2::new(13.3, 41.7), 7.0 * DT);
+            chemical.advance(DT);
+            expected = (expected + 7.0 * f64::from(DT)) * keep.powi(chemical.rounds as i32);
+        }
+        assert!((chemical.amount() / expected - 1.0).abs() < 1e-4, "{} instead of {expected}", chemical.amount());
+        assert!((chemical.amount() / (7.0 / 0.5) - 1.0).abs() < 0.01, "source over decay: {}", chemical.amount());
+    }
+
+    #[test]
+    fn a_source_in_the_middle_gives_a_field_with_all_its_symmetries() {
+        let spec = ChemicalSpec { spacing: 1.0, ..ChemicalSpec::default() };
+        let mut chemical = Chemical::new(spec, &room(41.0, 41.0)).unwrap();
+        for _ in 0..200 {
+            chemical.add(Vec2::splat(20.5), DT);
+            chemical.advance(DT);
+        }
+        let at = |x: usize, y: usize| chemical.values()[y * 41 + x].to_bits();
+        for (x, y) in (0..41).flat_map(|x| (0..41).map(move |y| (x, y))) {
+            let all = [at(x, y), at(40 - x, y), at(x, 40 - y), at(40 - x, 40 - y), at(y, x)];
+            assert!(all.iter().all(|&bits| bits == all[0]), "cell {x}, {y}: {all:?}");
+        }
+    }
+
+    /// The modified Bessel function of the second kind and order 0: the integral of exp(-x cosh t) from 0 to infinity.
+    fn k0(x: f64) -> f64 {
+        (0..4000).map(|k| (-x * (0.0025 * (f64::from(k) + 0.5)).cosh()).exp() * 0.0025).sum()
+    }
+
+    #[test]
+    fn the_steady_field_of_a_point_source_is_a_bessel_function() {
+        let spec = ChemicalSpec { diffusion: 100.0, decay: 1.0, spacing: 1.0, initial: 0.0 };
+        let (centre, rate) = (Vec2::splat(80.5), 50.0);
+        let mut chemical = Chemical::new(spec, &room(161.0, 161.0)).unwrap();
+        for _ in 0..900 {
+            chemical.add(centre, rate * DT);
+            chemical.advance(DT);
+        }
+        let closed = |r: f32| f64::from(rate) / (std::f64::consts::TAU * 100.0) * k0(f64::from(r / spec.range()));
+        for r in [6.0, 8.0, 16.0, 32.0] {
+            let way = Vec2::new(0.6, 0.8);
+            let (here, expected) = (chemical.concentration(centre + way * r), closed(r));
+            assert!((f64::from(here) / expected - 1.0).abs() < 0.02, "{r} units away: {here} instead of {expected}");
+            let slope = -f64::from(chemical.gradient(centre + way * r).dot(way));
+            let expected = (closed(r - 1.0) - closed(r + 1.0)) / 2.0;
+            assert!((slope / expected - 1.0).abs() < 0.03, "slope at {r}: {slope} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn nothing_gets_through_an_obstacle_but_around_it() {
+        let mut chemical = chemical(ChemicalSpec { diffusion: 100.0, decay: 0.0, ..ChemicalSpec::default() });
+        chemical.close(|at| (at.x - 40.0).abs() < 1.5);
+        for _ in 0..600 {
+            chemical.add(Vec2::new(20.0, 30.0), DT);
+            chemical.advance(DT);
+        }
+        assert!((chemical.amount() - 10.0).abs() < 1e-2, "{}", chemical.amount());
+        assert_eq!(chemical.concentration(Vec2::new(60.0, 30.0)), 0.0);
+        let beside = chemical.concentration(Vec2::new(37.0, 30.0));
+        assert!(beside > 0.0 && chemical.concentration(Vec2::new(38.4, 30.0)) >= 0.99 * beside, "the wall is no hole");
+    }
+
+    #[test]
+    fn taking_up_clears_a_share_and_never_more_than_there_is() {
+        let mut chemical = chemical(ChemicalSpec { initial: 2.0, ..ChemicalSpec::default() });
+        let before = chemical.amount();
+        chemical.take(Vec2::new(30.0, 30.0), 0.01);
+        assert!((before - chemical.amount() - 0.02).abs() < 2e-3, "area times concentration");
+        chemical.take(Vec2::new(30.0, 30.0), 1e6);
+        assert!(chemical.values().iter().all(|&value| (0.0..=2.0).contains(&value)));
+    }
+
+    #[test]
+    fn bad_numbers_are_refused_by_name() {
+        let refuse = |spec: ChemicalSpec, field: &str| {
+            assert_eq!(spec.validate(&room(80.0, 60.0)).unwrap_err().field(), field);
+        };
+        let spec = ChemicalSpec::default;
+        refuse(ChemicalSpec { diffusion: -1.0, ..spec() }, "diffusion");
+        refuse(ChemicalSpec { diffusion: 1e5, spacing: 0.5, ..spec() }, "diffusion");
+        refuse(ChemicalSpec { decay: f32::NAN, ..spec() }, "decay");
+        refuse(ChemicalSpec { spacing: 0.0, ..spec() }, "spacing");
+        let fine = ChemicalSpec { spacing: 0.1, ..spec() };
+        assert_eq!(fine.validate(&room(2e4, 2e4)).unwrap_err().field(), "spacing");
+        refuse(ChemicalSpec { initial: f32::INFINITY, ..spec() }, "initial");
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_accepted_is_stable(
+            diffusion in 0.0f32..1e5, decay in 0.0f32..100.0, spacing in 0.1f32..200.0, dt in 0.001f32..0.1,
+        ) {
+            let config = WorldConfig { dt, ..room(31.0, 17.0) };
+            if let Ok(mut chemical) = Chemical::new(ChemicalSpec { diffusion, decay, spacing, initial: 1.0 }, &config) {
+                chemical.add(Vec2::new(9.0, 4.0), 100.0);
+                let mut highest = chemical.values().iter().copied().fold(0.0, f32::max);
+                for _ in 0..20 {
+                    chemical.advance(dt);
+                    let now = chemical.values().iter().copied().fold(0.0, f32::max);
+                    prop_assert!(chemical.values().iter().all(|&value| value >= 0.0) && now <= highest * 1.0001);
+                    highest = now;
+                }
+            }
+        }
+    }
+}

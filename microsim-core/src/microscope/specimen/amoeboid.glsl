@@ -1,0 +1,78 @@
+// Cells that crawl; see amoeboid.rs.
+
+varying vec2 at;
+
+#ifdef VERTEX
+attribute vec2 place;
+
+void main() {
+    at = place;
+    gl_Position = seen_at(place);
+}
+#else
+// Centre, radius, width of the rim.
+uniform vec4 middle;
+// To the cell's own frame.
+uniform vec4 own_frame;
+// Direction of the front, its strength, length of the cell.
+uniform vec4 front;
+// Where the clear front begins and ends along that direction; its thickness; time.
+uniform vec4 lamella;
+// Delay of the ruffles, how far inside they are; strength and size of the texture.
+uniform vec4 relief;
+uniform vec4 matter;
+uniform vec4 nucleus_matter;
+uniform vec2 nucleus_texture;
+uniform vec3 lobes[LOBES];
+// Where the noise of texture, ruffles, clumps, border and nuclear outline begins.
+uniform vec2 shifts[5];
+
+float rise(float depth) {
+    float d = clamp(depth, 0.0, 1.0);
+    return sqrt(d * (2.0 - d));
+}
+
+float lamella_at(vec2 place) {
+    vec2 from_centre = place - middle.xy;
+    float across = from_centre.x * front.y - from_centre.y * front.x;
+    float uneven = 0.05 * front.w * two_octaves(from_centre / (0.25 * middle.z), shifts[3]);
+    float along = dot(from_centre, front.xy) + 0.15 * across * across / middle.z + uneven;
+    return front.z * rising(lamella.x, lamella.y, along);
+}
+
+float nucleus_at(vec2 place, float softness) {
+    float neck = 0.10 * middle.z;
+    float depth = lobes[0].z - length(place - lobes[0].xy);
+    for (int k = 1; k < LOBES; k++) {
+        float other = lobes[k].z - length(place - lobes[k].xy);
+        float share = clamp(0.5 + 0.5 * (depth - other) / neck, 0.0, 1.0);
+        depth = mix(other, depth, share) + neck * share * (1.0 - share);
+    }
+    if (depth <= -2.0 * softness - 0.3) {
+        return 0.0;
+    }
+    float uneven = 0.05 * middle.z * two_octaves((place - middle.xy) / (0.2 * middle.z), shifts[4]);
+    float edge = max(softness, 0.12);
+    return rising(-edge, edge, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
+}
+
+void main() {
+    float softness = max(0.7 * pixel.x, 0.08);
+    float depth = depth_at(at);
+    if (depth <= -softness) {
+        gl_FragColor = vec4(0.0);
+        return;
+    }
+    float front_share = lamella_at(at);
+    float dome = mix(rise(depth / middle.w), lamella.z * rise(depth / (0.25 * middle.w)), front_share);
+    vec2 from_centre = at - middle.xy;
+    vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
+    vec4 sum = matter * (dome * (1.0 + relief.z * three_octaves(own / relief.w, shifts[0])));
+    float ruffle = bell((depth - relief.y) / 0.28) * front_share;
+    sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));
+    float nucleus = nucleus_at(at, softness);
+    float clumps = 1.0 + nucleus_texture.x * three_octaves(own / nucleus_texture.y, shifts[2]);
+    sum += nucleus_matter * (nucleus * clumps);
+    put(sum * rising(-softness, softness, depth));
+}
+#endif

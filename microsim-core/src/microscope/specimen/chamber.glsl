@@ -1,0 +1,31 @@
+// Walls and obstacles of a clear polymer; see chamber.rs.
+
+varying vec2 at;
+
+#ifdef VERTEX
+attribute vec2 place;
+
+void main() {
+    at = place;
+    gl_Position = seen_at(place);
+}
+#else
+uniform vec4 room;
+
+vec4 polymer(vec2 place, float depth) {
+    if (depth <= 0.0) {
+        return vec4(0.0);
+    }
+    float rim = max(1.0 - depth / RIM, 0.0);
+    float texture = 1.0 + TEXTURE * three_octaves(place / TEXTURE_SIZE, room.zw);
+    return POLYMER * (sqrt(1.0 - rim * rim) * rising(0.0, EDGE, depth) * texture);
+}
+
+void main() {
+#ifdef OBSTACLE
+    put(polymer(at, depth_at(at)));
+#else
+    put(polymer(at, length(at - clamp(at, vec2(0.0), room.xy))));
+#endif
+}
+#endif

@@ -1,0 +1,73 @@
+// Bodies that are described from their centre outwards; see round.rs. Each is a fan of triangles.
+
+varying vec2 own;
+varying float rho;
+varying float fade;
+varying vec4 body;
+varying vec4 shape;
+varying vec4 noise;
+
+#ifdef VERTEX
+attribute vec2 centre;
+// From the centre to the edge, and the radius there; the centre itself has the body's mean radius.
+attribute vec3 rim;
+attribute vec2 facing;
+attribute vec4 matter;
+attribute vec4 profile;
+attribute vec4 grains;
+
+void main() {
+    float softness = max(0.6 * pixel.x, EDGE);
+    fade = softness / rim.z;
+    float is_rim = step(1e-9, dot(rim.xy, rim.xy));
+    rho = is_rim * (1.0 + fade);
+    vec2 way = rim.xy * (1.0 + fade);
+    own = vec2(way.x * facing.x + way.y * facing.y, way.y * facing.x - way.x * facing.y);
+    body = matter;
+    shape = profile;
+    noise = grains;
+    gl_Position = seen_at(centre + way);
+}
+#else
+#ifdef PELLICLE
+// Half the body's length and width; where its noise begins.
+uniform vec4 frame;
+// Furrows, their depth, depth of the groove.
+uniform vec3 pellicle;
+
+float relief(vec2 own) {
+    float meridian = own.y / sqrt(max(1.0 - own.x * own.x, 0.02));
+    float uneven = 0.8 * two_octaves(own * 3.0, frame.zw);
+    float furrow = sin(TURN * 0.5 * pellicle.x * meridian + uneven);
+    float along = rising(GROOVE_END.x, GROOVE_END.y, own.x) * rising(1.0, 0.8, own.x);
+    float from_middle = own.y - GROOVE.x - GROOVE.y * own.x - GROOVE.z * own.x * own.x;
+    float width = GROOVE_WIDTH * (0.5 + 0.5 * rising(0.0, 0.8, own.x));
+    float groove = bell(from_middle / width) * along;
+    float lip = bell((abs(from_middle / width) - 1.7) / 0.45) * along;
+    return 1.0 - pellicle.y * (1.0 - furrow) - pellicle.z * (groove - 0.25 * lip);
+}
+#endif
+
+float thickness(float rho) {
+    float inside = 1.0 - rho * rho;
+    if (inside <= 0.0) {
+        return 0.0;
+    }
+    if (shape.x > 0.0) {
+        return pow(inside, shape.x);
+    }
+    float square = rho * rho;
+    return sqrt(inside) * (shape.y + shape.z * square - shape.w * square * square) / THICKEST;
+}
+
+void main() {
+    float amount = thickness(rho / (1.0 + fade)) * rising(1.0 + fade, 1.0 - fade, rho);
+    if (noise.x > 0.0) {
+        amount *= 1.0 + noise.x * two_octaves(own / noise.y, noise.zw);
+    }
+#ifdef PELLICLE
+    amount *= relief(own / frame.xy);
+#endif
+    put(body * amount);
+}
+#endif

@@ -1,0 +1,87 @@
+//! Chemicals: the tables `[chemical.NAME]`, and who secretes and takes up what.
+
+use super::fields::{Fields, Read, Report, mismatch};
+use super::shape::Shape;
+use super::source::{Value, join, unknown};
+use crate::{ChemicalId, ChemicalSpec, Exchange, WorldConfig};
+
+/// Chemicals with their names, in the order in which the world gets them.
+pub(super) type Chemicals = Vec<(String, ChemicalSpec)>;
+
+/// Reads all chemicals of a file.
+pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
+    let mut chemicals = Chemicals::new();
+    for (name, mut fields) in root.named("chemical") {
+        let default = ChemicalSpec::default();
+        let spec = ChemicalSpec {
+            diffusion: fields.or("diffusion", default.diffusion),
+            decay: fields.or("decay", default.decay),
+            spacing: fields.or("spacing", default.spacing),
+            initial: fields.or("initial", default.initial),
+        };
+        fields.report.check(&fields.path, spec.validate(config));
+        fields.finish();
+        chemicals.push((name, spec));
+    }
+    chemicals
+}
+
+/// The chemical of the name at a path; reports it if there is none.
+pub(super) fn find(name: &str, path: &str, chemicals: &Chemicals, report: &Report<'_>) -> Option<ChemicalId> {
+    let found = (0..).zip(chemicals).find(|(_, (known, _))| known == name).map(|(k, _)| ChemicalId(k));
+    if found.is_none() {
+        let names: Vec<&str> = chemicals.iter().map(|(name, _)| name.as_str()).collect();
+        let (message, accepted) = unknown("chemical", name, &names);
+        report.refuse(path, message, accepted);
+    }
+    found
+}
+
+/// Reads the fields `secretes` and `takes_up` of a `[[spawn]]` table.
+pub(super) fn read_exchanges(fields: &mut Fields<'_>, chemicals: &Chemicals) -> Vec<Exchange> {
+    let mut exchanges: Vec<Exchange> = Vec::new();
+    for field in ["secretes", "takes_up"] {
+        let Rates(rates) = fields.or(field, Rates(Vec::new()));
+        for (name, rate) in rates {
+            let path = join(&fields.at(field), &name);
+            let Some(chemical) = find(&name, &path, chemicals, fields.report) else { continue };
+            let known = exchanges.iter().position(|exchange| exchange.chemical == chemical);
+            let at = known.unwrap_or_else(|| {
+                exchanges.push(Exchange { chemical, secretion: 0.0, uptake: 0.0 });
+                exchanges.len() - 1
+            });
+            let place = if field == "secretes" { &mut exchanges[at].secretion } else { &mut exchanges[at].uptake };
+            if fields.is_within(&join(field, &name), rate, [0.0, 1e6]) {
+                *place = rate;
+            }
+        }
+    }
+    exchanges
+}
+
+/// A number for each of some chemicals.
+struct Rates(Vec<(String, f32)>);
+
+impl Read for Rates {
+    fn accepted() -> String {
+        "{ CHEMICAL = NUMBER }".to_owned()
+    }
+
+    fn shape() -> Shape {
+        Shape::Table(Box::new(Shape::Number))
+    }
+
+    fn written(&self) -> String {
+        let rates = self.0.iter().map(|(name, rate)| format!("{name} = {}", rate.written()));
+        format!("{{ {} }}", rates.collect::<Vec<_>>().join(", "))
+    }
+
+    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+        let Some(table) = value.get_ref().as_table() else { return mismatch(value, path, report) };
+        let rates = table.iter().map(|(name, rate)| {
+            let name = name.get_ref().to_string();
+            f32::read(rate, &join(path, &name), report).map(|rate| (name, rate))
+        });
+        rates.collect::<Option<_>>().map(Self)
+    }
+}

@@ -1,0 +1,63 @@
+//! Games: the table `[game]`, what a front-end needs to make a game of a scenario.
+
+use super::fields::Fields;
+use super::group::Group;
+use crate::kind::Kind;
+
+/// Time that a game lasts if the file does not say, s (seed, 3.3.2).
+const TIME: f32 = 90.0;
+/// What can be taken in, and so can earn points.
+const PREY: [(&str, Kind); 3] = [("agar", Kind::Agar), ("coccus", Kind::Coccus), ("rigid_cell", Kind::RigidCell)];
+
+/// Rules of a game: the player scores by digesting what it has taken in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Game {
+    /// Time that it lasts, s.
+    pub time: f32,
+    /// What digestion earns, by kind. What is not here earns nothing.
+    pub points: Vec<(Kind, Points)>,
+}
+
+/// What the digestion of one organism earns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Points {
+    /// For each.
+    pub each: f32,
+    /// For each square unit of its area when spawned.
+    pub per_area: f32,
+}
+
+impl Game {
+    /// Points for digesting an organism of a kind that had this area when it was spawned, rounded.
+    #[must_use]
+    pub fn points(&self, kind: Kind, area: f32) -> u32 {
+        let known = self.points.iter().find(|(of, _)| *of == kind);
+        known.map_or(0, |(_, points)| (points.each + points.per_area * area + 0.5) as u32)
+    }
+}
+
+/// Reads the table, if the file has it.
+pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
+    let is_game = root.has("game");
+    let mut fields = root.table("game");
+    let time = fields.number("time", TIME, [1.0, 3600.0]);
+    let mut table = fields.table("points");
+    let mut points = Vec::new();
+    for (name, kind) in PREY.into_iter() {
+        if table.has(name) {
+            let mut fields = table.table(name);
+            let each = fields.number("each", 0.0, [0.0, 1e6]);
+            let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
+            fields.finish();
+            points.push((kind, Points { each, per_area }));
+        }
+    }
+    let names = PREY.map(|(name, _)| name);
+    table.finish_with(&names);
+    fields.finish();
+    if is_game && !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
+        let accepted = "a [[spawn]] of an amoeboid_cell with `player = true`";
+        root.report.refuse("game", "nobody plays", accepted);
+    }
+    is_game.then_some(Game { time, points })
+}

@@ -1,0 +1,48 @@
+//! A run in the midst of it: the world, and what its scenario does and checks.
+
+use super::envelope::Format;
+use super::{SnapshotError, decode, encode, invalid};
+use crate::id::OrganismId;
+use crate::scenario::supply::SupplyState;
+use crate::scenario::{Built, Checks, Origin, Script};
+use crate::world::World;
+
+/// Changes with every change of a type that is part of a run, but not with one of a world.
+const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 1 };
+
+/// A run of a scenario that can be resumed: it goes on as if it had not been interrupted.
+#[derive(Clone, Debug)]
+pub struct Checkpoint {
+    /// What the scenario was read from.
+    pub origin: Origin,
+    /// The run.
+    pub run: Built,
+}
+
+impl Checkpoint {
+    /// The run as bytes.
+    ///
+    /// # Errors
+    /// As for [`World::to_snapshot`].
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
+        let Built { world, player, named, script, checks, .. } = &self.run;
+        let supplies: Vec<_> = script.supply_states().collect();
+        Ok(RUN.seal(&encode(&(&self.origin, player, named, script, supplies, checks, world.to_snapshot()?))?))
+    }
+
+    /// The run that was written.
+    ///
+    /// # Errors
+    /// As for [`World::from_snapshot`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
+        type Content =
+            (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SupplyState>, Checks, Vec<u8>);
+        let (origin, player, named, script, supplies, checks, world): Content = decode(RUN.open(bytes)?)?;
+        let world = World::from_snapshot(&world)?;
+        let built = origin.scenario().and_then(|scenario| scenario.build());
+        let Built { script: file, chemicals, game, .. } = built.map_err(|problems| invalid(problems.to_string()))?;
+        let script = script.supplied_by(file, supplies);
+        let script = script.ok_or_else(|| invalid("the scenario has other organisms to come".to_owned()))?;
+        Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game } })
+    }
+}

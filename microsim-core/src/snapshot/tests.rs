@@ -1,0 +1,210 @@
+//! What a damaged or forged snapshot may not do.
+
+use super::*;
+use crate::walk::{Leaf, Part, Visitor, walk};
+use crate::{
+    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, Event, FluidBlockSpec, Inputs, Intent, OrganismSpec, Placement,
+    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, WorldConfig,
+};
+use glam::Vec2;
+use parry2d::math::Pose;
+use parry2d::shape::SharedShape;
+use proptest::prelude::*;
+
+/// A small world with a bit of everything, after some steps.
+fn menagerie() -> World {
+    let mut world =
+        World::new(WorldConfig { size: Vec2::new(80.0, 50.0), substeps: 4, ..WorldConfig::default() }).unwrap();
+    let corners = vec![Vec2::ZERO, Vec2::new(3.0, 0.0), Vec2::new(0.0, 3.0)];
+    for (k, shape) in shapes(corners).into_iter().enumerate() {
+        let pose = Pose::new(Vec2::new(6.0 + 8.0 * k as f32, 3.0), 0.3);
+        world.add_obstacle(Obstacle::new(shape, pose)).unwrap();
+    }
+    let cell = AmoeboidCellSpec { radii: Vec2::new(6.0, 6.0), ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&cell.into(), Placement::at(40.0, 25.0)).unwrap();
+    let controllers = [
+        Controller::wander([0.1, 0.2], 0.3),
+        Controller::patrol(vec![Vec2::new(9.0, 9.0), Vec2::new(60.0, 40.0)], true),
+        Controller::thrash(0.2, 0.5),
+        Controller::ram(0.3, 0.3, 12.0),
+    ];
+    let specs: [OrganismSpec; 7] = [
+        AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(),
+        RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() }.into(),
+        ProbeSpec { radius: 1.5, ..ProbeSpec::default() }.into(),
+        CoccusSpec::default().into(),
+        PlateletSpec { radius: 2.0, ..PlateletSpec::default() }.into(),
+        RedCellSpec { radius: 2.5, ..RedCellSpec::default() }.into(),
+        FluidBlockSpec { size: Vec2::new(4.0, 3.0), ..FluidBlockSpec::default() }.into(),
+    ];
+    for (k, spec) in specs.iter().enumerate() {
+        let controller = controllers[k % 4].clone();
+        let at = Placement::at(8.0 + 9.0 * k as f32, if k % 2 == 0 { 40.0 } else { 12.0 }).steered_by(controller);
+        world.spawn(spec, at).unwrap();
+    }
+    let prey = world.spawn(&specs[0], Placement::at(48.0, 25.0)).unwrap();
+    let gone = world.spawn(&specs[4], Placement::at(70.0, 25.0)).unwrap();
+    world.set_exempt(gone, prey, true).unwrap();
+    world.set_exempt(cell, gone, true).unwrap();
+    let mut inputs = Inputs::new();
+    inputs.set(cell, Intent::toward(Vec2::new(79.0, 25.0)).unwrap().digesting(true));
+    let began = |world: &World| world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }));
+    assert!((0..200).any(|_| (world.step(&inputs), began(&world)).1));
+    world.set_exempt(cell, prey, false).unwrap();
+    world.remove(gone).unwrap();
+    world.divide(cell).unwrap();
+    (0..10).for_each(|_| world.step(&inputs));
+    world
+}
+
+/// One of every shape that snapshots know.
+fn shapes(corners: Vec<Vec2>) -> [SharedShape; 9] {
+    let [a, b, c] = [corners[0], corners[1], corners[2]];
+    let part = |at: f32| (Pose::translation(at, 0.0), SharedShape::triangle(a, b, c));
+    [
+        SharedShape::ball(1.0),
+        SharedShape::cuboid(1.0, 2.0),
+        SharedShape::round_cuboid(1.0, 2.0, 0.2),
+        SharedShape::capsule(a, b, 0.5),
+        SharedShape::segment(a, b),
+        SharedShape::round_triangle(a, b, c, 0.1),
+        SharedShape::convex_polyline(corners.clone()).unwrap(),
+        SharedShape::polyline(corners, Some(vec![[0, 1], [1, 2]])),
+        SharedShape::compound(vec![part(0.0), part(2.0)]),
+    ]
+}
+
+fn content(world: &World) -> Vec<u8> {
+    WORLD.open(&world.to_snapshot().unwrap()).unwrap().to_vec()
+}
+
+/// Restores forged content; what is accepted must bear to be used.
+fn forge(content: &[u8]) -> Result<World, SnapshotError> {
+    let mut world = World::from_snapshot(&WORLD.seal(content))?;
+    let digest = world.digest();
+    let handles: Vec<_> = world.organisms().collect();
+    let mut inputs = Inputs::new();
+    handles.iter().for_each(|&id| inputs.set(id, Intent::toward(Vec2::ONE).unwrap().digesting(true)));
+    (0..2).for_each(|_| world.step(&inputs));
+    let _ = (world.census(), world.quality(), world.view().organisms().count(), world.to_snapshot());
+    handles.into_iter().for_each(|id| drop(world.remove(id)));
+    world.step(&inputs);
+    assert_eq!(World::from_snapshot(&WORLD.seal(content)).unwrap().digest(), digest);
+    World::from_snapshot(&WORLD.seal(content))
+}
+
+#[test]
+fn all_shapes_and_all_organisms_are_restored() {
+    let world = menagerie();
+    let restored = World::from_snapshot(&world.to_snapshot().unwrap()).unwrap();
+    assert_eq!(restored.digest(), world.digest());
+    assert_eq!(restored.to_snapshot(), world.to_snapshot());
+    assert_eq!(restored.obstacles().count(), 9);
+}
+
+/// The fields of a world, in their order, as far as this one has them.
+#[derive(Default)]
+struct Layout {
+    path: Vec<String>,
+    lines: Vec<String>,
+}
+
+impl Visitor for Layout {
+    fn enter(&mut self, part: Part) {
+        self.path.push(match part {
+            Part::Field(name) => format!(".{name}"),
+            Part::Element(_) => "[]".to_owned(),
+        });
+    }
+
+    fn leave(&mut self) {
+        self.path.pop();
+    }
+
+    fn leaf(&mut self, leaf: Leaf<'_>) {
+        let kind = match leaf {
+            Leaf::Word(_) => "word",
+            Leaf::Long(_) => "long",
+            Leaf::Single(_) => "single",
+            Leaf::Double(_) => "double",
+            Leaf::Text(_) => "text",
+            Leaf::Variant(_, name) => name,
+            Leaf::Count(_) => "list",
+        };
+        let line = format!("{} {kind}", self.path.concat().trim_start_matches('.'));
+        if !self.lines.contains(&line) {
+            self.lines.push(line);
+        }
+    }
+}
+
+#[test]
+fn the_version_changes_with_the_layout() {
+    let mut layout = Layout::default();
+    walk(&menagerie(), &mut layout);
+    let fields = layout.lines.join("\n");
+    let now = format!("version {}\n{fields}\n", WORLD.version);
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/layout.txt");
+    let golden = std::fs::read_to_string(&file).unwrap_or_default();
+    let (version, known) = golden.split_once('\n').unwrap_or_default();
+    let is_new = version != format!("version {}", WORLD.version);
+    assert!(is_new || known.trim_end() == fields, "the fields of a world changed: raise the version of WORLD");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(&file, &now).unwrap();
+    } else {
+        assert_eq!(golden, now, "write {} anew with UPDATE_GOLDEN=1", file.display());
+    }
+}
+
+#[test]
+fn a_shape_that_is_not_known_is_refused_when_writing() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let heights = SharedShape::heightfield(vec![1.0, 2.0, 1.0], Vec2::splat(9.0));
+    world.add_obstacle(Obstacle::new(SharedShape::ball(1.0), Pose::translation(9.0, 9.0))).unwrap();
+    world.add_obstacle(Obstacle::new(heights, Pose::translation(30.0, 30.0))).unwrap();
+    assert_eq!(world.to_snapshot(), Err(SnapshotError::UnknownShape { obstacle: 1 }));
+}
+
+#[test]
+fn the_digest_covers_everything_that_is_written() {
+    let world = menagerie();
+    let (content, digest) = (content(&world), world.digest());
+    // A prime stride: over the columns it meets every byte of a number.
+    for at in (0..content.len()).step_by(31) {
+        let mut changed = content.clone();
+        changed[at] ^= 1;
+        let restored = World::from_snapshot(&WORLD.seal(&changed));
+        assert!(restored.is_err() || restored.unwrap().digest() != digest, "byte {at} of {}", content.len());
+    }
+}
+
+#[test]
+fn content_of_any_other_length_is_refused() {
+    let content = content(&menagerie());
+    for length in (0..content.len()).step_by(97) {
+        let error = World::from_snapshot(&WORLD.seal(&content[..length])).unwrap_err();
+        assert!(matches!(error, SnapshotError::Invalid { .. }), "{length}: {error}");
+    }
+    let longer = [&content[..], &[0]].concat();
+    assert!(matches!(World::from_snapshot(&WORLD.seal(&longer)), Err(SnapshotError::Invalid { .. })));
+}
+
+#[test]
+fn forged_numbers_never_panic() {
+    let content = content(&menagerie());
+    proptest!(ProptestConfig::with_cases(300), |(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4))| {
+        let mut forged = content.clone();
+        for (at, value) in changes {
+            forged[at.index(content.len())] = value;
+        }
+        let _ = forge(&forged);
+    });
+}
+
+#[test]
+fn a_long_list_of_nothing_takes_no_memory() {
+    // A list of 2^60 obstacles.
+    let mut content = vec![0x80; 8];
+    content.push(0x10);
+    assert!(matches!(World::from_snapshot(&WORLD.seal(&content)), Err(SnapshotError::Invalid { .. })));
+}

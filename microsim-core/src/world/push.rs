@@ -1,0 +1,64 @@
+//! Pushing: an experimenter's hand on one organism.
+
+use super::World;
+use crate::error::{Error, in_range};
+use crate::id::OrganismId;
+use glam::Vec2;
+
+impl World {
+    /// Adds a velocity to everything in an organism that can move: its own particles, and what it holds. The speed limit
+    /// and all constraints and contacts act on it as ever, so nothing is pushed through anything.
+    ///
+    /// # Errors
+    /// When the handle is stale, or a coordinate is not finite or beyond ±1000 units/s. Nothing is changed then.
+    pub fn push(&mut self, id: OrganismId, velocity: Vec2) -> Result<(), Error> {
+        self.organism_or_stale(id, "organism")?;
+        in_range("velocity.x", velocity.x, -1000.0, 1000.0)?;
+        in_range("velocity.y", velocity.y, -1000.0, 1000.0)?;
+        let held = self.view().organism(id).into_iter().flat_map(|organism| organism.meals());
+        let inside = held.filter(|(_, phase)| phase.is_inside()).map(|(prey, _)| prey);
+        for organism in std::iter::once(id).chain(inside).collect::<Vec<_>>() {
+            for i in self.discs_of(organism).collect::<Vec<_>>() {
+                self.particles.vx[i] += velocity.x;
+                self.particles.vy[i] += velocity.y;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, World, WorldConfig};
+    use glam::Vec2;
+
+    #[test]
+    fn what_is_pushed_moves_and_nothing_else() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let agar = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 40.0)).unwrap();
+        let other = world.spawn(&PlateletSpec::default().into(), Placement::at(40.0, 60.0)).unwrap();
+        let before = [agar, cell, other].map(|id| world.centroid(id).unwrap());
+        for _ in 0..60 {
+            for id in [agar, cell] {
+                world.push(id, Vec2::new(0.5, 0.0)).unwrap();
+            }
+            world.step(&Inputs::new());
+        }
+        let moved = |k: usize, id| (world.centroid(id).unwrap() - before[k]).x;
+        assert!(moved(0, agar) > 2.0 && moved(1, cell) > 2.0, "{} {}", moved(0, agar), moved(1, cell));
+        assert!(moved(2, other).abs() < 0.01);
+        assert_eq!(world.census().leaks, 0);
+    }
+
+    #[test]
+    fn nonsense_changes_nothing() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let agar = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
+        let before = world.digest();
+        assert_eq!(world.push(agar, Vec2::new(f32::NAN, 0.0)).unwrap_err().field(), "velocity.x");
+        assert_eq!(world.digest(), before);
+        world.remove(agar).unwrap();
+        assert_eq!(world.push(agar, Vec2::X).unwrap_err().field(), "organism");
+    }
+}

@@ -1,0 +1,170 @@
+//! Marks in the scene: arrows over cells that can be taken in, rings around what is touched, the key that digests.
+
+use crate::camera::Camera;
+use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
+use crate::rules::hint::{Held, Readiness, State, Target};
+use crate::rules::referee::Gain;
+use crate::ui::pen::{Align, Pen, Size};
+use macroquad::color::Color;
+use microsim_core::glam::Vec2;
+
+/// Time for which points are shown, s.
+const GAIN_TIME: f32 = 1.6;
+/// Things inside that get a mark of their own key; more would cover each other.
+const LABELLED: usize = 1;
+
+/// How marks are drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Style<'a> {
+    /// Where things are.
+    pub camera: &'a Camera,
+    /// Time for what moves, s; `None` if nothing may move that does not have to.
+    pub time: Option<f32>,
+    /// The green arrow also where there is no room, as in the seed (T75).
+    pub is_classic: bool,
+    /// What is written on the key that digests.
+    pub key: &'a str,
+}
+
+/// Arrows over rigid cells (T69, T75): a full one where the cell can be taken in now, a hollow one with the share of the
+/// size that the player has, a barred one where there is no room.
+pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
+    let unit = pen.line(Size::Body);
+    for target in targets {
+        let readiness = match target.readiness {
+            Readiness::NoRoom if style.is_classic => Readiness::Ready,
+            other => other,
+        };
+        let bob = style.time.map_or(0.0, |time| 0.12 * unit * (5.0 * time).sin());
+        let top = style.camera.to_screen(target.at) - Vec2::new(0.0, target.reach * style.camera.scale());
+        let tip = top - Vec2::new(0.0, 0.25 * unit);
+        let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all();
+        match readiness {
+            Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
+            Readiness::Ready => draw_at_edge(pen, style.camera.to_screen(target.at), unit),
+            _ if !is_seen => {}
+            Readiness::TooLarge(share) => draw_too_large(pen, tip, unit, share),
+            Readiness::NoRoom => {
+                arrow(pen, tip, Vec2::Y, 0.8 * unit, WAIT);
+                let half = Vec2::new(0.55 * unit, 0.0);
+                let bar = tip - Vec2::new(0.0, 0.45 * unit);
+                pen.canvas().segment(bar - half, bar + half, 0.3 * unit, INK);
+                pen.canvas().segment(bar - 0.9 * half, bar + 0.9 * half, 0.16 * unit, HALO);
+                pen.label(tip - Vec2::new(0.0, 1.7 * unit), Size::Small, Align::Centre, HALO, "full");
+            }
+        }
+    }
+}
+
+/// A hollow arrow that is filled as far as the player has grown.
+fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
+    let (low, high) = (tip - Vec2::new(0.32 * unit, 1.0 * unit), tip + Vec2::new(0.32 * unit, -0.2 * unit));
+    let (outer, inner) = (Vec2::splat(0.12 * unit), Vec2::splat(0.02 * unit));
+    pen.canvas().rectangle(low - outer, high + outer, fade(INK, 0.75));
+    pen.canvas().rectangle(low - inner, high + inner, fade(HALO, 0.35));
+    let filled = Vec2::new(low.x, high.y - (high.y - low.y) * share);
+    pen.canvas().rectangle(filled, high, WAIT);
+    let percent = format!("{:.0} %", (100.0 * share).floor());
+    pen.label(tip - Vec2::new(0.0, 1.75 * unit), Size::Small, Align::Centre, HALO, &percent);
+}
+
+/// An arrow at the edge of the picture that points to something outside.
+fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32) {
+    let middle = 0.5 * pen.screen();
+    // Below the status line, and not quite at the edge.
+    let room = middle - Vec2::new(1.2, 2.4) * unit;
+    let way = at - middle;
+    let share = (room / way.abs().max(Vec2::splat(1.0))).min_element();
+    arrow(pen, middle + way * share.min(1.0), way.normalize_or_zero(), 0.8 * unit, READY);
+}
+
+/// An arrow with its tip at a point, in a dark rim that shows it on any ground.
+fn arrow(pen: &mut Pen, tip: Vec2, way: Vec2, unit: f32, colour: Color) {
+    let side = way.perp();
+    for (grown, colour) in [(0.14 * unit, INK), (0.0, colour)] {
+        let tip = tip + way * (1.6 * grown);
+        let neck = tip - way * (0.62 * unit + 2.4 * grown);
+        let wing = side * (0.5 * unit + 1.3 * grown);
+        let stem = side * (0.19 * unit + grown);
+        let tail = neck - way * (0.5 * unit - 0.2 * grown);
+        pen.canvas().quad([neck - stem, neck + stem, tail + stem, tail - stem], [colour; 4]);
+        pen.canvas().corner([tip, neck + wing, neck - wing], colour);
+    }
+}
+
+/// Rings around what is touched (T29), marks at what is inside with the key that digests it (T71).
+pub fn draw_held(pen: &mut Pen, style: &Style<'_>, held: &[Held]) {
+    let unit = pen.line(Size::Body);
+    let mut labelled = 0;
+    for held in held {
+        let at = style.camera.to_screen(held.at);
+        let radius = held.reach * style.camera.scale() + 0.3 * unit;
+        match held.state {
+            State::Touching(share) => {
+                ring(pen, at, radius, 0.2 * unit, 1.0, fade(HALO, 0.45));
+                ring(pen, at, radius, 0.2 * unit, share, READY);
+            }
+            State::Entering => ring(pen, at, radius, 0.2 * unit, 1.0, READY),
+            State::Inside(share) => {
+                ring(pen, at, radius.max(0.45 * unit), 0.13 * unit, 1.0, fade(HALO, 0.8));
+                if share > 0.0 {
+                    ring(pen, at, radius.max(0.45 * unit), 0.22 * unit, share, ALERT);
+                }
+                if labelled < LABELLED {
+                    labelled += 1;
+                    draw_key(pen, at - Vec2::new(0.0, radius.max(0.45 * unit) + 0.25 * unit), style.key, share > 0.0);
+                }
+            }
+        }
+    }
+}
+
+fn ring(pen: &mut Pen, at: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
+    pen.canvas().arc(at, radius, 1.9 * width, share, fade(INK, 0.5 * colour.a));
+    pen.canvas().arc(at, radius, width, share, colour);
+}
+
+/// The key as a key cap, pointing down.
+fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
+    let unit = pen.line(Size::Body);
+    let half = Vec2::new(0.5 * pen.width(Size::Body, key).max(0.6 * unit) + 0.3 * unit, 0.55 * unit);
+    let middle = tip - Vec2::new(0.0, half.y + 0.35 * unit);
+    let (face, ink) = if is_down { (ALERT, INK) } else { (HALO, INK) };
+    let wing = Vec2::new(0.35 * unit, 0.0);
+    let base = Vec2::new(tip.x, middle.y + half.y - 0.5);
+    let rim = Vec2::splat(0.1 * unit);
+    pen.canvas().corner([tip + Vec2::new(0.0, rim.y), base - 1.4 * wing, base + 1.4 * wing], INK);
+    pen.canvas().rectangle(middle - half - rim, middle + half + rim, INK);
+    pen.canvas().corner([tip, base - wing, base + wing], face);
+    pen.canvas().rectangle(middle - half, middle + half, face);
+    pen.write(middle, Size::Body, Align::Centre, ink, key);
+}
+
+/// Points that were gained lately (T70).
+#[derive(Clone, Debug, Default)]
+pub struct Gains(Vec<(Gain, f32)>);
+
+impl Gains {
+    /// Adds what a step has earned.
+    pub fn add(&mut self, gains: &[Gain]) {
+        self.0.extend(gains.iter().map(|&gain| (gain, 0.0)));
+    }
+
+    /// Lets time pass, s.
+    pub fn pass(&mut self, elapsed: f32) {
+        self.0.iter_mut().for_each(|(_, age)| *age += elapsed);
+        self.0.retain(|(_, age)| *age < GAIN_TIME);
+    }
+
+    /// Draws them where they were gained; they rise unless nothing may move.
+    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
+        let unit = pen.line(Size::Body);
+        for (k, (gain, age)) in self.0.iter().enumerate() {
+            let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
+            // Several at once stand beside each other.
+            let beside = (k % 3) as f32 - 1.0;
+            let at = style.camera.to_screen(gain.at) - Vec2::new(-2.0 * unit * beside, unit + rise);
+            pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
+        }
+    }
+}

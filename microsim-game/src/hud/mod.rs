@@ -1,0 +1,66 @@
+//! What the game draws above the scene: score, time, and marks at what matters (seed, 3.3.2). No mark tells anything by its
+//! colour alone.
+
+pub mod marks;
+
+use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
+use crate::ui::pen::{Align, Pen, Size};
+use microsim_core::glam::Vec2;
+
+/// Time at the end in which the clock stands out, s.
+const LAST_SECONDS: f32 = 10.0;
+
+/// What the status line says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Status {
+    /// Points so far.
+    pub score: u32,
+    /// Time left and time in all, s.
+    pub time: [f32; 2],
+    /// Whether nothing may flash.
+    pub is_calm: bool,
+    /// Whether this is a replay.
+    pub is_replay: bool,
+}
+
+/// Draws score and time along the upper edge.
+pub fn draw_status(pen: &mut Pen, status: &Status) {
+    let (screen, line) = (pen.screen(), pen.line(Size::Large));
+    let [left, whole] = status.time;
+    let share = (left / whole).clamp(0.0, 1.0);
+    let is_late = left <= LAST_SECONDS;
+    let bar = Vec2::new(screen.x, 0.16 * line);
+    pen.canvas().rectangle(Vec2::ZERO, bar, fade(INK, 0.6));
+    let colour = if is_late { ALERT } else { READY };
+    pen.canvas().rectangle(Vec2::ZERO, Vec2::new(bar.x * share, bar.y), colour);
+    let middle = bar.y + 0.75 * line;
+    pen.label(Vec2::new(0.3 * line, middle), Size::Large, Align::Left, HALO, &format!("Score {}", status.score));
+    let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
+    let colour = if blinks { ALERT } else { HALO };
+    pen.label(Vec2::new(screen.x - 0.3 * line, middle), Size::Large, Align::Right, colour, &clock(left));
+    if status.is_replay {
+        pen.label(Vec2::new(0.5 * screen.x, middle), Size::Body, Align::Centre, HALO, "Replay");
+    }
+}
+
+/// A line of advice above the lower edge.
+pub fn draw_advice(pen: &mut Pen, text: &str) {
+    let (screen, line) = (pen.screen(), pen.line(Size::Body));
+    pen.label(Vec2::new(0.5 * screen.x, screen.y - 0.9 * line), Size::Body, Align::Centre, HALO, text);
+}
+
+/// Time as minutes and seconds, a started second counting as a whole one.
+fn clock(time: f32) -> String {
+    let seconds = time.max(0.0).ceil() as u32;
+    format!("{}:{:02}", seconds / 60, seconds % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn t68_the_clock_reads_as_minutes_and_seconds() {
+        assert_eq!([90.0, 60.0, 59.2, 0.1, 0.0, -1.0].map(clock), ["1:30", "1:00", "1:00", "0:01", "0:00", "0:00"]);
+    }
+}

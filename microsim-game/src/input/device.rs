@@ -1,0 +1,83 @@
+//! Mouse and keyboard.
+
+use super::keys::Keys;
+use super::{Action, Input, Move};
+use crate::convert;
+use macroquad::input::{
+    KeyCode, MouseButton, get_dropped_files, get_last_key_pressed, is_key_down, is_key_pressed, is_mouse_button_down,
+    is_mouse_button_pressed, mouse_position, mouse_wheel, utils,
+};
+use macroquad::miniquad;
+use microsim_core::glam::Vec2;
+
+/// Reads mouse and keyboard of the open window.
+#[derive(Debug)]
+pub struct Device {
+    /// Number under which macroquad repeats the window's events.
+    subscriber: usize,
+    cursor: Vec2,
+}
+
+impl Device {
+    /// Listens to the window. Needs an open one.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { subscriber: utils::register_input_subscriber(), cursor: Vec2::ZERO }
+    }
+
+    /// What they say in this frame.
+    pub fn read(&mut self, keys: &Keys) -> Input {
+        let cursor = convert::point(mouse_position());
+        let has_moved = std::mem::replace(&mut self.cursor, cursor) != cursor;
+        let all = || Action::ALL.into_iter();
+        let mut focus = Focus::default();
+        utils::repeat_all_miniquad_input(&mut focus, self.subscriber);
+        Input {
+            cursor,
+            has_moved,
+            is_held: is_mouse_button_down(MouseButton::Left),
+            is_clicked: is_mouse_button_pressed(MouseButton::Left),
+            // A notch is 1 on some systems and 120 on others.
+            wheel: mouse_wheel().1.clamp(-1.0, 1.0),
+            held: all().filter(|&action| is_key_down(keys.of(action))).collect(),
+            pressed: all().filter(|&action| is_key_pressed(keys.of(action))).collect(),
+            step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step),
+            key: get_last_key_pressed(),
+            dropped: get_dropped_files().into_iter().filter_map(|file| file.path).collect(),
+            has_lost_focus: focus.is_lost,
+        }
+    }
+}
+
+impl Default for Device {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Keys that move through menus.
+const MOVES: [(KeyCode, Move); 7] = [
+    (KeyCode::Up, Move::Up),
+    (KeyCode::Down, Move::Down),
+    (KeyCode::Left, Move::Left),
+    (KeyCode::Right, Move::Right),
+    (KeyCode::Enter, Move::Confirm),
+    (KeyCode::KpEnter, Move::Confirm),
+    (KeyCode::Escape, Move::Back),
+];
+
+/// Listens for the loss of the keyboard, which miniquad reports as being minimised.
+#[derive(Debug, Default)]
+struct Focus {
+    is_lost: bool,
+}
+
+impl miniquad::EventHandler for Focus {
+    fn update(&mut self) {}
+
+    fn draw(&mut self) {}
+
+    fn window_minimized_event(&mut self) {
+        self.is_lost = true;
+    }
+}

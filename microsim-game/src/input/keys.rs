@@ -1,0 +1,179 @@
+//! Which key does what.
+
+use super::Action;
+use macroquad::input::KeyCode;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Keys that may be given to actions; the others move through menus or mean nothing on some keyboards.
+const USABLE: &[KeyCode] = {
+    use KeyCode::*;
+    &[
+        A,
+        B,
+        C,
+        D,
+        E,
+        F,
+        G,
+        H,
+        I,
+        J,
+        K,
+        L,
+        M,
+        N,
+        O,
+        P,
+        Q,
+        R,
+        S,
+        T,
+        U,
+        V,
+        W,
+        X,
+        Y,
+        Z,
+        Key0,
+        Key1,
+        Key2,
+        Key3,
+        Key4,
+        Key5,
+        Key6,
+        Key7,
+        Key8,
+        Key9,
+        F1,
+        F2,
+        F3,
+        F4,
+        F5,
+        F6,
+        F7,
+        F8,
+        F9,
+        F10,
+        F11,
+        F12,
+        Space,
+        Tab,
+        Comma,
+        Period,
+        Minus,
+        Equal,
+        Slash,
+        Semicolon,
+        LeftBracket,
+        RightBracket,
+        LeftShift,
+        RightShift,
+        LeftControl,
+        RightControl,
+        Backspace,
+        Home,
+        End,
+        PageUp,
+        PageDown,
+        Insert,
+        Delete,
+        KpAdd,
+        KpSubtract,
+    ]
+};
+
+/// The keys of all actions, by name; that is how they are kept in the settings.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Keys(BTreeMap<Action, String>);
+
+impl Default for Keys {
+    fn default() -> Self {
+        Self(Action::ALL.into_iter().map(|action| (action, name(usual(action)))).collect())
+    }
+}
+
+impl Keys {
+    /// The key of an action. One that is missing or unknown has its usual key.
+    #[must_use]
+    pub fn of(&self, action: Action) -> KeyCode {
+        let known = |wanted: &String| USABLE.iter().copied().find(|key| name(*key) == *wanted);
+        self.0.get(&action).and_then(known).unwrap_or(usual(action))
+    }
+
+    /// What is written on the key of an action.
+    #[must_use]
+    pub fn label(&self, action: Action) -> String {
+        let name = name(self.of(action));
+        let digit = name.strip_prefix("Key").filter(|rest| !rest.is_empty());
+        digit.map_or(name.clone(), str::to_owned)
+    }
+
+    /// Gives a key to an action; what had it before gets the other's. Returns whether the key can be used.
+    pub fn set(&mut self, action: Action, key: KeyCode) -> bool {
+        if !USABLE.contains(&key) {
+            return false;
+        }
+        let old = self.of(action);
+        let other = Action::ALL.into_iter().find(|&other| other != action && self.of(other) == key);
+        other.into_iter().for_each(|other| drop(self.0.insert(other, name(old))));
+        self.0.insert(action, name(key));
+        true
+    }
+}
+
+fn usual(action: Action) -> KeyCode {
+    match action {
+        Action::Consume => KeyCode::Q,
+        Action::ZoomIn => KeyCode::D,
+        Action::ZoomOut => KeyCode::A,
+        Action::Pause => KeyCode::Space,
+        Action::Step => KeyCode::N,
+        Action::Slower => KeyCode::Comma,
+        Action::Faster => KeyCode::Period,
+        Action::Restart => KeyCode::R,
+        Action::Optics => KeyCode::O,
+        Action::DebugView => KeyCode::B,
+        Action::Plots => KeyCode::P,
+        Action::Panel => KeyCode::Tab,
+        Action::Screenshot => KeyCode::F12,
+        Action::FullScreen => KeyCode::F11,
+    }
+}
+
+fn name(key: KeyCode) -> String {
+    format!("{key:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn t73_the_seeds_keys_are_the_usual_ones_and_no_key_has_two_meanings() {
+        let keys = Keys::default();
+        assert_eq!(keys.of(Action::Consume), KeyCode::Q);
+        assert_eq!((keys.of(Action::ZoomOut), keys.of(Action::ZoomIn)), (KeyCode::A, KeyCode::D));
+        let mut all: Vec<_> = Action::ALL.iter().map(|&action| name(keys.of(action))).collect();
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), Action::ALL.len());
+    }
+
+    #[test]
+    fn keys_are_exchanged_and_never_lost() {
+        let mut keys = Keys::default();
+        assert!(keys.set(Action::Consume, KeyCode::A));
+        assert_eq!((keys.of(Action::Consume), keys.of(Action::ZoomOut)), (KeyCode::A, KeyCode::Q));
+        assert!(!keys.set(Action::Consume, KeyCode::Escape));
+        assert_eq!(keys.label(Action::Consume), "A");
+    }
+
+    #[test]
+    fn unknown_names_fall_back_to_the_usual_key() {
+        let keys = Keys(BTreeMap::from([(Action::Consume, "Nonsense".to_owned())]));
+        assert_eq!(keys.of(Action::Consume), KeyCode::Q);
+        assert_eq!(keys.of(Action::Pause), KeyCode::Space);
+    }
+}

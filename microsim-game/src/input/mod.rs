@@ -1,0 +1,183 @@
+//! What the player does in one frame, whether by mouse and keyboard or from a script.
+
+pub mod device;
+pub mod keys;
+pub mod script;
+
+use macroquad::input::KeyCode;
+use microsim_core::glam::Vec2;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Something that a key does. Which key, the player decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Action {
+    /// Digest what is inside, while held.
+    Consume,
+    /// Look closer, while held.
+    ZoomIn,
+    /// Look from farther away, while held.
+    ZoomOut,
+    /// Stop or go on.
+    Pause,
+    /// One step while stopped.
+    Step,
+    /// Slower motion.
+    Slower,
+    /// Faster motion.
+    Faster,
+    /// Start over.
+    Restart,
+    /// The next way of looking through the microscope.
+    Optics,
+    /// Particles, constraints and contacts.
+    DebugView,
+    /// Curves of the time of a step and the area of the cell.
+    Plots,
+    /// Hide or show the panel of tools.
+    Panel,
+    /// Save a picture.
+    Screenshot,
+    /// Fill the screen, or a window again.
+    FullScreen,
+}
+
+impl Action {
+    /// All of them, in the order of the settings.
+    pub const ALL: [Self; 14] = [
+        Self::Consume,
+        Self::ZoomIn,
+        Self::ZoomOut,
+        Self::Pause,
+        Self::Step,
+        Self::Slower,
+        Self::Faster,
+        Self::Restart,
+        Self::Optics,
+        Self::DebugView,
+        Self::Plots,
+        Self::Panel,
+        Self::Screenshot,
+        Self::FullScreen,
+    ];
+
+    /// Its name in scripts.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consume => "consume",
+            Self::ZoomIn => "zoom-in",
+            Self::ZoomOut => "zoom-out",
+            Self::Pause => "pause",
+            Self::Step => "step",
+            Self::Slower => "slower",
+            Self::Faster => "faster",
+            Self::Restart => "restart",
+            Self::Optics => "optics",
+            Self::DebugView => "debug-view",
+            Self::Plots => "plots",
+            Self::Panel => "panel",
+            Self::Screenshot => "screenshot",
+            Self::FullScreen => "full-screen",
+        }
+    }
+
+    /// What it says in the settings.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Consume => "Consume (hold)",
+            Self::ZoomIn => "Zoom in",
+            Self::ZoomOut => "Zoom out",
+            Self::Pause => "Pause",
+            Self::Step => "Single step",
+            Self::Slower => "Slower",
+            Self::Faster => "Faster",
+            Self::Restart => "Restart",
+            Self::Optics => "Next optics",
+            Self::DebugView => "Debug view",
+            Self::Plots => "Plots",
+            Self::Panel => "Panel",
+            Self::Screenshot => "Picture",
+            Self::FullScreen => "Full screen",
+        }
+    }
+}
+
+/// A key that moves through menus. These cannot be changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Move {
+    /// To the item above.
+    Up,
+    /// To the item below.
+    Down,
+    /// A smaller value.
+    Left,
+    /// A greater value.
+    Right,
+    /// Choose it.
+    Confirm,
+    /// Leave.
+    Back,
+}
+
+impl Move {
+    /// All of them, with their names in scripts.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Up, "up"),
+        (Self::Down, "down"),
+        (Self::Left, "left"),
+        (Self::Right, "right"),
+        (Self::Confirm, "enter"),
+        (Self::Back, "escape"),
+    ];
+}
+
+/// The player's input in one frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Input {
+    /// Where the cursor is, drawing units from the upper left corner.
+    pub cursor: Vec2,
+    /// Whether the cursor has moved since the last frame.
+    pub has_moved: bool,
+    /// Whether the left button is down.
+    pub is_held: bool,
+    /// Whether it went down in this frame.
+    pub is_clicked: bool,
+    /// Notches of the wheel, away from the player is positive.
+    pub wheel: f32,
+    /// Actions of which the key is down.
+    pub held: Vec<Action>,
+    /// Actions of which the key went down in this frame.
+    pub pressed: Vec<Action>,
+    /// A move through a menu.
+    pub step: Option<Move>,
+    /// The key that went down in this frame, whatever it does.
+    pub key: Option<KeyCode>,
+    /// Files that were dropped on the window.
+    pub dropped: Vec<PathBuf>,
+    /// Whether the window has lost the keyboard in this frame.
+    pub has_lost_focus: bool,
+}
+
+impl Input {
+    /// Whether the key of an action is down.
+    #[must_use]
+    pub fn holds(&self, action: Action) -> bool {
+        self.held.contains(&action)
+    }
+
+    /// Whether the key of an action went down in this frame.
+    #[must_use]
+    pub fn presses(&self, action: Action) -> bool {
+        self.pressed.contains(&action)
+    }
+
+    /// Zooming by keys: 1 in, -1 out.
+    #[must_use]
+    pub fn zoom(&self) -> f32 {
+        let one = |action| if self.holds(action) { 1.0 } else { 0.0 };
+        one(Action::ZoomIn) - one(Action::ZoomOut)
+    }
+}

@@ -1,0 +1,70 @@
+//! Textures on the card, and those that are drawn into.
+
+use macroquad::miniquad::{
+    FilterMode, RenderPass, RenderingBackend, TextureAccess, TextureFormat, TextureId, TextureParams, TextureSource,
+    TextureWrap,
+};
+use microsim_core::microscope::recipe::Target;
+use std::collections::BTreeMap;
+
+/// One for each target, as long as its size is right.
+#[derive(Default)]
+pub(super) struct Targets(BTreeMap<Target, Held>);
+
+struct Held {
+    size: [u32; 2],
+    texture: TextureId,
+    pass: RenderPass,
+}
+
+impl Targets {
+    /// The pass that draws into a target.
+    pub(super) fn prepare(
+        &mut self,
+        card: &mut dyn RenderingBackend,
+        target: Target,
+        size: [u32; 2],
+        is_float: bool,
+    ) -> RenderPass {
+        if let Some(held) = self.0.get(&target) {
+            if held.size == size {
+                return held.pass;
+            }
+            // Its texture goes with it.
+            card.delete_render_pass(held.pass);
+        }
+        let format = if is_float { TextureFormat::RGBA16F } else { TextureFormat::RGBA8 };
+        let [width, height] = size;
+        let texture = card.new_render_texture(TextureParams { width, height, format, ..TextureParams::default() });
+        let pass = card.new_render_pass(texture, None);
+        self.0.insert(target, Held { size, texture, pass });
+        pass
+    }
+
+    pub(super) fn texture(&self, target: Target) -> Option<TextureId> {
+        self.0.get(&target).map(|held| held.texture)
+    }
+}
+
+/// A square texture that goes on beyond its edges.
+pub(super) fn repeating(card: &mut dyn RenderingBackend, side: u16, bytes: &[u8]) -> TextureId {
+    texture(card, [side, side], bytes, FilterMode::Linear, TextureWrap::Repeat)
+}
+
+/// A texture that is not interpolated.
+pub(super) fn sharp(card: &mut dyn RenderingBackend, size: [u16; 2], bytes: &[u8]) -> TextureId {
+    texture(card, size, bytes, FilterMode::Nearest, TextureWrap::Clamp)
+}
+
+fn texture(
+    card: &mut dyn RenderingBackend,
+    size: [u16; 2],
+    bytes: &[u8],
+    filter: FilterMode,
+    wrap: TextureWrap,
+) -> TextureId {
+    let [width, height] = size.map(u32::from);
+    let params =
+        TextureParams { width, height, wrap, min_filter: filter, mag_filter: filter, ..TextureParams::default() };
+    card.new_texture(TextureAccess::Static, TextureSource::Bytes(bytes), params)
+}

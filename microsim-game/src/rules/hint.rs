@@ -1,0 +1,126 @@
+//! What the player is shown: which cells can be taken in, what is about to be, what waits to be digested.
+
+use microsim_core::glam::Vec2;
+use microsim_core::{Event, MealPhase, OrganismId, OrganismView, World};
+
+/// Whether a rigid cell can be taken in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Readiness {
+    /// Now.
+    Ready,
+    /// When the player has grown: it has this share of the size that is needed, below 1.
+    TooLarge(f32),
+    /// When the one place for such cells is free again.
+    NoRoom,
+}
+
+/// A rigid cell and whether it can be taken in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// The cell.
+    pub prey: OrganismId,
+    /// Its centre.
+    pub at: Vec2,
+    /// Half its length, units.
+    pub reach: f32,
+    /// Whether it can be taken in.
+    pub readiness: Readiness,
+}
+
+/// Something that the player touches or holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// What it is.
+    pub prey: OrganismId,
+    /// Its centre.
+    pub at: Vec2,
+    /// Half its length, units.
+    pub reach: f32,
+    /// Where it stands.
+    pub state: State,
+}
+
+/// Where something stands on its way into the player, and out of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum State {
+    /// Touched: share of the time that the touch has to last, 0 to 1.
+    Touching(f32),
+    /// Going in.
+    Entering,
+    /// Inside: share of it that is digested, 0 to 1.
+    Inside(f32),
+}
+
+/// All hints of one moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hints {
+    /// Rigid cells that are free.
+    pub targets: Vec<Target>,
+    /// What the player touches or holds.
+    pub held: Vec<Held>,
+}
+
+impl Hints {
+    /// The hints for a player.
+    #[must_use]
+    pub fn of(world: &World, player: OrganismId) -> Self {
+        let view = world.view();
+        let Some(engulfer) = view.organism(player) else { return Self::default() };
+        let free = |organism: &OrganismView<'_>| organism.is_soft_prey() && organism.held_by().is_none();
+        let targets = view.organisms().filter(free).filter_map(|prey| {
+            let (at, reach) = (world.centroid(prey.id())?, reach(prey));
+            Some(Target { prey: prey.id(), at, reach, readiness: readiness(engulfer, prey)? })
+        });
+        let held = engulfer.meals().filter_map(|(prey, phase)| {
+            let (at, reach) = (world.centroid(prey)?, reach(view.organism(prey)?));
+            Some(Held { prey, at, reach, state: state(engulfer, phase) })
+        });
+        Self { targets: targets.collect(), held: held.collect() }
+    }
+
+    /// Whether holding the key would digest something.
+    #[must_use]
+    pub fn can_digest(&self) -> bool {
+        self.held.iter().any(|held| matches!(held.state, State::Inside(_)))
+    }
+}
+
+/// Whether the player can take a soft cell in; `None` if it takes in nothing at all.
+#[must_use]
+pub fn readiness(player: OrganismView<'_>, prey: OrganismView<'_>) -> Option<Readiness> {
+    let needed = prey.spawn_area() * player.phagocytosis()?.size_ratio;
+    let share = player.cytoplasm_area() / needed;
+    Some(match share {
+        _ if share < 1.0 => Readiness::TooLarge(share),
+        _ if player.is_full() => Readiness::NoRoom,
+        _ => Readiness::Ready,
+    })
+}
+
+/// Whether the player has grown since the step before: something was digested.
+#[must_use]
+pub fn has_consumed(world: &World, player: OrganismId) -> bool {
+    let by_player = |event: &Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == player);
+    world.events().iter().any(by_player)
+}
+
+fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> State {
+    match phase {
+        MealPhase::Touching(time) => {
+            let needed = engulfer.phagocytosis().map_or(1.0, |params| params.hold_time.max(1e-3));
+            State::Touching((time / needed).min(1.0))
+        }
+        MealPhase::Ingesting(_) => State::Entering,
+        MealPhase::Ingested => State::Inside(0.0),
+        MealPhase::Digesting(share) => State::Inside(share.min(1.0)),
+    }
+}
+
+fn reach(organism: OrganismView<'_>) -> f32 {
+    let (mut low, mut high) = (Vec2::MAX, Vec2::MIN);
+    for particle in organism.particles() {
+        low = low.min(particle.position - particle.radius);
+        high = high.max(particle.position + particle.radius);
+    }
+    (0.5 * (high - low).max_element()).max(0.0)
+}

@@ -1,0 +1,261 @@
+//! The rules over whole rounds.
+
+use super::bot::{Bot, Policy};
+use super::hint::{Hints, Readiness, State};
+use super::recording::Recording;
+use super::round::Round;
+use microsim_core::glam::Vec2;
+use microsim_core::scenario::{Scenario, builtin};
+use microsim_core::{Event, Intent, Kind};
+
+fn scenario(seed: u64, time: f32) -> Scenario {
+    let text = builtin("game").unwrap().text;
+    let mut scenario = Scenario::parse(text, &[("game.time".to_owned(), time.to_string())]).unwrap();
+    scenario.set_seed(seed);
+    scenario
+}
+
+/// Plays a whole round; `seen` is shown every step.
+fn play(policy: Policy, seed: u64, time: f32, mut seen: impl FnMut(&Round)) -> Round {
+    let mut round = Round::new(&scenario(seed, time)).unwrap();
+    let mut bot = Bot::new(policy, seed);
+    while !round.referee().is_over() {
+        let intent = bot.intent(round.world(), round.player());
+        round.step(intent);
+        seen(&round);
+    }
+    round
+}
+
+/// A cell between something small and something soft, both within its reach.
+fn table(text: &str) -> Round {
+    let text = format!(
+        "schema = 1\nname = \"table\"\n[world]\nsize = [90.0, 50.0]\n[amoeboid_cell.cell]\nradii = [9.0, 9.0]\n\
+         [agar.pellet]\nradius = 1.0\n[rigid_cell.prey]\nradii = [4.0, 3.0]\n[rigid_cell.giant]\nradii = [12.0, 8.0]\n\
+         [[spawn]]\nof = \"cell\"\nplayer = true\nat = [30.0, 25.0]\n[game]\ntime = 60.0\n\
+         [game.points.agar]\neach = 10\n[game.points.rigid_cell]\neach = 50\nper_area = 1.0\n{text}"
+    );
+    Round::new(&Scenario::parse(&text, &[]).unwrap()).unwrap()
+}
+
+const PELLET: &str = "[[spawn]]\nof = \"pellet\"\nat = [42.0, 25.0]\n";
+const PREY: &str = "[[spawn]]\nof = \"prey\"\nat = [46.0, 25.0]\n";
+
+/// Steers the player to the first other organism until something holds, with or without digesting.
+fn hunt(round: &mut Round, digests: bool, done: impl Fn(&Round) -> bool) {
+    for _ in 0..1200 {
+        if done(round) {
+            return;
+        }
+        let prey = round.world().organisms().find(|&id| id != round.player());
+        let goal = prey.and_then(|id| round.world().centroid(id)).and_then(|at| Intent::toward(at).ok());
+        round.step(goal.unwrap_or(Intent::REST).digesting(digests));
+    }
+    panic!("it never came to that");
+}
+
+fn inside(round: &Round) -> usize {
+    let hints = Hints::of(round.world(), round.player());
+    hints.held.iter().filter(|held| matches!(held.state, State::Inside(_))).count()
+}
+
+#[test]
+fn t64_a_round_starts_at_zero_and_ends_with_its_time() {
+    assert_eq!(Scenario::parse(builtin("game").unwrap().text, &[]).unwrap().game().unwrap().time, 90.0);
+    let mut round = Round::new(&scenario(1, 2.0)).unwrap();
+    assert_eq!((round.referee().score(), round.referee().time_left()), (0, 2.0));
+    (0..119).for_each(|_| round.step(Intent::REST));
+    assert!(!round.referee().is_over() && round.referee().time_left() > 0.0);
+    round.step(Intent::REST);
+    assert!(round.referee().is_over() && round.referee().time_left() == 0.0);
+    round.step(Intent::REST);
+    assert_eq!(round.world().step_index(), 120, "nothing happens after the end");
+}
+
+#[test]
+fn t61_t62_t65_only_what_is_digested_counts() {
+    let mut round = table(PELLET);
+    hunt(&mut round, false, |round| inside(round) == 1);
+    let area = |round: &Round| round.world().view().organism(round.player()).unwrap().cytoplasm_area();
+    let before = area(&round);
+    (0..120).for_each(|_| round.step(Intent::REST));
+    assert_eq!((round.referee().score(), area(&round)), (0, before), "taking in alone earns and changes nothing");
+    while inside(&round) == 1 {
+        round.step(Intent::REST.digesting(true));
+    }
+    assert_eq!(round.referee().score(), 10);
+    (0..30).for_each(|_| round.step(Intent::REST));
+    assert!(area(&round) > before);
+}
+
+#[test]
+fn t65_t70_rigid_cells_earn_more_and_every_gain_is_shown_once() {
+    let mut round = table(PREY);
+    hunt(&mut round, true, |round| round.referee().score() > 0);
+    let gains = round.referee().gains().to_vec();
+    assert_eq!(gains.len(), 1);
+    assert_eq!(gains[0].kind, Kind::RigidCell);
+    assert_eq!(gains[0].points, (50.0 + std::f32::consts::PI * 12.0_f32).round() as u32);
+    let cell = round.world().centroid(round.player()).unwrap();
+    assert!((gains[0].at - cell).length() < 9.0, "shown where it was");
+    round.step(Intent::REST);
+    assert!(round.referee().gains().is_empty());
+}
+
+#[test]
+fn t67_t69_growth_enables_larger_prey() {
+    let mut round = table("[[spawn]]\nof = \"giant\"\nat = [66.0, 25.0]\n");
+    let readiness = |round: &Round| Hints::of(round.world(), round.player()).targets[0].readiness;
+    let Readiness::TooLarge(share) = readiness(&round) else { panic!("{:?}", readiness(&round)) };
+    assert!(share > 0.1 && share < 1.0);
+    let player = round.player();
+    let mut world = round.world().clone();
+    world.grow(player, 60, 400).unwrap();
+    assert_eq!(Hints::of(&world, player).targets[0].readiness, Readiness::Ready);
+    round.step(Intent::REST);
+    assert!(matches!(readiness(&round), Readiness::TooLarge(_)));
+}
+
+#[test]
+fn t75_one_rigid_cell_inside_leaves_no_room_for_another() {
+    let mut round = table(&format!("{PREY}[[spawn]]\nof = \"prey\"\nat = [60.0, 40.0]\n"));
+    let targets = |round: &Round| Hints::of(round.world(), round.player()).targets;
+    assert!(targets(&round).iter().all(|target| target.readiness == Readiness::Ready));
+    hunt(&mut round, false, |round| inside(round) == 1);
+    let left = targets(&round);
+    assert_eq!((left.len(), left[0].readiness), (1, Readiness::NoRoom));
+    hunt(&mut round, true, |round| round.referee().score() > 0);
+    assert_eq!(targets(&round)[0].readiness, Readiness::Ready);
+}
+
+#[test]
+fn t29_t71_hints_follow_a_meal_from_touch_to_digestion() {
+    let mut round = table(PELLET);
+    let mut seen = [false; 4];
+    for _ in 0..1200 {
+        let hints = Hints::of(round.world(), round.player());
+        match hints.held.first().map(|held| held.state) {
+            Some(State::Touching(share)) => seen[0] |= share > 0.3 && !hints.can_digest(),
+            Some(State::Entering) => seen[1] |= !hints.can_digest(),
+            Some(State::Inside(0.0)) => seen[2] |= hints.can_digest(),
+            Some(State::Inside(share)) => seen[3] |= share < 1.0 && hints.can_digest(),
+            None => {}
+        }
+        let goal = round.world().organisms().nth(1).and_then(|id| round.world().centroid(id));
+        let Some(goal) = goal else { break };
+        let digests = seen[2];
+        round.step(Intent::toward(goal).unwrap().digesting(digests));
+    }
+    assert_eq!(seen, [true; 4]);
+}
+
+#[test]
+fn the_score_is_the_sum_of_its_gains_and_no_more_than_was_eaten() {
+    let (mut gained, mut eaten) = (0, 0);
+    let round = play(Policy::AgarOnly, 3, 12.0, |round| {
+        gained += round.referee().gains().iter().map(|gain| gain.points).sum::<u32>();
+        let by_player =
+            |event: &&Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == round.player());
+        eaten += round.world().events().iter().filter(by_player).count() as u32;
+    });
+    let tallies = round.referee().tallies();
+    assert_eq!(gained, round.referee().score());
+    assert_eq!(eaten, tallies.iter().map(|(_, tally)| tally.count).sum::<u32>());
+    assert!(eaten > 0);
+}
+
+#[test]
+fn the_same_seed_and_intents_are_the_same_round_to_the_bit() {
+    let scenario = scenario(5, 8.0);
+    let mut recording = Recording::new(scenario.clone());
+    let (mut round, mut bot) = (Round::new(&scenario).unwrap(), Bot::new(Policy::Random, 5));
+    while !round.referee().is_over() {
+        let intent = bot.intent(round.world(), round.player());
+        recording.push(intent);
+        round.step(intent);
+    }
+    let mut again = Round::new(recording.scenario()).unwrap();
+    while !again.referee().is_over() {
+        again.step(recording.intent(again.world().step_index()));
+    }
+    assert_eq!(again.world().digest(), round.world().digest());
+    assert_eq!(again.referee().score(), round.referee().score());
+    let mut other = Round::new(&self::scenario(6, 8.0)).unwrap();
+    recording.intents().for_each(|intent| other.step(intent));
+    assert_ne!(other.world().digest(), round.world().digest());
+}
+
+/// Scores of all policies over seeds, one list each.
+fn scores(seeds: std::ops::RangeInclusive<u64>, time: f32) -> [Vec<u32>; 5] {
+    Policy::ALL.map(|policy| seeds.clone().map(|seed| play(policy, seed, time, |_| {}).referee().score()).collect())
+}
+
+/// Seeds for which the second list is greater than the first.
+fn wins(worse: &[u32], better: &[u32]) -> usize {
+    worse.iter().zip(better).filter(|(worse, better)| better > worse).count()
+}
+
+#[test]
+fn bots_score_in_the_order_of_their_skill() {
+    let [idle, never, random, agar, greedy] = scores(1..=2, 30.0);
+    assert!(idle.iter().chain(&never).all(|score| *score == 0));
+    assert_eq!((wins(&random, &agar), wins(&agar, &greedy)), (2, 2), "{random:?} {agar:?} {greedy:?}");
+}
+
+#[test]
+#[ignore = "100 rounds of 90 s"]
+fn bots_score_in_the_order_of_their_skill_over_twenty_seeds() {
+    let all = scores(1..=20, 90.0);
+    println!("{all:?}");
+    let [idle, never, random, agar, greedy] = all;
+    assert!(idle.iter().chain(&never).all(|score| *score == 0));
+    // A sign test: 15 of 20 has a probability of 2 % by chance.
+    for (worse, better) in [(&idle, &random), (&random, &agar), (&agar, &greedy)] {
+        assert!(wins(worse, better) >= 15, "{worse:?} {better:?}");
+    }
+}
+
+/// Mean velocity of a cell.
+fn velocity(round: &Round) -> Vec2 {
+    let cell = round.world().view().organism(round.player()).unwrap();
+    let (sum, count) = cell.particles().fold((Vec2::ZERO, 0.0), |(sum, count), p| (sum + p.velocity, count + 1.0));
+    sum / count
+}
+
+#[test]
+fn a_command_moves_the_cell_at_once_and_turns_it_soon() {
+    let ways = [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::new(0.7, -0.7)];
+    for before in [None, Some(Vec2::X), Some(Vec2::Y)] {
+        for way in ways {
+            let mut round = Round::new(&scenario(1, 60.0)).unwrap();
+            let intent = |round: &Round, way: Vec2| {
+                let at = round.world().centroid(round.player()).unwrap();
+                Intent::toward(at + way * 40.0).unwrap()
+            };
+            for _ in 0..40 {
+                let earlier = before.map_or(Intent::REST, |way| intent(&round, way));
+                round.step(earlier);
+            }
+            let start = velocity(&round);
+            let command = intent(&round, way);
+            (0..2).for_each(|_| round.step(command));
+            let gained = (velocity(&round) - start).dot(way);
+            let turns = before.is_none_or(|before| before != way);
+            assert!(gained > 0.05 || !turns, "{before:?} -> {way}: gained {gained} units/s in two steps");
+            (0..16).for_each(|_| round.step(command));
+            let cosine = velocity(&round).normalize_or_zero().dot(way.normalize());
+            assert!(cosine > 0.707, "{before:?} -> {way}: cosine {cosine} after 0.3 s");
+        }
+    }
+}
+
+#[test]
+fn the_rules_know_no_window() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/rules");
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let forbidden = concat!("macro", "quad");
+        assert!(!text.contains(forbidden), "{}", path.display());
+    }
+}

@@ -1,0 +1,178 @@
+//! How a world is seen: through the microscope, on the graphics card, or drawn, where that is too slow.
+
+use crate::draw::{Frame, Painter};
+use crate::microscope::{Quality, Renderer};
+use crate::viewer::Pace;
+use macroquad::window::screen_dpi_scale;
+use microsim_core::glam::Vec2;
+use microsim_core::microscope::{Field, Film, Microscope, Optics};
+use serde::{Deserialize, Serialize};
+
+/// A frame that takes longer than this is slow, s; one that takes longer than that is hopeless.
+const SLOW_FRAME: f32 = 0.04;
+const HOPELESS_FRAME: f32 = 0.2;
+/// Slow frames may take so long in all, s, less what fluent ones have taken in between.
+const PATIENCE: f32 = 1.2;
+
+/// How a world is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sight {
+    /// Through the microscope.
+    Microscope(Optics),
+    /// Drawn: the same at any speed of the graphics card.
+    Drawn,
+}
+
+impl Sight {
+    /// All of them, in the order in which a key goes through them.
+    pub fn all() -> impl DoubleEndedIterator<Item = Self> + Clone {
+        Optics::ALL.into_iter().map(Self::Microscope).chain([Self::Drawn])
+    }
+
+    /// Its name in the settings.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Microscope(optics) => optics.name(),
+            Self::Drawn => "drawn",
+        }
+    }
+
+    /// The one of this name, or the first.
+    #[must_use]
+    pub fn named(name: &str) -> Self {
+        Self::all().find(|sight| sight.name() == name).unwrap_or(Self::Microscope(Optics::ALL[0]))
+    }
+
+    /// The next one, or the one before.
+    #[must_use]
+    pub fn next(self, is_back: bool) -> Self {
+        let all: Vec<Self> = Self::all().collect();
+        let at = all.iter().position(|&sight| sight == self).unwrap_or(0);
+        all[(at + if is_back { all.len() - 1 } else { 1 }) % all.len()]
+    }
+}
+
+/// How much of the machine pictures may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Effort {
+    /// As much as leaves the picture fluent.
+    #[default]
+    Automatic,
+    /// All that there is.
+    High,
+    /// Half of the pixels.
+    Medium,
+    /// A quarter of the pixels.
+    Low,
+}
+
+impl Effort {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Automatic, Self::High, Self::Medium, Self::Low];
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Automatic => "automatic",
+            Self::High => "high",
+            Self::Medium => "medium",
+            Self::Low => "low",
+        }
+    }
+
+    /// The next one.
+    #[must_use]
+    pub fn next(self) -> Self {
+        let at = Self::ALL.iter().position(|&effort| effort == self).unwrap_or(0);
+        Self::ALL[(at + 1) % Self::ALL.len()]
+    }
+}
+
+/// Shows worlds.
+#[derive(Debug)]
+pub struct Scenery {
+    painter: Painter,
+    /// Not there where the driver does not take its programs.
+    renderer: Option<Renderer>,
+    /// How far automatic effort has come down: high, medium, low, drawn.
+    given_up: usize,
+    /// Time that slow frames have taken, s.
+    slow: f32,
+}
+
+const STEPS_DOWN: [Option<Quality>; 4] = [Some(Quality::High), Some(Quality::Medium), Some(Quality::Low), None];
+
+impl Scenery {
+    /// Makes textures and programs. Needs an open window.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { painter: Painter::new(), renderer: Renderer::new().ok(), given_up: 0, slow: 0.0 }
+    }
+
+    /// Lowers automatic effort when frames stay slow.
+    pub fn pass(&mut self, pace: Pace) {
+        let elapsed = pace.elapsed.min(0.5);
+        let is_slow = !pace.is_exact && elapsed > SLOW_FRAME;
+        self.slow = if is_slow { self.slow + elapsed } else { (self.slow - elapsed).max(0.0) };
+        if self.slow > PATIENCE {
+            self.slow = 0.0;
+            let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
+            self.given_up = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
+        }
+    }
+
+    /// Draws a frame.
+    pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
+        let quality = match effort {
+            Effort::Automatic => STEPS_DOWN[self.given_up],
+            Effort::High => Some(Quality::High),
+            Effort::Medium => Some(Quality::Medium),
+            Effort::Low => Some(Quality::Low),
+        };
+        let is_done = match (sight, quality) {
+            (Sight::Microscope(optics), Some(quality)) => self.photograph(frame, optics, quality),
+            _ => false,
+        };
+        if !is_done {
+            self.painter.paint(frame);
+        }
+    }
+
+    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: Quality) -> bool {
+        let Some(renderer) = &mut self.renderer else { return false };
+        let screen = frame.camera.screen();
+        let pixels = (screen * screen_dpi_scale()).max(Vec2::ONE);
+        let width = screen.x / frame.camera.scale();
+        let field = Field { centre: frame.camera.centre(), width, pixels: [pixels.x as u32, pixels.y as u32] };
+        let microscope = Microscope { optics, film: Film::DIGITAL };
+        let Ok(picture) = renderer.draw(frame.world, field, microscope, quality) else { return false };
+        renderer.show(&picture, 0.0, 0.0, screen.x, screen.y);
+        true
+    }
+}
+
+impl Default for Scenery {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_goes_through_all_sights_and_back() {
+        let first = Sight::named("nonsense");
+        let mut sight = first;
+        for expected in Sight::all().skip(1).chain([first]) {
+            assert_eq!(sight, expected.next(true));
+            sight = sight.next(false);
+            assert_eq!(sight, expected);
+            assert_eq!(Sight::named(sight.name()), sight);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Which key does what: choose an action, then press its new key.
+
+use super::pause::{TOP, draw_heading};
+use super::{Change, Context, Screen};
+use crate::input::keys::Keys;
+use crate::input::{Action, Input, Move};
+use crate::ui::menu::{Choice, Item, Menu, Place};
+
+/// The menu of keys.
+#[derive(Debug)]
+pub struct KeysMenu {
+    menu: Menu,
+    /// The action that waits for its key.
+    waiting: Option<Action>,
+}
+
+impl KeysMenu {
+    /// The present keys.
+    #[must_use]
+    pub fn new(context: &Context) -> Self {
+        Self { menu: Menu::new(items(&context.settings.keys, None)), waiting: None }
+    }
+
+    fn assign(&mut self, action: Action, input: &Input, context: &mut Context) {
+        let Some(key) = input.key else { return };
+        if input.step == Some(Move::Back) {
+            self.waiting = None;
+        } else if context.settings.keys.set(action, key) {
+            self.waiting = None;
+            context.save_settings();
+        } else {
+            context.tell("This key cannot be used. Escape leaves it as it was.");
+        }
+    }
+}
+
+fn items(keys: &Keys, waiting: Option<Action>) -> Vec<Item> {
+    let label = |action| if waiting == Some(action) { "press a key".to_owned() } else { keys.label(action) };
+    let actions = Action::ALL.into_iter().map(|action| Item::with(action.label(), label(action)));
+    actions.chain([Item::new("Usual keys"), Item::new("Back")]).collect()
+}
+
+impl Screen for KeysMenu {
+    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+        if let Some(action) = self.waiting {
+            self.assign(action, input, context);
+        } else if input.step == Some(Move::Back) {
+            return Change::Pop;
+        } else if let Some(Choice::Pick(item) | Choice::Less(item)) =
+            self.menu.update(input, &Place::middle(&context.pen, TOP))
+        {
+            match Action::ALL.get(item) {
+                Some(&action) => self.waiting = Some(action),
+                None if item > Action::ALL.len() => return Change::Pop,
+                None => {
+                    context.settings.keys = Keys::default();
+                    context.save_settings();
+                }
+            }
+        }
+        self.menu.items = items(&context.settings.keys, self.waiting);
+        Change::Stay
+    }
+
+    fn draw(&mut self, context: &mut Context) {
+        draw_heading(&mut context.pen, "Keys");
+        let place = Place::middle(&context.pen, TOP);
+        self.menu.draw(&mut context.pen, &place);
+    }
+
+    fn name(&self) -> String {
+        "keys".to_owned()
+    }
+}

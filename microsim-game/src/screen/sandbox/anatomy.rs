@@ -1,0 +1,106 @@
+//! The debug view: chemicals, particles, constraints, contacts and the regions of crawling membranes.
+
+use crate::camera::Camera;
+use crate::draw::canvas::Canvas;
+use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
+use crate::ui::pen::{Align, Pen, Size};
+use macroquad::color::Color;
+use microsim_core::glam::Vec2;
+use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, World};
+
+/// Draws a world's anatomy over its picture.
+pub(super) fn draw(pen: &mut Pen, world: &World, camera: &Camera) {
+    let screen = pen.screen();
+    let canvas = pen.canvas();
+    canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
+    for ((_, chemical), colour) in world.view().chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
+        draw_chemical(canvas, camera, chemical, colour);
+    }
+    for (bond, ends) in world.view().bonds() {
+        let (width, colour) = stroke(bond);
+        draw_segment(canvas, camera, ends, width, colour);
+    }
+    for organism in world.view().organisms() {
+        draw_particles(canvas, camera, organism);
+        draw_regions(canvas, camera, organism);
+    }
+    for ends in world.view().contacts() {
+        draw_segment(canvas, camera, ends, 2.4, ALERT);
+    }
+    draw_legend(pen);
+}
+
+/// The cells of a chemical's grid, the fuller the more of it is there.
+fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color) {
+    let most = chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value));
+    let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
+    for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
+        let low = cell * Vec2::new((k % columns) as f32, (k / columns) as f32);
+        let (upper_left, lower_right) =
+            (camera.to_screen(low + Vec2::new(0.0, cell.y)), camera.to_screen(low + Vec2::new(cell.x, 0.0)));
+        let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
+        let share = (value / most).max(0.0).sqrt();
+        if is_seen && share > 0.02 {
+            canvas.rectangle(upper_left, lower_right, fade(colour, 0.45 * share));
+        }
+    }
+}
+
+fn stroke(bond: Bond) -> (f32, Color) {
+    match bond {
+        Bond::Distance => (1.0, fade(HALO, 0.75)),
+        Bond::MinDistance => (0.6, fade(HALO, 0.3)),
+        Bond::Rope => (0.6, fade(WAIT, 0.6)),
+        Bond::Anchor => (2.0, WAIT),
+        Bond::Membrane => (1.6, HALO),
+    }
+}
+
+fn draw_segment(canvas: &mut Canvas, camera: &Camera, ends: [Vec2; 2], width: f32, colour: Color) {
+    let [from, to] = ends.map(|end| camera.to_screen(end));
+    let is_seen = from.max(to).cmpge(Vec2::ZERO).all() && from.min(to).cmple(camera.screen()).all();
+    if is_seen {
+        canvas.segment(from, to, width, colour);
+    }
+}
+
+fn draw_particles(canvas: &mut Canvas, camera: &Camera, organism: OrganismView<'_>) {
+    for particle in organism.particles() {
+        let (at, radius) = (camera.to_screen(particle.position), particle.radius * camera.scale());
+        let is_seen = at.cmpge(-Vec2::splat(radius)).all() && at.cmple(camera.screen() + radius).all();
+        if is_seen && radius > 0.0 {
+            canvas.circle(at, radius, 1.0, fade(HALO, 0.5));
+        }
+    }
+}
+
+/// Nodes of a crawling membrane: squares in front, bars behind, and dots on the left and hollow dots on the right.
+fn draw_regions(canvas: &mut Canvas, camera: &Camera, organism: OrganismView<'_>) {
+    let Some(regions) = organism.membrane_regions() else { return };
+    for (region, at) in regions.into_iter().zip(organism.outline()) {
+        let at = camera.to_screen(at);
+        match region {
+            MembraneRegion::Front => canvas.rectangle(at - 3.0, at + 3.0, READY),
+            MembraneRegion::Rear => canvas.rectangle(at - Vec2::new(4.0, 1.2), at + Vec2::new(4.0, 1.2), ALERT),
+            MembraneRegion::LeftWing => canvas.circle(at, 1.5, 3.0, WAIT),
+            MembraneRegion::RightWing => canvas.circle(at, 2.5, 1.0, WAIT),
+        }
+    }
+}
+
+/// What the strokes mean.
+fn draw_legend(pen: &mut Pen) {
+    let line = pen.line(Size::Small);
+    let entries = [
+        "circle: particle",
+        "thin: distance, rope",
+        "bold: anchor, membrane",
+        "square: front  bar: rear",
+        "amber: contact",
+    ];
+    let right = pen.screen().x - 0.5 * line;
+    for (k, entry) in entries.into_iter().enumerate() {
+        let at = Vec2::new(right, line * (2.2 + 1.2 * k as f32));
+        pen.label(at, Size::Small, Align::Right, HALO, entry);
+    }
+}

@@ -1,0 +1,218 @@
+//! Simulation mode: any scenario, without rules or hints, to look at and to meddle with.
+
+mod anatomy;
+mod panel;
+mod plots;
+mod tools;
+
+use super::pause::Pause;
+use super::{Change, Context, Screen};
+use crate::args::Scene;
+use crate::draw::Frame;
+use crate::draw::palette::HALO;
+use crate::input::{Action, Input, Move};
+use crate::stage::Stage;
+use crate::ui::menu::Menu;
+use crate::ui::pen::{Align, Pen, Size};
+use crate::viewer::{Viewer, first_view};
+use microsim_core::geometry::signed_area;
+use microsim_core::glam::Vec2;
+use plots::Plots;
+use tools::Tools;
+
+/// Units that are seen from bottom to top at first when there is somebody to follow.
+const VIEW: f32 = 60.0;
+/// How fast time can pass.
+const SPEEDS: [f32; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
+const USUAL_SPEED: usize = 3;
+
+/// A scene to meddle with.
+#[derive(Debug)]
+pub struct Sandbox {
+    stage: Stage,
+    viewer: Viewer,
+    tools: Tools,
+    panel: Menu,
+    plots: Plots,
+    speed: usize,
+    shows: Shows,
+    is_paused: bool,
+}
+
+/// What is shown besides the scene.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shows {
+    panel: bool,
+    anatomy: bool,
+    plots: bool,
+}
+
+impl Sandbox {
+    /// A scene that runs.
+    #[must_use]
+    pub fn new(stage: Stage, context: &Context) -> Self {
+        let camera = first_view(stage.world(), stage.player(), VIEW, context.pen.screen());
+        let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
+        let mut sandbox = Self {
+            viewer: Viewer::new(stage.world(), camera),
+            tools: Tools::default(),
+            panel: Menu::default(),
+            plots: Plots::default(),
+            speed: USUAL_SPEED,
+            shows,
+            is_paused: false,
+            stage,
+        };
+        sandbox.panel.items = panel::items(&sandbox);
+        sandbox
+    }
+
+    /// The scene from its beginning.
+    fn restart(&self, context: &mut Context) -> Change {
+        match self.stage.again() {
+            Ok(stage) => Change::reset(Self { shows: self.shows, speed: self.speed, ..Self::new(stage, context) }),
+            Err(problem) => {
+                context.tell(problem);
+                Change::Stay
+            }
+        }
+    }
+
+    fn press(&mut self, input: &Input) {
+        self.is_paused ^= input.presses(Action::Pause);
+        self.is_paused |= input.has_lost_focus;
+        self.shows.panel ^= input.presses(Action::Panel);
+        self.shows.anatomy ^= input.presses(Action::DebugView);
+        self.shows.plots ^= input.presses(Action::Plots);
+        let faster = usize::from(input.presses(Action::Faster));
+        let slower = usize::from(input.presses(Action::Slower));
+        self.speed = (self.speed + faster).saturating_sub(slower).min(SPEEDS.len() - 1);
+        if input.presses(Action::Step) {
+            self.is_paused = true;
+            self.step();
+        }
+    }
+
+    /// One step, while time stands still.
+    fn step(&mut self) {
+        self.viewer.step(&mut self.stage, |stage| {
+            stage.step();
+            stage.world()
+        });
+        self.measure();
+    }
+
+    fn run(&mut self, context: &Context) {
+        if self.is_paused {
+            return;
+        }
+        let speed = SPEEDS[self.speed];
+        let tools = &self.tools;
+        self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
+            tools.before_step(stage);
+            stage.step();
+            stage.world()
+        });
+        self.measure();
+    }
+
+    fn measure(&mut self) {
+        let cell = self.stage.player().and_then(|id| self.stage.world().view().organism(id));
+        let area = cell.map(|cell| signed_area(&cell.outline().collect::<Vec<_>>()));
+        self.plots.push(self.viewer.step_ms(), area);
+    }
+
+    fn open_dropped(&self, input: &Input, context: &mut Context) -> Change {
+        let Some(path) = input.dropped.first() else { return Change::Stay };
+        let scene = Scene::File(path.clone());
+        match Stage::open(&scene, &[]) {
+            Ok(stage) => {
+                context.files.retain(|known| *known != scene);
+                context.files.insert(0, scene);
+                Change::reset(Self::new(stage, context))
+            }
+            Err(problem) => {
+                context.tell(problem);
+                Change::Stay
+            }
+        }
+    }
+
+    fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
+        let (world, census) = (self.stage.world(), self.stage.census());
+        let mut text = format!(
+            "{}   {:.2} s   {} bodies   {} particles",
+            self.stage.name(),
+            world.time(),
+            census.bodies,
+            census.particles
+        );
+        if !is_exact {
+            text += &format!("   step {:.2} ms", self.viewer.step_ms());
+        }
+        if SPEEDS[self.speed] != 1.0 {
+            text += &format!("   {} x", SPEEDS[self.speed]);
+        }
+        text += if self.is_paused { "   PAUSED" } else { "" };
+        let line = pen.line(Size::Small);
+        pen.label(Vec2::new(0.4 * line, 0.8 * line), Size::Small, Align::Left, HALO, &text);
+    }
+}
+
+impl Screen for Sandbox {
+    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+        self.viewer.camera.resize(context.pen.screen());
+        if input.step == Some(Move::Back) {
+            return Change::push(Pause::new(false));
+        }
+        if input.presses(Action::Restart) {
+            return self.restart(context);
+        }
+        self.press(input);
+        let place = panel::place(&context.pen);
+        let is_on_panel = self.shows.panel && self.panel.contains(input.cursor, &place);
+        if self.shows.panel
+            && let Some(choice) = self.panel.update(input, &place)
+        {
+            let change = panel::choose(self, choice, context);
+            if !matches!(change, Change::Stay) {
+                return change;
+            }
+        }
+        let digests = input.holds(Action::Consume);
+        let problem = self.tools.use_on(&mut self.stage, &mut self.viewer, input, is_on_panel, digests);
+        problem.into_iter().for_each(|problem| context.tell(problem));
+        self.run(context);
+        let at = self.stage.player().and_then(|id| self.stage.world().centroid(id));
+        let wheel = if is_on_panel { 0.0 } else { input.wheel };
+        self.viewer.look(input.zoom(), wheel, at, None, context.pace.elapsed);
+        self.panel.items = panel::items(self);
+        self.open_dropped(input, context)
+    }
+
+    fn draw(&mut self, context: &mut Context) {
+        let picture = self.viewer.picture();
+        let (world, camera) = (self.stage.world(), &self.viewer.camera);
+        context.paint(&Frame { picture: &picture, world, camera, time: context.time });
+        let pen = &mut context.pen;
+        if self.shows.anatomy {
+            anatomy::draw(pen, world, camera);
+        }
+        self.tools.draw(pen, &self.stage, camera);
+        if self.shows.plots {
+            self.plots.draw(pen);
+        }
+        self.draw_status(pen, context.pace.is_exact);
+        if self.shows.panel {
+            self.panel.draw(pen, &panel::place(pen));
+        }
+    }
+
+    fn is_overlay(&self) -> bool {
+        false
+    }
+
+    fn name(&self) -> String {
+        format!("{}-{}", self.stage.name(), self.stage.world().step_index())
+    }
+}

@@ -1,0 +1,249 @@
+//! What the mouse does in a simulation: steer, drag, push, spawn, remove, follow.
+
+use crate::camera::Camera;
+use crate::draw::palette::{HALO, READY, fade};
+use crate::input::Input;
+use crate::stage::Stage;
+use crate::ui::pen::{Pen, Size};
+use crate::viewer::Viewer;
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec, Placement,
+    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, World,
+};
+
+/// How near the cursor must be to something, pixels.
+const REACH: f32 = 12.0;
+/// How fast dragged things close in on the cursor, 1/s, and how fast they get at most, units/s.
+const DRAG_RATE: f32 = 6.0;
+const DRAG_SPEED: f32 = 30.0;
+/// Share of the wanted change of velocity in each step: constraints need time to pass it on.
+const DRAG_SHARE: f32 = 0.3;
+/// Radius in which things are pushed, units, and the change of their velocity in each step, units/s.
+const PUSH_RADIUS: f32 = 9.0;
+const PUSH: f32 = 1.6;
+
+/// What the mouse does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Tool {
+    #[default]
+    Steer,
+    Drag,
+    Push,
+    Spawn,
+    Remove,
+    Follow,
+}
+
+impl Tool {
+    pub(super) const ALL: [Self; 6] = [Self::Steer, Self::Drag, Self::Push, Self::Spawn, Self::Remove, Self::Follow];
+
+    pub(super) fn label(self) -> &'static str {
+        match self {
+            Self::Steer => "Steer",
+            Self::Drag => "Drag",
+            Self::Push => "Push away",
+            Self::Spawn => "Put in",
+            Self::Remove => "Remove",
+            Self::Follow => "Follow",
+        }
+    }
+}
+
+/// Makes what a tool puts into the world.
+type Make = fn() -> OrganismSpec;
+
+/// What can be put into the room.
+const SPAWNS: [(&str, Make); 8] = [
+    ("agar", || AgarSpec::default().into()),
+    ("coccus", || CoccusSpec::default().into()),
+    ("rigid cell", || RigidCellSpec::default().into()),
+    ("amoeboid", || AmoeboidCellSpec::default().into()),
+    ("platelet", || PlateletSpec::default().into()),
+    ("red cell", || RedCellSpec::default().into()),
+    ("probe", || ProbeSpec::default().into()),
+    ("fluid", || FluidBlockSpec::default().into()),
+];
+
+/// The tool in hand.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tools {
+    pub tool: Tool,
+    spawn: usize,
+    grasped: Option<OrganismId>,
+    /// Where the cursor is in the room while the button is down.
+    hand: Option<Vec2>,
+}
+
+impl Tools {
+    /// What would be put into the room.
+    pub(super) fn spawn_name(&self) -> &'static str {
+        SPAWNS[self.spawn].0
+    }
+
+    /// The next thing to put into the room, or the one before.
+    pub(super) fn change_spawn(&mut self, is_back: bool) {
+        self.spawn = (self.spawn + if is_back { SPAWNS.len() - 1 } else { 1 }) % SPAWNS.len();
+    }
+
+    /// Uses the tool as the mouse says. Returns what went wrong.
+    pub(super) fn use_on(
+        &mut self,
+        stage: &mut Stage,
+        viewer: &mut Viewer,
+        input: &Input,
+        is_on_panel: bool,
+        digests: bool,
+    ) -> Option<String> {
+        let at = viewer.camera.to_room(input.cursor);
+        let begins = input.is_clicked && !is_on_panel;
+        let goes_on = input.is_held && (begins || self.hand.is_some());
+        self.hand = goes_on.then_some(at);
+        if !goes_on {
+            self.grasped = None;
+        }
+        let goal = self.hand.filter(|_| self.tool == Tool::Steer).and_then(|at| Intent::toward(at).ok());
+        stage.steer(goal.unwrap_or(Intent::REST).digesting(digests));
+        if !begins {
+            return None;
+        }
+        let found = nearest(stage.world(), at, REACH / viewer.camera.scale());
+        let result = match (self.tool, found) {
+            (Tool::Spawn, _) => self.put_in(stage, at),
+            (Tool::Remove, Some(id)) => stage.world_mut().remove(id).map_err(|error| error.to_string()),
+            (Tool::Follow, found) => {
+                stage.set_player(found);
+                Ok(())
+            }
+            (Tool::Drag, found) => {
+                self.grasped = found;
+                Ok(())
+            }
+            _ => Ok(()),
+        };
+        if matches!(self.tool, Tool::Spawn | Tool::Remove) {
+            viewer.refresh(stage.world());
+        }
+        result.err()
+    }
+
+    fn put_in(&self, stage: &mut Stage, at: Vec2) -> Result<(), String> {
+        let (name, spec) = SPAWNS[self.spawn];
+        let placement = Placement::at(at.x, at.y).steered_by(controller(name));
+        let world = stage.world_mut();
+        world.spawn(&spec(), placement).map(drop).map_err(|error| format!("{name}: {error}"))
+    }
+
+    /// What the tool does to the world before each step.
+    pub(super) fn before_step(&self, stage: &mut Stage) {
+        let Some(hand) = self.hand else { return };
+        match (self.tool, self.grasped) {
+            (Tool::Drag, Some(id)) => drag(stage.world_mut(), id, hand),
+            (Tool::Push, _) => push_away(stage.world_mut(), hand),
+            _ => {}
+        }
+    }
+
+    /// Draws what the tool is about to do.
+    pub(super) fn draw(&self, pen: &mut Pen, stage: &Stage, camera: &Camera) {
+        let Some(hand) = self.hand else { return };
+        let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(Size::Body));
+        match self.tool {
+            Tool::Push => pen.canvas().arc(at, PUSH_RADIUS * camera.scale(), width, 1.0, fade(HALO, 0.8)),
+            Tool::Drag => {
+                if let Some(held) = self.grasped.and_then(|id| stage.world().centroid(id)) {
+                    pen.canvas().segment(camera.to_screen(held), at, width, READY);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// How something moves that was put in: animals wander, things lie still.
+fn controller(name: &str) -> Controller {
+    match name {
+        "rigid cell" | "amoeboid" => Controller::wander([1.0, 5.0], 0.2),
+        "coccus" => Controller::wander([0.05, 0.3], 0.0),
+        _ => Controller::Still,
+    }
+}
+
+/// What is at a point, the smallest first; else what is nearest to it within `reach`.
+fn nearest(world: &World, at: Vec2, reach: f32) -> Option<OrganismId> {
+    let area = |id: &OrganismId| world.view().organism(*id).map_or(f32::MAX, |organism| organism.spawn_area());
+    let smallest = |a: &OrganismId, b: &OrganismId| area(a).total_cmp(&area(b));
+    world.organisms_at(at).min_by(smallest).or_else(|| world.organisms_in_circle(at, reach).min_by(smallest))
+}
+
+fn drag(world: &mut World, id: OrganismId, hand: Vec2) {
+    let Some(centre) = world.centroid(id) else { return };
+    let wanted = ((hand - centre) * DRAG_RATE).clamp_length_max(DRAG_SPEED);
+    let change = (wanted - mean_velocity(world, id)) * DRAG_SHARE;
+    // It may have been eaten meanwhile.
+    let _ = world.push(id, change);
+}
+
+fn mean_velocity(world: &World, id: OrganismId) -> Vec2 {
+    let velocities = world.view().organism(id).into_iter().flat_map(|organism| organism.particles());
+    let (sum, count) = velocities.fold((Vec2::ZERO, 0.0), |(sum, count), p| (sum + p.velocity, count + 1.0));
+    if count > 0.0 { sum / count } else { Vec2::ZERO }
+}
+
+fn push_away(world: &mut World, hand: Vec2) {
+    let near: Vec<OrganismId> = world.organisms_in_circle(hand, PUSH_RADIUS).collect();
+    for id in near {
+        let away = world.centroid(id).map_or(Vec2::ZERO, |centre| (centre - hand).normalize_or_zero());
+        let _ = world.push(id, away * PUSH);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use microsim_core::WorldConfig;
+
+    fn stage() -> Stage {
+        Stage::new("test".to_owned(), World::new(WorldConfig::default()).unwrap(), None)
+    }
+
+    #[test]
+    fn everything_can_be_put_in_found_dragged_and_removed() {
+        for spawn in 0..SPAWNS.len() {
+            let mut stage = stage();
+            let tools = Tools { tool: Tool::Spawn, spawn, ..Tools::default() };
+            let at = Vec2::new(60.0, 45.0);
+            tools.put_in(&mut stage, at).unwrap();
+            let id = nearest(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{}", tools.spawn_name()));
+            let hand = Vec2::new(90.0, 45.0);
+            for _ in 0..90 {
+                drag(stage.world_mut(), id, hand);
+                stage.step();
+            }
+            let moved = stage.world().centroid(id).unwrap().x - 60.0;
+            // A platelet's rope lets it go so far only.
+            assert!(
+                moved > if tools.spawn_name() == "platelet" { 0.3 } else { 12.0 },
+                "{} {moved}",
+                tools.spawn_name()
+            );
+            stage.world_mut().remove(id).unwrap();
+            assert_eq!(stage.world().organisms().count(), 0);
+        }
+    }
+
+    #[test]
+    fn pushing_clears_a_place_and_occupied_places_are_refused() {
+        let mut stage = stage();
+        let mut tools = Tools { tool: Tool::Spawn, ..Tools::default() };
+        tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap();
+        assert!(tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap_err().starts_with("agar"));
+        (tools.tool, tools.hand) = (Tool::Push, Some(Vec2::new(60.0, 45.0)));
+        for _ in 0..60 {
+            tools.before_step(&mut stage);
+            stage.step();
+        }
+        let id = stage.world().organisms().next().unwrap();
+        assert!((stage.world().centroid(id).unwrap() - Vec2::new(60.0, 45.0)).length() > PUSH_RADIUS - 1.0);
+    }
+}

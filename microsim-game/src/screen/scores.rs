@@ -1,0 +1,74 @@
+//! High scores.
+
+use super::pause::draw_heading;
+use super::{Change, Context, Screen};
+use crate::draw::palette::{HALO, READY};
+use crate::input::{Input, Move};
+use crate::store::scores::Score;
+use crate::ui::pen::{Align, Pen, Size};
+use microsim_core::glam::Vec2;
+
+/// The list of high scores of the game.
+#[derive(Debug)]
+pub struct ScoreList {
+    game: String,
+    scores: Vec<Score>,
+}
+
+impl ScoreList {
+    /// The present list.
+    #[must_use]
+    pub fn new(context: &Context) -> Self {
+        let rules = context.game.rules();
+        let (game, time) = rules.as_ref().map_or(("game", 90.0), |(name, time)| (name.as_str(), *time));
+        Self {
+            game: format!("High scores: {game}, {time:.0} s"),
+            scores: context.scores.of(game, time).cloned().collect(),
+        }
+    }
+}
+
+impl Screen for ScoreList {
+    fn update(&mut self, input: &Input, _: &mut Context) -> Change {
+        let leaves = matches!(input.step, Some(Move::Back | Move::Confirm)) || input.is_clicked;
+        if leaves { Change::Pop } else { Change::Stay }
+    }
+
+    fn draw(&mut self, context: &mut Context) {
+        let pen = &mut context.pen;
+        draw_heading(pen, &self.game);
+        let (screen, line) = (pen.screen(), pen.line(Size::Body));
+        if self.scores.is_empty() {
+            pen.write(0.5 * screen, Size::Body, Align::Centre, HALO, "None yet. Play!");
+        }
+        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], &self.scores, None);
+        let at = Vec2::new(0.5 * screen.x, screen.y - line);
+        pen.write(at, Size::Small, Align::Centre, HALO, "Enter or a click: back");
+    }
+
+    fn name(&self) -> String {
+        "scores".to_owned()
+    }
+}
+
+/// Draws scores as a table below the middle of its upper edge, one of them marked.
+pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], scores: &[Score], marked: Option<usize>) {
+    let line = pen.line(Size::Body);
+    let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
+    let room = ((0.9 * pen.screen().y - top) / line) as usize;
+    let heads = ["", "points", "small", "cells"];
+    if !scores.is_empty() {
+        for (x, head) in columns.into_iter().zip(heads) {
+            pen.write(Vec2::new(x, top), Size::Small, Align::Right, HALO, head);
+        }
+    }
+    for (k, score) in scores.iter().take(room.saturating_sub(1)).enumerate() {
+        let is_marked = marked == Some(k);
+        let colour = if is_marked { READY } else { HALO };
+        let rank = if is_marked { format!("> {}", k + 1) } else { (k + 1).to_string() };
+        let cells = [rank, score.points.to_string(), score.small.to_string(), score.rigid.to_string()];
+        for (x, cell) in columns.into_iter().zip(cells) {
+            pen.write(Vec2::new(x, top + line * (k + 1) as f32), Size::Body, Align::Right, colour, &cell);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Files that are never half written: the new text goes to a file of its own, which then takes the old one's name.
+
+use directories::ProjectDirs;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::{fs, process};
+
+/// A folder with files.
+#[derive(Clone, Debug)]
+pub struct Store {
+    folder: Option<PathBuf>,
+}
+
+impl Store {
+    /// The player's own folder; without one, nothing is kept.
+    #[must_use]
+    pub fn of_the_platform() -> Self {
+        let folder = ProjectDirs::from("", "", "microsim").map(|dirs| dirs.config_dir().to_owned());
+        Self { folder }
+    }
+
+    /// A folder of choice; it is made when something is first kept in it.
+    #[must_use]
+    pub fn at(folder: &Path) -> Self {
+        Self { folder: Some(folder.to_owned()) }
+    }
+
+    /// Keeps nothing, for pictures that must come out the same everywhere.
+    #[must_use]
+    pub fn nowhere() -> Self {
+        Self { folder: None }
+    }
+
+    /// Reads a file. One that makes no sense is put aside, and said so, and the default is used.
+    pub fn load<T: DeserializeOwned + Default>(&self, name: &str) -> (T, Option<String>) {
+        let Some(path) = self.folder.as_ref().map(|folder| folder.join(name)) else { return (T::default(), None) };
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return (T::default(), None),
+            Err(error) => return (T::default(), Some(format!("cannot read {}: {error}", path.display()))),
+        };
+        match toml::from_str(&text) {
+            Ok(value) => (value, None),
+            Err(error) => {
+                let aside = path.with_extension("broken");
+                let kept =
+                    fs::rename(&path, &aside).map_or(String::new(), |()| format!("; kept as {}", aside.display()));
+                let line = error.message().lines().next().unwrap_or_default().to_owned();
+                (T::default(), Some(format!("{name} makes no sense: {line}{kept}")))
+            }
+        }
+    }
+
+    /// Writes a file, wholly or not at all.
+    ///
+    /// # Errors
+    /// When the folder or the file cannot be written; the old file is as it was then.
+    pub fn save<T: Serialize>(&self, name: &str, value: &T) -> io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let text = toml::to_string(value).map_err(io::Error::other)?;
+        fs::create_dir_all(folder)?;
+        let fresh = folder.join(format!("{name}.{}.new", process::id()));
+        let written = fs::File::create(&fresh).and_then(|mut file| {
+            file.write_all(text.as_bytes())?;
+            file.sync_all()
+        });
+        let result = written.and_then(|()| fs::rename(&fresh, folder.join(name)));
+        if result.is_err() {
+            // Nothing is lost with it.
+            let _ = fs::remove_file(&fresh);
+        }
+        result
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    type Table = BTreeMap<String, u32>;
+
+    /// A folder that is removed afterwards.
+    pub(crate) struct Folder(pub(crate) PathBuf);
+
+    impl Folder {
+        pub(crate) fn new(name: &str) -> Self {
+            Self(std::env::temp_dir().join(format!("microsim-{name}-{}", process::id())))
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn what_is_kept_is_there_again_and_nothing_else() {
+        let folder = Folder::new("store");
+        let store = Store::at(&folder.0);
+        assert_eq!(store.load::<Table>("a.toml"), (Table::new(), None));
+        let table = Table::from([("x".to_owned(), 7)]);
+        store.save("a.toml", &table).unwrap();
+        store.save("a.toml", &table).unwrap();
+        assert_eq!(store.load::<Table>("a.toml"), (table, None));
+        let names: Vec<_> = fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(names, ["a.toml"]);
+    }
+
+    #[test]
+    fn a_broken_file_is_put_aside() {
+        let folder = Folder::new("broken");
+        fs::create_dir_all(&folder.0).unwrap();
+        fs::write(folder.0.join("a.toml"), "x = [").unwrap();
+        let (table, problem) = Store::at(&folder.0).load::<Table>("a.toml");
+        assert!(table.is_empty() && problem.unwrap().contains("a.broken"));
+        assert_eq!(fs::read_to_string(folder.0.join("a.broken")).unwrap(), "x = [");
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_written_leaves_the_old_one() {
+        let folder = Folder::new("blocked");
+        let store = Store::at(&folder.0);
+        fs::create_dir_all(folder.0.join("a.toml/in the way")).unwrap();
+        assert!(store.save("a.toml", &Table::new()).is_err());
+        assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,83 @@
+//! What the player has chosen.
+
+use crate::input::keys::Keys;
+use crate::scenery::Effort;
+use serde::{Deserialize, Serialize};
+
+/// File that they are kept in.
+pub const FILE: &str = "settings.toml";
+/// Sizes of text, relative to the usual one.
+const TEXT_SIZES: [f32; 4] = [0.85, 1.0, 1.25, 1.5];
+
+/// What the player has chosen. Each has a default, so that files of other versions can be read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Which of the sizes of text.
+    pub text_size: usize,
+    /// Nothing floats, pulses or drifts that does not have to.
+    pub reduced_motion: bool,
+    /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
+    pub classic_arrows: bool,
+    /// Name of the way of looking, see [`crate::scenery::Sight`].
+    pub sight: String,
+    /// How much of the machine pictures may take.
+    pub effort: Effort,
+    /// Whether the window fills the screen.
+    pub full_screen: bool,
+    /// Keys of all actions.
+    pub keys: Keys,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            text_size: 1,
+            reduced_motion: false,
+            classic_arrows: false,
+            sight: String::new(),
+            effort: Effort::default(),
+            full_screen: false,
+            keys: Keys::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// Size of text relative to the usual one.
+    #[must_use]
+    pub fn text_factor(&self) -> f32 {
+        TEXT_SIZES[self.text_size.min(TEXT_SIZES.len() - 1)]
+    }
+
+    /// The next size of text, or the one before.
+    pub fn change_text_size(&mut self, by: isize) {
+        self.text_size = self.text_size.saturating_add_signed(by).min(TEXT_SIZES.len() - 1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Action;
+    use crate::store::files::Store;
+    use crate::store::files::tests::Folder;
+    use macroquad::input::KeyCode;
+
+    #[test]
+    fn settings_come_back_as_they_were() {
+        let folder = Folder::new("settings");
+        let store = Store::at(&folder.0);
+        let mut settings = Settings { reduced_motion: true, text_size: 3, ..Settings::default() };
+        assert!(settings.keys.set(Action::Consume, KeyCode::E));
+        store.save(FILE, &settings).unwrap();
+        assert_eq!(store.load::<Settings>(FILE), (settings, None));
+    }
+
+    #[test]
+    fn files_of_other_versions_are_read() {
+        let settings: Settings = toml::from_str("text_size = 99\nunknown = 1").unwrap();
+        assert_eq!(settings.text_factor(), TEXT_SIZES[3]);
+        assert_eq!(settings.keys, Keys::default());
+    }
+}

@@ -1,0 +1,56 @@
+//! How long the parts of a frame take.
+
+use std::fmt;
+use std::time::Duration;
+
+/// Frames of which the times are kept: the last ones.
+const KEPT: usize = 4096;
+
+/// Times of the last frames: steps and input, drawing, and handing over to the graphics card.
+#[derive(Clone, Debug, Default)]
+pub struct Timings {
+    frames: usize,
+    parts: [Vec<f32>; 3],
+}
+
+impl Timings {
+    /// Adds a frame.
+    pub fn add(&mut self, parts: [Duration; 3]) {
+        for (times, part) in self.parts.iter_mut().zip(parts) {
+            let milliseconds = part.as_secs_f32() * 1000.0;
+            match times.get_mut(self.frames % KEPT) {
+                Some(time) => *time = milliseconds,
+                None => times.push(milliseconds),
+            }
+        }
+        self.frames += 1;
+    }
+}
+
+impl fmt::Display for Timings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} frames; median and 95 % ms:", self.frames)?;
+        for (name, times) in ["step", "view", "submit"].into_iter().zip(&self.parts) {
+            let mut sorted = times.clone();
+            sorted.sort_by(f32::total_cmp);
+            let at = |share: f32| sorted.get((share * sorted.len() as f32) as usize).copied().unwrap_or(0.0);
+            write!(f, " {name} {:.2} {:.2}", at(0.5), at(0.95))?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_are_of_the_last_frames() {
+        let mut timings = Timings::default();
+        for k in 0..10_000 {
+            timings.add([Duration::from_millis(if k < 5000 { 1 } else { 3 }); 3]);
+        }
+        let text = timings.to_string();
+        assert!(text.contains("10000 frames") && text.contains("step 3.00 3.00"), "{text}");
+    }
+}

@@ -1,0 +1,248 @@
+//! Menus: a column of items, for the mouse and for the keyboard.
+
+use super::pen::{Align, Pen, Size};
+use crate::draw::palette::{HALO, INK, fade};
+use crate::input::{Input, Move};
+use microsim_core::glam::Vec2;
+
+/// One line of a menu.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// What it says.
+    pub label: String,
+    /// What it is set to, changed with left and right.
+    pub value: Option<String>,
+}
+
+impl Item {
+    /// Something to choose.
+    #[must_use]
+    pub fn new(label: impl Into<String>) -> Self {
+        Self { label: label.into(), value: None }
+    }
+
+    /// Something to set.
+    #[must_use]
+    pub fn with(label: impl Into<String>, value: impl Into<String>) -> Self {
+        Self { label: label.into(), value: Some(value.into()) }
+    }
+
+    /// Something that is on or off.
+    #[must_use]
+    pub fn switch(label: impl Into<String>, is_on: bool) -> Self {
+        Self::with(label, if is_on { "on" } else { "off" })
+    }
+}
+
+/// What the player did with a menu.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Chose the item, or its next value.
+    Pick(usize),
+    /// Asked for the value before.
+    Less(usize),
+}
+
+/// Where a menu lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Upper left corner, drawing units.
+    pub corner: Vec2,
+    /// Width, and height of one item.
+    pub item: Vec2,
+    /// As many items are seen at once.
+    pub visible: usize,
+    /// Size of the text.
+    pub size: Size,
+}
+
+impl Place {
+    /// In the middle of the picture, from `top` (share of its height) down.
+    #[must_use]
+    pub fn middle(pen: &Pen, top: f32) -> Self {
+        let screen = pen.screen();
+        let item =
+            Vec2::new((22.0 * pen.line(Size::Body)).min(0.86 * screen.x).min(460.0), 1.55 * pen.line(Size::Body));
+        let corner = Vec2::new(0.5 * (screen.x - item.x), top * screen.y);
+        let visible = (((0.95 * screen.y - corner.y) / item.y) as usize).max(2);
+        Self { corner, item, visible, size: Size::Body }
+    }
+
+    /// Below the title.
+    #[must_use]
+    pub fn title(pen: &Pen) -> Self {
+        let line = pen.line(Size::Body);
+        let corner = Vec2::new(0.06 * pen.screen().x, 0.36 * pen.screen().y);
+        Self { corner, item: Vec2::new(11.5 * line, 1.55 * line), visible: 8, size: Size::Body }
+    }
+
+    /// At the left edge.
+    #[must_use]
+    pub fn side(pen: &Pen, top: f32) -> Self {
+        let item = Vec2::new(12.5 * pen.line(Size::Small), 1.45 * pen.line(Size::Small));
+        let corner = Vec2::new(0.5 * item.y, top);
+        let visible = (((pen.screen().y - corner.y - 0.3 * item.y) / item.y) as usize).max(3);
+        Self { corner, item, visible, size: Size::Small }
+    }
+
+    /// The item at a point, counted from the first that is seen.
+    fn row(&self, point: Vec2) -> Option<usize> {
+        let from = point - self.corner;
+        let is_beside = from.x < 0.0 || from.x >= self.item.x || from.y < 0.0;
+        let row = (from.y / self.item.y) as usize;
+        (!is_beside && row < self.visible).then_some(row)
+    }
+}
+
+/// A menu.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Menu {
+    /// Its items.
+    pub items: Vec<Item>,
+    focus: usize,
+    first: usize,
+}
+
+impl Menu {
+    /// A menu of these items.
+    #[must_use]
+    pub fn new(items: Vec<Item>) -> Self {
+        Self { items, focus: 0, first: 0 }
+    }
+
+    /// The item that the keyboard acts on.
+    #[must_use]
+    pub fn focus(&self) -> usize {
+        self.focus
+    }
+
+    /// Whether a point lies on it.
+    #[must_use]
+    pub fn contains(&self, point: Vec2, place: &Place) -> bool {
+        place.row(point).is_some_and(|row| row < self.items.len())
+    }
+
+    /// Moves through the menu by mouse and keyboard.
+    pub fn update(&mut self, input: &Input, place: &Place) -> Option<Choice> {
+        let choice = self.click(input, place).or_else(|| self.walk(input));
+        if input.wheel != 0.0 && self.contains(input.cursor, place) {
+            self.focus =
+                self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
+        }
+        self.first = self.first.clamp((self.focus + 1).saturating_sub(place.visible), self.focus);
+        choice
+    }
+
+    fn click(&mut self, input: &Input, place: &Place) -> Option<Choice> {
+        let item = self.first + place.row(input.cursor)?;
+        if item >= self.items.len() || !(input.has_moved || input.is_clicked) {
+            return None;
+        }
+        self.focus = item;
+        // The arrow before the value steps back; everything else steps forward.
+        let from = (input.cursor.x - place.corner.x) / place.item.x;
+        let is_back = self.items[item].value.is_some() && (0.5..0.62).contains(&from);
+        let pick = if is_back { Choice::Less(item) } else { Choice::Pick(item) };
+        input.is_clicked.then_some(pick)
+    }
+
+    fn walk(&mut self, input: &Input) -> Option<Choice> {
+        let count = self.items.len();
+        let has_value = |item: usize| self.items.get(item).is_some_and(|item| item.value.is_some());
+        match input.step? {
+            _ if count == 0 => None,
+            Move::Up => {
+                self.focus = (self.focus + count - 1) % count;
+                None
+            }
+            Move::Down => {
+                self.focus = (self.focus + 1) % count;
+                None
+            }
+            Move::Left => has_value(self.focus).then_some(Choice::Less(self.focus)),
+            Move::Right => has_value(self.focus).then_some(Choice::Pick(self.focus)),
+            Move::Confirm => Some(Choice::Pick(self.focus)),
+            Move::Back => None,
+        }
+    }
+
+    /// Draws it.
+    pub fn draw(&self, pen: &mut Pen, place: &Place) {
+        let shown = self.items.iter().enumerate().skip(self.first).take(place.visible);
+        for (row, (index, item)) in shown.enumerate() {
+            let low = place.corner + Vec2::new(0.0, row as f32 * place.item.y);
+            self.draw_item(pen, place, low, item, index == self.focus);
+        }
+        let (above, below) = (self.first > 0, self.first + place.visible < self.items.len());
+        let end = place.corner.y + place.item.y * place.visible.min(self.items.len()) as f32;
+        for (is_more, y) in [(above, place.corner.y - 0.2 * place.item.y), (below, end + 0.2 * place.item.y)] {
+            if is_more {
+                let at = Vec2::new(place.corner.x + 0.5 * place.item.x, y);
+                pen.label(at, Size::Small, Align::Centre, HALO, "...");
+            }
+        }
+    }
+
+    fn draw_item(&self, pen: &mut Pen, place: &Place, low: Vec2, item: &Item, has_focus: bool) {
+        let high = low + place.item - Vec2::new(0.0, 2.0);
+        let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.66), HALO) };
+        pen.canvas().rectangle(low, high, back);
+        let middle = 0.5 * (low.y + high.y);
+        let inset = 0.4 * place.item.y;
+        // The item in focus is marked by shape as well.
+        let mark = if has_focus { "> " } else { "  " };
+        let label = format!("{mark}{}", item.label);
+        pen.write(Vec2::new(low.x + inset, middle), place.size, Align::Left, ink, &label);
+        if let Some(value) = &item.value {
+            let text = if has_focus { format!("< {value} >") } else { value.clone() };
+            pen.write(Vec2::new(high.x - inset, middle), place.size, Align::Right, ink, &text);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACE: Place =
+        Place { corner: Vec2::new(100.0, 50.0), item: Vec2::new(200.0, 20.0), visible: 3, size: Size::Body };
+
+    fn menu() -> Menu {
+        Menu::new(vec![Item::new("a"), Item::with("b", "1"), Item::new("c"), Item::new("d"), Item::new("e")])
+    }
+
+    fn step(step: Move) -> Input {
+        Input { step: Some(step), ..Input::default() }
+    }
+
+    fn click(x: f32, y: f32) -> Input {
+        Input { cursor: Vec2::new(x, y), is_clicked: true, ..Input::default() }
+    }
+
+    #[test]
+    fn the_keyboard_goes_round_and_the_view_follows() {
+        let mut menu = menu();
+        menu.update(&step(Move::Up), &PLACE);
+        assert_eq!((menu.focus, menu.first), (4, 2));
+        assert_eq!(menu.update(&step(Move::Confirm), &PLACE), Some(Choice::Pick(4)));
+        menu.update(&step(Move::Down), &PLACE);
+        assert_eq!((menu.focus, menu.first), (0, 0));
+        assert_eq!(menu.update(&step(Move::Left), &PLACE), None, "it has no value");
+        menu.update(&step(Move::Down), &PLACE);
+        assert_eq!(menu.update(&step(Move::Left), &PLACE), Some(Choice::Less(1)));
+        assert_eq!(menu.update(&step(Move::Right), &PLACE), Some(Choice::Pick(1)));
+    }
+
+    #[test]
+    fn the_mouse_picks_what_is_under_it() {
+        let mut menu = menu();
+        assert_eq!(menu.update(&click(150.0, 95.0), &PLACE), Some(Choice::Pick(2)));
+        assert_eq!(menu.update(&click(150.0, 75.0), &PLACE), Some(Choice::Pick(1)));
+        assert_eq!(menu.update(&click(210.0, 75.0), &PLACE), Some(Choice::Less(1)));
+        assert_eq!(menu.update(&click(290.0, 75.0), &PLACE), Some(Choice::Pick(1)));
+        for (x, y) in [(99.0, 75.0), (301.0, 75.0), (150.0, 49.0), (150.0, 111.0)] {
+            assert_eq!(menu.update(&click(x, y), &PLACE), None);
+        }
+        assert!(Menu::default().update(&click(150.0, 75.0), &PLACE).is_none());
+    }
+}

@@ -1,0 +1,4 @@
+//! Menus and text, above everything else that is drawn.
+
+pub mod menu;
+pub mod pen;

@@ -1,0 +1,125 @@
+//! What it takes to show a running world: a clock of fixed steps, the last two moments, and a camera.
+
+use crate::camera::Camera;
+use crate::clock::FixedStep;
+use crate::picture::Picture;
+use macroquad::time::get_time;
+use microsim_core::glam::Vec2;
+use microsim_core::{OrganismId, World};
+
+/// Steps are given up when they have taken this much of a frame, s.
+const STEP_BUDGET: f64 = 0.03;
+/// Zoom factor per second that a key is held, and per notch of the wheel.
+const KEY_ZOOM: f32 = 3.0;
+const WHEEL_ZOOM: f32 = 1.12;
+/// Share of the way to the cursor that the camera looks ahead.
+const LOOK_AHEAD: f32 = 0.12;
+
+/// How time passes in one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Time since the last frame, s.
+    pub elapsed: f32,
+    /// Every frame is exactly one step, so that pictures come out the same on every machine.
+    pub is_exact: bool,
+}
+
+/// Shows a running world.
+#[derive(Debug)]
+pub struct Viewer {
+    /// What part of the room is seen.
+    pub camera: Camera,
+    clock: FixedStep,
+    before: Picture,
+    now: Picture,
+    alpha: f32,
+    /// When the step that is being taken began, s.
+    began: f64,
+    step_ms: f32,
+}
+
+impl Viewer {
+    /// A viewer of the present moment.
+    #[must_use]
+    pub fn new(world: &World, camera: Camera) -> Self {
+        let now = Picture::of(world);
+        Self {
+            camera,
+            clock: FixedStep::new(world.config().dt),
+            before: now.clone(),
+            now,
+            alpha: 1.0,
+            began: 0.0,
+            step_ms: 0.0,
+        }
+    }
+
+    /// Takes the steps that are due in this frame, at `speed` times the usual speed. When the machine is too slow for
+    /// them the world runs in slow motion.
+    pub fn run<S>(&mut self, pace: Pace, speed: f32, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {
+        if pace.is_exact {
+            self.step(scene, &mut step);
+            return;
+        }
+        self.clock.feed(pace.elapsed * speed);
+        let start = get_time();
+        while self.clock.take() {
+            self.step(scene, &mut step);
+            if get_time() - start > STEP_BUDGET {
+                self.clock.drop_backlog();
+            }
+        }
+        self.alpha = self.clock.alpha();
+    }
+
+    /// Takes one step.
+    pub fn step<S>(&mut self, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {
+        self.began = get_time();
+        let world = step(scene);
+        let took = (get_time() - self.began) as f32 * 1000.0;
+        self.step_ms += (took - self.step_ms) * if self.step_ms > 0.0 { 0.1 } else { 1.0 };
+        self.before = std::mem::replace(&mut self.now, Picture::of(world));
+        self.alpha = 1.0;
+    }
+
+    /// The world has changed without a step.
+    pub fn refresh(&mut self, world: &World) {
+        self.now = Picture::of(world);
+        self.alpha = 1.0;
+    }
+
+    /// What is to be seen now: between the last two steps.
+    #[must_use]
+    pub fn picture(&self) -> Picture {
+        self.now.since(&self.before, self.alpha)
+    }
+
+    /// Time that a step takes, ms, smoothed.
+    #[must_use]
+    pub fn step_ms(&self) -> f32 {
+        self.step_ms
+    }
+
+    /// Moves the camera: zooming by keys and wheel, following something, looking ahead to the cursor.
+    pub fn look(&mut self, zoom: f32, wheel: f32, target: Option<Vec2>, cursor: Option<Vec2>, elapsed: f32) {
+        let factor = KEY_ZOOM.powf(zoom * elapsed) * WHEEL_ZOOM.powf(wheel);
+        if factor != 1.0 {
+            let fixed = target.map(|at| self.camera.to_screen(at)).or(cursor).unwrap_or(self.camera.screen() * 0.5);
+            self.camera.zoom(factor, fixed);
+        }
+        if let Some(at) = target {
+            let ahead = cursor.map_or(Vec2::ZERO, |cursor| (self.camera.to_room(cursor) - at) * LOOK_AHEAD);
+            self.camera.follow(at + ahead, elapsed);
+        }
+    }
+}
+
+/// The view of a room at first: `height` units around somebody, or all of it.
+#[must_use]
+pub fn first_view(world: &World, around: Option<OrganismId>, height: f32, screen: Vec2) -> Camera {
+    let room = world.config().size;
+    match around.and_then(|id| world.centroid(id)) {
+        Some(at) => Camera::around(at, height, room, screen),
+        None => Camera::whole(room, screen),
+    }
+}
