@@ -1,0 +1,10 @@
+#![no_main]
+
+#[path = "../../microsim-core/tests/common/sequence.rs"]
+mod sequence;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    if let Err(wrong) = sequence::run(bytes) {
+        panic!("{wrong}");
+    }
+});
