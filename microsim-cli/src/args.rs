@@ -8,17 +8,18 @@ use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a refused\nscenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a\n\
+refused scenario or an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, global = true, display_order = 900, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
     /// Show no progress and no notes on stderr
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, display_order = 901, conflicts_with = "verbose")]
     pub quiet: bool,
     /// Say more on stderr
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 902)]
     pub verbose: bool,
     #[command(subcommand)]
     pub verb: Verb,
@@ -39,7 +40,11 @@ pub(crate) enum Verb {
     Run(Box<crate::run::RunArgs>),
     /// Go on with a run that was stopped, bit for bit
     Resume(crate::resume::ResumeArgs),
-    /// Say what is in a snapshot or a checkpoint
+    /// Make a recorded run again and compare it with the record
+    Replay(crate::replay::ReplayArgs),
+    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
+    Diff(crate::diff::DiffArgs),
+    /// Say what is in a snapshot, a checkpoint or a replay
     Inspect(crate::inspect::InspectArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
     Render(crate::render::RenderArgs),
@@ -70,7 +75,7 @@ pub(crate) struct ScenarioArgs {
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Changes {
     /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub seed: Option<u64>,
     /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
@@ -104,6 +109,11 @@ pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
         Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
         _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
     }
+}
+
+/// A whole number.
+pub(crate) fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
 }
 
 /// A time in seconds.

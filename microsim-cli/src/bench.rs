@@ -1,6 +1,6 @@
 //! `bench`: how long steps and their phases take, and how well the constraints hold meanwhile.
 
-use crate::args::ScenarioArgs;
+use crate::args::{ScenarioArgs, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -28,7 +28,7 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
     pub steps: Option<u64>,
     /// Number of steps before the measured ones
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 60)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, default_value_t = 60)]
     pub warmup: u64,
     /// Print one JSON object instead of the table
     #[arg(long)]

@@ -21,6 +21,7 @@ pub(crate) struct Saved {
     /// How far its files are.
     pub progress: Progress,
     pub tally: Tally,
+    pub validates: bool,
     pub broken: Option<String>,
     pub digest_at_start: String,
 }
@@ -51,11 +52,18 @@ pub(crate) fn read(folder: &Path) -> Result<(Saved, Checkpoint), Failure> {
 }
 
 /// The two parts of a checkpoint.
-pub(crate) fn parse(bytes: &[u8]) -> Result<(Saved, Checkpoint), String> {
-    let end = bytes.iter().position(|byte| *byte == b'\n').ok_or("not a checkpoint")?;
-    let saved = serde_json::from_slice(&bytes[..end]).map_err(|error| format!("not a checkpoint: {error}"))?;
-    let run = Checkpoint::from_bytes(&bytes[end + 1..]).map_err(|error| error.to_string())?;
+fn parse(bytes: &[u8]) -> Result<(Saved, Checkpoint), String> {
+    let run = run_of(bytes).ok_or("not a checkpoint")?;
+    let saved = &bytes[..bytes.len() - run.len()];
+    let saved = serde_json::from_slice(saved).map_err(|error| format!("not a checkpoint: {error}"))?;
+    let run = Checkpoint::from_bytes(run).map_err(|error| error.to_string())?;
     Ok((saved, run))
+}
+
+/// The run behind the line about its files; `None` where there is no such line.
+pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    bytes.starts_with(b"{").then(|| &bytes[end + 1..])
 }
 
 /// Removes what only an unfinished run needs.

@@ -29,6 +29,8 @@ pub(crate) enum Failure {
     Broken(Vec<String>),
     /// Ctrl-C; what there was has been written.
     Interrupted,
+    /// Ctrl-C; how to go on.
+    Stopped(String),
 }
 
 impl Failure {
@@ -51,6 +53,10 @@ impl Failure {
             Self::Told => {}
             Self::No => return ExitCode::from(BROKEN),
             Self::PipeClosed => return ExitCode::SUCCESS,
+            Self::Stopped(text) => {
+                console.note(&text);
+                return ExitCode::from(INTERRUPTED);
+            }
             Self::Interrupted => {
                 console.note("interrupted");
                 return ExitCode::from(INTERRUPTED);

@@ -1,50 +1,64 @@
-//! `inspect`: a snapshot or a checkpoint in words.
+//! `inspect`: a snapshot, a checkpoint or a replay in words.
 
-use crate::checkpoint;
 use crate::console::stdout;
 use crate::failure::Failure;
+use crate::saved::Saved;
 use crate::summary::{Table, rounded};
 use microsim_core::World;
-use microsim_core::snapshot::SnapshotError;
+use microsim_core::replay::Ending;
+use microsim_core::scenario::Origin;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::PathBuf;
 
 /// `inspect`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Snapshots are written at the times of output.snapshots, checkpoints by run --checkpoint-every."
+    after_help = "Snapshots are written at the times of output.snapshots, checkpoints by run --checkpoint-every and --save, replays by\n\
+run --record."
 )]
 pub(crate) struct InspectArgs {
-    /// A snapshot, a checkpoint, or the folder of a run that was stopped
+    /// A snapshot, a checkpoint, a replay, or the folder of a run that was stopped
     #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
 }
 
 /// Says what is in a file.
 pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
-    let path = if args.file.is_dir() { args.file.join(checkpoint::FILE) } else { args.file.clone() };
-    let bytes = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
     let mut table = Table::default();
-    match World::from_snapshot(&bytes) {
-        Ok(world) => {
+    match Saved::read(&args.file)? {
+        Saved::World(world) => {
             table.row("what", "snapshot of a world");
             describe(&world, &mut table);
         }
-        Err(SnapshotError::Foreign) => {
-            let accepted = "accepted: what output.snapshots or run --checkpoint-every wrote";
-            let refuse = |why: String| Failure::Message(format!("{}: {why}, {accepted}", path.display()));
-            let (saved, run) = checkpoint::parse(&bytes).map_err(refuse)?;
+        Saved::Run(checkpoint) => {
             table.row("what", "checkpoint of a run");
-            table.row("scenario", &saved.source);
-            table.row("seed", run.origin.seed);
-            table.row("steps in all", saved.steps);
-            table.row("broken so far", saved.broken.as_deref().unwrap_or("nothing"));
-            describe(&run.run.world, &mut table);
+            origin(&checkpoint.origin, &mut table);
+            describe(&checkpoint.run.world, &mut table);
         }
-        Err(error) => return Err(Failure::Message(format!("{}: {error}; write it anew", path.display()))),
+        Saved::Replay(replay) => {
+            table.row("what", "replay of a run");
+            origin(replay.origin(), &mut table);
+            table.row("recorded by", format!("version {}", replay.library()));
+            table.row("steps", replay.steps());
+            table.row("digest", format!("every {} steps", replay.interval()));
+            let ending = match replay.ending() {
+                Ending::Complete => "it is complete".to_owned(),
+                Ending::CutOff => "it was cut off".to_owned(),
+                Ending::Damaged { at } => format!("it is damaged at byte {at}"),
+            };
+            table.row("end", ending);
+        }
     }
     Ok(table.print(stdout())?)
+}
+
+fn origin(origin: &Origin, table: &mut Table) {
+    let name = origin.scenario().map(|scenario| scenario.name().to_owned()).unwrap_or_default();
+    table.row("scenario", name);
+    for (key, value) in &origin.overrides {
+        table.row("  with", format!("{key}={value}"));
+    }
+    table.row("seed", origin.seed);
 }
 
 fn describe(world: &World, table: &mut Table) {

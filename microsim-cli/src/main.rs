@@ -13,11 +13,13 @@ mod interrupt;
 // Verbs.
 mod bench;
 mod check;
+mod diff;
 mod inspect;
 mod list;
 mod manual;
 mod new;
 mod render;
+mod replay;
 mod report;
 mod resume;
 mod run;
@@ -28,6 +30,8 @@ mod sweep;
 mod checkpoint;
 mod draw;
 mod output;
+mod record;
+mod saved;
 mod session;
 mod simulate;
 mod source;
@@ -55,6 +59,8 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::List => list::list(),
         Verb::Run(args) => run::run(args, console),
         Verb::Resume(args) => resume::resume(args, console),
+        Verb::Replay(args) => replay::replay(args, console),
+        Verb::Diff(args) => diff::diff(args),
         Verb::Inspect(args) => inspect::inspect(args),
         Verb::Render(args) => render::render(args, console),
         Verb::Sweep(verb) => sweep::sweep(verb, console),

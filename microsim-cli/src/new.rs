@@ -16,7 +16,7 @@ const SCHEMA: &str = "scenario.schema.json";
 /// `new`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Beside the file lies scenario.schema.json then, for editors that check TOML while it is written; its first line names it."
+    after_help = "Beside it lies scenario.schema.json then, with which editors check the file while it is written."
 )]
 pub(crate) struct NewArgs {
     /// The file to write, or `-` for stdout

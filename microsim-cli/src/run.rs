@@ -1,10 +1,11 @@
 //! `run`: a whole scenario, with its files.
 
-use crate::args::{Changes, duration};
+use crate::args::{Changes, duration, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, check_formats};
+use crate::record::KeepArgs;
 use crate::session::{Session, timed_step};
 use crate::source::{Prepared, load};
 use crate::summary::{Table, median};
@@ -27,7 +28,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub changes: Changes,
     /// Number of steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "seconds")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole, conflicts_with = "seconds")]
     pub steps: Option<u64>,
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]
@@ -43,6 +44,8 @@ pub(crate) struct RunArgs {
     pub force: bool,
     #[command(flatten)]
     pub outputs: OutputArgs,
+    #[command(flatten)]
+    pub keep: KeepArgs,
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
@@ -70,10 +73,10 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_name = "FORMATS", requires = "out")]
     trajectories: Option<String>,
     /// Times of more pictures, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out")]
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
     frames: Option<String>,
     /// Times at which the whole state is written, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out")]
+    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
     snapshots: Option<String>,
     /// Steps between two checkpoints, to go on from with `resume` after Ctrl-C or a crash
     #[arg(long, value_name = "N", requires = "out")]
@@ -118,7 +121,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     }
     interrupt::listen();
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
-    Session::start(prepared, steps, outputs.as_ref(), args.validate)?.run(args.json, console)
+    Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
 }
 
 /// Says what a run would be.

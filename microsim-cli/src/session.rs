@@ -5,6 +5,7 @@ use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, Recorder, write_description};
+use crate::record::{KeepArgs, Recording};
 use crate::simulate::Tally;
 use crate::source::{Prepared, Source};
 use crate::summary::RunReport;
@@ -30,6 +31,8 @@ pub(crate) struct Session<'o> {
     /// The first check that broke, or what was wrong with the state.
     broken: Option<String>,
     digest_at_start: String,
+    recording: Option<Recording>,
+    keep: Option<&'o KeepArgs>,
 }
 
 impl<'o> Session<'o> {
@@ -39,12 +42,14 @@ impl<'o> Session<'o> {
         steps: u64,
         outputs: Option<&'o Outputs>,
         validates: bool,
+        keep: &'o KeepArgs,
     ) -> Result<Self, Failure> {
         let start = |outputs| Recorder::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let recorder = outputs.map(start).transpose()?;
         let digest_at_start = format!("{:016x}", prepared.built.world.digest());
-        let tally = Tally::default();
-        Ok(Self { prepared, steps, outputs, recorder, tally, validates, broken: None, digest_at_start })
+        let recording = keep.start(prepared.scenario.origin())?;
+        let (tally, broken, keep) = (Tally::default(), None, Some(keep));
+        Ok(Self { prepared, steps, outputs, recorder, tally, validates, broken, digest_at_start, recording, keep })
     }
 
     /// Goes on with the run of a folder.
@@ -63,9 +68,11 @@ impl<'o> Session<'o> {
             outputs: Some(outputs),
             recorder: Some(recorder),
             tally: saved.tally,
-            validates: false,
+            validates: saved.validates,
             broken: saved.broken,
             digest_at_start: saved.digest_at_start,
+            recording: None,
+            keep: None,
         })
     }
 
@@ -91,7 +98,7 @@ impl<'o> Session<'o> {
         self.tally.wall = start.elapsed();
         self.tally.is_interrupted = self.tally.steps < self.steps;
         match self.outputs {
-            Some(outputs) if self.tally.is_interrupted && every.is_some() => self.leave(outputs, console),
+            Some(outputs) if self.tally.is_interrupted && every.is_some() => self.leave(outputs),
             _ => self.conclude(is_json, console),
         }
     }
@@ -103,6 +110,7 @@ impl<'o> Session<'o> {
         let broken = built.checks.after_step(&built.world).first().map(ToString::to_string);
         let violation = || if self.validates { violation(&built.world) } else { None };
         self.broken = self.broken.take().or(broken).or_else(violation);
+        self.recording.as_mut().map_or(Ok(()), |recording| recording.add(&built.world))?;
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.look_at(&built.world))
     }
 
@@ -121,6 +129,7 @@ impl<'o> Session<'o> {
             steps: self.steps,
             progress: recorder.progress()?,
             tally: self.tally.clone(),
+            validates: self.validates,
             broken: self.broken.clone(),
             digest_at_start: self.digest_at_start.clone(),
         };
@@ -129,19 +138,17 @@ impl<'o> Session<'o> {
     }
 
     /// Stops so that the run can be resumed.
-    fn leave(mut self, outputs: &Outputs, console: &Console) -> Result<(), Failure> {
+    fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
         self.save()?;
         self.recorder.map_or(Ok(()), Recorder::leave)?;
-        console.note(&format!(
-            "stopped after step {}; to go on: microsim resume {}",
-            self.tally.steps,
-            shown(outputs.folder())
-        ));
-        Err(Failure::Interrupted)
+        let (step, folder) = (self.tally.steps, shown(outputs.folder()));
+        Err(Failure::Stopped(format!("stopped after step {step}; to go on: microsim resume {folder}")))
     }
 
     fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let built = &self.prepared.built;
+        self.recording.map_or(Ok(()), |recording| recording.finish(&built.world))?;
+        self.keep.map_or(Ok(()), |keep| keep.save(self.prepared.scenario.origin(), built))?;
         let refusals = built.script.refusals().iter().map(ToString::to_string);
         let failures = self.broken.into_iter().chain(refusals).collect();
         let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.tally) };

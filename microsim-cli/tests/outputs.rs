@@ -197,3 +197,38 @@ fn a_finished_run_has_nothing_to_resume() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("its run is finished"), "{}", stderr(&output));
 }
+
+#[cfg(feature = "parquet")]
+#[test]
+fn a_parquet_file_has_the_rows_of_the_other_formats() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+    let folder = Folder::new("parquet");
+    let file = folder.file("s.toml", common::crowd().as_bytes());
+    for out in ["a", "b"] {
+        let arguments =
+            ["run", &file, "--steps", "30", "--measures", "csv,parquet", "--trajectories", "parquet", "--out"];
+        let output = run(&[&arguments[..], &[&folder.path(out)]].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let [a, b] = ["a", "b"].map(|out| content(&folder.root().join(out)));
+    assert!(a == b && a.contains_key("trajectories.parquet") && !a.keys().any(|name| name.ends_with("-rows")));
+    let csv = String::from_utf8(a["measures.csv"].clone()).unwrap();
+    let reader = SerializedFileReader::new(fs::File::open(folder.root().join("a/measures.parquet")).unwrap()).unwrap();
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+    assert_eq!(rows.len() + 1, csv.lines().count());
+    for (row, line) in rows.iter().zip(csv.lines().skip(1)) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(row.get_long(0).unwrap() as f64, cells[0]);
+        assert!((3..cells.len()).all(|k| row.get_double(k).unwrap() as f32 == cells[k] as f32), "{line}");
+    }
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_is_refused_where_it_was_not_built_in() {
+    let folder = Folder::new("no-parquet");
+    let output = run(&["run", "empty", "--measures", "parquet", "--out", &folder.path("out")]);
+    assert!(output.status.code() == Some(2) && stderr(&output).contains("--features parquet"), "{}", stderr(&output));
+    assert!(!folder.root().join("out").exists());
+}

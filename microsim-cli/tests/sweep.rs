@@ -147,7 +147,8 @@ fn a_hyperqueue_cluster_comes_to_the_same_although_it_is_killed_in_the_middle() 
     let cluster = || {
         let mut command = Command::new(python());
         command.arg(&script).args([env!("CARGO_BIN_EXE_microsim"), &trial.plan, &store]).arg(trial.folder.path("hq"));
-        command.stdout(Stdio::null()).stderr(Stdio::null());
+        // Every task leaves its output where the cluster was started.
+        command.stdout(Stdio::null()).stderr(Stdio::null()).current_dir(trial.folder.root());
         command
     };
     let mut first = cluster().spawn().unwrap();

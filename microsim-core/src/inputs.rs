@@ -90,6 +90,11 @@ impl Inputs {
         self.intents.iter().copied()
     }
 
+    /// Takes the command given to `organism` back, if there is one.
+    pub fn remove(&mut self, organism: OrganismId) {
+        self.intents.retain(|&(id, _)| id != organism);
+    }
+
     /// Takes all commands back.
     pub fn clear(&mut self) {
         self.intents.clear();

@@ -25,6 +25,8 @@ pub enum Kind {
     RedCell,
     /// A small round bacterium.
     Coccus,
+    /// A small rod-shaped bacterium.
+    Bacillus,
 }
 
 impl Kind {
@@ -41,6 +43,7 @@ impl Kind {
             Self::Custom => "custom",
             Self::RedCell => "red_cell",
             Self::Coccus => "coccus",
+            Self::Bacillus => "bacillus",
         }
     }
 }

@@ -47,6 +47,8 @@ pub mod microscope;
 mod organism;
 mod parallel;
 mod particle;
+#[cfg(all(feature = "scenario", feature = "snapshot"))]
+pub mod replay;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
@@ -83,6 +85,7 @@ pub use id::{ChemicalId, ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
 pub use kind::Kind;
 pub use organism::agar::AgarSpec;
+pub use organism::bacillus::BacillusSpec;
 pub use organism::coccus::CoccusSpec;
 pub use organism::filled_chain::AmoeboidCellSpec;
 pub use organism::fluid_block::FluidBlockSpec;
@@ -100,6 +103,7 @@ pub use step::Phase;
 pub use template::{Node, Role, Template, TemplateBuilder};
 pub use world::World;
 pub use world::anatomy::Bond;
+pub use world::difference::Difference;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
 pub use world::named_measure::Measure;

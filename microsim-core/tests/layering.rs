@@ -24,7 +24,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("collision", &["geometry", "parallel", "particle"]),
     ("solver", &["collision", "config", "error", "geometry", "parallel", "particle"]),
     ("template", &["error", "geometry", "particle", "solver"]),
-    ("capability", &["error", "geometry", "id", "rng"]),
+    ("chemical", &["config", "error"]),
+    ("capability", &["chemical", "collision::obstacle", "config", "error", "geometry", "id", "rng"]),
     (
         "organism",
         &["capability", "collision", "error", "geometry", "id", "kind", "particle", "rng", "solver", "template"],
@@ -33,6 +34,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "behavior",
         &[
             "capability",
+            "chemical",
             "event",
             "geometry",
             "id",
@@ -64,6 +66,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         &[
             "behavior",
             "capability",
+            "chemical",
             "collision",
             "config",
             "error",
@@ -83,6 +86,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("snapshot", &["collision", "fnv", "scenario", "world"]),
+    ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
     ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
 ];
 

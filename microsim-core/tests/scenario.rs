@@ -200,7 +200,7 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
         "[[spawn]]\nof = 'pellet'\nplayer = true",
         11,
         "spawn.0.player",
-        "an amoeboid_cell, a rigid_cell, a coccus or a probe",
+        "an amoeboid_cell, a rigid_cell, a bacterium or a probe",
     ),
 ];
 

@@ -44,6 +44,8 @@ pub struct Plan {
     pub screenshot: Option<PathBuf>,
     /// Size of that picture, pixels.
     pub size: (u32, u32),
+    /// Name of the way of looking, in place of the one in the settings.
+    pub sight: Option<String>,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
@@ -75,6 +77,7 @@ impl App {
     pub fn new(opening: Opening, mut context: Context, plan: Plan) -> Self {
         context.pen.fit(view_size(&plan), context.settings.text_factor());
         context.pace.is_exact = plan.is_exact();
+        context.settings.sight = plan.sight.clone().unwrap_or(std::mem::take(&mut context.settings.sight));
         let first: Box<dyn Screen> = match opening {
             Opening::Sandbox(stage) => Box::new(Sandbox::new(*stage, &context)),
             Opening::Title => Box::new(Title::new(&context)),
@@ -182,7 +185,8 @@ impl App {
                 Ok(()) => format!("wrote {path}"),
                 Err(error) => format!("cannot write {path}: {error}"),
             });
-        } else {
+        } else if self.plan.screenshot.is_none() {
+            // Of a planned picture nobody sees what comes before it.
             self.draw();
         }
         Ok(())

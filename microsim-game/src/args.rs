@@ -1,10 +1,10 @@
 //! The command line.
 
+use crate::scenery::Sight;
+use microsim_core::scenario;
 use std::fmt;
 use std::fs;
 use std::path::PathBuf;
-
-use microsim_core::scenario;
 
 /// What the program says about itself.
 pub const HELP: &str = "\
@@ -23,6 +23,7 @@ USAGE: microsim-game [NAME | FILE.toml]... [OPTIONS]
   --frames N         exit after N frames (with --screenshot: 120 unless told)
   --size WxH         size of the window, 160x90 to 7680x4320 (1280x720 unless told)
   --script FILE      take the player's input from a file instead of mouse and keyboard
+  --optics NAME      how the world is seen: phase-contrast, dic, ..., or drawn, for slow graphics
   --timings          say at the end how long steps and frames took
   -h, --help         this text
   -V, --version      the version
@@ -72,6 +73,8 @@ pub struct Options {
     pub size: Option<(u32, u32)>,
     /// Input to play back.
     pub script: Option<PathBuf>,
+    /// Name of the way of looking, in place of the one in the settings.
+    pub sight: Option<String>,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
@@ -95,6 +98,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Str
             "--frames" => options.frames = Some(count(&value("a number")?)?),
             "--size" => options.size = Some(size(&value("a size such as 640x360")?)?),
             "--script" => options.script = Some(value("a file")?.into()),
+            "--optics" => options.sight = Some(sight(&value("a name")?)?),
             "--timings" => options.timings = true,
             other if other.starts_with('-') => return Err(format!("unknown option {other}; --help lists all")),
             other => options.scenes.push(Scene::named(other)),
@@ -146,6 +150,15 @@ fn pair(text: &str) -> Result<(String, String), String> {
     pair.filter(|(key, _)| !key.is_empty()).ok_or(format!("--set {text}: not KEY=VALUE"))
 }
 
+fn sight(text: &str) -> Result<String, String> {
+    let known = || Sight::all().map(Sight::name);
+    let names = || known().collect::<Vec<_>>().join(", ");
+    known()
+        .find(|name| *name == text)
+        .map(str::to_owned)
+        .ok_or_else(|| format!("--optics {text}: not one of {}", names()))
+}
+
 fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("--seed {text}: not a whole number from 0 on"))
 }
@@ -195,7 +208,9 @@ mod tests {
 
     #[test]
     fn mistakes_are_named() {
-        for line in ["--size 10x10", "--size big", "--frames 0", "--frames", "--wrong", "--set x", "--seed -1"] {
+        for line in
+            ["--size 10x10", "--size big", "--frames 0", "--frames", "--wrong", "--set x", "--seed -1", "--optics x"]
+        {
             assert!(parsed(line).is_err(), "{line}");
         }
         assert!(matches!(parsed("--help"), Ok(Command::Say(text)) if text == HELP));

@@ -8,9 +8,11 @@ use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use serde::{Deserialize, Serialize};
 
-/// A frame that takes longer than this is slow, s, and so many slow ones in a row are too many.
-const SLOW_FRAME: f32 = 1.0 / 25.0;
-const MOST_SLOW: u32 = 40;
+/// A frame that takes longer than this is slow, s; one that takes longer than that is hopeless.
+const SLOW_FRAME: f32 = 0.04;
+const HOPELESS_FRAME: f32 = 0.2;
+/// Slow frames may take so long in all, s, less what fluent ones have taken in between.
+const PATIENCE: f32 = 1.2;
 
 /// How a world is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +99,8 @@ pub struct Scenery {
     renderer: Option<Renderer>,
     /// How far automatic effort has come down: high, medium, low, drawn.
     given_up: usize,
-    slow: u32,
+    /// Time that slow frames have taken, s.
+    slow: f32,
 }
 
 const STEPS_DOWN: [Option<Quality>; 4] = [Some(Quality::High), Some(Quality::Medium), Some(Quality::Low), None];
@@ -106,16 +109,18 @@ impl Scenery {
     /// Makes textures and programs. Needs an open window.
     #[must_use]
     pub fn new() -> Self {
-        Self { painter: Painter::new(), renderer: Renderer::new().ok(), given_up: 0, slow: 0 }
+        Self { painter: Painter::new(), renderer: Renderer::new().ok(), given_up: 0, slow: 0.0 }
     }
 
     /// Lowers automatic effort when frames stay slow.
     pub fn pass(&mut self, pace: Pace) {
-        let is_slow = !pace.is_exact && pace.elapsed > SLOW_FRAME;
-        self.slow = if is_slow { self.slow + 1 } else { self.slow.saturating_sub(2) };
-        if self.slow > MOST_SLOW {
-            self.slow = 0;
-            self.given_up = (self.given_up + 1).min(STEPS_DOWN.len() - 1);
+        let elapsed = pace.elapsed.min(0.5);
+        let is_slow = !pace.is_exact && elapsed > SLOW_FRAME;
+        self.slow = if is_slow { self.slow + elapsed } else { (self.slow - elapsed).max(0.0) };
+        if self.slow > PATIENCE {
+            self.slow = 0.0;
+            let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
+            self.given_up = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
         }
     }
 

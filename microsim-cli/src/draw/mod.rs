@@ -1,11 +1,12 @@
 //! Pictures: one list of shapes made from a world, written as SVG or painted as PNG.
 
 pub(crate) mod caption;
+pub(crate) mod chemical;
 mod obstacle;
 mod organism;
 mod palette;
 pub(crate) mod png;
-mod shape;
+pub(crate) mod shape;
 pub(crate) mod svg;
 
 use microsim_core::glam::Vec2;
@@ -57,6 +58,7 @@ pub(crate) fn draw(world: &World) -> Drawing {
     let size = world.config().size;
     let margin = Vec2::splat(size.max_element() * MARGIN);
     let mut items = vec![room(size)];
+    items.extend(chemical::draw(world));
     let mut views: Vec<_> = world.view().organisms().collect();
     views.sort_by_key(|view| layer(view.kind()));
     items.extend(views.iter().copied().filter_map(organism::halo));

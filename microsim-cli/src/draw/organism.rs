@@ -16,7 +16,7 @@ pub(crate) fn draw(view: OrganismView<'_>) -> Vec<Item> {
         Kind::Probe => probe(view, tint(PROBE)),
         Kind::FluidBlock => fluid(view, tint(FLUID)),
         Kind::RedCell => rigid_cell(view, tint(RED)),
-        Kind::Coccus => beads(view, tint(COCCUS)),
+        Kind::Coccus | Kind::Bacillus => beads(view, tint(COCCUS)),
         _ => custom(view, tint(CUSTOM)),
     }
 }

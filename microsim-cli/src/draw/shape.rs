@@ -148,6 +148,21 @@ impl Item {
         self
     }
 
+    /// The same, scaled after `origin` was made the origin.
+    pub(crate) fn placed(mut self, origin: Vec2, scale: f32) -> Self {
+        let place = |p: Vec2| (p - origin) * scale;
+        for segment in &mut self.path.segments {
+            *segment = match *segment {
+                Segment::Move(p) => Segment::Move(place(p)),
+                Segment::Line(p) => Segment::Line(place(p)),
+                Segment::Cubic(a, b, c) => Segment::Cubic(place(a), place(b), place(c)),
+                Segment::Circle(centre, radius) => Segment::Circle(place(centre), radius * scale),
+                Segment::Close => Segment::Close,
+            };
+        }
+        self
+    }
+
     /// Whether it can be drawn at all.
     pub(crate) fn is_finite(&self) -> bool {
         let mut segments = self.path.segments.iter();

@@ -28,9 +28,10 @@ const MOST_FRAMES: f64 = 100_000.0;
 /// `render`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The name of the file says what it is: .png is a still, .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
-Several moments or several optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
-whatever the number of threads."
+    after_help = "The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
+Several moments or optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
+whatever the number of threads.\n\
+Optics: phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic."
 )]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
@@ -50,18 +51,17 @@ pub(crate) struct RenderArgs {
     /// Frames per second of simulated time, 24 unless said otherwise
     #[arg(long, value_name = "N", value_parser = options::frame_rate)]
     pub fps: Option<f64>,
-    /// phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic; several
-    /// with commas, or all
+    /// What contrast is made of; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// What records the picture
+    /// What records the picture: film with its grain and flicker, or a digital camera
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// What is seen: middle and width in micrometres, or an organism's index or name and a width; without it, the room
-    #[arg(long, value_name = "X,Y,WIDTH|follow:ID[,WIDTH]", allow_hyphen_values = true)]
+    /// What is seen: X,Y,WIDTH in micrometres, or follow:NAME[,WIDTH] of an organism or its index; without it, the room
+    #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
     pub view: Option<ViewSpec>,
     /// Pictures side by side in a contact sheet
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -69,6 +69,9 @@ pub(crate) struct RenderArgs {
     /// Threads to compute pictures on; without it, one for each processor
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    /// Shade where chemicals are: each shade is half of the next
+    #[arg(long)]
+    pub chemicals: bool,
     /// Leave the scale bar out
     #[arg(long)]
     pub no_scale_bar: bool,
@@ -118,6 +121,7 @@ struct Plan {
     view: ViewSpec,
     threads: usize,
     has_scale_bar: bool,
+    shows_chemicals: bool,
 }
 
 impl Plan {
@@ -141,6 +145,7 @@ impl Plan {
             view: args.view.clone().unwrap_or(ViewSpec::Room),
             threads: args.threads.unwrap_or(threads).clamp(1, 256),
             has_scale_bar: !args.no_scale_bar,
+            shows_chemicals: args.chemicals,
         })
     }
 
@@ -179,6 +184,7 @@ impl Plan {
         let exposure = microscope.expose(world, field);
         let exposure = exposure.map_err(|error| Failure::Message(format!("cannot render: {error}")))?;
         let picture = photograph::develop(&exposure, self.threads);
+        let picture = if self.shows_chemicals { overlay::with_chemicals(picture, &field, world) } else { picture };
         Ok(if self.has_scale_bar { overlay::with_scale_bar(picture, &field, optics) } else { picture })
     }
 }

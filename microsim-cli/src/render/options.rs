@@ -53,9 +53,7 @@ pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
 /// `--film`.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum FilmStock {
-    /// 16 mm film: grain, gate weave, flicker, vignette
     Cine,
-    /// A digital camera
     Digital,
 }
 

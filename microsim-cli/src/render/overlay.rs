@@ -1,6 +1,8 @@
-//! The scale bar in a corner of a picture.
+//! What is painted over a picture: chemicals, and the scale bar in a corner.
 
-use crate::draw::{caption, png::Picture};
+use crate::draw::{caption, chemical, png::Picture};
+use microsim_core::World;
+use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Optics};
 
 /// Height of the letters and distance from the corner, as shares of the picture's height.
@@ -8,6 +10,14 @@ const LETTERS: f32 = 0.026;
 const MARGIN: f32 = 0.04;
 /// Sides from which on a picture has room for a scale bar, pixels.
 const LEAST: [usize; 2] = [160, 90];
+
+/// The picture with the chemicals that are there, which no microscope shows.
+pub(crate) fn with_chemicals(picture: Picture, field: &Field, world: &World) -> Picture {
+    let pixel = field.pixel();
+    let corner = field.centre - 0.5 * pixel * Vec2::new(field.pixels[0] as f32, field.pixels[1] as f32);
+    let items: Vec<_> = chemical::draw(world).into_iter().map(|item| item.placed(corner, 1.0 / pixel)).collect();
+    picture.painted_over(&items)
+}
 
 /// The picture with a scale bar at the lower left, if there is room for one.
 pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) -> Picture {

@@ -16,7 +16,7 @@ pub(crate) use task::Outcome;
 
 use pool::Shard;
 
-use crate::args::duration;
+use crate::args::{duration, whole};
 use crate::console::Console;
 use crate::failure::Failure;
 use std::path::PathBuf;
@@ -55,7 +55,7 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "KEY=VALUE", value_parser = crate::args::key_value)]
     pub set: Vec<(String, String)>,
     /// Number of steps; without it, the scenario's duration
-    #[arg(long, value_name = "N", conflicts_with = "seconds")]
+    #[arg(long, value_name = "N", value_parser = whole, conflicts_with = "seconds")]
     pub steps: Option<u64>,
     /// Simulated time, s
     #[arg(long, value_name = "S", value_parser = duration)]

@@ -51,7 +51,11 @@ pub(crate) fn steer_organisms(
 fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
     let Organism { controller, progress, rng, .. } = organism;
     let wish = controller.decide(senses, rng)?;
-    Some(if controller.insists() { wish } else { progress.free(wish, senses, rng) })
+    let way_out = if controller.insists() { None } else { progress.way_out(wish, senses, rng) };
+    Some(way_out.map_or(wish, |way| {
+        controller.head(way);
+        senses.along(way)
+    }))
 }
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).

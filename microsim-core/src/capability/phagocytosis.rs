@@ -54,8 +54,8 @@ pub struct PhagocytosisParams {
     pub closing_length: f32,
     /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
     pub soft_prey_scale: f32,
-    /// Time of digestion of simple and of soft prey, s, 0.05 to 60.
-    pub digestion_time: [f32; 2],
+    /// Time of digestion of simple prey, of bacteria and of soft prey, s, 0.05 to 60.
+    pub digestion_time: [f32; 3],
     /// Share of its speed that an engulfer keeps while it digests, 0 to 1.
     pub digestion_speed: f32,
     /// Area gained over area digested, 0 to 4.
@@ -76,7 +76,7 @@ impl Default for PhagocytosisParams {
             lip_speed: 6.0,
             closing_length: 1.35,
             soft_prey_scale: 0.5,
-            digestion_time: [0.6, 2.0],
+            digestion_time: [0.6, 1.2, 2.0],
             digestion_speed: 0.35,
             growth_yield: 1.0,
         }
@@ -97,6 +97,7 @@ impl PhagocytosisParams {
         in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
         in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
         in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
+        in_range("digestion_time[2]", self.digestion_time[2], 0.05, 60.0)?;
         in_range("digestion_speed", self.digestion_speed, 0.0, 1.0)?;
         in_range("growth_yield", self.growth_yield, 0.0, 4.0)
     }
@@ -107,6 +108,8 @@ impl PhagocytosisParams {
 pub enum PreyClass {
     /// One disc: any number at a time, always digestible.
     Simple,
+    /// A bacterium: taken in like simple prey, harder to digest.
+    Bacterium,
     /// A soft body: one at a time, of the right size, with the engulfer at rest.
     Soft,
 }
@@ -216,7 +219,7 @@ impl Engulfer {
     fn conditions_hold(&self, encounter: &Encounter) -> bool {
         let heads_for_it = encounter.heading.is_some_and(|cosine| cosine >= self.params.heading_cosine);
         let is_absorbable = match encounter.class {
-            PreyClass::Simple => encounter.contacts > 0,
+            PreyClass::Simple | PreyClass::Bacterium => encounter.contacts > 0,
             PreyClass::Soft => {
                 encounter.contacts >= self.params.soft_prey_contacts
                     && encounter.size_ratio >= self.params.size_ratio
@@ -248,7 +251,7 @@ impl Engulfer {
         let mut begun = Vec::new();
         for k in 0..self.meals.len() {
             let MealPhase::Touching(held) = self.meals[k].phase else { continue };
-            let is_free = self.meals[k].class == PreyClass::Simple || !self.slot_is_taken();
+            let is_free = self.meals[k].class != PreyClass::Soft || !self.slot_is_taken();
             if held + dt >= self.params.hold_time && is_free {
                 self.meals[k].phase = MealPhase::Ingesting(0.0);
                 begun.push(k);

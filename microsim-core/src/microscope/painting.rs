@@ -243,7 +243,7 @@ fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
         Kind::RigidCell => (Vec3::new(0.80, 0.72, 0.44), Vec3::new(0.45, 0.36, 0.18), 0.22),
         Kind::Platelet => (Vec3::new(0.82, 0.66, 0.70), Vec3::new(0.58, 0.38, 0.46), 0.12),
         Kind::RedCell => (Vec3::new(0.85, 0.50, 0.46), Vec3::new(0.66, 0.24, 0.24), 0.06),
-        Kind::Coccus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
+        Kind::Coccus | Kind::Bacillus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
         Kind::Agar => (Vec3::new(0.86, 0.60, 0.30), Vec3::new(0.6, 0.4, 0.2), 0.0),
         _ => (Vec3::new(0.55, 0.62, 0.70), Vec3::new(0.3, 0.35, 0.42), 0.05),
     };

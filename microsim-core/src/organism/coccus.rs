@@ -18,8 +18,7 @@ pub struct CoccusSpec {
     pub radius: f32,
     /// Mass per square unit, 0.01 to 100.
     pub density: f32,
-    /// Speed with which it drifts where its controller says, units/s, 0 to 1000. With a restless controller this is its
-    /// Brownian motion.
+    /// Speed with which it drifts where its controller says, units/s, 0 to 1000. Brownian motion has its own, but not none.
     pub speed: f32,
 }
 
@@ -54,7 +53,7 @@ impl CoccusSpec {
             speed: self.speed,
             area,
             engulfer: None,
-            prey: Some(PreyClass::Simple),
+            prey: Some(PreyClass::Bacterium),
             divider: None,
         })
     }
@@ -63,14 +62,14 @@ impl CoccusSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Controller, Inputs, Placement, World, WorldConfig};
+    use crate::{BrownianParams, Controller, Inputs, Placement, World, WorldConfig};
 
     #[test]
-    fn coccus_is_one_small_disc_that_a_restless_controller_jostles() {
+    fn coccus_is_one_small_disc_that_is_jostled() {
         let spec = CoccusSpec::default();
         assert_eq!(spec.blueprint().unwrap().particle_count(), 1);
         let mut world = World::new(WorldConfig::default()).unwrap();
-        let place = Placement::at(80.0, 45.0).steered_by(Controller::wander([0.05, 0.2], 0.0));
+        let place = Placement::at(80.0, 45.0).steered_by(Controller::brownian(BrownianParams::default()));
         let id = world.spawn(&spec.into(), place).unwrap();
         let start = world.centroid(id).unwrap();
         let mut farthest = 0.0_f32;
@@ -78,7 +77,7 @@ mod tests {
             world.step(&Inputs::new());
             farthest = farthest.max((world.centroid(id).unwrap() - start).length());
         }
-        assert!(farthest > 0.2 && farthest < 8.0, "{farthest}");
+        assert!(farthest > 0.5 && farthest < 12.0, "{farthest}");
     }
 
     #[test]

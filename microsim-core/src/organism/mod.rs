@@ -2,6 +2,7 @@
 //! constraints and locomotion it amounts to.
 
 pub(crate) mod agar;
+pub(crate) mod bacillus;
 pub(crate) mod coccus;
 pub(crate) mod filled_chain;
 pub(crate) mod fluid_block;
@@ -52,6 +53,8 @@ pub enum OrganismSpec {
     RedCell(red_cell::RedCellSpec),
     /// See [`coccus::CoccusSpec`].
     Coccus(coccus::CoccusSpec),
+    /// See [`bacillus::BacillusSpec`].
+    Bacillus(bacillus::BacillusSpec),
 }
 
 impl OrganismSpec {
@@ -66,6 +69,7 @@ impl OrganismSpec {
             Self::FluidBlock(spec) => spec.blueprint(),
             Self::RedCell(spec) => spec.blueprint(),
             Self::Coccus(spec) => spec.blueprint(),
+            Self::Bacillus(spec) => spec.blueprint(),
         }
     }
 

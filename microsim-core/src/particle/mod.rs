@@ -368,7 +368,6 @@ impl Particles {
     }
 
     /// Freed loose indices, in the reverse order in which they are handed out again.
-    #[cfg(feature = "snapshot")]
     pub(crate) fn free_indices(&self) -> &[u32] {
         &self.free
     }

@@ -211,7 +211,7 @@ impl Read for Range {
     }
 
     fn shape() -> Shape {
-        Shape::Either(vec![Shape::Number, Shape::pair(Shape::Number)])
+        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
     }
 
     fn written(&self) -> String {

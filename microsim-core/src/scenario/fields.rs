@@ -154,7 +154,7 @@ impl Read for u64 {
     }
 
     fn shape() -> Shape {
-        Shape::Whole(i64::MAX as u64)
+        Shape::Whole(i64::MAX as Self)
     }
 
     fn written(&self) -> String {
@@ -246,23 +246,23 @@ impl<T: Read> Read for Vec<T> {
     }
 }
 
-impl<T: Read> Read for [T; 2] {
+impl<T: Read, const N: usize> Read for [T; N] {
     fn accepted() -> String {
-        format!("[a, b], of each: {}", T::accepted())
+        let names: Vec<String> = ('a'..).take(N).map(String::from).collect();
+        format!("[{}], of each: {}", names.join(", "), T::accepted())
     }
 
     fn shape() -> Shape {
-        Shape::pair(T::shape())
+        Shape::array(T::shape(), N)
     }
 
     fn written(&self) -> String {
-        let [a, b] = self;
-        format!("[{}, {}]", a.written(), b.written())
+        format!("[{}]", self.iter().map(T::written).collect::<Vec<_>>().join(", "))
     }
 
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         match value.get_ref().as_array().map(|array| array.len()) {
-            Some(2) => Vec::read(value, path, report)?.try_into().ok(),
+            Some(count) if count == N => Vec::read(value, path, report)?.try_into().ok(),
             _ => mismatch(value, path, report),
         }
     }
@@ -274,7 +274,7 @@ impl Read for Vec2 {
     }
 
     fn shape() -> Shape {
-        Shape::pair(Shape::Number)
+        Shape::array(Shape::Number, 2)
     }
 
     fn written(&self) -> String {

@@ -99,7 +99,7 @@ impl Read for Scale {
     }
 
     fn shape() -> Shape {
-        Shape::Either(vec![Shape::Number, Shape::pair(Shape::Number)])
+        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
     }
 
     fn written(&self) -> String {
@@ -161,7 +161,7 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];
     for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
         let message = format!("`{}` cannot move", prototype.name);
-        fields.report.refuse(&fields.at(field), message, "an amoeboid_cell, a rigid_cell, a coccus or a probe");
+        fields.report.refuse(&fields.at(field), message, "an amoeboid_cell, a rigid_cell, a bacterium or a probe");
     }
     let (path, place) = (fields.path.clone(), place?);
     check_box(fields, &place, prototype.extent(scale[1]));

@@ -46,6 +46,7 @@
 //! | `[probe.NAME]` | [`ProbeSpec`](crate::ProbeSpec); `radius` is required |
 //! | `[red_cell.NAME]` | [`RedCellSpec`](crate::RedCellSpec); `radius` is required |
 //! | `[coccus.NAME]` | [`CoccusSpec`](crate::CoccusSpec); `radius` is required |
+//! | `[bacillus.NAME]` | [`BacillusSpec`](crate::BacillusSpec); `radius` is required |
 //! | `[fluid.NAME]` | `size`, and `spacing`, `particle_mass`, `viscosity`, `mode` (`"density"` or `"granular"`) of [`FluidParams`](crate::FluidParams) |
 //! | `[wander.NAME]` | `interval = [shortest, longest]`, `rest = 0.0` (see [`Controller::Wander`](crate::Controller)) |
 //! | `[patrol.NAME]` | `through = [[x, y], ...]`, `repeats = false`, `in = "units"` or `"room"`: fractions of the room |
@@ -116,6 +117,7 @@ pub use shape::Shape;
 use crate::config::WorldConfig;
 use crate::error::Error;
 use crate::id::{ChemicalId, OrganismId};
+use crate::inputs::Inputs;
 use crate::world::World;
 use diagnostic::in_words;
 use fields::Report;
@@ -292,6 +294,13 @@ impl Scenario {
 }
 
 impl Built {
+    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
+    pub fn step(&mut self, told: &Inputs) {
+        let mut inputs = self.script.before_step(&mut self.world).clone();
+        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        self.world.step(&inputs);
+    }
+
     fn note(&mut self, group: &Group, id: OrganismId) {
         for exchange in &group.exchanges {
             // The group's are checked, and the organism is new.

@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::organism::OrganismSpec;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay, PhagocytosisParams,
-    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay,
+    PhagocytosisParams, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
 };
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
 type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
 
 /// Tables of prototypes and how they are read.
-const KINDS: [(&str, ReadSpec); 8] = [
+const KINDS: [(&str, ReadSpec); 9] = [
     ("rigid_cell", rigid_cell),
     ("amoeboid_cell", amoeboid_cell),
     ("platelet", platelet),
@@ -36,6 +36,7 @@ const KINDS: [(&str, ReadSpec); 8] = [
     ("fluid", fluid),
     ("red_cell", red_cell),
     ("coccus", coccus),
+    ("bacillus", bacillus),
 ];
 
 /// Reads all prototypes of a file.
@@ -203,6 +204,15 @@ fn red_cell(fields: &mut Fields<'_>) -> OrganismSpec {
 fn coccus(fields: &mut Fields<'_>) -> OrganismSpec {
     let default = CoccusSpec::default();
     OrganismSpec::from(CoccusSpec {
+        radius: fields.required("radius").unwrap_or(default.radius),
+        density: fields.or("density", default.density),
+        speed: fields.or("speed", default.speed),
+    })
+}
+
+fn bacillus(fields: &mut Fields<'_>) -> OrganismSpec {
+    let default = BacillusSpec::default();
+    OrganismSpec::from(BacillusSpec {
         radius: fields.required("radius").unwrap_or(default.radius),
         density: fields.or("density", default.density),
         speed: fields.or("speed", default.speed),

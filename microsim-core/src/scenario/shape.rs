@@ -22,9 +22,9 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// An array of two.
-    pub(super) fn pair(of: Self) -> Self {
-        Self::Array(Box::new(of), Some(2))
+    /// An array of so many.
+    pub(super) fn array(of: Self, count: usize) -> Self {
+        Self::Array(Box::new(of), Some(count))
     }
 
     /// An array of any length.

@@ -4,6 +4,7 @@
 pub(crate) mod anatomy;
 mod behaving;
 mod cup;
+pub(crate) mod difference;
 pub(crate) mod digest;
 mod division;
 mod feeding;

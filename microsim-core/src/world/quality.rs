@@ -37,7 +37,7 @@ pub struct Quality {
     pub speed_kept_mean: f32,
     /// Longest time since the conditions of an ingestion began to hold that is not over yet, s.
     pub ingestion_time_max: f32,
-    /// Longest time for which something has wanted to move without getting half its radius away from where it was, s.
+    /// Longest time for which something has wanted to move without getting a third of its radius away from where it was, s.
     pub stalled_max: f32,
 }
 

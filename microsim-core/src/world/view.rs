@@ -179,7 +179,7 @@ impl<'a> OrganismView<'a> {
         self.organism.goal
     }
 
-    /// Time for which it has wanted to move without getting half its radius away from where it was, s.
+    /// Time for which it has wanted to move without getting a third of its radius away from where it was, s.
     #[must_use]
     pub fn stalled_for(self) -> f32 {
         self.organism.progress.stalled

@@ -3,7 +3,7 @@
 use super::Frame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
-use super::palette::{CELL_BODY, CYTOPLASM, HALO, INK, chance, fade, mix};
+use super::palette::{CELL_BODY, CYTOPLASM, GROWN, HALO, INK, chance, fade, mix};
 use crate::picture::{Disc, Shape};
 use microsim_core::Role;
 use microsim_core::geometry::triangulate;
@@ -41,11 +41,13 @@ fn membrane(frame: &Frame<'_>, shape: &Shape) -> (Vec<Vec2>, f32) {
 }
 
 fn draw_cytoplasm(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
-    let (camera, fluid) = (frame.camera, Role::Cytoplasm);
-    let is_fluid = |(_, disc): &(Vec2, Disc)| disc.role == fluid;
+    let camera = frame.camera;
+    let is_fluid = |(_, disc): &(Vec2, Disc)| matches!(disc.role, Role::Cytoplasm | Role::GrownCytoplasm);
     for (at, disc) in frame.picture.discs(shape).filter(is_fluid) {
         let radius = BLUR * disc.radius * camera.scale();
-        canvas.sprite(camera.to_screen(at), radius, Tile::Soft, fade(CYTOPLASM, 0.42));
+        // What has grown shows how much the cell has eaten (T72).
+        let colour = if disc.role == Role::GrownCytoplasm { GROWN } else { CYTOPLASM };
+        canvas.sprite(camera.to_screen(at), radius, Tile::Soft, fade(colour, 0.42));
     }
     for (k, (at, disc)) in frame.picture.discs(shape).filter(is_fluid).enumerate() {
         let size = chance(k);

@@ -8,6 +8,7 @@ pub(crate) const HALO: Color = rgb(0.97, 0.985, 0.95);
 pub(crate) const INK: Color = rgb(0.16, 0.20, 0.17);
 
 pub(crate) const CYTOPLASM: Color = rgb(0.60, 0.67, 0.58);
+pub(crate) const GROWN: Color = rgb(0.82, 0.64, 0.42);
 pub(crate) const CELL_BODY: Color = rgb(0.80, 0.84, 0.77);
 pub(crate) const RIGID: Color = rgb(0.90, 0.86, 0.70);
 pub(crate) const NUCLEUS: Color = rgb(0.30, 0.23, 0.38);

@@ -158,13 +158,13 @@ impl Gains {
 
     /// Draws them where they were gained; they rise unless nothing may move.
     pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
-        let unit = pen.line(Size::Large);
+        let unit = pen.line(Size::Body);
         for (k, (gain, age)) in self.0.iter().enumerate() {
-            let rise = style.time.map_or(0.0, |_| 1.1 * unit * age / GAIN_TIME);
+            let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
             // Several at once stand beside each other.
             let beside = (k % 3) as f32 - 1.0;
-            let at = style.camera.to_screen(gain.at) - Vec2::new(-1.4 * unit * beside, unit + rise);
-            pen.label(at, Size::Large, Align::Centre, READY, &format!("+{}", gain.points));
+            let at = style.camera.to_screen(gain.at) - Vec2::new(-2.0 * unit * beside, unit + rise);
+            pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
         }
     }
 }

@@ -4,6 +4,7 @@ use super::bot::{Bot, Policy};
 use super::hint::{Hints, Readiness, State};
 use super::recording::Recording;
 use super::round::Round;
+use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_core::{Event, Intent, Kind};
 
@@ -211,6 +212,40 @@ fn bots_score_in_the_order_of_their_skill_over_twenty_seeds() {
     // A sign test: 15 of 20 has a probability of 2 % by chance.
     for (worse, better) in [(&idle, &random), (&random, &agar), (&agar, &greedy)] {
         assert!(wins(worse, better) >= 15, "{worse:?} {better:?}");
+    }
+}
+
+/// Mean velocity of a cell.
+fn velocity(round: &Round) -> Vec2 {
+    let cell = round.world().view().organism(round.player()).unwrap();
+    let (sum, count) = cell.particles().fold((Vec2::ZERO, 0.0), |(sum, count), p| (sum + p.velocity, count + 1.0));
+    sum / count
+}
+
+#[test]
+fn a_command_moves_the_cell_at_once_and_turns_it_soon() {
+    let ways = [Vec2::X, Vec2::Y, Vec2::NEG_X, Vec2::new(0.7, -0.7)];
+    for before in [None, Some(Vec2::X), Some(Vec2::Y)] {
+        for way in ways {
+            let mut round = Round::new(&scenario(1, 60.0)).unwrap();
+            let intent = |round: &Round, way: Vec2| {
+                let at = round.world().centroid(round.player()).unwrap();
+                Intent::toward(at + way * 40.0).unwrap()
+            };
+            for _ in 0..40 {
+                let earlier = before.map_or(Intent::REST, |way| intent(&round, way));
+                round.step(earlier);
+            }
+            let start = velocity(&round);
+            let command = intent(&round, way);
+            (0..2).for_each(|_| round.step(command));
+            let gained = (velocity(&round) - start).dot(way);
+            let turns = before.is_none_or(|before| before != way);
+            assert!(gained > 0.05 || !turns, "{before:?} -> {way}: gained {gained} units/s in two steps");
+            (0..16).for_each(|_| round.step(command));
+            let cosine = velocity(&round).normalize_or_zero().dot(way.normalize());
+            assert!(cosine > 0.707, "{before:?} -> {way}: cosine {cosine} after 0.3 s");
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
-const MENU_TOP: f32 = 0.72;
+const MENU_TOP: f32 = 0.62;
 /// Time for which the menu does not answer, s: the player may still be holding keys.
 const DELAY: f32 = 0.7;
 
@@ -61,11 +61,11 @@ impl End {
     }
 
     fn draw_tallies(&self, pen: &mut Pen, top: f32) {
-        let (middle, line) = (0.5 * pen.screen().x, pen.line(Size::Body));
+        let (middle, line) = (0.25 * pen.screen().x, pen.line(Size::Body));
         for (k, (kind, tally)) in self.tallies.iter().enumerate() {
             let y = top + line * k as f32;
             let what = format!("{} x {}", tally.count, plain_name(*kind));
-            pen.write(Vec2::new(middle - 0.5 * line, y), Size::Body, Align::Right, HALO, &what);
+            pen.write(Vec2::new(middle + 1.0 * line, y), Size::Body, Align::Right, HALO, &what);
             pen.write(Vec2::new(middle + 4.0 * line, y), Size::Body, Align::Right, HALO, &tally.points.to_string());
         }
     }
@@ -112,8 +112,8 @@ impl Screen for End {
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(Size::Large));
             pen.write(below, Size::Body, Align::Centre, READY, &text);
         }
-        self.draw_tallies(pen, 0.2 * screen.y + 0.3 * line);
-        draw_table(pen, 0.4 * screen.y, &self.best, self.place);
+        self.draw_tallies(pen, 0.28 * screen.y + line);
+        draw_table(pen, [0.68 * screen.x, 0.28 * screen.y], &self.best, self.place);
         self.menu.draw(pen, &Place::middle(pen, MENU_TOP));
     }
 

@@ -174,7 +174,7 @@ impl Context {
         let Some((text, _)) = self.message.as_ref().filter(|(_, until)| self.time < *until) else { return };
         let (screen, line) = (self.pen.screen(), self.pen.line(Size::Small));
         for (k, text) in text.lines().take(8).enumerate() {
-            let at = Vec2::new(0.5 * screen.x, 0.2 * screen.y + 1.25 * line * k as f32);
+            let at = Vec2::new(0.5 * screen.x, 0.8 * screen.y + 1.25 * line * k as f32);
             self.pen.label(at, Size::Small, Align::Centre, crate::draw::palette::HALO, text);
         }
     }

@@ -41,7 +41,7 @@ impl Screen for ScoreList {
         if self.scores.is_empty() {
             pen.write(0.5 * screen, Size::Body, Align::Centre, HALO, "None yet. Play!");
         }
-        draw_table(pen, 0.27 * screen.y, &self.scores, None);
+        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], &self.scores, None);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
         pen.write(at, Size::Small, Align::Centre, HALO, "Enter or a click: back");
     }
@@ -51,10 +51,10 @@ impl Screen for ScoreList {
     }
 }
 
-/// Draws scores as a table, one of them marked.
-pub(super) fn draw_table(pen: &mut Pen, top: f32, scores: &[Score], marked: Option<usize>) {
-    let (middle, line) = (0.5 * pen.screen().x, pen.line(Size::Body));
-    let columns = [-7.0, -2.0, 3.5, 8.5].map(|ems| middle + ems * line);
+/// Draws scores as a table below the middle of its upper edge, one of them marked.
+pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], scores: &[Score], marked: Option<usize>) {
+    let line = pen.line(Size::Body);
+    let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
     let room = ((0.9 * pen.screen().y - top) / line) as usize;
     let heads = ["", "points", "small", "cells"];
     if !scores.is_empty() {

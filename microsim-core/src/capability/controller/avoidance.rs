@@ -12,10 +12,10 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
-/// Share of its speed below which something is in its way, ...
-const BLOCKED: f32 = 0.3;
-/// ... when it has been for this long, s.
-const BLOCKED_FOR: f32 = 0.3;
+/// Share of its speed from which on it is on its way, ...
+const CRUISING: f32 = 0.6;
+/// ... and below which, once it has been, something stops it.
+const STOPPED: f32 = 0.3;
 
 /// Parameters of the avoiding reaction, see [`super::Controller::avoidance`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,13 +58,13 @@ pub struct Avoidance {
     phase: f32,
     /// Time for which it still backs up, s.
     backing: f32,
-    /// Time for which something has been in its way, s.
-    blocked: f32,
+    /// Whether it has come up to speed since it last turned: what is heavy takes a while.
+    is_cruising: bool,
 }
 
 impl Avoidance {
     pub(super) fn new(params: AvoidanceParams) -> Self {
-        Self { params, heading: Vec2::ZERO, phase: 0.0, backing: 0.0, blocked: 0.0 }
+        Self { params, heading: Vec2::ZERO, phase: 0.0, backing: 0.0, is_cruising: false }
     }
 
     pub(super) fn validate(&self) -> Result<(), Error> {
@@ -91,18 +91,24 @@ impl Avoidance {
             }
             return Some(Wish { pace: -1.0, ..senses.along(self.heading) });
         }
-        let is_slow = senses.velocity.dot(self.heading) < BLOCKED * senses.speed;
-        self.blocked = if is_slow { self.blocked + dt } else { 0.0 };
+        let forwards = senses.velocity.dot(self.heading);
+        self.is_cruising |= forwards > CRUISING * senses.speed;
+        let is_stopped = self.is_cruising && forwards < STOPPED * senses.speed;
         let steepest = unit_vector(self.params.follow).y;
         let hits = senses.wall_ahead(self.heading).is_some_and(|away| -away.dot(self.heading) > steepest);
-        if hits || self.blocked > BLOCKED_FOR || rng.unit() * self.params.spontaneous < dt {
-            self.blocked = 0.0;
+        if hits || is_stopped || rng.unit() * self.params.spontaneous < dt {
+            self.is_cruising = false;
             self.backing = rng.range(self.params.back[0], self.params.back[1]);
         }
         self.heading = senses.along_walls(self.heading);
         self.phase = (self.phase + dt / self.params.period).fract();
         let sway = self.params.sway * unit_vector(TAU * self.phase).y;
         Some(senses.along(rotate(self.heading, unit_vector(sway))))
+    }
+
+    /// Swims on in a direction.
+    pub(super) fn head(&mut self, way: Vec2) {
+        (self.heading, self.backing, self.is_cruising) = (way, 0.0, false);
     }
 
     fn turn(&mut self, rng: &mut Rng) {

@@ -54,7 +54,7 @@ impl ChemotaxisParams {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chemotaxis {
     pub(super) params: ChemotaxisParams,
-    walk: PersistentWalk,
+    pub(super) walk: PersistentWalk,
     /// Where the last reading said that there is more: a unit vector.
     signal: Option<Vec2>,
     /// Time until the next reading, s.

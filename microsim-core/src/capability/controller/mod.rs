@@ -177,6 +177,18 @@ impl Controller {
         }
     }
 
+    /// Turns its own way, if it has one, to the direction in which it got away from where it was stuck.
+    pub(crate) fn head(&mut self, way: Vec2) {
+        match self {
+            Self::PersistentWalk(model) => model.heading = way,
+            Self::Chemotaxis(model) => model.walk.heading = way,
+            Self::Avoidance(model) => model.head(way),
+            Self::Flee(model) => model.otherwise.head(way),
+            Self::Pursue(model) => model.otherwise.head(way),
+            _ => {}
+        }
+    }
+
     /// Whether it goes on against what is in its way: it knows where it has to go, or is there to push.
     pub(crate) fn insists(&self) -> bool {
         matches!(self, Self::Patrol(_) | Self::Thrash(_) | Self::Ram(_) | Self::Brownian(_))

@@ -4,6 +4,7 @@
 
 mod agar;
 mod amoeba;
+mod bacillus;
 mod coccus;
 mod fluid;
 mod neutrophil;
@@ -50,6 +51,7 @@ impl Look {
             Kind::Agar => Self::Round(&agar::LOOK),
             Kind::Coccus => Self::Round(&coccus::LOOK),
             Kind::Probe => Self::Round(&probe::LOOK),
+            Kind::Bacillus => Self::Drops(&bacillus::LOOK),
             Kind::FluidBlock => Self::Drops(&fluid::LOOK),
             Kind::Custom => Self::Round(&plain::LOOK),
         }

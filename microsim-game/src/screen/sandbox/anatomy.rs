@@ -1,4 +1,4 @@
-//! The debug view: particles, constraints, contacts and the regions of crawling membranes.
+//! The debug view: chemicals, particles, constraints, contacts and the regions of crawling membranes.
 
 use crate::camera::Camera;
 use crate::draw::canvas::Canvas;
@@ -6,13 +6,16 @@ use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
 use crate::ui::pen::{Align, Pen, Size};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
-use microsim_core::{Bond, MembraneRegion, OrganismView, World};
+use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, World};
 
 /// Draws a world's anatomy over its picture.
 pub(super) fn draw(pen: &mut Pen, world: &World, camera: &Camera) {
     let screen = pen.screen();
     let canvas = pen.canvas();
     canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
+    for ((_, chemical), colour) in world.view().chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
+        draw_chemical(canvas, camera, chemical, colour);
+    }
     for (bond, ends) in world.view().bonds() {
         let (width, colour) = stroke(bond);
         draw_segment(canvas, camera, ends, width, colour);
@@ -25,6 +28,22 @@ pub(super) fn draw(pen: &mut Pen, world: &World, camera: &Camera) {
         draw_segment(canvas, camera, ends, 2.4, ALERT);
     }
     draw_legend(pen);
+}
+
+/// The cells of a chemical's grid, the fuller the more of it is there.
+fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color) {
+    let most = chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value));
+    let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
+    for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
+        let low = cell * Vec2::new((k % columns) as f32, (k / columns) as f32);
+        let (upper_left, lower_right) =
+            (camera.to_screen(low + Vec2::new(0.0, cell.y)), camera.to_screen(low + Vec2::new(cell.x, 0.0)));
+        let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
+        let share = (value / most).max(0.0).sqrt();
+        if is_seen && share > 0.02 {
+            canvas.rectangle(upper_left, lower_right, fade(colour, 0.45 * share));
+        }
+    }
 }
 
 fn stroke(bond: Bond) -> (f32, Color) {

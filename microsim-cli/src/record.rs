@@ -1,0 +1,76 @@
+//! What a run leaves beside its results: a replay, written as it goes on, and a checkpoint of its end.
+
+use crate::failure::Failure;
+use crate::output::Outputs;
+use microsim_core::replay::Recorder;
+use microsim_core::scenario::{Built, Origin};
+use microsim_core::snapshot::Checkpoint;
+use microsim_core::{Inputs, World};
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+
+/// Options of a run that is kept.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct KeepArgs {
+    /// Record the run into this file, for `replay` and `diff`; it can be played even if the run is killed
+    #[arg(long, value_name = "FILE", conflicts_with = "checkpoint_every")]
+    pub record: Option<PathBuf>,
+    /// Steps from one digest of a record to the next
+    #[arg(long, value_name = "N", default_value = "60", requires = "record")]
+    pub digest_every: NonZeroU32,
+    /// Save the end of the run into this file: the world and where its scenario stands
+    #[arg(long, value_name = "FILE")]
+    pub save: Option<PathBuf>,
+}
+
+/// A record that grows with the run.
+#[derive(Debug)]
+pub(crate) struct Recording {
+    recorder: Recorder,
+    file: File,
+    path: PathBuf,
+}
+
+impl KeepArgs {
+    /// Begins the record, if one is asked for.
+    pub(crate) fn start(&self, origin: Origin) -> Result<Option<Recording>, Failure> {
+        self.record.as_deref().map(|path| Recording::start(path, origin, self.digest_every)).transpose()
+    }
+
+    /// Saves the end of a run, if that is asked for.
+    pub(crate) fn save(&self, origin: Origin, run: &Built) -> Result<(), Failure> {
+        let Some(path) = &self.save else { return Ok(()) };
+        let bytes = Checkpoint { origin, run: run.clone() }.to_bytes();
+        let bytes = bytes.map_err(|error| Failure::Message(format!("--save {}: {error}", path.display())))?;
+        let (outputs, name) = Outputs::beside(path)?;
+        outputs.write(&name, &bytes)
+    }
+}
+
+impl Recording {
+    /// The file appears with its header: whoever finds it can read it.
+    fn start(path: &Path, origin: Origin, interval: NonZeroU32) -> Result<Self, Failure> {
+        let (recorder, header) = Recorder::new(origin, interval);
+        let (outputs, name) = Outputs::beside(path)?;
+        outputs.write(&name, &header)?;
+        let file = OpenOptions::new().append(true).open(path).map_err(|error| Failure::file("write", path, &error))?;
+        Ok(Self { recorder, file, path: path.to_owned() })
+    }
+
+    /// Notes a step in which nobody was told anything but by the scenario.
+    pub(crate) fn add(&mut self, world: &World) -> Result<(), Failure> {
+        let bytes = self.recorder.step(&Inputs::new(), world);
+        self.append(&bytes)
+    }
+
+    pub(crate) fn finish(mut self, world: &World) -> Result<(), Failure> {
+        let bytes = self.recorder.clone().finish(world);
+        self.append(&bytes)
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.file.write_all(bytes).map_err(|error| Failure::file("write", &self.path, &error))
+    }
+}

@@ -1,0 +1,81 @@
+//! Files that hold worlds: snapshots, checkpoints and replays.
+
+use crate::checkpoint;
+use crate::failure::Failure;
+use crate::source::Source;
+use microsim_core::World;
+use microsim_core::replay::{Player, Replay, ReplayError};
+use microsim_core::snapshot::{Checkpoint, SnapshotError};
+use std::fs;
+use std::path::Path;
+
+/// What a file holds.
+#[derive(Debug)]
+pub(crate) enum Saved {
+    World(Box<World>),
+    Run(Box<Checkpoint>),
+    Replay(Replay),
+}
+
+impl Saved {
+    /// Reads a file of any of these kinds.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let bytes = read(path)?;
+        let refuse = |error: &dyn std::error::Error| Failure::Message(format!("{}: {error}", path.display()));
+        match (World::from_snapshot(&bytes), Checkpoint::from_bytes(&bytes), Replay::read(&bytes)) {
+            (Ok(world), ..) => Ok(Self::World(Box::new(world))),
+            (_, Ok(run), _) => Ok(Self::Run(Box::new(run))),
+            (.., Ok(replay)) => Ok(Self::Replay(replay)),
+            (Err(SnapshotError::Foreign), Err(SnapshotError::Foreign), Err(ReplayError::Foreign)) => {
+                let accepted = "a snapshot, a checkpoint or a replay";
+                Err(Failure::Message(format!("{}: not a file of microsim, accepted: {accepted}", path.display())))
+            }
+            (Err(SnapshotError::Foreign), Err(SnapshotError::Foreign), Err(error)) => Err(refuse(&error)),
+            (Err(SnapshotError::Foreign), Err(error), _) | (Err(error), ..) => Err(refuse(&error)),
+        }
+    }
+}
+
+impl Saved {
+    /// The step of its world; a replay has many.
+    pub(crate) fn step(&self) -> Option<u64> {
+        match self {
+            Self::World(world) => Some(world.step_index()),
+            Self::Run(checkpoint) => Some(checkpoint.run.world.step_index()),
+            Self::Replay(_) => None,
+        }
+    }
+
+    /// Its world; that of a replay after so many steps, or at its end.
+    pub(crate) fn world_at(self, step: u64, path: &Path) -> Result<World, Failure> {
+        match self {
+            Self::World(world) => Ok(*world),
+            Self::Run(checkpoint) => Ok(checkpoint.run.world),
+            Self::Replay(replay) => {
+                let mut player = play(&replay, path)?;
+                while player.world().step_index() < step && player.next().is_some() {}
+                Ok(player.world().clone())
+            }
+        }
+    }
+}
+
+/// Reads a replay.
+pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
+    let bytes = read(path)?;
+    Replay::read(&bytes).map_err(|error| Failure::Message(format!("{}: {error}", path.display())))
+}
+
+/// Sets a replay up.
+pub(crate) fn play<'a>(replay: &'a Replay, path: &Path) -> Result<Player<'a>, Failure> {
+    Player::new(replay).map_err(|problems| {
+        let origin = format!("<scenario in {}>", path.display());
+        Failure::Scenario(Source::new(origin, replay.origin().text.clone()), problems)
+    })
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let path = if path.is_dir() { path.join(checkpoint::FILE) } else { path.to_owned() };
+    let bytes = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+    Ok(checkpoint::run_of(&bytes).map_or(bytes.clone(), <[u8]>::to_vec))
+}

@@ -1,0 +1,119 @@
+//! `run --record`, `run --save`, `replay` and `diff`, as a user meets them.
+
+mod common;
+
+use common::{Folder, crowd, json, run, stderr, stdout};
+use microsim_core::Inputs;
+use microsim_core::replay::Recorder;
+use microsim_core::scenario::Scenario;
+use std::fs;
+use std::num::NonZeroU32;
+
+/// A run of the crowd: its record and its checkpoint.
+fn keep(folder: &Folder, name: &str, more: &[&str]) -> (String, String) {
+    let scenario = folder.file("crowd.toml", crowd().as_bytes());
+    let (record, saved) = (folder.path(&format!("{name}.replay")), folder.path(&format!("{name}.run")));
+    let mut arguments =
+        vec!["run", &scenario, "--steps", "30", "--record", &record, "--save", &saved, "--digest-every", "10"];
+    arguments.extend(more);
+    let output = run(&arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    (record, saved)
+}
+
+#[test]
+fn a_record_is_played_and_found_right() {
+    let folder = Folder::new("replay-right");
+    let (record, saved) = keep(&folder, "a", &[]);
+    let report = json(&["replay", &record, "--json"]);
+    assert_eq!((report["steps"].as_u64(), report["is_complete"].as_bool()), (Some(30), Some(true)));
+    assert_eq!(report["scenario"], "crowd-of-the-test");
+    let output = run(&["replay", &record]);
+    assert!(stdout(&output).starts_with("30 steps (0.50 s) of crowd-of-the-test with seed 0 are as recorded\n"));
+    let output = run(&["diff", &record, &saved]);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(0), "no difference\n"));
+}
+
+#[test]
+fn another_run_is_told_apart_by_its_first_field() {
+    let folder = Folder::new("replay-other");
+    let (one, one_saved) = keep(&folder, "one", &[]);
+    let (other, other_saved) = keep(&folder, "other", &["--set", "spawn.2.at=[60.0, 10.5]"]);
+    for (a, b, step) in [(&one, &other, 0), (&one_saved, &other_saved, 30), (&one, &other_saved, 30)] {
+        let output = run(&["diff", a, b]);
+        let found = stdout(&output);
+        assert_eq!(output.status.code(), Some(1), "{found}");
+        assert!(found.starts_with(&format!("step {step}: particle ")), "{found}");
+        assert!(found.contains(", agar) ") && found.contains(" against "), "{found}");
+    }
+}
+
+#[test]
+fn a_run_that_is_not_the_recorded_one_is_found_out() {
+    let folder = Folder::new("replay-wrong");
+    let scenario = Scenario::parse(&crowd(), &[]).unwrap();
+    let mut built = scenario.build().unwrap();
+    let (mut recorder, mut bytes) = Recorder::new(scenario.origin(), NonZeroU32::new(10).unwrap());
+    for step in 0..30 {
+        built.step(&Inputs::new());
+        if step == 12 {
+            let first = built.world.organisms().next().unwrap();
+            built.world.remove(first).unwrap();
+        }
+        bytes.extend(recorder.step(&Inputs::new(), &built.world));
+    }
+    let record = folder.file("wrong.replay", &bytes);
+    let output = run(&["replay", &record]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains(" after step 20, recorded: "), "{}", stderr(&output));
+}
+
+#[test]
+fn a_damaged_record_is_played_as_far_as_it_goes_and_refused() {
+    let folder = Folder::new("replay-damaged");
+    let (record, _) = keep(&folder, "a", &[]);
+    let mut bytes = fs::read(&record).unwrap();
+    let at = bytes.len() - 15;
+    bytes[at] ^= 1;
+    let damaged = folder.file("damaged.replay", &bytes);
+    let output = run(&["replay", &damaged]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
+    assert!(stderr(&output).contains("damaged at byte"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
+    let folder = Folder::new("replay-cut");
+    let (record, _) = keep(&folder, "a", &[]);
+    let bytes = fs::read(&record).unwrap();
+    let cut = folder.file("cut.replay", &bytes[..bytes.len() - 15]);
+    let output = run(&["replay", &cut]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
+    assert!(stderr(&output).contains("cut off"), "{}", stderr(&output));
+}
+
+#[test]
+fn files_that_are_none_are_refused() {
+    let folder = Folder::new("replay-none");
+    let (record, saved) = keep(&folder, "a", &[]);
+    let text = folder.file("text", b"no such thing");
+    let mut newer = fs::read(&saved).unwrap();
+    newer[8] += 1;
+    let newer = folder.file("newer.run", &newer);
+    let cases = [
+        (vec!["replay", &text], "not a replay"),
+        (vec!["replay", &saved], "not a replay"),
+        (vec!["replay", "nowhere"], "cannot read nowhere"),
+        (vec!["diff", &record, &text], "not a file of microsim"),
+        (vec!["diff", &newer, &saved], "version"),
+        (vec!["run", "empty", "--steps", "1", "--record", "nowhere/else/x/"], "nowhere/else/x"),
+    ];
+    for (arguments, message) in cases {
+        let output = run(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(message), "{arguments:?}: {}", stderr(&output));
+    }
+    let _ = fs::remove_dir_all("nowhere");
+}

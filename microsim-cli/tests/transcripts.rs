@@ -1,0 +1,107 @@
+//! The examples of the documentation are run, in order, and print what they say there.
+//!
+//! `UPDATE_TRANSCRIPTS=1 cargo test -p microsim-cli --test transcripts` writes what they print now into the pages.
+
+mod common;
+
+use common::Folder;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Most lines of a screen.
+const SCREEN: usize = 40;
+
+fn pages() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/cli")
+}
+
+/// What a command line prints, both streams, and its exit code if that is not 0.
+fn transcript(line: &str, folder: &Path) -> String {
+    let program = Path::new(env!("CARGO_BIN_EXE_microsim"));
+    let path = format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap_or_default());
+    let script = format!("exec 2>&1\n{line}\n");
+    let mut shell = Command::new("sh");
+    let output =
+        shell.args(["-c", &script]).current_dir(folder).env("PATH", path).env("NO_COLOR", "1").output().unwrap();
+    let mut text = String::from_utf8(output.stdout).unwrap();
+    if let Some(code) = output.status.code().filter(|code| *code != 0) {
+        text += &format!("[exit code {code}]\n");
+    }
+    text
+}
+
+/// Runs the examples of a page: in each ```console block the lines after a `$ ` are what that command prints. Returns the page
+/// with what they print now where that is not what it says.
+fn run(page: &str, folder: &Path) -> String {
+    let mut written = String::new();
+    let mut lines = page.lines().peekable();
+    let mut is_console = false;
+    while let Some(line) = lines.next() {
+        written += &format!("{line}\n");
+        if line.starts_with("```") {
+            is_console = !is_console && line == "```console";
+        }
+        let Some(command) = line.strip_prefix("$ ").filter(|_| is_console) else { continue };
+        let mut command = command.to_owned();
+        while command.ends_with('\\') {
+            let next = lines.next().unwrap();
+            written += &format!("{next}\n");
+            command = format!("{}{}", command.trim_end_matches('\\'), next);
+        }
+        let mut expected = String::new();
+        while let Some(line) = lines.next_if(|line| !line.starts_with("$ ") && !line.starts_with("```")) {
+            expected += &format!("{line}\n");
+        }
+        let actual = transcript(&command, folder);
+        written += if is_as(&actual, &expected) { &expected } else { &actual };
+    }
+    written
+}
+
+/// Whether a text is what was expected, in which `[..]` stands for anything in a line and `...` for any lines.
+fn is_as(actual: &str, expected: &str) -> bool {
+    let (actual, expected) = (snapbox::Data::text(actual), snapbox::Data::text(expected));
+    snapbox::Assert::new().try_eq(None, actual, expected).is_ok()
+}
+
+fn check(name: &str) {
+    let folder = Folder::new(&format!("transcripts-{name}"));
+    let path = pages().join(name);
+    let page = fs::read_to_string(&path).unwrap();
+    let written = run(&page, folder.root());
+    if std::env::var_os("UPDATE_TRANSCRIPTS").is_some() {
+        fs::write(&path, written).unwrap();
+        return;
+    }
+    assert!(page.contains("\n$ microsim "), "{name} has examples");
+    snapbox::assert_data_eq!(written, snapbox::Data::text(page).raw());
+}
+
+#[test]
+fn the_guide_is_true() {
+    check("guide.md");
+}
+
+#[test]
+fn the_reference_is_true_and_every_help_fits_a_screen() {
+    check("reference.md");
+    let page = fs::read_to_string(pages().join("reference.md")).unwrap();
+    for block in page.split("```console\n").skip(1) {
+        let (block, _) = block.split_once("```").unwrap();
+        let lines: Vec<&str> = block.lines().skip(1).collect();
+        let widest = lines.iter().map(|line| line.chars().count()).max().unwrap();
+        assert!(lines.len() <= SCREEN && widest <= 150, "{} lines of up to {widest}: {block}", lines.len());
+    }
+}
+
+#[test]
+fn the_committed_schema_is_that_of_the_reader() {
+    let path = pages().join("../scenario.schema.json");
+    let schema = common::stdout(&common::run(&["schema"]));
+    if std::env::var_os("UPDATE_TRANSCRIPTS").is_some() {
+        fs::write(&path, schema).unwrap();
+        return;
+    }
+    assert!(fs::read_to_string(&path).unwrap() == schema, "UPDATE_TRANSCRIPTS=1 writes the present one");
+}

@@ -1,0 +1,187 @@
+//! Replays: a scenario and what its organisms were told, step by step, with digests to check against.
+//!
+//! A file is a header and then one frame for every few steps, each with its length and checksum, so that it can be written
+//! as the run goes on, and what there is of it can be played wherever it was cut off.
+//!
+//! ```
+//! use microsim_core::replay::{Recorder, Replay, Player};
+//! use std::num::NonZeroU32;
+//! use microsim_core::{Inputs, Intent, glam::Vec2, scenario::{Scenario, builtin}};
+//!
+//! let scenario = Scenario::parse(builtin("demo").unwrap().text, &[])?;
+//! let mut run = scenario.build()?;
+//! let player = run.player.unwrap();
+//! let (mut recorder, mut file) = Recorder::new(scenario.origin(), NonZeroU32::MIN);
+//! let mut inputs = Inputs::new();
+//! for step in 0..20 {
+//!     inputs.set(player, Intent::toward(Vec2::new(step as f32, 10.0))?);
+//!     run.step(&inputs);
+//!     file.extend(recorder.step(&inputs, &run.world));
+//! }
+//! file.extend(recorder.finish(&run.world));
+//!
+//! let replay = Replay::read(&file)?;
+//! assert_eq!(replay.steps(), 20);
+//! let mut again = Player::new(&replay)?;
+//! assert!(again.by_ref().all(|step| step.is_ok()));
+//! assert_eq!(again.world().digest(), run.world.digest());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod frame;
+mod inputs;
+mod player;
+mod recorder;
+
+use crate::scenario::Origin;
+use frame::{FrameEnd, Frames};
+use inputs::{Change, Reader};
+pub use player::{Mismatch, Player};
+pub use recorder::Recorder;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::num::NonZeroU32;
+
+const MAGIC: [u8; 8] = *b"MSIMPLAY";
+/// Changes with every change of the frames, and of what they hold.
+const VERSION: u32 = 1;
+
+/// Kinds of frames.
+const HEADER: u8 = 0;
+const STEPS: u8 = 1;
+const END: u8 = 2;
+
+/// What was recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replay {
+    header: Header,
+    records: Vec<Record>,
+    ending: Ending,
+}
+
+/// What the first frame says.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Header {
+    /// Version of the library that recorded it.
+    library: String,
+    /// Steps from one digest to the next.
+    interval: NonZeroU32,
+    origin: Origin,
+}
+
+/// Some steps.
+#[derive(Clone, Debug, PartialEq)]
+struct Record {
+    steps: u32,
+    /// What changed before a step, counted from the first one of the record; ascending.
+    changes: Vec<(u32, Change)>,
+    /// Of the world after the last step.
+    digest: Option<u64>,
+}
+
+/// How a replay ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// As its recorder finished it.
+    Complete,
+    /// Within a frame, or without the last one: it was cut off, or its recorder did not get to finish it.
+    CutOff,
+    /// With something that no recorder writes.
+    Damaged {
+        /// Where, bytes from the beginning of the file.
+        at: u64,
+    },
+}
+
+/// Why bytes are no replay.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// The first bytes are not those of a replay.
+    Foreign,
+    /// Another version of the format.
+    Version {
+        /// The version of the bytes.
+        found: u32,
+        /// The only one that is read.
+        accepted: u32,
+    },
+    /// Not even the header is whole.
+    NoHeader,
+}
+
+impl fmt::Display for ReplayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Foreign => write!(f, "not a replay: the first bytes are wrong"),
+            Self::Version { found, accepted } => {
+                write!(f, "version {found} of the replay format, accepted: version {accepted}")
+            }
+            Self::NoHeader => write!(f, "the header of the replay is cut off or damaged"),
+        }
+    }
+}
+
+impl std::error::Error for ReplayError {}
+
+impl Replay {
+    /// Reads as much of a replay as is whole.
+    ///
+    /// # Errors
+    /// When not even the header is.
+    pub fn read(bytes: &[u8]) -> Result<Self, ReplayError> {
+        let mut frames = Frames::open(bytes)?;
+        let header = match frames.next() {
+            Some(Ok((HEADER, content))) => postcard::from_bytes(content).map_err(|_| ReplayError::NoHeader)?,
+            _ => return Err(ReplayError::NoHeader),
+        };
+        let (mut records, mut reader) = (Vec::new(), Reader::default());
+        let ending = loop {
+            let at = frames.place();
+            match frames.next() {
+                None => break Ending::CutOff,
+                Some(Err(FrameEnd::CutOff)) => break Ending::CutOff,
+                Some(Ok((STEPS, content))) => match reader.record(content) {
+                    Some(record) => records.push(record),
+                    None => break Ending::Damaged { at },
+                },
+                Some(Ok((END, []))) if frames.is_at_end() => break Ending::Complete,
+                Some(Ok(_) | Err(FrameEnd::Damaged)) => break Ending::Damaged { at },
+            }
+        };
+        Ok(Self { header, records, ending })
+    }
+
+    /// What its scenario was read from.
+    #[must_use]
+    pub fn origin(&self) -> &Origin {
+        &self.header.origin
+    }
+
+    /// Version of the library that recorded it. Another one may play it differently.
+    #[must_use]
+    pub fn library(&self) -> &str {
+        &self.header.library
+    }
+
+    /// Number of steps.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.records.iter().map(|record| u64::from(record.steps)).sum()
+    }
+
+    /// Steps from one digest to the next; the last step has one too.
+    #[must_use]
+    pub fn interval(&self) -> NonZeroU32 {
+        self.header.interval
+    }
+
+    /// Whether all of it is there.
+    #[must_use]
+    pub fn ending(&self) -> Ending {
+        self.ending
+    }
+}
+
+#[cfg(test)]
+mod tests;

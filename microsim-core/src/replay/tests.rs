@@ -1,0 +1,200 @@
+//! Replays of short runs, and what becomes of damaged ones.
+
+use super::*;
+use crate::Rng;
+use crate::id::OrganismId;
+use crate::inputs::{Inputs, Intent};
+use crate::scenario::{Built, Scenario};
+use glam::Vec2;
+use proptest::prelude::*;
+
+const ROOM: &str = "
+    schema = 1
+    [world]
+    size = [40.0, 30.0]
+    [rigid_cell.swimmer]
+    radii = [4.0, 2.5]
+    [agar.pellet]
+    radius = 1.0
+    [wander.idle]
+    interval = [0.1, 0.3]
+    [[spawn]]
+    of = \"swimmer\"
+    at = [10.0, 15.0]
+    name = \"one\"
+    player = true
+    [[spawn]]
+    of = \"swimmer\"
+    at = [30.0, 15.0]
+    name = \"two\"
+    controller = \"idle\"
+    [[command]]
+    of = \"two\"
+    at = 0.3
+    goal = [5.0, 5.0]
+";
+
+fn room() -> (Origin, Built) {
+    let scenario = Scenario::parse(ROOM, &[("world.damping".to_owned(), "0.25".to_owned())]).unwrap();
+    (scenario.origin(), scenario.build().unwrap())
+}
+
+fn every(steps: u32) -> NonZeroU32 {
+    NonZeroU32::new(steps).unwrap()
+}
+
+/// Inputs that change now and then; now and then there are none.
+fn wayward(rng: &mut Rng, told: &mut Inputs, organisms: &[OrganismId]) {
+    for &organism in organisms {
+        let goal = Vec2::new(rng.range(-50.0, 90.0), rng.range(-50.0, 90.0));
+        match rng.next_u32() % 12 {
+            0 => told.remove(organism),
+            1 => told.set(organism, Intent::REST.digesting(rng.unit() < 0.5)),
+            2..=4 => told.set(organism, Intent::toward(goal).unwrap().digesting(rng.unit() < 0.5)),
+            _ => {}
+        }
+    }
+}
+
+/// A run of so many steps: its replay and its last digest.
+fn record(steps: u32, interval: u32) -> (Vec<u8>, u64) {
+    let (origin, mut run) = room();
+    let organisms: Vec<_> = run.world.organisms().collect();
+    let (mut recorder, mut file) = Recorder::new(origin, every(interval));
+    let (mut rng, mut told) = (Rng::new(3, 4), Inputs::new());
+    for _ in 0..steps {
+        wayward(&mut rng, &mut told, &organisms);
+        run.step(&told);
+        file.extend(recorder.step(&told, &run.world));
+    }
+    file.extend(recorder.finish(&run.world));
+    (file, run.world.digest())
+}
+
+/// Where the frames of a file end.
+fn ends_of_frames(file: &[u8]) -> Vec<usize> {
+    let mut frames = Frames::open(file).unwrap();
+    std::iter::from_fn(|| frames.next().map(|frame| frame.map(|_| frames.place() as usize).unwrap())).collect()
+}
+
+#[test]
+fn a_run_is_played_to_the_bit() {
+    for (steps, interval) in [(0, 60), (1, 60), (150, 1), (150, 7), (150, 1000)] {
+        let (file, digest) = record(steps, interval);
+        let replay = Replay::read(&file).unwrap();
+        assert_eq!((replay.steps(), replay.ending()), (u64::from(steps), Ending::Complete), "{steps} {interval}");
+        assert_eq!((replay.interval(), replay.origin()), (every(interval), &room().0));
+        let mut player = Player::new(&replay).unwrap();
+        assert_eq!(player.by_ref().filter(|step| step.is_ok()).count(), steps as usize);
+        assert_eq!(player.world().digest(), digest);
+    }
+}
+
+#[test]
+fn what_was_told_is_played_as_it_was_told() {
+    let (origin, mut run) = room();
+    let organisms: Vec<_> = run.world.organisms().collect();
+    let (mut recorder, mut file) = Recorder::new(origin, every(50));
+    let (mut rng, mut told, mut all) = (Rng::new(5, 6), Inputs::new(), Vec::new());
+    for _ in 0..100 {
+        wayward(&mut rng, &mut told, &organisms);
+        run.step(&told);
+        file.extend(recorder.step(&told, &run.world));
+        all.push(told.clone());
+    }
+    let replay = Replay::read(&file).unwrap();
+    let mut player = Player::new(&replay).unwrap();
+    for told in all {
+        player.next().unwrap().unwrap();
+        assert_eq!(player.told(), &told);
+    }
+}
+
+/// Bytes of 90 s of play by a hand that draws circles and now and then rests or digests.
+fn bytes_of_play(steps_between_moves: u32) -> usize {
+    let (origin, mut run) = room();
+    let player = run.player.unwrap();
+    let (mut recorder, mut file) = Recorder::new(origin, every(60));
+    let (mut rng, mut told) = (Rng::new(1, 1), Inputs::new());
+    for step in 0..5400u32 {
+        if step.is_multiple_of(steps_between_moves) {
+            let angle = step as f32 * 0.01;
+            let tremor = Vec2::new(rng.range(-0.5, 0.5), rng.range(-0.5, 0.5));
+            let goal = Vec2::new(80.0, 45.0) + Vec2::new(angle.cos(), angle.sin()) * 30.0 + tremor;
+            let intent = if step % 600 < 60 { Intent::REST } else { Intent::toward(goal).unwrap() };
+            told.set(player, intent.digesting(step % 300 < 100));
+        }
+        run.step(&told);
+        file.extend(recorder.step(&told, &run.world));
+    }
+    file.extend(recorder.finish(&run.world));
+    assert_eq!(Replay::read(&file).unwrap().steps(), 5400);
+    file.len()
+}
+
+#[test]
+fn ninety_seconds_of_play_are_small() {
+    let bytes = bytes_of_play(2);
+    assert!(bytes < 50_000, "{bytes}");
+}
+
+#[test]
+fn a_file_that_is_cut_off_plays_up_to_its_last_whole_frame() {
+    let (file, _) = record(90, 20);
+    let ends = ends_of_frames(&file);
+    for length in 0..file.len() {
+        let whole = ends.iter().filter(|&&end| end <= length).count();
+        match Replay::read(&file[..length]) {
+            Ok(replay) => {
+                assert_eq!(replay.records.len() + 1, whole, "{length}");
+                assert_eq!(replay.ending(), Ending::CutOff, "{length}");
+            }
+            Err(error) => assert_eq!((error, whole), (ReplayError::NoHeader, 0), "{length}"),
+        }
+    }
+    let cut = Replay::read(&file[..file.len() - 20]).unwrap();
+    assert!(Player::new(&cut).unwrap().all(|step| step.is_ok()));
+}
+
+#[test]
+fn a_flipped_bit_is_seen() {
+    let (file, _) = record(60, 20);
+    let begins = ends_of_frames(&file)[0];
+    for at in 0..file.len() {
+        let mut damaged = file.clone();
+        damaged[at] ^= 1 << (at % 8);
+        match Replay::read(&damaged) {
+            Err(error) => assert!(at < begins, "byte {at}: {error}"),
+            Ok(replay) => assert_ne!(replay.ending(), Ending::Complete, "byte {at}"),
+        }
+    }
+    let longer = [&file[..], b"x"].concat();
+    assert!(matches!(Replay::read(&longer).unwrap().ending(), Ending::Damaged { .. }));
+    assert_eq!(Replay::read(b"GIF89a"), Err(ReplayError::Foreign));
+    let mut newer = file;
+    newer[8] += 1;
+    assert_eq!(Replay::read(&newer), Err(ReplayError::Version { found: VERSION + 1, accepted: VERSION }));
+}
+
+#[test]
+fn another_world_is_noticed_at_the_next_digest() {
+    let (file, _) = record(60, 20);
+    let mut replay = Replay::read(&file).unwrap();
+    replay.header.origin.seed += 1;
+    let mismatch = Player::new(&replay).unwrap().find_map(Result::err).unwrap();
+    assert_eq!(mismatch.step, 20);
+}
+
+proptest! {
+    #[test]
+    fn frames_with_any_content_never_panic(frames in prop::collection::vec((0u8..4, prop::collection::vec(any::<u8>(), 0..40)), 0..6)) {
+        let (mut framer, mut file) = frame::Framer::new();
+        let header = Header { library: String::new(), interval: NonZeroU32::MIN, origin: room().0 };
+        file.extend(framer.frame(HEADER, &postcard::to_stdvec(&header).unwrap()));
+        for (kind, content) in &frames {
+            file.extend(framer.frame(*kind, content));
+        }
+        let replay = Replay::read(&file).unwrap();
+        let _ = Player::new(&replay).unwrap().take(20).count();
+    }
+}
