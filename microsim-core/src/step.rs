@@ -166,9 +166,10 @@ fn project_constraints(world: &mut World, h: f32) {
     contraction::project(&scratch.contractions, particles, h);
 }
 
-/// All membranes with their rings.
+/// All membranes that move, with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    organisms.with_membrane().flat_map(|(_, organism)| organism.membranes())
+    let moving = organisms.with_membrane().filter(|(_, organism)| !organism.is_quarantined);
+    moving.flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {

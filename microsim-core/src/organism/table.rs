@@ -101,9 +101,10 @@ impl Organisms {
         })
     }
 
-    /// The membranes of all organisms, and those of their phagosomes.
+    /// The membranes of all organisms that move, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
-        self.with_membrane().flat_map(|(id, organism)| {
+        let moving = self.with_membrane().filter(|(_, organism)| !organism.is_quarantined);
+        moving.flat_map(|(id, organism)| {
             let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
             let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
             let is_full = |inner: &&Phagosome| self.get(inner.prey).is_some();

@@ -321,15 +321,19 @@ impl Particles {
         self.fluid[i] = 0;
     }
 
-    /// Stops entry `i` where it is for good: no velocity, no collisions, infinite mass.
-    pub(crate) fn freeze(&mut self, i: usize, at: Vec2) {
-        let offset = at - self.origin(i);
+    /// Stops entry `i` for good: no velocity, no collisions, infinite mass, and numbers that are finite.
+    pub(crate) fn freeze(&mut self, i: usize, origin: Vec2, at: Vec2) {
+        let offset = at - origin;
+        (self.origin_x[i], self.origin_y[i]) = (origin.x, origin.y);
         (self.x[i], self.y[i]) = (offset.x, offset.y);
         (self.prev_x[i], self.prev_y[i]) = (offset.x, offset.y);
         self.vx[i] = 0.0;
         self.vy[i] = 0.0;
         self.inv_mass[i] = 0.0;
         self.groups[i] = CollisionGroups::NONE;
+        if !(self.radius[i].is_finite() && self.radius[i] >= 0.0) {
+            self.radius[i] = 0.0;
+        }
     }
 
     /// Where entry `i` was when the substep began.

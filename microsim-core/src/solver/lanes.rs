@@ -92,8 +92,8 @@ impl<const L: usize> Pair<L> {
     #[inline(always)]
     pub(crate) fn is_longer(&self, than: [f32; L]) -> bool {
         let mut longer = false;
-        for l in 0..L {
-            longer |= self.squared[l] > than[l] * than[l];
+        for (squared, than) in self.squared.iter().zip(&than) {
+            longer |= *squared > than * than;
         }
         longer
     }
@@ -102,8 +102,8 @@ impl<const L: usize> Pair<L> {
     #[inline(always)]
     pub(crate) fn is_shorter(&self, than: [f32; L]) -> bool {
         let mut shorter = false;
-        for l in 0..L {
-            shorter |= self.squared[l] < than[l] * than[l];
+        for (squared, than) in self.squared.iter().zip(&than) {
+            shorter |= *squared < than * than;
         }
         shorter
     }

@@ -98,6 +98,10 @@ pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
 /// `place` is the ring's place among those that were searched. Returns how many there were.
 pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p: &mut Particles) -> u32 {
     let outline: Vec<Vec2> = ring.nodes.iter().map(|&node| p.position(node as usize)).collect();
+    // A ring that is about to be frozen takes nothing along.
+    if !outline.iter().all(|at| at.is_finite()) {
+        return 0;
+    }
     let mut caught = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.ring == place) {
         let position = p.position(contact.particle as usize);

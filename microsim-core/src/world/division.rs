@@ -151,6 +151,9 @@ impl World {
     fn constrict(&mut self, id: OrganismId) {
         let Some(organism) = self.organisms.get_mut(id) else { return };
         let Some(Furrow { elapsed, .. }) = organism.furrow() else { return };
+        if organism.is_quarantined {
+            return self.abandon(id, Refusal::Quarantined);
+        }
         let elapsed = elapsed + self.config.dt;
         let Some(divider) = organism.divider.as_mut() else { return };
         divider.furrow = divider.furrow.map(|furrow| Furrow { elapsed, ..furrow });
@@ -161,7 +164,6 @@ impl World {
         }
         let Some(organism) = self.organisms.get(id) else { return };
         match self.closing_swap(organism) {
-            _ if organism.is_quarantined => self.abandon(id, Refusal::Quarantined),
             Ok(swap) => self.split(id, &swap),
             Err(reason) if elapsed >= time_limit => self.abandon(id, reason),
             Err(_) => {}

@@ -66,12 +66,14 @@ impl World {
         }
     }
 
-    /// Forgets meals that were removed from the world.
+    /// Forgets meals that were removed from the world or are frozen.
     fn drop_lost_meals(&mut self, engulfer: &mut Engulfer) {
         engulfer.meals.retain(|meal| {
-            let is_alive = self.organisms.get(meal.prey).is_some_and(|prey| !prey.is_quarantined);
+            let prey = self.organisms.get_mut(meal.prey);
+            let is_alive = prey.as_ref().is_some_and(|prey| !prey.is_quarantined);
             if !is_alive {
                 self.exemptions.close_gate(&meal.gate, meal.prey.index);
+                prey.into_iter().for_each(|frozen| frozen.set_held_by(None));
             }
             is_alive
         });
@@ -209,7 +211,7 @@ impl World {
 
     /// Prey that was released gets its size back, slowly enough for what lies around it to give way.
     fn regrow_free_prey(&mut self) {
-        let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held();
+        let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held() && !organism.is_quarantined;
         let free: Vec<OrganismId> = self.organisms.iter().filter(|(_, o)| is_free(o)).map(|(id, _)| id).collect();
         for id in free {
             let present = self.present_scale(id);

@@ -186,7 +186,8 @@ impl World {
     /// Adds static geometry: any `parry2d` shape.
     ///
     /// # Errors
-    /// When the pose is not finite, the shape's box is not finite or a material number is out of range.
+    /// When the pose is not finite, the shape's box is not finite, a material number is out of range, or the obstacle would
+    /// overlap an organism. Nothing is changed then.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
         let Material { friction, restitution } = obstacle.material;
         in_range("material.friction", friction, 0.0, 10.0)?;
@@ -196,6 +197,9 @@ impl World {
         let bounds = obstacle.bounds();
         if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
+        }
+        if let Some(with) = self.overlapped_by(&obstacle) {
+            return Err(Error::new(ErrorKind::Overlap { with }, "pose"));
         }
         self.obstacle_digests.push(digest::of_obstacle(&obstacle));
         self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
@@ -211,10 +215,13 @@ impl World {
     /// Lets two organisms pass through each other, or collide again.
     ///
     /// # Errors
-    /// When a handle is stale.
+    /// When a handle is stale or both name the same organism.
     pub fn set_exempt(&mut self, a: OrganismId, b: OrganismId, is_exempt: bool) -> Result<(), Error> {
         self.organism_or_stale(a, "a")?;
         self.organism_or_stale(b, "b")?;
+        if a == b {
+            return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
+        }
         self.exemptions.set(a.index, b.index, is_exempt);
         Ok(())
     }

@@ -3,10 +3,12 @@
 use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
+use crate::particle::Particles;
 use glam::Vec2;
 
 impl World {
-    /// Freezes every organism with a particle that is not finite or has left the room by more than the room's size.
+    /// Freezes every organism with a particle of which a number is not finite or that has left the room by more than the
+    /// room's size.
     pub(crate) fn quarantine(&mut self) {
         // Hardly ever is there anything to find.
         if !self.all_is_sane() {
@@ -25,23 +27,20 @@ impl World {
         };
         is_near(&p.origin_x, &p.x, self.config.size.x)
             && is_near(&p.origin_y, &p.y, self.config.size.y)
-            && p.vx.iter().zip(&p.vy).fold(true, |all, (x, y)| all & (x + y).is_finite())
+            && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].into_iter().all(|column| are_within(column, -f32::MAX))
+            && [&p.inv_mass, &p.radius].into_iter().all(|column| are_within(column, 0.0))
     }
 
     /// Freezes them and returns which.
     fn freeze_insane(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_sane = |i: usize| {
-            let Vec2 { x, y } = particles.position(i);
-            let velocity = particles.vx[i] + particles.vy[i];
-            let in_x = x > -config.size.x && x < 2.0 * config.size.x;
-            in_x && y > -config.size.y && y < 2.0 * config.size.y && velocity.is_finite()
-        };
+        let is_sane = |i: u32| is_sane(particles, i as usize, config.size);
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         for (id, organism) in organisms.iter_mut().filter(|(_, organism)| !organism.is_quarantined) {
-            if !organism.particles().all(|i| is_sane(i as usize)) {
+            if !organism.particles().all(is_sane) {
                 organism.is_quarantined = true;
                 organism.fluid = None;
+                organism.goal = None;
                 frozen.push(id);
                 events.push(Event::Quarantined { organism: id });
                 lost.extend(organism.particles().map(|i| (i, organism.home)));
@@ -49,33 +48,30 @@ impl World {
         }
         for (i, home) in lost {
             let last = particles.last_position(i as usize);
-            particles.freeze(i as usize, if last.is_finite() { last.clamp(Vec2::ZERO, config.size) } else { home });
+            let at = if last.is_finite() { last.clamp(Vec2::ZERO, config.size) } else { home };
+            particles.freeze(i as usize, home.round(), at);
             fluids.iter_mut().for_each(|fluid| fluid.particles.retain(|&j| j != i));
         }
         frozen
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use crate::{AgarSpec, Event, Inputs, Placement, PlateletSpec, World, WorldConfig};
-
-    #[test]
-    fn a_broken_organism_is_frozen_and_the_others_go_on() {
-        let mut world = World::new(WorldConfig::default()).unwrap();
-        let broken = world.spawn(&PlateletSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
-        let sound = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 20.0)).unwrap();
-        let first = world.organisms.get(broken).unwrap().particles().next().unwrap() as usize;
-        world.particles.x[first] = f32::NAN;
-        world.step(&Inputs::new());
-        assert_eq!(world.events(), [Event::Quarantined { organism: broken }]);
-        assert_eq!(world.census().quarantined, 1);
-        for _ in 0..10 {
-            world.step(&Inputs::new());
-            assert!(world.events().is_empty(), "reported once");
-        }
-        let view = world.view();
-        assert!(view.organism(broken).unwrap().particles().all(|p| p.position.is_finite()));
-        assert!(view.organism(sound).unwrap().particles().all(|p| p.position.is_finite()));
-    }
+/// Whether all numbers of a column are finite and not below a least one.
+fn are_within(column: &[f32], least: f32) -> bool {
+    column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
 }
+
+/// Whether a particle of a room of this size has numbers that a step can go on with.
+fn is_sane(p: &Particles, i: usize, size: Vec2) -> bool {
+    let at = p.position(i);
+    let is_near = at.cmpgt(-size).all() && at.cmplt(2.0 * size).all();
+    let is_number = |value: f32| value.is_finite() && value >= 0.0;
+    is_near
+        && p.velocity(i).is_finite()
+        && p.last_position(i).is_finite()
+        && is_number(p.inv_mass[i])
+        && is_number(p.radius[i])
+}
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,7 @@ use super::World;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
+use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
@@ -144,19 +145,25 @@ impl World {
 
     /// Names what the discs overlap, if anything.
     fn overlap(&self, discs: &[Particle]) -> Option<String> {
-        let obstacles = self.obstacles.iter().skip(super::WALLS);
-        let blocked = |obstacle: &crate::collision::obstacle::Obstacle, disc: &Particle| {
-            let (surface, is_inside) = obstacle.nearest(disc.position());
-            let gap = (disc.position() - surface).length();
-            disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
-        };
-        if obstacles.into_iter().any(|obstacle| discs.iter().any(|disc| blocked(obstacle, disc))) {
+        if self.obstacles().any(|obstacle| discs.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = bounds_of(discs);
         let (hit, _) = self.organisms.iter().find(|(_, organism)| self.overlaps(organism, discs, &bounds))?;
-        let centre = self.centroid(hit)?;
-        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(hit)?.name(), centre.x, centre.y))
+        self.with_its_place(hit)
+    }
+
+    /// Names what an obstacle that is to be added would overlap, if anything.
+    pub(super) fn overlapped_by(&self, obstacle: &Obstacle) -> Option<String> {
+        let is_hit =
+            |organism: &Organism| organism.particles().any(|i| is_blocked(obstacle, &self.particles.get(i as usize)));
+        let (hit, _) = self.organisms.iter().find(|(_, organism)| is_hit(organism))?;
+        self.with_its_place(hit)
+    }
+
+    fn with_its_place(&self, id: OrganismId) -> Option<String> {
+        let centre = self.centroid(id)?;
+        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }
 
     /// Whether an organism overlaps discs within these bounds.
@@ -292,6 +299,13 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
         })
     });
     body.chain(fluid).collect()
+}
+
+/// Whether a disc overlaps an obstacle.
+fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
+    let (surface, is_inside) = obstacle.nearest(disc.position());
+    let gap = (disc.position() - surface).length();
+    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
 }
 
 /// Axis-aligned box around discs.

@@ -99,17 +99,20 @@ fn check_rings(world: &World, organism: &Organism, cell: Subject) -> Check {
 
 fn check_ring(world: &World, organism: &Organism, cell: Subject, membrane: &Membrane, ring: &[u32]) -> Check {
     let p = &world.particles;
-    let names = ["rest length", "node radius", "activity", "rest perimeter"];
-    for (name, value) in names.into_iter().zip(membrane.state()) {
-        cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST)?;
-    }
     cell.must(ring.len() >= LEAST_NODES, || format!("a ring of {} nodes", ring.len()))?;
     let loose = links(ring).find(|&(a, b)| p.next_in_ring[a as usize] != b);
     if let Some((a, b)) = loose {
         let node = Subject { particle: Some(a), ..cell };
         return Err(node.violation(format!("{b} follows it in its ring, but it is linked to another")));
     }
-    if organism.is_quarantined || !world.config.protects_membranes {
+    if organism.is_quarantined {
+        return Ok(());
+    }
+    let names = ["rest length", "node radius", "activity", "rest perimeter"];
+    for (name, value) in names.into_iter().zip(membrane.state()) {
+        cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST)?;
+    }
+    if !world.config.protects_membranes {
         return Ok(());
     }
     let outline: Vec<Vec2> = ring.iter().map(|&i| p.position(i as usize)).collect();

@@ -129,7 +129,7 @@ fn check_pairs(world: &World) -> Check {
     let pairs = world.exemptions.pairs();
     none.must(pairs.is_sorted_by(|a, b| a < b), || "exempt pairs are not in order".to_owned())?;
     let lives = |index: u32| world.organisms.id_at(index).is_some();
-    let dead = pairs.iter().find(|&&(a, b)| a > b || !lives(a) || !lives(b));
+    let dead = pairs.iter().find(|&&(a, b)| a >= b || !lives(a) || !lives(b));
     dead.map_or(Ok(()), |(a, b)| Err(none.violation(format!("{a} and {b} are exempt and do not both live"))))?;
     let touching = world.touching.pairs();
     none.must(touching.is_sorted_by(|a, b| a < b), || "touching pairs are not in order".to_owned())?;

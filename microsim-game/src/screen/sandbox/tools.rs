@@ -50,8 +50,11 @@ impl Tool {
     }
 }
 
+/// Makes what a tool puts into the world.
+type Make = fn() -> OrganismSpec;
+
 /// What can be put into the room.
-const SPAWNS: [(&str, fn() -> OrganismSpec); 8] = [
+const SPAWNS: [(&str, Make); 8] = [
     ("agar", || AgarSpec::default().into()),
     ("coccus", || CoccusSpec::default().into()),
     ("rigid cell", || RigidCellSpec::default().into()),

@@ -1,0 +1,180 @@
+//! Whatever number of whatever organism breaks, in whatever situation: it is frozen and reported once, validation agrees,
+//! and the others go on.
+
+use crate::capability::phagocytosis::MealPhase;
+use crate::particle::Particles;
+use crate::{
+    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, Event, FluidBlockSpec, IngestionWay, Inputs, Intent,
+    OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
+    World, WorldConfig, glam::Vec2,
+};
+
+type Poison = fn(&mut Particles, usize);
+
+/// What can break in a particle, how, and whether the step writes it. What it only reads can break from outside alone, and
+/// may then take along what it touches.
+const POISONS: [(&str, Poison, bool); 11] = [
+    ("x NaN", |p, i| p.x[i] = f32::NAN, true),
+    ("y infinite", |p, i| p.y[i] = f32::NEG_INFINITY, true),
+    ("x far away", |p, i| p.x[i] = 1e30, true),
+    ("y two rooms away", |p, i| p.y[i] += 300.0, true),
+    ("vx NaN", |p, i| p.vx[i] = f32::NAN, true),
+    ("all NaN", |p, i| (p.x[i], p.y[i], p.vx[i], p.vy[i]) = (f32::NAN, f32::NAN, f32::NAN, f32::NAN), true),
+    ("origin NaN", |p, i| p.origin_x[i] = f32::NAN, true),
+    ("inverse mass NaN", |p, i| p.inv_mass[i] = f32::NAN, false),
+    ("inverse mass infinite", |p, i| p.inv_mass[i] = f32::INFINITY, false),
+    ("radius NaN", |p, i| p.radius[i] = f32::NAN, false),
+    ("radius negative", |p, i| p.radius[i] = -1.0, false),
+];
+
+/// One of each kind, near enough to touch each other soon, all on the move.
+fn crowd() -> World {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let mut spawn = |spec: OrganismSpec, x: f32, y: f32| {
+        let steered = Placement::at(x, y).steered_by(Controller::thrash(0.4, 0.5));
+        world.spawn(&spec, steered).unwrap()
+    };
+    spawn(AmoeboidCellSpec::default().into(), 60.0, 45.0);
+    spawn(RigidCellSpec::default().into(), 83.0, 45.0);
+    spawn(PlateletSpec::default().into(), 60.0, 60.0);
+    spawn(AgarSpec::default().into(), 74.0, 52.0);
+    spawn(ProbeSpec::default().into(), 60.0, 28.0);
+    spawn(RedCellSpec::default().into(), 76.0, 31.0);
+    spawn(CoccusSpec::default().into(), 74.0, 38.0);
+    spawn(FluidBlockSpec { size: Vec2::splat(8.0), ..FluidBlockSpec::default() }.into(), 100.0, 45.0);
+    (0..30).for_each(|_| world.step(&Inputs::new()));
+    world
+}
+
+/// Breaks particle `k` (counted around) of an organism and takes some steps with everything checked.
+fn break_and_step(
+    world: &mut World,
+    victim: OrganismId,
+    k: usize,
+    (name, poison, is_written): (&str, Poison, bool),
+    what: &str,
+) {
+    let what = &format!("{what}, {name}");
+    let particles: Vec<u32> = world.organisms.get(victim).unwrap().particles().collect();
+    poison(&mut world.particles, particles[k % particles.len()] as usize);
+    let mut reports = Vec::new();
+    let mut frozen_at: Option<Vec<Vec2>> = None;
+    for step in 0..6 {
+        world.step(&Inputs::new());
+        world.validate().unwrap_or_else(|violation| panic!("{what}, step {step}: {violation}"));
+        reports.extend(world.events().iter().filter(|event| event.name() == "quarantined").copied());
+        let at: Vec<Vec2> = world.view().organism(victim).unwrap().particles().map(|p| p.position).collect();
+        assert!(frozen_at.is_none_or(|before| before == at), "{what}, step {step}: what is frozen moved");
+        frozen_at = Some(at);
+    }
+    let of_victim = reports.iter().filter(|event| **event == Event::Quarantined { organism: victim }).count();
+    assert_eq!(of_victim, 1, "{what}: {reports:?}");
+    assert_eq!(world.census().quarantined, reports.len(), "{what}: each one is reported");
+    assert!(reports.len() == 1 || !is_written, "{what}: others went with it: {reports:?}");
+}
+
+#[test]
+fn every_kind_with_every_number_broken() {
+    let sound = crowd();
+    for id in sound.organisms() {
+        for poison in POISONS {
+            for k in [0, 40] {
+                let what = format!("{:?}, particle {k}", sound.kind(id).unwrap());
+                break_and_step(&mut sound.clone(), id, k, poison, &what);
+            }
+        }
+    }
+}
+
+/// An engulfer with prey in front of it.
+fn meal(prey: &OrganismSpec, way: IngestionWay) -> (World, [OrganismId; 2]) {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(14.0), phagocytosis, ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(50.0, 45.0)).unwrap();
+    let prey = world.spawn(prey, Placement::at(71.0, 45.0)).unwrap();
+    (world, [cell, prey])
+}
+
+fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
+    world.organisms.get(cell)?.engulfer.as_ref()?.meals.first().map(|meal| meal.phase)
+}
+
+#[test]
+fn engulfers_and_prey_in_every_phase_of_a_meal() {
+    let is_wanted: [fn(MealPhase) -> bool; 4] = [
+        |phase| matches!(phase, MealPhase::Touching(_)),
+        |phase| matches!(phase, MealPhase::Ingesting(elapsed) if elapsed > 0.05),
+        |phase| matches!(phase, MealPhase::Ingested),
+        |phase| matches!(phase, MealPhase::Digesting(part) if part > 0.2),
+    ];
+    let soft = RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() };
+    for prey in [AgarSpec::default().into(), soft.into()] {
+        for way in [IngestionWay::Cup, IngestionWay::Gate] {
+            let (mut world, [cell, prey]) = meal(&prey, way);
+            let mut inputs = Inputs::new();
+            for (k, wanted) in is_wanted.into_iter().enumerate() {
+                let is_there = |world: &World| phase(world, cell).is_some_and(wanted);
+                for _ in 0..1200 {
+                    if is_there(&world) {
+                        break;
+                    }
+                    let goal = world.centroid(prey).unwrap() + Vec2::new(20.0, 0.0);
+                    inputs.set(cell, Intent::toward(goal).unwrap().digesting(k == 3));
+                    world.step(&inputs);
+                }
+                assert!(is_there(&world), "{way:?}: {:?}", phase(&world, cell));
+                for victim in [cell, prey] {
+                    for poison in POISONS {
+                        let what = format!("{way:?}, {:?}, {victim:?}", phase(&world, cell));
+                        break_and_step(&mut world.clone(), victim, 3, poison, &what);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn cells_that_divide_or_are_told_to_fuse() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(12.0), ..AmoeboidCellSpec::default() };
+    let cells = [50.0, 75.5].map(|x| world.spawn(&spec.clone().into(), Placement::at(x, 45.0)).unwrap());
+    world.divide(cells[0]).unwrap();
+    for _ in 0..40 {
+        world.step(&Inputs::new());
+        assert!(world.view().organism(cells[0]).unwrap().dividing_for().is_some());
+        world.fuse(cells[1], cells[0]).unwrap();
+        if world.step_index() % 13 == 0 {
+            for poison in POISONS {
+                break_and_step(&mut world.clone(), cells[0], 5, poison, "dividing");
+                break_and_step(&mut world.clone(), cells[1], 5, poison, "fusing");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_frozen_can_be_asked_anything() {
+    for (name, poison, _) in POISONS {
+        let mut world = crowd();
+        let all: Vec<OrganismId> = world.organisms().collect();
+        for &id in &all {
+            let first = world.organisms.get(id).unwrap().particles().next().unwrap();
+            poison(&mut world.particles, first as usize);
+        }
+        world.step(&Inputs::new());
+        assert_eq!(world.census().quarantined, all.len(), "{name}");
+        for &id in &all {
+            let _ =
+                (world.divide(id), world.fuse(id, all[0]), world.grow(id, 2, 2), world.set_exempt(id, all[0], true));
+            let _ = (world.membrane_quality(id), world.centroid(id), world.quality());
+        }
+        world.step(&Inputs::new());
+        world.validate().unwrap_or_else(|violation| panic!("{name}: {violation}"));
+        all.iter().for_each(|&id| world.remove(id).unwrap());
+        world.step(&Inputs::new());
+        world.validate().unwrap_or_else(|violation| panic!("{name}, removed: {violation}"));
+        assert_eq!(world.census().particles, 0);
+    }
+}

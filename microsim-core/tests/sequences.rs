@@ -1,0 +1,36 @@
+//! Random sequences of API calls: nothing panics, and the world stays valid.
+//!
+//! `MICROSIM_SEQUENCES=10000 cargo test --release -p microsim-core --test sequences` for more of them.
+
+#[path = "common/sequence.rs"]
+mod sequence;
+
+use microsim_core::Rng;
+use std::panic::catch_unwind;
+
+/// How many are run when nobody asks for more.
+const COUNT: u32 = 150;
+
+fn bytes(seed: u32) -> Vec<u8> {
+    let mut rng = Rng::new(u64::from(seed), 0);
+    let length = 20 + rng.next_u32() % 600;
+    (0..length).map(|_| (rng.next_u32() >> 24) as u8).collect()
+}
+
+#[test]
+fn random_sequences_of_calls_neither_panic_nor_break_the_world() {
+    let asked = std::env::var("MICROSIM_SEQUENCES").ok().map(|count| count.parse().unwrap());
+    let (mut calls, mut refusals, mut steps, mut wrong) = (0, 0, 0, Vec::new());
+    for seed in 0..asked.unwrap_or(COUNT) {
+        match catch_unwind(|| sequence::run(&bytes(seed))) {
+            Ok(Ok(tally)) => {
+                (calls, refusals, steps) = (calls + tally.calls, refusals + tally.refusals, steps + tally.steps);
+            }
+            Ok(Err(violation)) => wrong.push(format!("seed {seed}: {violation}")),
+            Err(_) => wrong.push(format!("seed {seed}: panicked")),
+        }
+    }
+    println!("{calls} calls, {refusals} of them refused, {steps} steps");
+    assert!(wrong.is_empty(), "{} sequences:\n{}", wrong.len(), wrong[..wrong.len().min(20)].join("\n"));
+    assert!(refusals > calls / 50 && refusals < calls / 2 && steps > calls / 3, "the mixture is no good");
+}
