@@ -33,8 +33,6 @@ pub struct Viewer {
     before: Picture,
     now: Picture,
     alpha: f32,
-    /// When the step that is being taken began, s.
-    began: f64,
     step_ms: f32,
 }
 
@@ -49,7 +47,6 @@ impl Viewer {
             before: now.clone(),
             now,
             alpha: 1.0,
-            began: 0.0,
             step_ms: 0.0,
         }
     }
@@ -74,9 +71,9 @@ impl Viewer {
 
     /// Takes one step.
     pub fn step<S>(&mut self, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {
-        self.began = get_time();
+        let began = get_time();
         let world = step(scene);
-        let took = (get_time() - self.began) as f32 * 1000.0;
+        let took = (get_time() - began) as f32 * 1000.0;
         self.step_ms += (took - self.step_ms) * if self.step_ms > 0.0 { 0.1 } else { 1.0 };
         self.before = std::mem::replace(&mut self.now, Picture::of(world));
         self.alpha = 1.0;
