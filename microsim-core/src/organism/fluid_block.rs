@@ -49,7 +49,8 @@ impl FluidBlockSpec {
         self.fluid.validate().map_err(|error| error.within("fluid"))?;
         in_range("size.x", self.size.x, self.fluid.spacing, 20_000.0)?;
         in_range("size.y", self.size.y, self.fluid.spacing, 20_000.0)?;
-        let about = f64::from(self.size.x) * f64::from(self.size.y) / f64::from(self.fluid.spacing).powi(2) * 1.2;
+        let spacing = f64::from(self.fluid.spacing);
+        let about = f64::from(self.size.x) * f64::from(self.size.y) / (spacing * spacing) * 1.2;
         if about > 4e6 {
             return Err(out_of_range(
                 "size",

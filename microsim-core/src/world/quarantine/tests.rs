@@ -145,7 +145,7 @@ fn cells_that_divide_or_are_told_to_fuse() {
         world.step(&Inputs::new());
         assert!(world.view().organism(cells[0]).unwrap().dividing_for().is_some());
         world.fuse(cells[1], cells[0]).unwrap();
-        if world.step_index() % 13 == 0 {
+        if world.step_index().is_multiple_of(13) {
             for poison in POISONS {
                 break_and_step(&mut world.clone(), cells[0], 5, poison, "dividing");
                 break_and_step(&mut world.clone(), cells[1], 5, poison, "fusing");

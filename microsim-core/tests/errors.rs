@@ -1,0 +1,218 @@
+//! Every public function that can fail, with each kind of error that it can give.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+
+use microsim_core::glam::Vec2;
+use microsim_core::parry2d::math::Pose;
+use microsim_core::parry2d::shape::SharedShape;
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, Anchor, Area, CoccusSpec, Controller, Distance, Error, ErrorKind, FluidBlockSpec,
+    FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec,
+    RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, World, WorldConfig,
+};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A function, the kind of the error and the field that it names, and a call that gives it.
+type Case = (&'static str, &'static str, &'static str, fn(&mut Room) -> Error);
+
+/// A world with one organism of three kinds in it, and a handle that is stale.
+struct Room {
+    world: World,
+    cell: OrganismId,
+    agar: OrganismId,
+    stale: OrganismId,
+}
+
+impl Room {
+    fn new() -> Self {
+        let mut world = World::new(WorldConfig { max_particles: 1500, ..WorldConfig::default() }).unwrap();
+        let agar = AgarSpec::default().into();
+        let stale = world.spawn(&agar, Placement::at(30.0, 30.0)).unwrap();
+        world.remove(stale).unwrap();
+        let agar = world.spawn(&agar, Placement::at(30.0, 30.0)).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        world.add_obstacle(Obstacle::new(SharedShape::ball(4.0), Pose::translation(120.0, 45.0))).unwrap();
+        Self { world, cell, agar, stale }
+    }
+
+    fn spawn(&mut self, spec: impl Into<OrganismSpec>, placement: Placement) -> Error {
+        self.world.spawn(&spec.into(), placement).unwrap_err()
+    }
+
+    /// What spawning a small thing here is refused for.
+    fn spawn_at(&mut self, x: f32, y: f32) -> Error {
+        self.spawn(AgarSpec::default(), Placement::at(x, y))
+    }
+
+    /// A template that is too large for this room.
+    fn spawn_wide(&mut self) -> Error {
+        let mut builder = Template::builder();
+        (0..2).for_each(|k| _ = builder.node(Node::disc(Vec2::X * 500.0 * k as f32, 1.0, 1.0)));
+        let id = self.world.add_template(builder.build().unwrap());
+        self.world.spawn_template(id, Placement::at(20.0, 20.0)).unwrap_err()
+    }
+
+    fn single(&mut self) -> microsim_core::TemplateId {
+        let mut builder = Template::builder();
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
+        self.world.add_template(builder.build().unwrap())
+    }
+}
+
+fn obstacle(shape: SharedShape, x: f32) -> Obstacle {
+    Obstacle::new(shape, Pose::translation(x, 10.0))
+}
+
+fn spec_error(spec: impl Into<OrganismSpec>) -> Error {
+    spec.into().validate().unwrap_err()
+}
+
+/// Building two discs and something else.
+fn build(change: fn(&mut TemplateBuilder)) -> Error {
+    let mut builder = Template::builder();
+    (0..2).for_each(|k| _ = builder.node(Node::disc(Vec2::X * k as f32, 1.0, 0.5)));
+    change(&mut builder);
+    builder.build().unwrap_err()
+}
+
+const AT: fn(f32, f32) -> Placement = Placement::at;
+
+#[rustfmt::skip]
+const CASES: &[Case] = &[
+    ("WorldConfig::validate", "OutOfRange", "dt", |_| WorldConfig { dt: 0.0, ..WorldConfig::default() }.validate().unwrap_err()),
+    ("World::new", "OutOfRange", "substeps", |_| World::new(WorldConfig { substeps: 0, ..WorldConfig::default() }).unwrap_err()),
+    ("Intent::toward", "OutOfRange", "goal.x", |_| Intent::toward(Vec2::NAN).unwrap_err()),
+    ("Controller::validate", "OutOfRange", "rest", |_| Controller::wander([1.0, 2.0], 2.0).validate().unwrap_err()),
+    ("Controller::validate", "BadReference", "through", |_| Controller::patrol(vec![], true).validate().unwrap_err()),
+    ("FluidParams::validate", "OutOfRange", "spacing", |_| FluidParams { spacing: 0.0, ..FluidParams::default() }.validate().unwrap_err()),
+    ("TemplateBuilder::build", "OutOfRange", "nodes[2].radius", |_| build(|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -1.0)))),
+    ("TemplateBuilder::build", "OutOfRange", "distances[0].damping", |_| build(|b| _ = b.distance(Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: f32::NAN }))),
+    ("TemplateBuilder::build", "OutOfRange", "areas[0].rest_area", |_| build(|b| {
+        b.node(Node::disc(Vec2::Y, 1.0, 0.5));
+        b.area(Area { ring: vec![0, 1, 2], rest_area: 0.0, compliance: 0.0, is_upper_bound: false });
+    })),
+    ("TemplateBuilder::build", "BadReference", "nodes", |_| Template::builder().build().unwrap_err()),
+    ("TemplateBuilder::build", "BadReference", "distances[0].a", |_| build(|b| _ = b.link(0, 9, 0.0))),
+    ("TemplateBuilder::build", "BadReference", "ropes[0].a", |_| build(|b| _ = b.rope(Rope { a: 1, b: 1, max_length: 1.0 }))),
+    ("TemplateBuilder::build", "BadReference", "min_distances[0].a", |_| build(|b| _ = b.min_distance(MinDistance { a: 0, b: 2, min_length: 1.0 }))),
+    ("TemplateBuilder::build", "BadReference", "anchors[0].node", |_| build(|b| _ = b.anchor(Anchor { node: 5, anchor: 0, rest_length: 0.0, max_length: 1.0, compliance: 0.0 }))),
+    ("TemplateBuilder::build", "BadReference", "outline", |_| build(|b| _ = b.outline(&[0, 1]))),
+    ("OrganismSpec::validate", "OutOfRange", "radius", |_| spec_error(AgarSpec { radius: 0.0, ..AgarSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "density", |_| spec_error(CoccusSpec { density: -1.0, ..CoccusSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "satellites", |_| spec_error(PlateletSpec { satellites: 7, ..PlateletSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "mass", |_| spec_error(ProbeSpec { mass: f32::NAN, ..ProbeSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "chord_damping", |_| spec_error(RedCellSpec { chord_damping: 11.0, ..RedCellSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "layers", |_| spec_error(RigidCellSpec { layers: 3, ..RigidCellSpec::default() })),
+    ("OrganismSpec::validate", "Unsupported", "satellites", |_| spec_error(RigidCellSpec { satellites: 9, ..RigidCellSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "size.y", |_| spec_error(FluidBlockSpec { size: Vec2::X * 5.0, ..FluidBlockSpec::default() })),
+    ("OrganismSpec::validate", "OutOfRange", "node_radius", |_| spec_error(AmoeboidCellSpec { node_radius: 0.0, ..AmoeboidCellSpec::default() })),
+    ("OrganismSpec::particle_count", "OutOfRange", "radius", |_| OrganismSpec::from(AgarSpec { radius: -1.0, ..AgarSpec::default() }).particle_count().unwrap_err()),
+    ("OrganismSpec::extent", "OutOfRange", "radius", |_| OrganismSpec::from(AgarSpec { radius: -1.0, ..AgarSpec::default() }).extent().unwrap_err()),
+    ("World::spawn", "OutOfRange", "radius", |r| r.spawn(AgarSpec { radius: 0.0, ..AgarSpec::default() }, AT(9.0, 9.0))),
+    ("World::spawn", "OutOfRange", "angle", |r| r.spawn(AgarSpec::default(), AT(9.0, 9.0).turned(f32::INFINITY))),
+    ("World::spawn", "BadReference", "controller.through", |r| r.spawn(AgarSpec::default(), AT(9.0, 9.0).steered_by(Controller::patrol(vec![], true)))),
+    ("World::spawn", "Unsupported", "scale", |r| r.spawn(AmoeboidCellSpec::default(), AT(30.0, 60.0).scaled(2.0))),
+    ("World::spawn", "OutsideWorld", "at", |r| r.spawn_at(-5.0, 9.0)),
+    ("World::spawn", "Overlap", "at", |r| r.spawn_at(30.5, 30.0)),
+    ("World::spawn", "Overlap", "at", |r| r.spawn_at(120.0, 45.0)),
+    ("World::spawn", "TooMany", "particles", |r| r.spawn(FluidBlockSpec { size: Vec2::splat(60.0), ..FluidBlockSpec::default() }, AT(40.0, 40.0))),
+    ("World::spawn_template", "Stale", "template", |r| {
+        let id = r.single();
+        World::new(WorldConfig::default()).unwrap().spawn_template(id, AT(9.0, 9.0)).unwrap_err()
+    }),
+    ("World::spawn_template", "OutOfRange", "scale", |r| { let id = r.single(); r.world.spawn_template(id, AT(9.0, 9.0).scaled(0.0)).unwrap_err() }),
+    ("World::spawn_template", "BadReference", "controller.through", |r| {
+        let id = r.single();
+        r.world.spawn_template(id, AT(9.0, 9.0).steered_by(Controller::patrol(vec![], true))).unwrap_err()
+    }),
+    ("World::spawn_template", "OutsideWorld", "at", Room::spawn_wide),
+    ("World::spawn_template", "Overlap", "at", |r| { let id = r.single(); r.world.spawn_template(id, AT(30.0, 30.0)).unwrap_err() }),
+    ("World::spawn_template", "TooMany", "particles", |_| {
+        let mut full = World::new(WorldConfig { max_particles: 1, ..WorldConfig::default() }).unwrap();
+        full.spawn(&AgarSpec::default().into(), AT(9.0, 9.0)).unwrap();
+        let mut builder = Template::builder();
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
+        let id = full.add_template(builder.build().unwrap());
+        full.spawn_template(id, AT(20.0, 9.0)).unwrap_err()
+    }),
+    ("World::remove", "Stale", "organism", |r| r.world.remove(r.stale).unwrap_err()),
+    ("World::grow", "Stale", "organism", |r| r.world.grow(r.stale, 1, 1).unwrap_err()),
+    ("World::grow", "Unsupported", "organism", |r| r.world.grow(r.agar, 1, 1).unwrap_err()),
+    ("World::grow", "OutOfRange", "particles", |r| r.world.grow(r.cell, 0, 600).unwrap_err()),
+    ("World::grow", "TooMany", "particles", |r| r.world.grow(r.cell, u32::MAX, u32::MAX).unwrap_err()),
+    ("World::divide", "Stale", "organism", |r| r.world.divide(r.stale).unwrap_err()),
+    ("World::divide", "Unsupported", "organism", |r| r.world.divide(r.agar).unwrap_err()),
+    ("World::divide_along", "Stale", "organism", |r| r.world.divide_along(r.stale, Vec2::X).unwrap_err()),
+    ("World::divide_along", "Unsupported", "organism", |r| r.world.divide_along(r.agar, Vec2::X).unwrap_err()),
+    ("World::divide_along", "Unsupported", "axis", |r| r.world.divide_along(r.cell, Vec2::ZERO).unwrap_err()),
+    ("World::divide_along", "Unsupported", "axis", |r| r.world.divide_along(r.cell, Vec2::NAN).unwrap_err()),
+    ("World::fuse", "Stale", "organism", |r| r.world.fuse(r.stale, r.cell).unwrap_err()),
+    ("World::fuse", "Stale", "b", |r| r.world.fuse(r.cell, r.stale).unwrap_err()),
+    ("World::fuse", "Unsupported", "organism", |r| r.world.fuse(r.agar, r.cell).unwrap_err()),
+    ("World::set_exempt", "Stale", "a", |r| r.world.set_exempt(r.stale, r.cell, true).unwrap_err()),
+    ("World::set_exempt", "Stale", "b", |r| r.world.set_exempt(r.cell, r.stale, true).unwrap_err()),
+    ("World::set_exempt", "Unsupported", "b", |r| r.world.set_exempt(r.cell, r.cell, true).unwrap_err()),
+    ("World::add_obstacle", "OutOfRange", "pose.translation.x", |r| r.world.add_obstacle(obstacle(SharedShape::ball(1.0), f32::NAN)).unwrap_err()),
+    ("World::add_obstacle", "Unsupported", "shape", |r| r.world.add_obstacle(obstacle(SharedShape::ball(f32::NAN), 9.0)).unwrap_err()),
+    ("World::add_obstacle", "Overlap", "pose", |r| r.world.add_obstacle(obstacle(SharedShape::ball(40.0), 40.0)).unwrap_err()),
+];
+
+fn kind_of(error: &Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::OutOfRange { .. } => "OutOfRange",
+        ErrorKind::BadReference { .. } => "BadReference",
+        ErrorKind::OutsideWorld { .. } => "OutsideWorld",
+        ErrorKind::Overlap { .. } => "Overlap",
+        ErrorKind::TooMany { .. } => "TooMany",
+        ErrorKind::Stale => "Stale",
+        ErrorKind::Unsupported { .. } => "Unsupported",
+        _ => "a kind that this test does not know",
+    }
+}
+
+#[test]
+fn every_kind_of_error_names_its_field_and_changes_nothing() {
+    for &(function, kind, field, call) in CASES {
+        let mut room = Room::new();
+        let error = call(&mut room);
+        assert_eq!((kind_of(&error), error.field()), (kind, field), "{function}: {error}");
+        assert!(error.to_string().contains(field), "{function}: {error}");
+        assert_eq!(room.world.organisms().count(), 2, "{function} has changed the world");
+        room.world.validate().unwrap();
+    }
+}
+
+/// Names of public functions in a source that return the core's error.
+fn fallible(text: &str) -> Vec<String> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let signature = |rest: &str| rest.split(['{', ';']).next().unwrap_or_default().to_owned();
+    let signatures = code.split("pub fn ").skip(1).map(signature).filter(|signature| signature.contains(", Error>"));
+    signatures.map(|signature| signature.split(['(', '<']).next().unwrap_or_default().to_owned()).collect()
+}
+
+fn sources(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        // Pictures have refusals of their own, tested in tests/microscope.rs.
+        if path.is_dir() && !path.ends_with("microscope") {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn no_function_that_can_fail_is_missing() {
+    let mut files = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let listed: BTreeSet<&str> = CASES.iter().filter_map(|case| case.0.split("::").last()).collect();
+    let mut count = 0;
+    for file in files {
+        for name in fallible(&std::fs::read_to_string(&file).unwrap()) {
+            count += 1;
+            assert!(listed.contains(name.as_str()), "`{name}` of {} is not in CASES", file.display());
+        }
+    }
+    assert!(count >= 18, "only {count} functions found: does the search still work?");
+}
