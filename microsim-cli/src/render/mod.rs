@@ -54,7 +54,7 @@ pub(crate) struct RenderArgs {
     /// What contrast is made of; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// What records the picture: film with its grain and flicker, or a digital camera
+    /// Film with its grain and flicker, or a digital camera
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
