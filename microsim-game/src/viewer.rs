@@ -41,14 +41,7 @@ impl Viewer {
     #[must_use]
     pub fn new(world: &World, camera: Camera) -> Self {
         let now = Picture::of(world);
-        Self {
-            camera,
-            clock: FixedStep::new(world.config().dt),
-            before: now.clone(),
-            now,
-            alpha: 1.0,
-            step_ms: 0.0,
-        }
+        Self { camera, clock: FixedStep::new(world.config().dt), before: now.clone(), now, alpha: 1.0, step_ms: 0.0 }
     }
 
     /// Takes the steps that are due in this frame, at `speed` times the usual speed. When the machine is too slow for

@@ -142,7 +142,9 @@ fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
     pen.canvas().corner([tip, base - wing, base + wing], face);
     pen.canvas().rectangle(middle - half, middle + half, face);
     // Twice, for a bolder stroke.
-    [0.0, 1.0].map(|by| pen.write(middle + Vec2::new(by, 0.0), Size::Body, Align::Centre, ink, key));
+    for by in [0.0, 1.0] {
+        pen.write(middle + Vec2::new(by, 0.0), Size::Body, Align::Centre, ink, key);
+    }
 }
 
 /// Points that were gained lately (T70).
