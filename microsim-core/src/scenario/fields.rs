@@ -154,7 +154,7 @@ impl Read for u64 {
     }
 
     fn shape() -> Shape {
-        Shape::Whole(i64::MAX as u64)
+        Shape::Whole(i64::MAX as Self)
     }
 
     fn written(&self) -> String {
