@@ -44,16 +44,14 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
     let mut table = fields.table("points");
     let mut points = Vec::new();
     for (name, kind) in PREY.into_iter() {
-        if table.has(name) {
-            let mut fields = table.table(name);
-            let each = fields.number("each", 0.0, [0.0, 1e6]);
-            let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
-            fields.finish();
-            points.push((kind, Points { each, per_area }));
-        }
+        let earns = table.has(name);
+        let mut fields = table.table(name);
+        let each = fields.number("each", 0.0, [0.0, 1e6]);
+        let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
+        fields.finish();
+        points.extend(earns.then_some((kind, Points { each, per_area })));
     }
-    let names = PREY.map(|(name, _)| name);
-    table.finish_with(&names);
+    table.finish();
     fields.finish();
     if is_game && !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
         let accepted = "a [[spawn]] of an amoeboid_cell with `player = true`";
