@@ -21,7 +21,7 @@ impl Saved {
     /// Reads a file of any of these kinds.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let bytes = read(path)?;
-        let refuse = |error: &dyn std::error::Error| Failure::Message(format!("{}: {error}", path.display()));
+        let refuse = |error: &dyn std::error::Error| refused(path, error);
         match (World::from_snapshot(&bytes), Checkpoint::from_bytes(&bytes), Replay::read(&bytes)) {
             (Ok(world), ..) => Ok(Self::World(Box::new(world))),
             (_, Ok(run), _) => Ok(Self::Run(Box::new(run))),
@@ -63,7 +63,11 @@ impl Saved {
 /// Reads a replay.
 pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
     let bytes = read(path)?;
-    Replay::read(&bytes).map_err(|error| Failure::Message(format!("{}: {error}", path.display())))
+    Replay::read(&bytes).map_err(|error| refused(path, &error))
+}
+
+fn refused(path: &Path, error: &dyn std::error::Error) -> Failure {
+    Failure::Message(format!("{}: {error}; write it anew", path.display()))
 }
 
 /// Sets a replay up.

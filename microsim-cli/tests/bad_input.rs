@@ -42,8 +42,10 @@ const BAD: &[(&[&str], &str, &str)] = &[
     (&["resume", "{}/none"], "none", "the folder of a run"),
     (&["resume", "{}"], "there is no checkpoint", "output.checkpoint_every"),
     (&["resume", "{}/broken"], "broken/checkpoint", "run the scenario anew"),
-    (&["inspect", "{}/file.toml"], "file.toml", "output.snapshots"),
+    (&["inspect", "{}/file.toml"], "file.toml", "a snapshot, a checkpoint or a replay"),
     (&["inspect", "{}/damaged.snapshot"], "damaged.snapshot", "write it anew"),
+    (&["replay", "{}/file.toml"], "file.toml", "write it anew"),
+    (&["diff", "{}/damaged.snapshot", "{}/file.toml"], "damaged.snapshot", "write it anew"),
     (&["report", "{}", "-o", "{}/page.html"], "run.json", "microsim run --out"),
     (&["report", "{}/file.toml", "-o", "{}/page.html"], "file.toml:1", "expected"),
     // Sweeps.

@@ -134,3 +134,23 @@ fn what_cannot_be_rendered_is_refused_and_nothing_is_written() {
     }
     assert_eq!(std::fs::read_dir(folder.root()).unwrap().count(), 0);
 }
+
+#[test]
+fn a_replay_is_rendered_as_the_run_that_it_records() {
+    let folder = Folder::new("render-replay");
+    let scenario = folder.file("crowd.toml", crowd().as_bytes());
+    let record = folder.path("crowd.replay");
+    assert!(run(&["run", &scenario, "--steps", "30", "--record", &record]).status.success());
+    let shoot = |from: &str, name: &str, more: &[&str]| {
+        let path = folder.path(name);
+        let output = run(&[&["render", from, "--size", "64x36", "-o", &path], more].concat());
+        (output.status.code(), stderr(&output), std::fs::read(&path).unwrap_or_default())
+    };
+    let (of_scenario, of_replay) =
+        (shoot(&scenario, "scenario.png", &["--at", "0.5"]), shoot(&record, "replay.png", &[]));
+    assert!(of_scenario.0 == Some(0) && of_scenario.2 == of_replay.2, "{} {}", of_scenario.1, of_replay.1);
+    let (code, text, _) = shoot(&record, "late.png", &["--at", "9"]);
+    assert!(code != Some(0) && text.contains("the record ends at 0.50 s"), "{text}");
+    let (code, text, _) = shoot(&record, "other.png", &["--seed", "3"]);
+    assert!(code == Some(2) && text.contains("accepted"), "{text}");
+}

@@ -1,9 +1,11 @@
 //! Figures about behaviour over many seeds, as docs/behaviour.md states them:
 //!
 //! ```text
-//! cargo run --release -p microsim-core --features scenario --example behaviour_seeds -- hunt 100 scent
-//! cargo run --release -p microsim-core --features scenario --example behaviour_seeds -- demo 100
+//! cargo run --release -p microsim-core --features scenario --example behaviour_seeds -- hunt 1-100 hunter=prowl
+//! cargo run --release -p microsim-core --features scenario --example behaviour_seeds -- demo 1-100
 //! ```
+//!
+//! A line for each seed.
 
 use microsim_core::scenario::{Built, Scenario, builtin};
 use microsim_core::{Event, Inputs};
@@ -44,26 +46,25 @@ fn longest_stall(mut built: Built) -> (f32, String) {
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    let (name, seeds) = (args[0].as_str(), args[1].parse::<u64>().expect("a number of seeds"));
-    let overrides: Vec<(String, String)> = args[2..]
-        .iter()
-        .map(|value| value.split_once('=').unwrap_or(("hunter", value)))
-        .map(|(k, v)| (k.into(), v.into()))
-        .collect();
-    let worlds = (1..=seeds).filter_map(|seed| build(name, seed, &overrides).map(|built| (seed, built)));
-    if name == "demo" {
-        let stalls: Vec<_> = worlds.map(|(seed, built)| (longest_stall(built), seed)).collect();
-        for ((stall, what), seed) in &stalls {
-            println!("seed {seed}: {stall:.2} s, {what}");
+    let [name, seeds, changes @ ..] = args.as_slice() else {
+        eprintln!("usage: behaviour_seeds demo|hunt FIRST-LAST [PARAMETER=VALUE]");
+        std::process::exit(2);
+    };
+    let (first, last) = seeds.split_once('-').unwrap_or(("1", seeds));
+    let [first, last] = [first, last].map(|seed| seed.parse::<u64>().unwrap_or(1));
+    let overrides: Vec<(String, String)> =
+        changes.iter().filter_map(|change| change.split_once('=')).map(|(k, v)| (k.into(), v.into())).collect();
+    for seed in first..=last {
+        match build(name, seed, &overrides) {
+            None => println!("{name} {seed} no room"),
+            Some(built) if name == "demo" => {
+                let (stall, what) = longest_stall(built);
+                println!("demo {seed} {stall:.2} s, {what}");
+            }
+            Some(built) => match catch_time(built) {
+                Some(time) => println!("hunt {seed} caught {time:.1}"),
+                None => println!("hunt {seed} not caught"),
+            },
         }
-        let longest = stalls.iter().map(|((stall, _), _)| *stall).fold(0.0, f32::max);
-        println!("{} seeds, longest time without progress {longest:.2} s", stalls.len());
-        return;
     }
-    let mut times: Vec<Option<f64>> = worlds.map(|(_, built)| catch_time(built)).collect();
-    let count = times.len();
-    times.sort_by(|a, b| a.unwrap_or(f64::INFINITY).total_cmp(&b.unwrap_or(f64::INFINITY)));
-    let caught: Vec<f64> = times.into_iter().flatten().collect();
-    let median = caught.get(caught.len() / 2).copied().unwrap_or(f64::NAN);
-    println!("{count} seeds {args:?}: caught {}, median of these {median:.1} s", caught.len());
 }

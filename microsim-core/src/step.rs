@@ -168,7 +168,8 @@ fn project_constraints(world: &mut World, h: f32) {
 
 /// All membranes that move, with their rings.
 fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])> {
-    organisms.with_membrane().flat_map(|(_, organism)| organism.membranes())
+    let moving = organisms.with_membrane().filter(|(_, organism)| !organism.is_quarantined);
+    moving.flat_map(|(_, organism)| organism.membranes())
 }
 
 fn project_contacts(world: &mut World) {

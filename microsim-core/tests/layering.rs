@@ -85,7 +85,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "walk",
         ],
     ),
-    ("snapshot", &["collision", "fnv", "scenario", "world"]),
+    ("snapshot", &["collision", "fnv", "id", "scenario", "world"]),
     ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
     ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
 ];

@@ -1,7 +1,7 @@
 //! Random sequences of API calls: nothing panics, and the world stays valid.
 //!
 //! `MICROSIM_SEQUENCES=10000 cargo test --release -p microsim-core --test sequences` for more of them.
-#![allow(clippy::disallowed_methods, reason = "asks the environment how many to run")]
+#![allow(clippy::disallowed_methods, reason = "how many sequences there are is asked of the environment")]
 
 #[path = "common/sequence.rs"]
 mod sequence;

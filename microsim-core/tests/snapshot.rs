@@ -5,8 +5,9 @@
 use microsim_core::scenario::{Built, Origin, Scenario, builtin, builtins};
 use microsim_core::snapshot::Checkpoint;
 
-fn build(name: &str) -> Built {
-    Scenario::parse(builtin(name).unwrap().text, &[]).unwrap().build().unwrap()
+fn build(name: &str) -> (Origin, Built) {
+    let scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+    (scenario.origin(), scenario.build().unwrap())
 }
 
 fn step(built: &mut Built) {
@@ -23,9 +24,8 @@ fn run_until(built: &mut Built, event: &str, most: u32) -> bool {
 }
 
 /// Restores the run from its bytes, and checks that both go on alike.
-fn check_future(run: &Built, steps: u32, when: &str) {
-    let origin = Origin { text: when.to_owned(), overrides: vec![("a".to_owned(), "b".to_owned())], seed: 7 };
-    let checkpoint = Checkpoint { origin, run: run.clone() };
+fn check_future(origin: &Origin, run: &Built, steps: u32, when: &str) {
+    let checkpoint = Checkpoint { origin: origin.clone(), run: run.clone() };
     let bytes = checkpoint.to_bytes().unwrap();
     let restored = Checkpoint::from_bytes(&bytes).unwrap();
     assert_eq!(restored.to_bytes().unwrap(), bytes, "{when}");
@@ -48,10 +48,10 @@ fn check_future(run: &Built, steps: u32, when: &str) {
 #[test]
 fn every_built_in_scenario_goes_on_alike() {
     for scenario in builtins() {
-        let mut built = build(scenario.name);
-        check_future(&built, 5, &format!("{} at the start", scenario.name));
+        let (origin, mut built) = build(scenario.name);
+        check_future(&origin, &built, 5, &format!("{} at the start", scenario.name));
         (0..40).for_each(|_| step(&mut built));
-        check_future(&built, 20, &format!("{} after 40 steps", scenario.name));
+        check_future(&origin, &built, 20, &format!("{} after 40 steps", scenario.name));
     }
 }
 
@@ -64,12 +64,12 @@ fn cups_divisions_and_fusions_go_on_alike() {
         ("divide", ["division_began", "divided"]),
     ];
     for (name, events) in moments {
-        let mut built = build(name);
+        let (origin, mut built) = build(name);
         for event in events {
             assert!(run_until(&mut built, event, 3000), "{name}: {event}");
-            check_future(&built, 10, &format!("{name} when {event}"));
+            check_future(&origin, &built, 10, &format!("{name} when {event}"));
             (0..5).for_each(|_| step(&mut built));
-            check_future(&built, 40, &format!("{name} after {event}"));
+            check_future(&origin, &built, 40, &format!("{name} after {event}"));
         }
     }
 }

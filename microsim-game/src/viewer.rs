@@ -33,8 +33,6 @@ pub struct Viewer {
     before: Picture,
     now: Picture,
     alpha: f32,
-    /// When the step that is being taken began, s.
-    began: f64,
     step_ms: f32,
 }
 
@@ -43,15 +41,7 @@ impl Viewer {
     #[must_use]
     pub fn new(world: &World, camera: Camera) -> Self {
         let now = Picture::of(world);
-        Self {
-            camera,
-            clock: FixedStep::new(world.config().dt),
-            before: now.clone(),
-            now,
-            alpha: 1.0,
-            began: 0.0,
-            step_ms: 0.0,
-        }
+        Self { camera, clock: FixedStep::new(world.config().dt), before: now.clone(), now, alpha: 1.0, step_ms: 0.0 }
     }
 
     /// Takes the steps that are due in this frame, at `speed` times the usual speed. When the machine is too slow for
@@ -74,9 +64,9 @@ impl Viewer {
 
     /// Takes one step.
     pub fn step<S>(&mut self, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {
-        self.began = get_time();
+        let began = get_time();
         let world = step(scene);
-        let took = (get_time() - self.began) as f32 * 1000.0;
+        let took = (get_time() - began) as f32 * 1000.0;
         self.step_ms += (took - self.step_ms) * if self.step_ms > 0.0 { 0.1 } else { 1.0 };
         self.before = std::mem::replace(&mut self.now, Picture::of(world));
         self.alpha = 1.0;

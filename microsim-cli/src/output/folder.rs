@@ -13,6 +13,8 @@ pub(crate) struct Outputs {
     folder: PathBuf,
     /// Whether it was made for this.
     is_new: bool,
+    /// Whether others may write to it at the same time.
+    is_shared: bool,
     /// Names of the files that were finished.
     names: Mutex<Vec<String>>,
 }
@@ -30,7 +32,14 @@ impl Outputs {
         }
         let is_new = !folder.exists();
         fs::create_dir_all(folder).map_err(fail)?;
-        Ok(Self { folder: folder.to_owned(), is_new, names: Mutex::default() })
+        Ok(Self { folder: folder.to_owned(), is_new, is_shared: false, names: Mutex::default() })
+    }
+
+    /// A folder that others may write to at the same time.
+    pub(crate) fn shared(folder: &Path) -> Result<Self, Failure> {
+        let mut outputs = Self::open(folder, true)?;
+        outputs.is_shared = true;
+        Ok(outputs)
     }
 
     /// The folder that a file is to lie in, and the file's name there.
@@ -40,25 +49,16 @@ impl Outputs {
             return Err(Failure::Message(format!("{} is not the name of a file", path.display())));
         };
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok((Self::open(folder, true)?, name.to_owned()))
+        Ok((Self::shared(folder)?, name.to_owned()))
     }
 
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Starts a file that nobody else writes at the same time.
+    /// Starts a file.
     pub(crate) fn file(&self, name: &str) -> Result<PendingFile, Failure> {
-        self.pending(name, &format!(".{}.partial", std::process::id()))
-    }
-
-    /// Starts a file that can be continued by another process.
-    pub(crate) fn stream(&self, name: &str) -> Result<PendingFile, Failure> {
-        self.pending(name, ".partial")
-    }
-
-    fn pending(&self, name: &str, ending: &str) -> Result<PendingFile, Failure> {
-        let (path, temporary) = self.names_of(name, ending);
+        let (path, temporary) = self.names_of(name);
         let fail = |error| Failure::file("write", &path, &error);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(fail)?;
@@ -67,9 +67,9 @@ impl Outputs {
         Ok(PendingFile { writer: Some(BufWriter::new(file)), temporary, path, name: name.to_owned() })
     }
 
-    /// Continues a stream after its first so many bytes, whether it was finished or not.
+    /// Continues a file after its first so many bytes, whether it was finished or not.
     pub(crate) fn resume(&self, name: &str, length: u64) -> Result<PendingFile, Failure> {
-        let (path, temporary) = self.names_of(name, ".partial");
+        let (path, temporary) = self.names_of(name);
         let fail = |error: io::Error| Failure::file("continue", &path, &error);
         if !temporary.exists() && path.exists() {
             fs::rename(&path, &temporary).map_err(fail)?;
@@ -88,10 +88,11 @@ impl Outputs {
     }
 
     /// Where a file will lie, and where it lies until then.
-    fn names_of(&self, name: &str, ending: &str) -> (PathBuf, PathBuf) {
+    fn names_of(&self, name: &str) -> (PathBuf, PathBuf) {
         let path = self.folder.join(name);
         let last = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        (path.clone(), path.with_file_name(format!(".{last}{ending}")))
+        let owner = if self.is_shared { format!(".{}", std::process::id()) } else { String::new() };
+        (path.clone(), path.with_file_name(format!(".{last}{owner}.partial")))
     }
 
     /// Writes a whole file.

@@ -126,7 +126,7 @@ impl<'o> Recorder<'o> {
         let events = match length(Events::FILE) {
             _ if !plan.events => None,
             Some(length) => Some(Events(outputs.resume(Events::FILE, length)?)),
-            None => Some(Events(outputs.stream(Events::FILE)?)),
+            None => Some(Events(outputs.file(Events::FILE)?)),
         };
         let moments = plan.pictures.then(|| Moments::new(steps));
         let (frames, frame_width) = (frames(plan, world, steps), plan.frames.width);

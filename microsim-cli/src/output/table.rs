@@ -56,7 +56,7 @@ impl Table {
             if let Some(length) = lengths(&name) {
                 return outputs.resume(&name, length).map(|file| Sink { format, file });
             }
-            let mut file = outputs.stream(&name)?;
+            let mut file = outputs.file(&name)?;
             if format == TableFormat::Csv {
                 let header = writeln!(file, "{}", columns.join(","));
                 header.map_err(|error| Failure::file("write", file.path(), &error))?;

@@ -1,9 +1,10 @@
-//! `render`: pictures and movies of a scenario as a microscope would show them.
+//! `render`: pictures and movies of a scenario or a replay as a microscope would show them.
 
 mod animation;
 mod options;
 mod overlay;
 mod photograph;
+mod projector;
 
 use options::{FilmStock, OpticsList, Size, ViewSpec};
 
@@ -13,12 +14,14 @@ use crate::draw::png::Picture;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Outputs;
-use crate::source::{Prepared, prepare};
+use crate::source::Prepared;
 use animation::{Format, Movie};
 use indicatif::ProgressBar;
 use microsim_core::World;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::scenario::Script;
+use microsim_core::replay::Replay;
+use projector::Projector;
+use std::path::Path;
 
 /// Frames per second of a movie for which nothing else is said.
 const FPS: f64 = 24.0;
@@ -28,7 +31,8 @@ const MOST_FRAMES: f64 = 100_000.0;
 /// `render`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
+    after_help = "NAME|FILE may also be a replay that `run --record` has written, with a name that ends in .replay.\n\
+The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
 Several moments or optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
 whatever the number of threads.\n\
 Optics: phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic."
@@ -39,7 +43,7 @@ pub(crate) struct RenderArgs {
     /// The picture or movie to write
     #[arg(short, long, value_name = "FILE")]
     pub output: std::path::PathBuf,
-    /// Simulated time of a still, s; without it, the scenario's duration
+    /// Simulated time of a still, s; without it, the scenario's duration or the replay's end
     #[arg(long, value_name = "S", value_parser = duration, conflicts_with_all = ["from", "to", "fps"])]
     pub at: Option<f64>,
     /// Simulated time of the first frame, s
@@ -54,7 +58,7 @@ pub(crate) struct RenderArgs {
     /// What contrast is made of; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// What records the picture: film with its grain and flicker, or a digital camera
+    /// Film with its grain and flicker, or a digital camera
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
@@ -80,21 +84,21 @@ pub(crate) struct RenderArgs {
 /// Renders a still, a sheet or a movie.
 pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure> {
     let format = Format::of(&args.output)?;
-    let prepared = prepare(&args.scenario)?;
-    let plan = Plan::of(args, &prepared)?;
+    let (prepared, replay) = projector::open(&args.scenario)?;
+    let plan = Plan::of(args, &prepared, replay.as_ref())?;
     // A sheet is a PNG like a still.
     let is_sheet = format == Format::Png && plan.pictures() > 1;
     if format != Format::Png && plan.optics.len() > 1 {
         return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
     }
     interrupt::listen();
-    let (mut world, mut script) = (prepared.built.world.clone(), prepared.built.script.clone());
-    plan.view.field(&world, &prepared, plan.size)?;
-    let bar = console.progress(plan.last_step(&world), "step");
+    let mut projector = Projector::new(&prepared, replay.as_ref(), Path::new(&args.scenario.scenario))?;
+    plan.view.field(projector.world(), &prepared, plan.size)?;
+    let bar = console.progress(plan.last_step(projector.world()), "step");
     let shots = plan.moments.iter().flat_map(|&moment| plan.optics.iter().map(move |&optics| (moment, optics)));
     let mut pictures = shots.map(|(moment, optics)| {
-        plan.run_to(moment, &mut world, &mut script, &bar)?;
-        plan.shoot(&world, optics, &prepared)
+        plan.run_to(moment, &mut projector, &bar)?;
+        plan.shoot(projector.world(), optics, &prepared)
     });
     if format == Format::Png {
         let mut pictures = pictures.collect::<Result<Vec<_>, _>>()?;
@@ -125,12 +129,14 @@ struct Plan {
 }
 
 impl Plan {
-    fn of(args: &RenderArgs, prepared: &Prepared) -> Result<Self, Failure> {
+    fn of(args: &RenderArgs, prepared: &Prepared, replay: Option<&Replay>) -> Result<Self, Failure> {
         let fps = args.fps.unwrap_or(FPS);
+        let dt = f64::from(prepared.scenario.config().dt);
+        let end = replay.map_or(f64::from(prepared.scenario.duration()), |replay| replay.steps() as f64 * dt);
         let moments = match (args.from, args.to) {
-            (None, None) => vec![args.at.unwrap_or(f64::from(prepared.scenario.duration()))],
+            (None, None) => vec![args.at.unwrap_or(end)],
             (from, to) => {
-                let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(f64::from(prepared.scenario.duration())));
+                let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(end));
                 moments(from, to, fps)?
             }
         };
@@ -167,12 +173,11 @@ impl Plan {
         step_at(world, self.moments.last().copied().unwrap_or(0.0))
     }
 
-    /// Runs the world, with its scenario's commands, up to a moment.
-    fn run_to(&self, moment: f64, world: &mut World, script: &mut Script, bar: &ProgressBar) -> Result<(), Failure> {
-        while world.step_index() < step_at(world, moment) {
-            let inputs = script.before_step(world);
-            world.step(inputs);
-            bar.set_position(world.step_index());
+    /// Runs the world, with its scenario's commands or as recorded, up to a moment.
+    fn run_to(&self, moment: f64, projector: &mut Projector<'_>, bar: &ProgressBar) -> Result<(), Failure> {
+        while projector.world().step_index() < step_at(projector.world(), moment) {
+            projector.step()?;
+            bar.set_position(projector.world().step_index());
             stop_if_asked()?;
         }
         stop_if_asked()

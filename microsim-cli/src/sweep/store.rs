@@ -20,7 +20,7 @@ impl Store {
                 format!("--store {}: it is not a directory, accepted: a directory or a new one", folder.display());
             return Err(Failure::Message(message));
         }
-        Ok(Self { outputs: Outputs::open(folder, true)? })
+        Ok(Self { outputs: Outputs::shared(folder)? })
     }
 
     /// The result of a task, if there is one.

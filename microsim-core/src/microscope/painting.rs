@@ -18,7 +18,7 @@ use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::kind::Kind;
 use crate::template::Role;
 use crate::world::World;
-use crate::world::view::OrganismView;
+use crate::world::view::{OrganismView, ParticleView};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 
@@ -26,6 +26,8 @@ use std::f32::consts::TAU;
 const DRIFTING: u32 = 60;
 /// Samples of a pixel along each side.
 const SAMPLES: usize = 2;
+/// Cytoplasm that growth has added.
+const GROWN: Vec3 = Vec3::new(0.88, 0.80, 0.36);
 const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
 
 /// The noise that mottles the page.
@@ -119,10 +121,7 @@ impl Painting {
             self.things.push(Thing::Triangle { corners, texture: [Vec2::ZERO; 3], skin: flat });
         }
         let fluid = organism.particles().filter(|p| matches!(p.role, Role::Cytoplasm | Role::GrownCytoplasm));
-        self.things.extend(fluid.map(|particle| {
-            let colour = mix_colours(skin.rim, skin.body, Dice::new(particle.index).unit());
-            Thing::Disc { at: particle.position, radius: 1.9 * particle.radius, colour, alpha: 0.55, softness: 1.0 }
-        }));
+        self.things.extend(fluid.map(|particle| cytoplasm(&particle, &skin)));
         let node = |at, radius| Thing::Disc { at, radius, colour: skin.rim * 0.8, alpha: 0.8, softness: 0.5 };
         let membrane = organism.particles().filter(|particle| particle.role == Role::Membrane);
         self.things.extend(membrane.map(|particle| node(particle.position, particle.radius)));
@@ -227,6 +226,15 @@ impl Skin {
     }
 }
 
+/// A blurred particle; colours and sizes differ, and what growth has added is yellow.
+fn cytoplasm(particle: &ParticleView, skin: &Skin) -> Thing {
+    let mut dice = Dice::new(particle.index);
+    let own = mix_colours(skin.rim, skin.body, dice.unit());
+    let colour = if particle.role == Role::GrownCytoplasm { mix_colours(own, GROWN, 0.6) } else { own };
+    let radius = particle.radius * dice.range([1.6, 2.2]);
+    Thing::Disc { at: particle.position, radius, colour, alpha: 0.55, softness: 1.0 }
+}
+
 /// Body, rim and mottling of a kind.
 fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
     let shade = 0.92 + 0.16 * Dice::new(seed).unit();
@@ -244,4 +252,22 @@ fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
 
 fn mix_colours(a: Vec3, b: Vec3, share: f32) -> Vec3 {
     Vec3::new(mix(a.x, b.x, share), mix(a.y, b.y, share), mix(a.z, b.z, share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grown_cytoplasm_has_another_colour() {
+        let skin = Skin { body: Vec3::new(0.7, 0.8, 0.5), rim: Vec3::new(0.4, 0.5, 0.3), mottle: 0.0, seed: 0 };
+        let disc = |role| {
+            let particle = ParticleView { index: 7, position: Vec2::ZERO, velocity: Vec2::ZERO, radius: 1.0, role };
+            match cytoplasm(&particle, &skin) {
+                Thing::Disc { colour, .. } => colour,
+                Thing::Triangle { .. } => unreachable!("cytoplasm is made of discs"),
+            }
+        };
+        assert!((disc(Role::GrownCytoplasm) - disc(Role::Cytoplasm)).length() > 0.1);
+    }
 }

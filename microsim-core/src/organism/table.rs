@@ -93,17 +93,18 @@ impl Organisms {
         })
     }
 
-    /// Those that have a membrane and are not frozen, by index.
+    /// Those that have a membrane, by index.
     pub(crate) fn with_membrane(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
         self.with_membrane.iter().filter_map(|&index| {
             let id = self.id_at(index)?;
-            self.get(id).filter(|organism| !organism.is_quarantined).map(|organism| (id, organism))
+            self.get(id).map(|organism| (id, organism))
         })
     }
 
-    /// Their membranes, and those of their phagosomes.
+    /// The membranes of all organisms that move, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
-        self.with_membrane().flat_map(|(id, organism)| {
+        let moving = self.with_membrane().filter(|(_, organism)| !organism.is_quarantined);
+        moving.flat_map(|(id, organism)| {
             let ring = move |nodes, holds| Ring { owner: id.index, nodes, holds };
             let own = organism.body.membrane().map(|_| ring(organism.outline.as_slice(), None));
             let is_full = |inner: &&Phagosome| self.get(inner.prey).is_some();

@@ -434,15 +434,9 @@ impl<'a> Fields<'a> {
 
     /// Refuses what was not asked for.
     pub(super) fn finish(self) {
-        let asked = self.asked.clone();
-        self.finish_with(&asked);
-    }
-
-    /// Refuses what is none of these fields.
-    pub(super) fn finish_with(self, known: &[&'static str]) {
         let keys = self.table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref().as_ref());
-        for key in keys.filter(|key| !known.contains(key)) {
-            let (message, accepted) = unknown("field", key, known);
+        for key in keys.filter(|key| !self.asked.contains(key)) {
+            let (message, accepted) = unknown("field", key, &self.asked);
             self.report.refuse_key(&self.at(key), message, accepted);
         }
     }

@@ -2,12 +2,14 @@
 
 use super::fields::Fields;
 use super::group::Group;
+use super::source::unknown;
 use crate::kind::Kind;
 
 /// Time that a game lasts if the file does not say, s (seed, 3.3.2).
 const TIME: f32 = 90.0;
 /// What can be taken in, and so can earn points.
-const PREY: [(&str, Kind); 3] = [("agar", Kind::Agar), ("coccus", Kind::Coccus), ("rigid_cell", Kind::RigidCell)];
+const PREY: [(&str, Kind); 4] =
+    [("agar", Kind::Agar), ("coccus", Kind::Coccus), ("bacillus", Kind::Bacillus), ("rigid_cell", Kind::RigidCell)];
 
 /// Rules of a game: the player scores by digesting what it has taken in.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,19 +43,21 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
     let is_game = root.has("game");
     let mut fields = root.table("game");
     let time = fields.number("time", TIME, [1.0, 3600.0]);
-    let mut table = fields.table("points");
     let mut points = Vec::new();
-    for (name, kind) in PREY.into_iter() {
-        if table.has(name) {
-            let mut fields = table.table(name);
-            let each = fields.number("each", 0.0, [0.0, 1e6]);
-            let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
-            fields.finish();
-            points.push((kind, Points { each, per_area }));
+    for (name, mut fields) in fields.named("points") {
+        let each = fields.number("each", 0.0, [0.0, 1e6]);
+        let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
+        let (path, report) = (fields.path.clone(), fields.report);
+        fields.finish();
+        match PREY.iter().find(|(known, _)| *known == name) {
+            Some(&(_, kind)) => points.push((kind, Points { each, per_area })),
+            None if report.notes.is_some() => {}
+            None => {
+                let (message, accepted) = unknown("prey", &name, &PREY.map(|(known, _)| known));
+                report.refuse_key(&path, message, accepted);
+            }
         }
     }
-    let names = PREY.map(|(name, _)| name);
-    table.finish_with(&names);
     fields.finish();
     if is_game && !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
         let accepted = "a [[spawn]] of an amoeboid_cell with `player = true`";

@@ -68,7 +68,7 @@
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //!
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
-//! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
+//! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `bacillus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
 //! | `[output]` | what is written while it runs: `events = true`, `pictures = true`, `snapshots = [times]`, `checkpoint_every = 0` steps |
 //! | `[output.measures]`, `[output.trajectories]` | `formats = ["csv"]`, `every = 0.1` (0: each step); for measures also `of = [names]` |

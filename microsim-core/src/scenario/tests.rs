@@ -143,3 +143,78 @@ fn controllers_reach_their_organisms() {
     let end = built.world.centroid(probe).unwrap();
     assert!((end - Vec2::new(45.0, 20.0)).length() < 0.5, "{end}");
 }
+
+const DISH: &str = r#"
+    schema = 1
+    name = "dish"
+    [world]
+    size = [80.0, 50.0]
+    [amoeboid_cell.cell]
+    radii = [8.0, 8.0]
+    [agar.pellet]
+    radius = 1.0
+    [[spawn]]
+    of = "cell"
+    player = true
+    at = [20.0, 25.0]
+"#;
+
+/// Numbers of organisms after each of so many seconds.
+fn counts(text: &str, seconds: u32) -> Vec<usize> {
+    let mut built = Scenario::parse(text, &[]).unwrap().build().unwrap();
+    let mut second = |_| {
+        for _ in 0..60 {
+            let inputs = built.script.before_step(&mut built.world).clone();
+            built.world.step(&inputs);
+        }
+        built.world.organisms().count()
+    };
+    (0..seconds).map(&mut second).collect()
+}
+
+#[test]
+fn organisms_come_when_it_is_their_time() {
+    let late = format!("{DISH}[[spawn]]\nof = \"pellet\"\ncount = 4\ngap = 0.5\nfrom = 2.0");
+    assert_eq!(counts(&late, 4), [1, 1, 5, 5]);
+}
+
+#[test]
+fn what_is_gone_comes_again_elsewhere_and_the_same_for_the_same_seed() {
+    let again = format!("{DISH}[[spawn]]\nof = \"pellet\"\ncount = 4\ngap = 0.5\nrespawn = 1.0");
+    let run = |seed: u64| {
+        let mut scenario = Scenario::parse(&again, &[]).unwrap();
+        scenario.set_seed(seed);
+        let mut built = scenario.build().unwrap();
+        let first = built.world.organisms().nth(1).unwrap();
+        let place = built.world.centroid(first).unwrap();
+        built.world.remove(first).unwrap();
+        let mut least = usize::MAX;
+        for _ in 0..120 {
+            let inputs = built.script.before_step(&mut built.world).clone();
+            built.world.step(&inputs);
+            least = least.min(built.world.organisms().count());
+        }
+        assert_eq!((least, built.world.organisms().count()), (4, 5));
+        assert!(built.world.organisms().all(|id| (built.world.centroid(id).unwrap() - place).length() > 0.5));
+        built.world.digest()
+    };
+    assert_eq!(run(1), run(1));
+    assert_ne!(run(1), run(2));
+}
+
+#[test]
+fn a_game_names_its_points_and_needs_a_player() {
+    let game = format!("{DISH}[game]\ntime = 30.0\n[game.points.agar]\neach = 2.4\nper_area = 0.5");
+    let scenario = Scenario::parse(&game, &[]).unwrap();
+    let rules = scenario.game().unwrap();
+    assert_eq!((rules.time, rules.points(crate::Kind::Agar, 3.0), rules.points(crate::Kind::Probe, 3.0)), (30.0, 4, 0));
+    let refused = |text: &str| Scenario::parse(text, &[]).unwrap_err().to_string();
+    let nobody = refused(&game.replace("player = true", ""));
+    assert!(nobody.contains("nobody plays"), "{nobody}");
+    let unknown = refused(&game.replace("points.agar", "points.agr"));
+    assert!(unknown.contains("agr"), "{unknown}");
+    let endless = refused(&game.replace("time = 30.0", "time = 0.0"));
+    assert!(endless.contains("game.time"), "{endless}");
+    let known = refused(&game.replace("player = true", "player = true\nrespawn = 1.0"));
+    assert!(known.contains("respawn"), "{known}");
+}

@@ -3,8 +3,8 @@
 use super::*;
 use crate::walk::{Leaf, Part, Visitor, walk};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, Event, FluidBlockSpec, Inputs, Intent, OrganismSpec, Placement,
-    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, Controller, Event, FluidBlockSpec, Inputs, Intent,
+    OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -20,6 +20,7 @@ fn menagerie() -> World {
         let pose = Pose::new(Vec2::new(6.0 + 8.0 * k as f32, 3.0), 0.3);
         world.add_obstacle(Obstacle::new(shape, pose)).unwrap();
     }
+    world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 4.0, ..ChemicalSpec::default() }).unwrap();
     let cell = AmoeboidCellSpec { radii: Vec2::new(6.0, 6.0), ..AmoeboidCellSpec::default() };
     let cell = world.spawn(&cell.into(), Placement::at(40.0, 25.0)).unwrap();
     let controllers = [

@@ -27,17 +27,17 @@ impl World {
         };
         is_near(&p.origin_x, &p.x, self.config.size.x)
             && is_near(&p.origin_y, &p.y, self.config.size.y)
-            && p.vx.iter().zip(&p.vy).fold(true, |all, (x, y)| all & (x + y).is_finite())
-            && p.inv_mass.iter().zip(&p.radius).fold(true, |all, (&w, &radius)| all & is_number(w) & is_number(radius))
+            && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].into_iter().all(|column| are_within(column, -f32::MAX))
+            && [&p.inv_mass, &p.radius].into_iter().all(|column| are_within(column, 0.0))
     }
 
     /// Freezes them and returns which.
     fn freeze_insane(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_sane = |i: usize| is_sane(particles, i, config.size);
+        let is_sane = |i: u32| is_sane(particles, i as usize, config.size);
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         for (id, organism) in organisms.iter_mut().filter(|(_, organism)| !organism.is_quarantined) {
-            if !organism.particles().all(|i| is_sane(i as usize)) {
+            if !organism.particles().all(is_sane) {
                 organism.is_quarantined = true;
                 organism.fluid = None;
                 organism.goal = None;
@@ -56,15 +56,21 @@ impl World {
     }
 }
 
+/// Whether all numbers of a column are finite and not below a least one.
+fn are_within(column: &[f32], least: f32) -> bool {
+    column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
+}
+
 /// Whether a particle of a room of this size has numbers that a step can go on with.
 fn is_sane(p: &Particles, i: usize, size: Vec2) -> bool {
     let at = p.position(i);
     let is_near = at.cmpgt(-size).all() && at.cmplt(2.0 * size).all();
-    is_near && p.velocity(i).is_finite() && is_number(p.inv_mass[i]) && is_number(p.radius[i])
-}
-
-fn is_number(value: f32) -> bool {
-    value.is_finite() && value >= 0.0
+    let is_number = |value: f32| value.is_finite() && value >= 0.0;
+    is_near
+        && p.velocity(i).is_finite()
+        && p.last_position(i).is_finite()
+        && is_number(p.inv_mass[i])
+        && is_number(p.radius[i])
 }
 
 #[cfg(test)]

@@ -150,7 +150,7 @@ impl World {
         }
         let bounds = bounds_of(discs);
         let (hit, _) = self.organisms.iter().find(|(_, organism)| self.overlaps(organism, discs, &bounds))?;
-        self.named(hit)
+        self.with_its_place(hit)
     }
 
     /// Names what an obstacle that is to be added would overlap, if anything.
@@ -158,10 +158,10 @@ impl World {
         let is_hit =
             |organism: &Organism| organism.particles().any(|i| is_blocked(obstacle, &self.particles.get(i as usize)));
         let (hit, _) = self.organisms.iter().find(|(_, organism)| is_hit(organism))?;
-        self.named(hit)
+        self.with_its_place(hit)
     }
 
-    fn named(&self, id: OrganismId) -> Option<String> {
+    fn with_its_place(&self, id: OrganismId) -> Option<String> {
         let centre = self.centroid(id)?;
         Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }

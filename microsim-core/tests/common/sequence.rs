@@ -222,7 +222,7 @@ impl Sequence<'_> {
         spec.phagocytosis.way = if c.is_so() { IngestionWay::Cup } else { IngestionWay::Gate };
         spec.phagocytosis.hold_time = c.number(0.0, 0.3);
         spec.phagocytosis.time_limit = c.number(0.2, 2.0);
-        spec.phagocytosis.digestion_time = [c.number(0.05, 0.5), c.number(0.05, 1.0), c.number(0.05, 0.5)];
+        spec.phagocytosis.digestion_time = [c.number(0.05, 0.5), c.number(0.05, 1.0), c.number(0.05, 1.0)];
         spec.division.time_limit = c.number(0.5, 5.0);
         spec.division.furrow_speed = c.number(1.0, 20.0);
         spec

@@ -90,7 +90,7 @@ fn draw_shape(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
         Kind::RigidCell => soft_body::draw_rigid_cell(canvas, frame, shape),
         Kind::Platelet => soft_body::draw_platelet(canvas, frame, shape),
         Kind::RedCell => soft_body::draw_red_cell(canvas, frame, shape),
-        Kind::Coccus => simple::draw_coccus(canvas, frame, shape),
+        Kind::Coccus | Kind::Bacillus => simple::draw_bacterium(canvas, frame, shape),
         Kind::Agar => simple::draw_agar(canvas, frame, shape),
         Kind::Probe => simple::draw_probe(canvas, frame, shape),
         Kind::FluidBlock => simple::draw_fluid(canvas, frame, shape),

@@ -35,11 +35,15 @@ pub(super) fn draw_agar(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     }
 }
 
-/// A small dark body with a bright middle.
-pub(super) fn draw_coccus(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
+/// Bacteria, round or rods: dark bodies with a bright middle. The discs of a rod run into each other.
+pub(super) fn draw_bacterium(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
     for (at, radius, _) in discs(frame, shape) {
-        canvas.sprite(at, radius + 0.5, Tile::Disc, fade(mix(COCCUS, INK, 0.7), 0.95));
+        canvas.sprite(at, radius + 0.5, Tile::Disc, mix(COCCUS, INK, 0.7));
+    }
+    for (at, radius, _) in discs(frame, shape) {
         canvas.sprite(at, 0.8 * radius, Tile::Disc, COCCUS);
+    }
+    for (at, radius, _) in discs(frame, shape) {
         canvas.sprite(at, 0.6 * radius, Tile::Soft, fade(HALO, 0.55));
     }
 }

@@ -10,8 +10,6 @@ use microsim_core::glam::Vec2;
 
 /// Time for which points are shown, s.
 const GAIN_TIME: f32 = 1.6;
-/// Things inside that get a mark of their own key; more would cover each other.
-const LABELLED: usize = 1;
 
 /// How marks are drawn.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +93,7 @@ fn arrow(pen: &mut Pen, tip: Vec2, way: Vec2, unit: f32, colour: Color) {
 /// Rings around what is touched (T29), marks at what is inside with the key that digests it (T71).
 pub fn draw_held(pen: &mut Pen, style: &Style<'_>, held: &[Held]) {
     let unit = pen.line(Size::Body);
-    let mut labelled = 0;
+    let mut highest: Option<(Vec2, bool)> = None;
     for held in held {
         let at = style.camera.to_screen(held.at);
         let radius = held.reach * style.camera.scale() + 0.3 * unit;
@@ -106,20 +104,26 @@ pub fn draw_held(pen: &mut Pen, style: &Style<'_>, held: &[Held]) {
             }
             State::Entering => ring(pen, at, radius, 0.2 * unit, 1.0, READY),
             State::Inside(share) => {
-                ring(pen, at, radius.max(0.45 * unit), 0.13 * unit, 1.0, fade(HALO, 0.8));
-                if share > 0.0 {
-                    ring(pen, at, radius.max(0.45 * unit), 0.22 * unit, share, ALERT);
-                }
-                if labelled < LABELLED {
-                    labelled += 1;
-                    draw_key(pen, at - Vec2::new(0.0, radius.max(0.45 * unit) + 0.25 * unit), style.key, share > 0.0);
+                let radius = radius.max(0.45 * unit);
+                ring(pen, at, radius, 0.11 * unit, 1.0, fade(HALO, 0.8));
+                ring(pen, at, radius, 0.22 * unit, share, ALERT);
+                let tip = at - Vec2::new(0.0, radius + 0.1 * unit);
+                if highest.is_none_or(|(known, _)| tip.y < known.y) {
+                    highest = Some((tip, share > 0.0));
                 }
             }
         }
     }
+    // One key digests all of it.
+    if let Some((tip, is_down)) = highest {
+        draw_key(pen, tip, style.key, is_down);
+    }
 }
 
 fn ring(pen: &mut Pen, at: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
+    if share <= 0.0 {
+        return;
+    }
     pen.canvas().arc(at, radius, 1.9 * width, share, fade(INK, 0.5 * colour.a));
     pen.canvas().arc(at, radius, width, share, colour);
 }
@@ -129,7 +133,7 @@ fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
     let unit = pen.line(Size::Body);
     let half = Vec2::new(0.5 * pen.width(Size::Body, key).max(0.6 * unit) + 0.3 * unit, 0.55 * unit);
     let middle = tip - Vec2::new(0.0, half.y + 0.35 * unit);
-    let (face, ink) = if is_down { (ALERT, INK) } else { (HALO, INK) };
+    let (face, ink) = (if is_down { ALERT } else { HALO }, INK);
     let wing = Vec2::new(0.35 * unit, 0.0);
     let base = Vec2::new(tip.x, middle.y + half.y - 0.5);
     let rim = Vec2::splat(0.1 * unit);
@@ -137,7 +141,10 @@ fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
     pen.canvas().rectangle(middle - half - rim, middle + half + rim, INK);
     pen.canvas().corner([tip, base - wing, base + wing], face);
     pen.canvas().rectangle(middle - half, middle + half, face);
-    pen.write(middle, Size::Body, Align::Centre, ink, key);
+    // Twice, for a bolder stroke.
+    for by in [0.0, 1.0] {
+        pen.write(middle + Vec2::new(by, 0.0), Size::Body, Align::Centre, ink, key);
+    }
 }
 
 /// Points that were gained lately (T70).

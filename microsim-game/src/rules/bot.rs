@@ -104,7 +104,7 @@ impl Bot {
     fn worth(&self, world: &World, me: OrganismView<'_>, at: Vec2, prey: OrganismView<'_>) -> Option<f32> {
         let worth = match prey.kind() {
             _ if prey.held_by().is_some() => return None,
-            Kind::Agar | Kind::Coccus => 1.0,
+            Kind::Agar | Kind::Coccus | Kind::Bacillus => 1.0,
             Kind::RigidCell if self.policy != Policy::AgarOnly => {
                 (readiness(me, prey)? == Readiness::Ready).then_some(RIGID_WORTH)?
             }

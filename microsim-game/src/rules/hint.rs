@@ -1,7 +1,7 @@
 //! What the player is shown: which cells can be taken in, what is about to be, what waits to be digested.
 
 use microsim_core::glam::Vec2;
-use microsim_core::{Event, MealPhase, OrganismId, OrganismView, World};
+use microsim_core::{MealPhase, OrganismId, OrganismView, World};
 
 /// Whether a rigid cell can be taken in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,13 +95,6 @@ pub fn readiness(player: OrganismView<'_>, prey: OrganismView<'_>) -> Option<Rea
         _ if player.is_full() => Readiness::NoRoom,
         _ => Readiness::Ready,
     })
-}
-
-/// Whether the player has grown since the step before: something was digested.
-#[must_use]
-pub fn has_consumed(world: &World, player: OrganismId) -> bool {
-    let by_player = |event: &Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == player);
-    world.events().iter().any(by_player)
 }
 
 fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> State {

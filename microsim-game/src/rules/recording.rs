@@ -47,10 +47,4 @@ impl Recording {
         });
         at.map_or(Intent::REST, |(intent, _)| *intent)
     }
-
-    /// Whether nothing was recorded.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.intents.is_empty()
-    }
 }

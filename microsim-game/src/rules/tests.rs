@@ -185,9 +185,14 @@ fn the_same_seed_and_intents_are_the_same_round_to_the_bit() {
     assert_ne!(other.world().digest(), round.world().digest());
 }
 
-/// Scores of all policies over seeds, one list each.
+/// Scores of all policies over seeds, one list each. Nobody eats all that there is.
 fn scores(seeds: std::ops::RangeInclusive<u64>, time: f32) -> [Vec<u32>; 5] {
-    Policy::ALL.map(|policy| seeds.clone().map(|seed| play(policy, seed, time, |_| {}).referee().score()).collect())
+    let score = |policy, seed| {
+        let round = play(policy, seed, time, |_| {});
+        assert!(left(&round) > 0, "{policy:?} has eaten everything with seed {seed}");
+        round.referee().score()
+    };
+    Policy::ALL.map(|policy| seeds.clone().map(|seed| score(policy, seed)).collect())
 }
 
 /// Seeds for which the second list is greater than the first.
@@ -197,9 +202,11 @@ fn wins(worse: &[u32], better: &[u32]) -> usize {
 
 #[test]
 fn bots_score_in_the_order_of_their_skill() {
-    let [idle, never, random, agar, greedy] = scores(1..=2, 30.0);
-    assert!(idle.iter().chain(&never).all(|score| *score == 0));
-    assert_eq!((wins(&random, &agar), wins(&agar, &greedy)), (2, 2), "{random:?} {agar:?} {greedy:?}");
+    let score = |policy| play(policy, 1, 30.0, |_| {}).referee().score();
+    assert_eq!(play(Policy::Idle, 1, 5.0, |_| {}).referee().score(), 0);
+    assert_eq!(play(Policy::NeverConsume, 1, 15.0, |_| {}).referee().score(), 0);
+    let [random, agar, greedy] = [Policy::Random, Policy::AgarOnly, Policy::Greedy].map(score);
+    assert!(random < agar && agar < greedy, "{random} {agar} {greedy}");
 }
 
 #[test]
@@ -213,6 +220,20 @@ fn bots_score_in_the_order_of_their_skill_over_twenty_seeds() {
     for (worse, better) in [(&idle, &random), (&random, &agar), (&agar, &greedy)] {
         assert!(wins(worse, better) >= 15, "{worse:?} {better:?}");
     }
+}
+
+#[test]
+fn every_seed_finds_room_for_everything() {
+    for seed in (1..=40).chain([u64::MAX, 1_700_000_000]) {
+        assert!(Round::new(&scenario(seed, 90.0)).is_ok(), "seed {seed}");
+    }
+}
+
+/// Points of what nobody has eaten.
+fn left(round: &Round) -> u32 {
+    let view = round.world().view();
+    let free = view.organisms().filter(|organism| organism.held_by().is_none());
+    free.map(|organism| round.referee().game().points(organism.kind(), organism.spawn_area())).sum()
 }
 
 /// Mean velocity of a cell.

@@ -76,6 +76,7 @@ fn plain_name(kind: Kind) -> &'static str {
     match kind {
         Kind::Agar => "agar",
         Kind::Coccus => "cocci",
+        Kind::Bacillus => "rods",
         Kind::RigidCell => "rigid cells",
         other => other.name(),
     }

@@ -33,6 +33,8 @@ pub(super) enum Look {
     Round(&'static RoundLook),
     /// A cell of any shape that crawls.
     Amoeboid(&'static AmoeboidLook),
+    /// A rod from its first particle to its last.
+    Rod(&'static Matter),
     /// Each of its particles for itself.
     Drops(&'static Matter),
 }
@@ -51,7 +53,7 @@ impl Look {
             Kind::Agar => Self::Round(&agar::LOOK),
             Kind::Coccus => Self::Round(&coccus::LOOK),
             Kind::Probe => Self::Round(&probe::LOOK),
-            Kind::Bacillus => Self::Drops(&bacillus::LOOK),
+            Kind::Bacillus => Self::Rod(&bacillus::LOOK),
             Kind::FluidBlock => Self::Drops(&fluid::LOOK),
             Kind::Custom => Self::Round(&plain::LOOK),
         }

@@ -21,11 +21,11 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
 };
 
 const DENSE: GranuleLook = GranuleLook {
-    density: 1.7,
+    density: 2.3,
     radius: 0.19,
     spread: 0.36,
     limits: [0.09, 0.45],
-    matter: Matter { phase: 0.034 * WAVE, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
+    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 

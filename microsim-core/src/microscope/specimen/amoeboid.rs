@@ -295,7 +295,7 @@ impl AmoeboidBody {
         let radius = dice.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.map.at(prey));
         let step = 0.05 * self.radius;
         let edge = (0..60).map(|k| self.centre + way * (k as f32 * step)).find(|&at| self.map.at(at) < 0.0)?;
-        let matter = Matter { cytoplasm: 0.30, ..Matter::phase(0.35) };
+        let matter = Matter { cytoplasm: 0.25, ..Matter::phase(0.22) };
         (radius > 0.05).then_some(Spot { at: edge + way * (0.3 * radius), radius, matter, shape: SpotShape::Ball })
     }
 

@@ -21,6 +21,9 @@ use ground::Ground;
 use round::RoundBody;
 use spot::{Spot, Thread};
 
+/// Distance of the drops that a rod is made of, in radii.
+const ROD_STEP: f32 = 0.4;
+
 /// Everything that lies on the slide at one moment.
 #[derive(Clone, Debug)]
 pub(super) struct Specimen {
@@ -67,6 +70,7 @@ impl Specimen {
                 self.spots.extend(blebs(&body, organism, view));
                 self.amoeboid.push(body);
             }
+            Look::Rod(matter) => self.spots.extend(rod(organism, *matter)),
             Look::Drops(matter) => self.spots.extend(drops(organism, *matter)),
         }
     }
@@ -109,6 +113,19 @@ fn blebs(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec
     let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey)).take(4);
     let discs = prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))));
     discs.filter_map(|(at, seed)| body.bleb(at, seed)).collect()
+}
+
+/// A row of drops so close together that they are one.
+fn rod(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
+    let ends = organism.particles().next().zip(organism.particles().last());
+    let Some((head, tail)) = ends.filter(|(head, _)| head.radius > 0.0) else { return Vec::new() };
+    let parts = ((tail.position - head.position).length() / (ROD_STEP * head.radius)).ceil().clamp(1.0, 64.0);
+    // Drops reach 1.25 radii; so many of them lie over each other that the rod is as thick as one on its own.
+    let spot = |k: u32| {
+        let at = head.position.lerp(tail.position, k as f32 / parts);
+        Spot { at, radius: head.radius, matter: matter * (ROD_STEP * 0.75), shape: SpotShape::Bump }
+    };
+    (0..=parts as u32).map(spot).collect()
 }
 
 /// A soft drop for each particle; wide enough to run into its neighbours.

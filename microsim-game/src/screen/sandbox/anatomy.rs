@@ -41,7 +41,7 @@ fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colo
         let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
         let share = (value / most).max(0.0).sqrt();
         if is_seen && share > 0.02 {
-            canvas.rectangle(upper_left, lower_right, fade(colour, 0.45 * share));
+            canvas.rectangle(upper_left, lower_right, fade(colour, 0.2 * share));
         }
     }
 }

