@@ -96,10 +96,14 @@ fn move_towards(
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
         Locomotion::Tow { max_acceleration } => {
-            let particle = organism.body.particle(0);
-            let way = goal.map_or(Vec2::ZERO, |goal| goal - particles.position(particle as usize));
-            let velocity = heading(way) * organism.present_speed();
-            drives.push(Drive { particle, velocity, max_acceleration });
+            // The first heads for the goal and each other one for the one before: in thick water nothing swings round.
+            let mut ahead = goal;
+            for particle in (0..organism.slots).map(|slot| organism.body.particle(slot)) {
+                let at = particles.position(particle as usize);
+                let velocity = heading(ahead.map_or(Vec2::ZERO, |ahead| ahead - at)) * organism.present_speed();
+                drives.push(Drive { particle, velocity, max_acceleration });
+                ahead = ahead.map(|_| at);
+            }
         }
     }
 }

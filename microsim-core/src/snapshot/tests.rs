@@ -40,7 +40,8 @@ fn menagerie() -> World {
     ];
     for (k, spec) in specs.iter().enumerate() {
         let controller = controllers[k % 4].clone();
-        let at = Placement::at(8.0 + 9.0 * k as f32, if k % 2 == 0 { 40.0 } else { 12.0 }).steered_by(controller);
+        let at = Placement::at(8.0 + 9.0 * k as f32, if k % 2 == 0 { 40.0 } else { 12.0 });
+        let at = if spec.can_move() { at.steered_by(controller) } else { at };
         world.spawn(spec, at).unwrap();
     }
     let prey = world.spawn(&specs[0], Placement::at(48.0, 25.0)).unwrap();

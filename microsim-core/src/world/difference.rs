@@ -156,13 +156,13 @@ impl Visitor for Compared {
 
 #[cfg(test)]
 mod tests {
-    use crate::{AgarSpec, Controller, Inputs, Placement, World, WorldConfig};
+    use crate::{CoccusSpec, Controller, Inputs, Placement, World, WorldConfig};
 
     fn world() -> World {
         let mut world = World::new(WorldConfig::default()).unwrap();
         for x in [20.0, 40.0] {
             let at = Placement::at(x, 20.0).steered_by(Controller::wander([0.1, 0.2], 0.0));
-            world.spawn(&AgarSpec::default().into(), at).unwrap();
+            world.spawn(&CoccusSpec::default().into(), at).unwrap();
         }
         world
     }
@@ -177,20 +177,20 @@ mod tests {
     #[test]
     fn the_first_field_is_named_with_what_it_is_of() {
         let x = difference(|world| world.particles.vx[1] = 0.5);
-        assert_eq!(x, "particle 1 (organism 1, agar) vx: 0 against 0.5");
+        assert_eq!(x, "particle 1 (organism 1, coccus) vx: 0 against 0.5");
         let y = difference(|world| world.particles.y[5] = 2.0);
         assert_eq!(y, "particle 5 (nobody's) y: 0 against 2");
         let rng = difference(|world| {
             let id = world.organisms().next().unwrap();
             world.organisms.get_mut(id).unwrap().rng.state = 5;
         });
-        assert!(rng.starts_with("organism 0, agar rng.state: ") && rng.ends_with(" against 5"), "{rng}");
+        assert!(rng.starts_with("organism 0, coccus rng.state: ") && rng.ends_with(" against 5"), "{rng}");
         assert_eq!(difference(|world| world.step(&Inputs::new())), "step_index: 0 against 1");
         let gone = difference(|world| {
             let id = world.organisms().next().unwrap();
             world.remove(id).unwrap();
         });
-        assert!(gone.starts_with("particle 0 (organism 0, agar) "), "{gone}");
+        assert!(gone.starts_with("particle 0 (organism 0, coccus) "), "{gone}");
         assert!(difference(|world| world.particles.x[0] = f32::NAN).ends_with("against NaN"));
     }
 
