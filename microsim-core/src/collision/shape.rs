@@ -3,8 +3,12 @@
 use super::obstacle::Obstacle;
 use crate::particle::{CollisionGroups, Material};
 use glam::Vec2;
-use parry2d::math::{Pose, Rot2};
-use parry2d::shape::{Polyline, PolylineFlags, RoundShape, SharedShape, Triangle, TypedShape};
+use parry2d::math::Pose;
+#[cfg(feature = "snapshot")]
+use parry2d::math::Rot2;
+#[cfg(feature = "snapshot")]
+use parry2d::shape::{Polyline, RoundShape};
+use parry2d::shape::{PolylineFlags, SharedShape, Triangle, TypedShape};
 use serde::{Deserialize, Serialize};
 
 /// An obstacle.
@@ -57,6 +61,7 @@ impl ObstacleRecord {
     }
 
     /// The obstacle, if its numbers make one.
+    #[cfg(feature = "snapshot")]
     pub(crate) fn restore(self) -> Option<Obstacle> {
         let Self { shape, pose, material, groups } = self;
         let shape = match shape {
@@ -95,6 +100,7 @@ impl Shape {
         })
     }
 
+    #[cfg(feature = "snapshot")]
     fn restore(self) -> Option<SharedShape> {
         let is_sound = match &self {
             Self::Ball(radius) => is_length(*radius),
@@ -135,11 +141,13 @@ fn record(pose: &Pose) -> PoseRecord {
     (pose.translation, [pose.rotation.re, pose.rotation.im])
 }
 
+#[cfg(feature = "snapshot")]
 fn pose_of((at, [cosine, sine]): PoseRecord) -> Option<Pose> {
     let is_sound = at.is_finite() && (cosine * cosine + sine * sine - 1.0).abs() < 1e-3;
     is_sound.then(|| Pose::from_parts(at, Rot2::from_cos_sin_unchecked(cosine, sine)))
 }
 
+#[cfg(feature = "snapshot")]
 fn is_length(value: f32) -> bool {
     value.is_finite() && value >= 0.0
 }
