@@ -6,9 +6,9 @@ use microsim_core::World;
 use microsim_core::glam::Vec2;
 
 /// Bands from the highest concentration downwards.
-const BANDS: i32 = 10;
+const BANDS: i32 = 5;
 /// How much each band covers of what is below.
-const COVER: f32 = 0.07;
+const COVER: f32 = 0.05;
 /// One for each chemical, in turns.
 const COLOURS: [Colour; 3] = [Colour::hex(0xE08A00), Colour::hex(0x2B7FB8), Colour::hex(0x8A4FA0)];
 
@@ -63,6 +63,6 @@ mod tests {
         (0..30).for_each(|_| world.step(&Inputs::new()));
         let pieces: Vec<usize> = draw(&world).iter().map(|band| band.path.segments.len()).collect();
         assert_eq!(pieces.len(), BANDS as usize);
-        assert!(pieces.windows(2).all(|pair| pair[0] >= pair[1]) && pieces[0] > pieces[9], "{pieces:?}");
+        assert!(pieces.windows(2).all(|pair| pair[0] >= pair[1]) && pieces[0] > pieces[BANDS as usize - 1], "{pieces:?}");
     }
 }
