@@ -78,10 +78,11 @@ fn check_numbers(world: &World, i: usize, disc: Subject) -> Check {
     disc.must_range("restitution", p.material[i].restitution, 0.0, 1.0)
 }
 
-/// What collides with walls has its centre within them; everything is at most a room's size away.
+/// What collides with walls has its centre within them, unless the world is one without protection, in which discs move
+/// farther in a step than pairs are searched for; everything is at most a room's size away.
 fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     let (p, size) = (&world.particles, world.config.size);
-    let is_held = p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
+    let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
     let beyond = if is_held { Vec2::splat(BEYOND_WALLS * p.radius[i]) } else { size };
     let at = p.position(i);
     let is_inside = at.cmpge(-beyond).all() && at.cmple(size + beyond).all();
