@@ -89,6 +89,9 @@ const QUICK_FLUID: &[(usize, Plan)] = &[(10_000, Plan { warm_up: 20, repeats: 5,
 
 fn main() -> ExitCode {
     let args = Args::parse();
+    // One thread for everything that does not ask for more: this one.
+    let single = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    single.expect("nobody has made threads yet");
     let done = match (&args.memory_of, args.scene, args.count) {
         (Some(engine), Some(scene), Some(count)) => memory::report(engine, scene, count),
         _ => compare(&args),

@@ -4,12 +4,15 @@ use super::Peer;
 use crate::scene::{self, DT, FluidBlock, PlateletField, Pusher};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    FluidBlockSpec, FluidParams, Inputs, Intent, Kind, OrganismId, Placement, PlateletSpec, ProbeSpec, World,
-    WorldConfig,
+    FluidBlockSpec, FluidParams, Inputs, InstructionSet, Intent, Kind, OrganismId, Placement, PlateletSpec, ProbeSpec,
+    World, WorldConfig,
 };
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 struct Microsim {
     world: World,
+    /// Where steps run; without it, on the calling thread.
+    threads: Option<ThreadPool>,
     pushers: Vec<OrganismId>,
     inputs: Inputs,
 }
@@ -19,8 +22,25 @@ const SUBSTEPS: u32 = 8;
 /// Substeps of the fluid.
 const FLUID_SUBSTEPS: u32 = 2;
 
-/// Platelets and probes of the library.
+/// Platelets and probes of the library, on one thread with the instructions that the processor has.
 pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {
+    Box::new(platelet_field(field))
+}
+
+/// The same with the instructions that every processor of the architecture has.
+pub(super) fn baseline_platelets(field: &PlateletField) -> Box<dyn Peer> {
+    let mut made = platelet_field(field);
+    made.world.set_instruction_set(InstructionSet::Baseline);
+    Box::new(made)
+}
+
+/// The same on two threads.
+pub(super) fn two_threads(field: &PlateletField) -> Box<dyn Peer> {
+    let threads = ThreadPoolBuilder::new().num_threads(2).build().expect("threads can be started");
+    Box::new(Microsim { threads: Some(threads), ..platelet_field(field) })
+}
+
+fn platelet_field(field: &PlateletField) -> Microsim {
     let config = WorldConfig {
         size: field.size,
         dt: DT,
@@ -51,7 +71,7 @@ pub(super) fn platelets(field: &PlateletField) -> Box<dyn Peer> {
         spawn(&platelet.clone().into(), centre);
     }
     let pushers = field.sweeps.iter().map(|sweep| spawn(&probe.clone().into(), sweep.start())).collect();
-    Box::new(Microsim { world, pushers, inputs: Inputs::new() })
+    Microsim { world, threads: None, pushers, inputs: Inputs::new() }
 }
 
 /// A fluid block of the library.
@@ -73,7 +93,7 @@ pub(super) fn fluid(block: &FluidBlock) -> Box<dyn Peer> {
     let fluid = world.spawn(&spec.into(), Placement::at(at.x, at.y)).expect("the block fits the tank");
     let count = world.view().organism(fluid).map_or(0, |fluid| fluid.particles().count());
     assert_eq!(count, block.points.len(), "the library fills the block as the scene does");
-    Box::new(Microsim { world, pushers: Vec::new(), inputs: Inputs::new() })
+    Box::new(Microsim { world, threads: None, pushers: Vec::new(), inputs: Inputs::new() })
 }
 
 impl Peer for Microsim {
@@ -81,7 +101,11 @@ impl Peer for Microsim {
         for (&pusher, &goal) in self.pushers.iter().zip(goals) {
             self.inputs.set(pusher, Intent::toward(goal).expect("goals lie in the room"));
         }
-        self.world.step(&self.inputs);
+        let Self { world, threads, inputs, .. } = self;
+        match threads {
+            Some(threads) => threads.install(|| world.step(inputs)),
+            None => world.step(inputs),
+        }
     }
 
     fn positions(&self) -> Vec<Vec2> {

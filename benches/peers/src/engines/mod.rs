@@ -25,7 +25,6 @@ pub(crate) enum Clock {
     /// Processor time of the calling thread: what other processes do counts least.
     Thread,
     /// Time on the wall: for engines with threads of their own.
-    #[expect(dead_code, reason = "no row with several threads yet")]
     Wall,
 }
 
@@ -61,6 +60,19 @@ pub(crate) const ENGINES: &[Engine] = &[
         settings: "8 substeps; fluid 2 substeps",
         platelets: Some(microsim::platelets),
         fluid: Some(microsim::fluid),
+        ..Engine::NONE
+    },
+    Engine {
+        name: "microsim-baseline",
+        settings: "the same without run-time choice of instructions",
+        platelets: Some(microsim::baseline_platelets),
+        ..Engine::NONE
+    },
+    Engine {
+        name: "microsim-2-threads",
+        settings: "the same on two threads, time on the wall",
+        platelets: Some(microsim::two_threads),
+        clock: Clock::Wall,
         ..Engine::NONE
     },
     Engine {
