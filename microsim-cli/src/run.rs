@@ -36,7 +36,7 @@ pub(crate) struct RunArgs {
     /// Check the whole state after every step; the first violation is named on stderr, and the exit code is 1
     #[arg(long)]
     pub validate: bool,
-    /// Write what the scenario's [output] says into this folder; it must be empty or not exist
+    /// Write what the scenario's output table says into this folder; it must be empty or not exist
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Allow a folder that is not empty: files of the same names are replaced, all others stay

@@ -63,6 +63,9 @@ mod tests {
         (0..30).for_each(|_| world.step(&Inputs::new()));
         let pieces: Vec<usize> = draw(&world).iter().map(|band| band.path.segments.len()).collect();
         assert_eq!(pieces.len(), BANDS as usize);
-        assert!(pieces.windows(2).all(|pair| pair[0] >= pair[1]) && pieces[0] > pieces[BANDS as usize - 1], "{pieces:?}");
+        assert!(
+            pieces.windows(2).all(|pair| pair[0] >= pair[1]) && pieces[0] > pieces[BANDS as usize - 1],
+            "{pieces:?}"
+        );
     }
 }

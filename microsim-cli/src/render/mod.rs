@@ -64,7 +64,7 @@ pub(crate) struct RenderArgs {
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// What is seen: X,Y,WIDTH in micrometres, or follow:NAME[,WIDTH] of an organism or its index; without it, the room
+    /// What is seen: X,Y,WIDTH in micrometres, or follow:NAME,WIDTH (width optional) of an organism; else the room
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
     pub view: Option<ViewSpec>,
     /// Pictures side by side in a contact sheet
