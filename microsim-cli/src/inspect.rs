@@ -38,7 +38,7 @@ pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
         Saved::Replay(replay) => {
             table.row("what", "replay of a run");
             origin(replay.origin(), &mut table);
-            table.row("recorded by", format!("version {}", replay.library()));
+            table.row("recorded by", format!("version {}", replay.made_by()));
             table.row("steps", replay.steps());
             table.row("digest", format!("every {} steps", replay.interval()));
             let ending = match replay.ending() {

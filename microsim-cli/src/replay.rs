@@ -68,7 +68,7 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
 
 /// A hint where another version has recorded it.
 fn recorded_by(replay: &Replay) -> String {
-    let (recorder, own) = (replay.library(), env!("CARGO_PKG_VERSION"));
+    let (recorder, own) = (replay.made_by(), env!("CARGO_PKG_VERSION"));
     if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
 }
 
@@ -78,7 +78,7 @@ fn print(replay: &Replay, player: &Player<'_>, is_json: bool) -> Result<(), Fail
     let report = Report {
         scenario: &scenario,
         seed: replay.origin().seed,
-        recorded_by: replay.library(),
+        recorded_by: replay.made_by(),
         steps: world.step_index(),
         simulated_seconds: crate::summary::rounded(world.time()),
         digest: format!("{:016x}", world.digest()),

@@ -63,7 +63,7 @@ pub struct Replay {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Header {
     /// Version of the library that recorded it.
-    library: String,
+    made_by: String,
     /// Steps from one digest to the next.
     interval: NonZeroU32,
     origin: Origin,
@@ -160,8 +160,8 @@ impl Replay {
 
     /// Version of the library that recorded it. Another one may play it differently.
     #[must_use]
-    pub fn library(&self) -> &str {
-        &self.header.library
+    pub fn made_by(&self) -> &str {
+        &self.header.made_by
     }
 
     /// Number of steps.

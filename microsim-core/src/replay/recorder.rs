@@ -25,7 +25,7 @@ impl Recorder {
     #[must_use]
     pub fn new(origin: Origin, interval: NonZeroU32) -> (Self, Vec<u8>) {
         let (mut framer, mut bytes) = Framer::new();
-        let header = Header { library: env!("CARGO_PKG_VERSION").to_owned(), interval, origin };
+        let header = Header { made_by: env!("CARGO_PKG_VERSION").to_owned(), interval, origin };
         // Into memory this cannot fail.
         bytes.extend(framer.frame(HEADER, &postcard::to_stdvec(&header).unwrap_or_default()));
         (Self { framer, writer: Writer::default(), interval }, bytes)

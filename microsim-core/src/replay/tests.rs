@@ -189,7 +189,7 @@ proptest! {
     #[test]
     fn frames_with_any_content_never_panic(frames in prop::collection::vec((0u8..4, prop::collection::vec(any::<u8>(), 0..40)), 0..6)) {
         let (mut framer, mut file) = frame::Framer::new();
-        let header = Header { library: String::new(), interval: NonZeroU32::MIN, origin: room().0 };
+        let header = Header { made_by: String::new(), interval: NonZeroU32::MIN, origin: room().0 };
         file.extend(framer.frame(HEADER, &postcard::to_stdvec(&header).unwrap()));
         for (kind, content) in &frames {
             file.extend(framer.frame(*kind, content));
