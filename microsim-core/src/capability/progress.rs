@@ -100,3 +100,48 @@ impl Progress {
         ways.reduce(|a, b| if merit(b) > merit(a) { b } else { a }).unwrap_or(Vec2::X)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::controller::senses::Surroundings;
+    use super::*;
+    use crate::geometry::ring::ellipse;
+    use crate::id::OrganismId;
+
+    /// The ways out, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
+    fn ways_out(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
+        const DT: f32 = 0.1;
+        let around = Surroundings { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
+        let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
+        let way_out = |step: u32| {
+            let at = Vec2::new(30.0, 30.0) + velocity * (step as f32 * DT);
+            let outline: Vec<Vec2> = ellipse(Vec2::new(2.0, 1.0), 16).into_iter().map(|arm| at + arm).collect();
+            let me = OrganismId { index: 0, generation: 0 };
+            let (speed, radius, arrival) = (1.0, 1.5, 0.25);
+            let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
+            progress.note(true, &senses);
+            let wish = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
+            wish.map(|wish| direction_or(wish.goal - at, Vec2::ZERO))
+        };
+        (0..(seconds / DT) as u32).map(way_out).collect()
+    }
+
+    #[test]
+    fn what_is_stuck_tries_one_way_after_the_other_and_none_that_just_failed() {
+        let ways = ways_out(Vec2::ZERO, 4.0);
+        let waits = ways.iter().take_while(|way| way.is_none()).count();
+        assert!((9..=11).contains(&waits), "{waits} tenths of a second");
+        assert!(ways[waits..].iter().all(Option::is_some));
+        let mut tried: Vec<Vec2> = ways.into_iter().flatten().collect();
+        tried.dedup();
+        assert!(tried.len() >= 4, "{tried:?}");
+        assert!(tried[0].x < 0.0, "{}", tried[0]);
+        assert!(tried.windows(2).all(|pair| pair[0].dot(pair[1]) < 0.5), "{tried:?}");
+    }
+
+    #[test]
+    fn what_gets_somewhere_is_let_alone() {
+        assert_eq!(ways_out(Vec2::X * 0.5, 4.0), [None; 40]);
+        assert_eq!(ways_out(Vec2::Y * 0.35, 4.0), [None; 40], "pushed aside, but away");
+    }
+}
