@@ -3,7 +3,11 @@
 //! watched: what the process has allocated, to the byte, and what it has of the machine.
 //!
 //! `cargo run --release -p microsim-core --features scenario --example soak -- [STEPS] [SEED]`
-#![allow(clippy::disallowed_methods, reason = "reads the command line and the clock, and looks at its own memory")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_types,
+    reason = "reads the command line and the clock, and looks at its own memory"
+)]
 
 use cap::Cap;
 use microsim_core::glam::Vec2;
