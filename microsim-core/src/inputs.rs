@@ -25,7 +25,8 @@ impl Intent {
     pub fn toward(goal: Vec2) -> Result<Self, Error> {
         in_range("goal.x", goal.x, -1e6, 1e6)?;
         in_range("goal.y", goal.y, -1e6, 1e6)?;
-        Ok(Self { goal: Some(goal), digests: false })
+        // One zero, not two that are equal and have other bits.
+        Ok(Self { goal: Some(goal + Vec2::ZERO), digests: false })
     }
 
     /// The same, and to digest what is inside (or not to).
@@ -51,8 +52,8 @@ impl Intent {
 /// A goal that [`Intent::toward`] accepts.
 fn read_goal<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Vec2>, D::Error> {
     let goal = Option::<Vec2>::deserialize(from)?;
-    goal.map_or(Ok(()), |goal| Intent::toward(goal).map(drop)).map_err(D::Error::custom)?;
-    Ok(goal)
+    let intent = goal.map_or(Ok(Intent::REST), Intent::toward).map_err(D::Error::custom)?;
+    Ok(intent.goal)
 }
 
 /// The intents of one step. An organism that is not named here follows its own controller.
@@ -136,5 +137,6 @@ mod tests {
     fn goals_must_be_finite() {
         assert_eq!(Intent::toward(Vec2::new(0.0, f32::NAN)).unwrap_err().field(), "goal.y");
         assert_eq!(Intent::toward(Vec2::new(1e9, 0.0)).unwrap_err().field(), "goal.x");
+        assert_eq!(Intent::toward(-Vec2::ZERO).unwrap().goal().unwrap().x.to_bits(), 0);
     }
 }

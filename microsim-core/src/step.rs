@@ -155,8 +155,9 @@ fn predict_positions(world: &mut World, h: f32) {
 }
 
 fn project_fluids(world: &mut World, h: f32) {
-    for fluid in world.fluids.iter_mut().filter(|fluid| !fluid.particles.is_empty()) {
-        fluid.project(&mut world.particles, world.config.size, h, world.dispatch);
+    let World { config, particles, fluids, scratch, dispatch, .. } = world;
+    for fluid in fluids.iter().filter(|fluid| !fluid.particles.is_empty()) {
+        scratch.fluid.project(fluid, particles, config.size, h, *dispatch);
     }
 }
 

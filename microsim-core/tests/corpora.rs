@@ -3,6 +3,8 @@
 //! `cargo test -p microsim-core --features scenario,snapshot --test corpora -- --ignored` writes the seeds anew.
 #![cfg(all(feature = "scenario", feature = "snapshot"))]
 
+#[path = "common/sequence.rs"]
+mod sequence;
 #[path = "../../fuzz/src/targets.rs"]
 mod targets;
 
@@ -38,6 +40,13 @@ fn snapshots() {
 #[test]
 fn replays() {
     show("replay", targets::replay);
+}
+
+#[test]
+fn sequences() {
+    show("api", |bytes| {
+        sequence::run(bytes).unwrap();
+    });
 }
 
 /// A small world with prey, obstacles, a furrow and a command.

@@ -1,4 +1,4 @@
-//! Every public function that can fail, with each kind of error that it can give.
+//! Every public function that can fail, with each kind of error that it can give. Those for files: `file_errors.rs`.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 use microsim_core::glam::Vec2;
@@ -6,9 +6,9 @@ use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Anchor, Area, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance, Error,
-    ErrorKind, Exchange, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId, OrganismSpec,
-    Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, World,
-    WorldConfig,
+    ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId,
+    OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder,
+    World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -80,6 +80,11 @@ fn build(change: fn(&mut TemplateBuilder)) -> Error {
     builder.build().unwrap_err()
 }
 
+/// Controllers one in another, one too many.
+fn nested() -> Controller {
+    (0..8).fold(Controller::Still, |inner, _| Controller::flee(FleeParams::default(), inner))
+}
+
 const AT: fn(f32, f32) -> Placement = Placement::at;
 
 #[rustfmt::skip]
@@ -89,6 +94,7 @@ const CASES: &[Case] = &[
     ("Intent::toward", "OutOfRange", "goal.x", |_| Intent::toward(Vec2::NAN).unwrap_err()),
     ("Controller::validate", "OutOfRange", "rest", |_| Controller::wander([1.0, 2.0], 2.0).validate().unwrap_err()),
     ("Controller::validate", "BadReference", "through", |_| Controller::patrol(vec![], true).validate().unwrap_err()),
+    ("Controller::validate", "Unsupported", "otherwise", |_| nested().validate().unwrap_err()),
     ("FluidParams::validate", "OutOfRange", "spacing", |_| FluidParams { spacing: 0.0, ..FluidParams::default() }.validate().unwrap_err()),
     ("TemplateBuilder::build", "OutOfRange", "nodes[2].radius", |_| build(|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -1.0)))),
     ("TemplateBuilder::build", "OutOfRange", "distances[0].damping", |_| build(|b| _ = b.distance(Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: f32::NAN }))),
@@ -162,6 +168,7 @@ const CASES: &[Case] = &[
     ("World::set_controller", "Stale", "organism", |r| r.world.set_controller(r.stale, Controller::Still).unwrap_err()),
     ("World::set_controller", "OutOfRange", "controller.interval", |r| r.world.set_controller(r.cell, Controller::thrash(0.0, 0.5)).unwrap_err()),
     ("World::set_controller", "BadReference", "controller.through", |r| r.world.set_controller(r.cell, Controller::patrol(vec![], true)).unwrap_err()),
+    ("World::set_controller", "Unsupported", "controller.otherwise", |r| r.world.set_controller(r.cell, nested()).unwrap_err()),
     ("World::set_controller", "Unsupported", "controller", |r| r.world.set_controller(r.agar, Controller::thrash(1.0, 0.5)).unwrap_err()),
     ("World::set_exchange", "OutOfRange", "uptake", |r| { let chemical = r.chemical(); r.world.set_exchange(r.cell, Exchange { chemical, secretion: 0.0, uptake: -1.0 }).unwrap_err() }),
     ("World::set_exchange", "Stale", "organism", |r| { let chemical = r.chemical(); r.world.set_exchange(r.stale, Exchange { chemical, secretion: 0.0, uptake: 0.0 }).unwrap_err() }),

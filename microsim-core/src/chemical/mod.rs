@@ -96,15 +96,29 @@ impl Chemical {
     /// Takes on the concentrations that were read.
     ///
     /// # Errors
-    /// When they are not as many as cells, or one is none.
+    /// See [`Chemical::check`].
     #[cfg(feature = "snapshot")]
-    pub(crate) fn take_over(&mut self, record: Record) -> Result<(), String> {
-        let is_sound = |value: &f32| (0.0..=f32::MAX).contains(value);
-        if record.values.len() != self.values.len() || !record.values.iter().all(is_sound) {
-            return Err("its concentrations do not fill the room".to_owned());
-        }
+    pub(crate) fn take_over(&mut self, record: Record, config: &WorldConfig) -> Result<(), String> {
         self.values = record.values;
-        Ok(())
+        self.check(config)
+    }
+
+    /// Checks that it fills the room: each cell has a concentration, and those that are closed none.
+    ///
+    /// # Errors
+    /// Says what is wrong.
+    pub(crate) fn check(&self, config: &WorldConfig) -> Result<(), String> {
+        let (count, _) = self.spec.plan(config).map_err(|error| error.to_string())?;
+        let (cells, values) = (&self.grid.is_open, &self.values);
+        if self.grid.count != count || values.len() != cells.len() {
+            return Err(format!("{} concentrations do not fill {count:?} cells", values.len()));
+        }
+        let is_sound =
+            |value: f32, is_open: bool| if is_open { (0.0..=f32::MAX).contains(&value) } else { value == 0.0 };
+        match values.iter().zip(cells).position(|(&value, &is_open)| !is_sound(value, is_open)) {
+            Some(cell) => Err(format!("the concentration in cell {cell} is {}", values[cell])),
+            None => Ok(()),
+        }
     }
 
     /// A chemical in a world of these settings.

@@ -18,10 +18,11 @@ pub(crate) struct Organisms {
     free: Vec<u32>,
 }
 
+/// An empty one is small, however many a file says there are.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Slot {
     generation: u32,
-    organism: Option<Organism>,
+    organism: Option<Box<Organism>>,
 }
 
 impl Organisms {
@@ -42,7 +43,7 @@ impl Organisms {
         {
             self.with_membrane.insert(at, id.index);
         }
-        self.slots[id.index as usize].organism = Some(organism);
+        self.slots[id.index as usize].organism = Some(Box::new(organism));
         id
     }
 
@@ -59,17 +60,17 @@ impl Organisms {
         slot.generation = slot.generation.wrapping_add(1);
         self.free.push(id.index);
         self.with_membrane.retain(|&index| index != id.index);
-        slot.organism.take()
+        slot.organism.take().map(|organism| *organism)
     }
 
     pub(crate) fn get(&self, id: OrganismId) -> Option<&Organism> {
         let slot = self.slots.get(id.index as usize)?;
-        slot.organism.as_ref().filter(|_| slot.generation == id.generation)
+        slot.organism.as_deref().filter(|_| slot.generation == id.generation)
     }
 
     pub(crate) fn get_mut(&mut self, id: OrganismId) -> Option<&mut Organism> {
         let slot = self.slots.get_mut(id.index as usize)?;
-        slot.organism.as_mut().filter(|_| slot.generation == id.generation)
+        slot.organism.as_deref_mut().filter(|_| slot.generation == id.generation)
     }
 
     /// The handle of the organism that lives at an index.
@@ -82,14 +83,14 @@ impl Organisms {
     pub(crate) fn iter(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
         self.slots.iter().zip(0u32..).filter_map(|(slot, index)| {
             let id = OrganismId { index, generation: slot.generation };
-            slot.organism.as_ref().map(|organism| (id, organism))
+            slot.organism.as_deref().map(|organism| (id, organism))
         })
     }
 
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
         self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
             let id = OrganismId { index, generation: slot.generation };
-            slot.organism.as_mut().map(|organism| (id, organism))
+            slot.organism.as_deref_mut().map(|organism| (id, organism))
         })
     }
 

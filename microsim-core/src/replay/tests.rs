@@ -4,7 +4,7 @@ use super::*;
 use crate::Rng;
 use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
-use crate::scenario::{Built, Scenario};
+use crate::scenario::{Built, Scenario, builtin};
 use glam::Vec2;
 use proptest::prelude::*;
 
@@ -110,20 +110,16 @@ fn what_was_told_is_played_as_it_was_told() {
     }
 }
 
-/// Bytes of 90 s of play by a hand that draws circles and now and then rests or digests.
-fn bytes_of_play(steps_between_moves: u32) -> usize {
-    let (origin, mut run) = room();
+/// Bytes of 90 s of the game, of which a player says the next goal.
+fn bytes_of_play(mut goal: impl FnMut(u32, &mut Rng) -> Option<Vec2>) -> usize {
+    let (_, mut run) = room();
     let player = run.player.unwrap();
-    let (mut recorder, mut file) = Recorder::new(origin, every(60));
+    let game = Scenario::parse(builtin("game").unwrap().text, &[]).unwrap();
+    let (mut recorder, mut file) = Recorder::new(game.origin(), every(60));
     let (mut rng, mut told) = (Rng::new(1, 1), Inputs::new());
-    for step in 0..5400u32 {
-        if step.is_multiple_of(steps_between_moves) {
-            let angle = step as f32 * 0.01;
-            let tremor = Vec2::new(rng.range(-0.5, 0.5), rng.range(-0.5, 0.5));
-            let goal = Vec2::new(80.0, 45.0) + Vec2::new(angle.cos(), angle.sin()) * 30.0 + tremor;
-            let intent = if step % 600 < 60 { Intent::REST } else { Intent::toward(goal).unwrap() };
-            told.set(player, intent.digesting(step % 300 < 100));
-        }
+    for step in 0..5400 {
+        let intent = goal(step, &mut rng).map_or(Intent::REST, |goal| Intent::toward(goal).unwrap());
+        told.set(player, intent.digesting(step % 300 < 100));
         run.step(&told);
         file.extend(recorder.step(&told, &run.world));
     }
@@ -132,9 +128,25 @@ fn bytes_of_play(steps_between_moves: u32) -> usize {
     file.len()
 }
 
+/// A hand that draws circles and now and then rests; it moves every so many steps.
+fn hand(every: u32) -> impl FnMut(u32, &mut Rng) -> Option<Vec2> {
+    let mut goal = Vec2::ZERO;
+    move |step, rng| {
+        if step.is_multiple_of(every) {
+            let angle = step as f32 * 0.01;
+            let tremor = Vec2::new(rng.range(-0.5, 0.5), rng.range(-0.5, 0.5));
+            goal = Vec2::new(80.0, 45.0) + Vec2::new(angle.cos(), angle.sin()) * 30.0 + tremor;
+        }
+        (step % 600 >= 60).then_some(goal)
+    }
+}
+
 #[test]
 fn ninety_seconds_of_play_are_small() {
-    let bytes = bytes_of_play(2);
+    let bytes = [6, 2, 1].map(|every| bytes_of_play(hand(every)));
+    assert!(bytes[0] < 15_000 && bytes[1] < 24_000 && bytes[2] < 36_000, "{bytes:?}");
+    // Nothing is known of the next goal: a new place anywhere in every step.
+    let bytes = bytes_of_play(|_, rng| Some(Vec2::new(rng.range(0.0, 160.0), rng.range(0.0, 90.0))));
     assert!(bytes < 50_000, "{bytes}");
 }
 

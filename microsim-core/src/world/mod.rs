@@ -43,7 +43,7 @@ use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
-use crate::solver::fluid::Fluid;
+use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::step::{self, Phase};
 use crate::template::Template;
@@ -97,6 +97,7 @@ pub(crate) struct Guard {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
+    pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,

@@ -6,8 +6,8 @@ use crate::id::OrganismId;
 use glam::Vec2;
 
 impl World {
-    /// Adds a velocity to everything in an organism that can move: its own particles, and what it holds. The speed limit
-    /// and all constraints and contacts act on it as ever, so nothing is pushed through anything.
+    /// Adds a velocity to everything in an organism that can move: its own particles, and what it holds, up to the speed
+    /// limit. All constraints and contacts act on it as ever, so nothing is pushed through anything.
     ///
     /// # Errors
     /// When the handle is stale, or a coordinate is not finite or beyond ±1000 units/s. Nothing is changed then.
@@ -17,10 +17,11 @@ impl World {
         in_range("velocity.y", velocity.y, -1000.0, 1000.0)?;
         let held = self.view().organism(id).into_iter().flat_map(|organism| organism.meals());
         let inside = held.filter(|(_, phase)| phase.is_inside()).map(|(prey, _)| prey);
+        let limit = self.config.speed_limit();
         for organism in std::iter::once(id).chain(inside).collect::<Vec<_>>() {
             for i in self.discs_of(organism).collect::<Vec<_>>() {
-                self.particles.vx[i] += velocity.x;
-                self.particles.vy[i] += velocity.y;
+                let Vec2 { x, y } = (self.particles.velocity(i) + velocity).clamp_length_max(limit);
+                (self.particles.vx[i], self.particles.vy[i]) = (x, y);
             }
         }
         Ok(())
@@ -49,6 +50,14 @@ mod tests {
         assert!(moved(0, agar) > 2.0 && moved(1, cell) > 2.0, "{} {}", moved(0, agar), moved(1, cell));
         assert!(moved(2, other).abs() < 0.01);
         assert_eq!(world.census().leaks, 0);
+    }
+
+    #[test]
+    fn many_pushes_in_a_step_stay_below_the_speed_limit() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let agar = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
+        (0..100).for_each(|_| world.push(agar, Vec2::new(-1000.0, 0.0)).unwrap());
+        world.validate().unwrap();
     }
 
     #[test]

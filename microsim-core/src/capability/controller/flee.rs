@@ -28,6 +28,8 @@ impl Default for FleeParams {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flee {
     params: FleeParams,
+    /// Written by [`super::chain`].
+    #[serde(skip)]
     pub(super) otherwise: Box<Controller>,
     /// Away from the threats: a unit vector.
     heading: Vec2,

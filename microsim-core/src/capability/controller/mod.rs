@@ -5,6 +5,7 @@
 
 pub(crate) mod avoidance;
 pub(crate) mod brownian;
+mod chain;
 pub(crate) mod chemotaxis;
 pub(crate) mod flee;
 pub(crate) mod patrol;
@@ -36,9 +37,13 @@ use serde::{Deserialize, Serialize};
 use thrash::Thrash;
 use wander::Wander;
 
+/// Most controllers of which each is what the one before it does otherwise.
+const DEEPEST: usize = 8;
+
 /// What steers an organism when no input does: a model of behaviour and its present state. It works for everything that
 /// moves, whatever it is; [`Controller::chemotaxis`] needs an outline to sense with.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 #[non_exhaustive]
 pub enum Controller {
     /// Nothing: it rests.
@@ -126,13 +131,13 @@ impl Controller {
         Self::Avoidance(Avoidance::new(params))
     }
 
-    /// Flight from engulfers that are near, and another behaviour otherwise.
+    /// Flight from engulfers that are near, and another behaviour otherwise. At most 8 controllers may lie in one another.
     #[must_use]
     pub fn flee(params: FleeParams, otherwise: Self) -> Self {
         Self::Flee(Flee::new(params, otherwise))
     }
 
-    /// Pursuit of prey in sight, and another behaviour otherwise.
+    /// Pursuit of prey in sight, and another behaviour otherwise, likewise.
     #[must_use]
     pub fn pursue(params: PursueParams, otherwise: Self) -> Self {
         Self::Pursue(Pursue::new(params, otherwise))
@@ -143,6 +148,9 @@ impl Controller {
     /// # Errors
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
+        if self.chain().nth(DEEPEST).is_some() {
+            return Err(Error::unsupported("otherwise", format!("at most {DEEPEST} controllers, one in another")));
+        }
         match self {
             Self::Still => Ok(()),
             Self::Wander(model) => model.validate(),
@@ -183,9 +191,11 @@ impl Controller {
             Self::PersistentWalk(model) => model.heading = way,
             Self::Chemotaxis(model) => model.walk.heading = way,
             Self::Avoidance(model) => model.head(way),
-            Self::Flee(model) => model.otherwise.head(way),
-            Self::Pursue(model) => model.otherwise.head(way),
-            _ => {}
+            _ => {
+                if let Some(otherwise) = self.otherwise_mut() {
+                    otherwise.head(way);
+                }
+            }
         }
     }
 
@@ -203,14 +213,22 @@ impl Controller {
         }
     }
 
+    fn otherwise_mut(&mut self) -> Option<&mut Self> {
+        match self {
+            Self::Flee(model) => Some(&mut model.otherwise),
+            Self::Pursue(model) => Some(&mut model.otherwise),
+            _ => None,
+        }
+    }
+
     /// It and everything that it does otherwise.
-    fn all(&self) -> impl Iterator<Item = &Self> {
+    fn chain(&self) -> impl Iterator<Item = &Self> {
         std::iter::successors(Some(self), |controller| controller.otherwise())
     }
 
     /// The chemicals that it goes by.
     pub(crate) fn chemicals(&self) -> impl Iterator<Item = ChemicalId> {
-        self.all().filter_map(|controller| match controller {
+        self.chain().filter_map(|controller| match controller {
             Self::Chemotaxis(model) => Some(model.params.chemical),
             Self::RunAndTumble(model) => model.params.chemical,
             _ => None,
@@ -219,7 +237,7 @@ impl Controller {
 
     /// Whether it compares concentrations around the organism's outline.
     pub(crate) fn needs_outline(&self) -> bool {
-        self.all().any(|controller| matches!(controller, Self::Chemotaxis(_)))
+        self.chain().any(|controller| matches!(controller, Self::Chemotaxis(_)))
     }
 }
 

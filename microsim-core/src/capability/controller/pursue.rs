@@ -29,6 +29,8 @@ impl Default for PursueParams {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pursue {
     params: PursueParams,
+    /// Written by [`super::chain`].
+    #[serde(skip)]
     pub(super) otherwise: Box<Controller>,
 }
 

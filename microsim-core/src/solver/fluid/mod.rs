@@ -72,22 +72,28 @@ pub(crate) struct Fluid {
     pub is_enclosed: bool,
     /// Indices into the particle store, in the order in which they were added.
     pub particles: Vec<u32>,
-    #[serde(skip, default = "density::lattice_density")]
+}
+
+/// What fluids are projected with, one after the other; nothing in it outlasts a substep.
+#[derive(Clone, Debug)]
+pub(crate) struct Workspace {
     rest_density: f32,
-    #[serde(skip)]
     sorted: Sorted,
     /// Of each group.
-    #[serde(skip)]
     sums: Vec<Sums>,
-    #[serde(skip)]
     shifts: Vec<[Lanes; 2]>,
+}
+
+impl Default for Workspace {
+    fn default() -> Self {
+        let rest_density = density::lattice_density();
+        Self { rest_density, sorted: Sorted::default(), sums: Vec::new(), shifts: Vec::new() }
+    }
 }
 
 impl Fluid {
     pub(crate) fn new(params: FluidParams, is_enclosed: bool) -> Self {
-        let rest_density = density::lattice_density();
-        let (sorted, sums, shifts) = (Sorted::default(), Vec::new(), Vec::new());
-        Self { params, is_enclosed, particles: Vec::new(), rest_density, sorted, sums, shifts }
+        Self { params, is_enclosed, particles: Vec::new() }
     }
 
     /// Distance at which particles no longer see each other.
@@ -98,26 +104,40 @@ impl Fluid {
         }
     }
 
-    /// One iteration of the density constraint (or of the grains' contacts) in a room of this size, and the viscosity of a
-    /// substep of `h`.
-    pub(crate) fn project(&mut self, particles: &mut Particles, size: Vec2, h: f32, dispatch: Dispatch) {
-        let reach = self.reach();
-        self.sorted.sort(&self.particles, particles, size, reach);
+    /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
+    pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
+        let mut sorted = Sorted::default();
+        sorted.sort(&self.particles, particles, Vec2::ZERO, SUPPORT * self.params.spacing);
+        let (rest_density, mut sum) = (density::lattice_density(), 0.0);
+        for group in &sorted.groups {
+            let compression = density::sum(group, &sorted.sources).compression(rest_density);
+            sum += compression[..group.members.len()].iter().sum::<f32>();
+        }
+        if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
+    }
+}
+
+impl Workspace {
+    /// One iteration of a fluid's density constraint (or of its grains' contacts) in a room of this size, and the viscosity
+    /// of a substep of `h`.
+    pub(crate) fn project(&mut self, fluid: &Fluid, particles: &mut Particles, size: Vec2, h: f32, dispatch: Dispatch) {
+        let (Fluid { params, is_enclosed, particles: indices }, reach) = (fluid, fluid.reach());
+        self.sorted.sort(indices, particles, size, reach);
         self.sums.resize(self.sorted.groups.len(), Sums::default());
         self.shifts.resize(self.sorted.groups.len(), Default::default());
-        let viscosity = self.params.viscosity * h / (1.0 + self.params.viscosity * h);
-        match self.params.mode {
+        let viscosity = params.viscosity * h / (1.0 + params.viscosity * h);
+        match params.mode {
             FluidMode::Density => {
                 self.find_multipliers(dispatch);
                 // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
-                let spacing = if self.is_enclosed { 0.25 } else { 0.0 };
+                let spacing = if *is_enclosed { 0.25 } else { 0.0 };
                 self.find_density_shifts(Shares { viscosity, spacing }, dispatch);
             }
             FluidMode::Granular => self.find_granular_shifts(viscosity, dispatch),
         }
         for (group, [shift_x, shift_y]) in self.sorted.groups.iter().zip(&self.shifts) {
             for (l, &k) in self.sorted.order()[group.members.clone()].iter().enumerate() {
-                let i = self.particles[k as usize] as usize;
+                let i = indices[k as usize] as usize;
                 particles.x[i] += shift_x[l] * reach;
                 particles.y[i] += shift_y[l] * reach;
             }
@@ -173,18 +193,6 @@ impl Fluid {
             );
         });
     }
-
-    /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
-    pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
-        let mut sorted = Sorted::default();
-        sorted.sort(&self.particles, particles, Vec2::ZERO, SUPPORT * self.params.spacing);
-        let mut sum = 0.0;
-        for group in &sorted.groups {
-            let compression = density::sum(group, &sorted.sources).compression(self.rest_density);
-            sum += compression[..group.members.len()].iter().sum::<f32>();
-        }
-        if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
-    }
 }
 
 /// Groups and what is found for them, some at a time.
@@ -216,10 +224,10 @@ mod tests {
     }
 
     /// A substep of 1/480 s in which nothing was predicted.
-    fn project(fluid: &mut Fluid, particles: &mut Particles) {
+    fn project(fluid: &Fluid, particles: &mut Particles) {
         particles.prev_x.clone_from(&particles.x);
         particles.prev_y.clone_from(&particles.y);
-        fluid.project(particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+        Workspace::default().project(fluid, particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
     }
 
     fn centre(particles: &Particles) -> Vec2 {
@@ -228,10 +236,10 @@ mod tests {
 
     #[test]
     fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
-        let (mut fluid, mut particles) = block(FluidMode::Density, 0.7);
+        let (fluid, mut particles) = block(FluidMode::Density, 0.7);
         let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
         for _ in 0..60 {
-            project(&mut fluid, &mut particles);
+            project(&fluid, &mut particles);
         }
         let after = fluid.mean_compression(&particles);
         assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
@@ -241,37 +249,37 @@ mod tests {
     #[test]
     fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
         // A lattice row at half a spacing from the wall is as dense as one inside: nothing moves.
-        let (mut fluid, mut particles) = block(FluidMode::Density, 1.0);
+        let (fluid, mut particles) = block(FluidMode::Density, 1.0);
         for i in 0..200 {
             particles.x[i] = (i % 20) as f32 + 0.5 * (i / 20 % 2) as f32 + 0.5;
             particles.y[i] = (i / 20) as f32 * 0.866 + 0.5;
         }
         let at_rest = particles.clone();
-        let shift = |fluid: &mut Fluid, lower: f32| {
+        let shift = |fluid: &Fluid, lower: f32| {
             let mut moved = at_rest.clone();
             moved.y.iter_mut().for_each(|y| *y -= lower);
             moved.prev_x.clone_from(&moved.x);
             moved.prev_y.clone_from(&moved.y);
-            fluid.project(&mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
+            Workspace::default().project(fluid, &mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
             moved.y[10] - (at_rest.y[10] - lower)
         };
-        assert!(shift(&mut fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&mut fluid, 0.0));
-        assert!(shift(&mut fluid, 0.2) > 0.02, "nearer: {}", shift(&mut fluid, 0.2));
+        assert!(shift(&fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&fluid, 0.0));
+        assert!(shift(&fluid, 0.2) > 0.02, "nearer: {}", shift(&fluid, 0.2));
     }
 
     #[test]
     fn fluid_at_rest_density_or_below_stays() {
-        let (mut fluid, mut particles) = block(FluidMode::Density, 1.3);
+        let (fluid, mut particles) = block(FluidMode::Density, 1.3);
         let before = particles.clone();
-        project(&mut fluid, &mut particles);
+        project(&fluid, &mut particles);
         assert!((0..200).all(|i| (particles.position(i) - before.position(i)).length() < 1e-6));
     }
 
     #[test]
     fn grains_separate_to_their_spacing() {
-        let (mut fluid, mut particles) = block(FluidMode::Granular, 0.8);
+        let (fluid, mut particles) = block(FluidMode::Granular, 0.8);
         for _ in 0..200 {
-            project(&mut fluid, &mut particles);
+            project(&fluid, &mut particles);
         }
         for i in 0..200 {
             for j in 0..i {
@@ -294,7 +302,7 @@ mod tests {
                     particles.prev_x[i] = still.x[i];
                     (particles.x[i], particles.y[i]) = (still.x[i] + way, still.y[i]);
                 }
-                fluid.project(&mut particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+                Workspace::default().project(&fluid, &mut particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
                 (0..200).map(|i| particles.x[i] - still.x[i]).collect()
             };
             let (free, viscous) = (ways_taken(0.0), ways_taken(1000.0));
@@ -312,7 +320,7 @@ mod tests {
             fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
         }
         for _ in 0..20 {
-            project(&mut fluid, &mut particles);
+            project(&fluid, &mut particles);
         }
         let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
         assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");

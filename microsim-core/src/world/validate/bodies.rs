@@ -1,68 +1,37 @@
 //! Organisms: their particles, membranes, cytoplasm and state.
 
 use super::{Check, Subject};
-use crate::capability::Locomotion;
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::organism::{Body, Organism};
 use crate::particle::{CollisionGroups, NO_OWNER};
-use crate::solver::lanes::LANES;
 use crate::solver::membrane::{Membrane, links};
 use crate::world::World;
 use glam::Vec2;
 
-/// Fewest nodes of a ring.
-const LEAST_NODES: usize = 5;
 /// Largest length, area or count that organisms remember.
 const MOST: f32 = 1e9;
 /// Circles that a membrane goes round at most.
 const MOST_LOBES: f32 = 3.0;
 
 pub(super) fn check(world: &World) -> Check {
-    let mut is_owned = vec![false; world.particles.len()];
     for (id, organism) in world.organisms.iter() {
         let cell = Subject::organism(id, organism.kind);
-        check_body(world, organism, cell)?;
-        check_particles(world, organism, cell, &mut is_owned)?;
+        check_particles(world, organism, cell)?;
         check_outline(world, organism, cell)?;
         check_rings(world, organism, cell)?;
         check_fluid(world, organism, cell)?;
         check_state(organism, cell)?;
         check_divider(organism, cell)?;
     }
-    let lost = world.particles.live().find(|&i| !is_owned[i]);
-    lost.map_or(Ok(()), |i| Err(Subject::particle(world, i).violation("its organism does not know of it")))?;
     check_links(world)
 }
 
-/// A lane is this organism's; loose particles are in the store.
-fn check_body(world: &World, organism: &Organism, cell: Subject) -> Check {
-    match &organism.body {
-        Body::Lane { block, first } => {
-            let block = world.blocks.get(*block as usize);
-            let lane = block.map(|block| first.wrapping_sub(block.base) as usize).filter(|&lane| lane < LANES);
-            let owner = block.zip(lane).map(|(block, lane)| (block.owner[lane], block.slots));
-            let own = cell.organism.map(|(id, _)| (id.index, organism.slots));
-            cell.must(owner.is_some() && owner == own, || format!("its lane, {owner:?}, is not its own"))
-        }
-        Body::Loose { .. } => {
-            let mut all = organism.particles().map(|i| i as usize);
-            cell.must(organism.slots == 0 && all.all(|i| i < world.particles.len()), || {
-                "it has particles that are not in the store".to_owned()
-            })
-        }
-    }
-}
-
-/// All its particles are its own and nobody else's, with one origin; frozen ones are at rest.
-fn check_particles(world: &World, organism: &Organism, cell: Subject, is_owned: &mut [bool]) -> Check {
+/// All its particles have one origin; frozen ones are at rest.
+fn check_particles(world: &World, organism: &Organism, cell: Subject) -> Check {
     let p = &world.particles;
-    let own = cell.organism.map(|(id, _)| id.index);
     let origin = organism.particles().next().map(|i| p.origin(i as usize));
     for i in organism.particles() {
         let (disc, i) = (Subject { particle: Some(i), ..cell }, i as usize);
-        disc.must(i < p.len() && Some(p.owner[i]) == own, || "it is not marked as this organism's".to_owned())?;
-        disc.must(!is_owned[i], || "it is named twice".to_owned())?;
-        is_owned[i] = true;
         disc.must(Some(p.origin(i)) == origin, || "its origin is not that of the others".to_owned())?;
         let is_frozen = p.inv_mass[i] == 0.0 && p.velocity(i) == Vec2::ZERO && p.groups[i] == CollisionGroups::NONE;
         disc.must(is_frozen || !organism.is_quarantined, || "it is in quarantine and not frozen".to_owned())?;
@@ -70,20 +39,12 @@ fn check_particles(world: &World, organism: &Organism, cell: Subject, is_owned: 
     Ok(())
 }
 
-/// The outline is the template's, or that of its own membrane; the front is a place in it.
+/// The outline is the template's, or that of its own membrane.
 fn check_outline(world: &World, organism: &Organism, cell: Subject) -> Check {
-    if let Body::Lane { block, .. } = organism.body {
-        let template = world.blocks.get(block as usize).and_then(|block| world.templates.get(block.template as usize));
-        let is_equal = template.is_some_and(|template| template.outline() == organism.outline);
-        cell.must(is_equal, || "its outline is not that of its template".to_owned())?;
-    }
-    let front = match organism.locomotion {
-        Locomotion::FrontPull { front } => Some(front),
-        Locomotion::Crawl { front_centre } => front_centre,
-        Locomotion::None | Locomotion::Tow { .. } => None,
-    };
-    let count = organism.outline.len();
-    cell.must(front.is_none_or(|k| (k as usize) < count), || format!("its front is at {front:?} of {count} nodes"))
+    let Body::Lane { block, .. } = organism.body else { return Ok(()) };
+    let template = world.blocks.get(block as usize).and_then(|block| world.templates.get(block.template as usize));
+    let is_equal = template.is_some_and(|template| template.outline() == organism.outline);
+    cell.must(is_equal, || "its outline is not that of its template".to_owned())
 }
 
 /// Membranes are closed, simple and counter-clockwise, and all loose nodes are in exactly one.
@@ -99,7 +60,6 @@ fn check_rings(world: &World, organism: &Organism, cell: Subject) -> Check {
 
 fn check_ring(world: &World, organism: &Organism, cell: Subject, membrane: &Membrane, ring: &[u32]) -> Check {
     let p = &world.particles;
-    cell.must(ring.len() >= LEAST_NODES, || format!("a ring of {} nodes", ring.len()))?;
     let loose = links(ring).find(|&(a, b)| p.next_in_ring[a as usize] != b);
     if let Some((a, b)) = loose {
         let node = Subject { particle: Some(a), ..cell };
@@ -160,8 +120,7 @@ fn check_state(organism: &Organism, cell: Subject) -> Check {
     cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
     cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
     let (goal, home) = (organism.goal, organism.home);
-    cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))?;
-    organism.controller.validate().map_err(|error| cell.violation(format!("controller: {error}")))
+    cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
 }
 
 fn check_divider(organism: &Organism, cell: Subject) -> Check {

@@ -6,6 +6,7 @@
 mod bodies;
 mod meals;
 mod store;
+pub(super) mod structure;
 
 use super::World;
 use crate::id::OrganismId;
@@ -32,12 +33,15 @@ type Check = Result<(), Violation>;
 impl World {
     /// Checks everything that holds between steps, whatever was asked of the world: numbers are finite and in sane bounds,
     /// every index names what is there, what names each other does so both ways, membranes are simple, closed and
-    /// counter-clockwise with all cytoplasm inside, nothing is outside the walls, and nothing is lost.
+    /// counter-clockwise with all cytoplasm inside, nothing is outside the walls, nothing is lost, and there is a
+    /// concentration of every chemical everywhere.
     ///
     /// # Errors
     /// The first thing that is wrong. That is a bug of this library, or of the file that the world was read from.
     pub fn validate(&self) -> Result<(), Violation> {
         self.config.validate().map_err(|error| Subject::default().violation(error.to_string()))?;
+        store::check_columns(&self.particles)?;
+        structure::check(self)?;
         store::check(self)?;
         bodies::check(self)?;
         meals::check(self)

@@ -2,10 +2,8 @@
 
 use super::{Check, Subject};
 use crate::config::WorldConfig;
-use crate::organism::Body;
 use crate::particle::{CollisionGroups, NO_OWNER, Particles};
 use crate::solver::block::Block;
-use crate::solver::lanes::LANES;
 use crate::template::Role;
 use crate::world::{WALLS, World};
 use glam::Vec2;
@@ -20,17 +18,19 @@ const TIMES_SPEED_LIMIT: f32 = 10.0;
 const BEYOND_WALLS: f32 = 0.5;
 
 pub(super) fn check(world: &World) -> Check {
-    check_columns(&world.particles)?;
     (0..world.particles.len()).try_for_each(|i| check_entry(world, i))?;
     check_places(world)?;
-    world.blocks.iter().enumerate().try_for_each(|(k, block)| check_block(world, k, block))?;
     (0..world.fluids.len()).try_for_each(|k| check_fluid(world, k))?;
-    check_slots(world)?;
     let (digests, obstacles) = (world.obstacle_digests.len(), world.obstacles.len() - WALLS);
-    Subject::default().must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))
+    let none = Subject::default();
+    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))?;
+    for (k, chemical) in world.chemicals.iter().enumerate() {
+        chemical.check(&world.config).map_err(|flaw| none.violation(format!("chemical {k}: {flaw}")))?;
+    }
+    Ok(())
 }
 
-fn check_columns(p: &Particles) -> Check {
+pub(super) fn check_columns(p: &Particles) -> Check {
     let floats = [&p.origin_x, &p.origin_y, &p.x, &p.y, &p.prev_x, &p.prev_y, &p.vx, &p.vy, &p.inv_mass, &p.radius];
     let words = [&p.next_in_ring, &p.owner, &p.fluid];
     let others = [p.groups.len(), p.material.len(), p.role.len()];
@@ -52,11 +52,8 @@ fn check_entry(world: &World, i: usize) -> Check {
             && p.velocity(i) == Vec2::ZERO;
         return disc.must(is_dead, || "nobody owns it, but it has mass, speed, a fluid, a ring or collides".to_owned());
     }
-    disc.must(disc.organism.is_some(), || format!("its owner {} does not live", p.owner[i]))?;
     check_numbers(world, i, disc)?;
     disc.must((p.role[i] as usize) < Role::ALL.len(), || format!("role {} is unknown", p.role[i]))?;
-    let fluid = p.fluid[i] as usize;
-    disc.must(fluid <= world.fluids.len(), || format!("it belongs to fluid {fluid} of {}", world.fluids.len()))?;
     check_within_walls(world, i, disc)
 }
 
@@ -89,80 +86,28 @@ fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     disc.must(is_inside, || format!("it is at {at}, outside the room of {size}"))
 }
 
-/// Every index is a lane of exactly one block, or live on its own, or free exactly once.
+/// Every index that is not in use is in a block or free.
 fn check_places(world: &World) -> Check {
-    let (p, none) = (&world.particles, Subject::default());
-    let mut is_taken = vec![false; p.len()];
-    let mut end = 0;
-    for (k, block) in world.blocks.iter().enumerate() {
-        let range = block.base as usize..block.base as usize + block.slots as usize * LANES;
-        let is_placed = range.start >= end && range.end <= p.len();
-        none.must(is_placed, || format!("block {k} lies at {range:?}, over another one or outside the store"))?;
-        end = range.end;
-        is_taken[range].fill(true);
+    let p = &world.particles;
+    let mut is_kept: Vec<bool> = (0..p.len()).map(|i| p.is_live(i)).collect();
+    for block in world.blocks.iter().map(Block::range) {
+        is_kept[block.base..block.base + block.len()].fill(true);
     }
-    for &i in p.free_indices() {
-        let is_free = is_taken.get(i as usize) == Some(&false) && !p.is_live(i as usize);
-        none.must(is_free, || format!("index {i} is free, but also in use, or free twice"))?;
-        is_taken[i as usize] = true;
-    }
-    let lost = (0..p.len()).find(|&i| !is_taken[i] && !p.is_live(i));
-    lost.map_or(Ok(()), |i| Err(none.violation(format!("index {i} is neither in use nor free"))))
+    p.free_indices().iter().for_each(|&i| is_kept[i as usize] = true);
+    let lost = is_kept.iter().position(|is_kept| !is_kept);
+    lost.map_or(Ok(()), |i| Err(Subject::default().violation(format!("index {i} is neither in use nor free"))))
 }
 
-fn check_block(world: &World, k: usize, block: &Block) -> Check {
-    let none = Subject::default();
-    let template = world.templates.get(block.template as usize);
-    let is_of_template = template.is_some_and(|template| template.nodes().len() == block.slots as usize);
-    none.must(is_of_template, || format!("block {k} has {} slots and template {}", block.slots, block.template))?;
-    for (lane, &owner) in block.owner.iter().enumerate() {
-        let first = block.particle(0, lane);
-        if owner != NO_OWNER {
-            let id = world.organisms.id_at(owner);
-            let body = id.and_then(|id| world.organisms.get(id)).map(|organism| &organism.body);
-            let is_known = matches!(body, Some(Body::Lane { block: at, first: f }) if *at as usize == k && *f == first);
-            none.must(is_known, || format!("lane {lane} of block {k} is owned by {owner}, which does not know"))?;
-            none.must_range(&format!("scale of lane {lane} of block {k}"), block.scale[lane], 1e-6, 1e6)?;
-        }
-        for slot in 0..block.slots {
-            let i = block.particle(slot, lane) as usize;
-            Subject::particle(world, i).must(world.particles.owner[i] == owner, || {
-                format!("it is in lane {lane} of block {k}, which is owned by {owner}")
-            })?;
-        }
-    }
-    Ok(())
-}
-
-/// Particles of a fluid know it, and their organism does.
+/// A fluid has what its particles' owners take for it; an enclosed one has one owner.
 fn check_fluid(world: &World, k: usize) -> Check {
     let (p, fluid) = (&world.particles, &world.fluids[k]);
-    let none = Subject::default();
-    fluid.params.validate().map_err(|error| none.violation(format!("fluid {k}: {error}")))?;
-    let mut sorted = fluid.particles.clone();
-    sorted.sort_unstable();
-    sorted.dedup();
-    none.must(sorted.len() == fluid.particles.len(), || format!("fluid {k} has a particle twice"))?;
     for &i in &fluid.particles {
-        let i = i as usize;
-        let disc = Subject::particle(world, i);
-        let is_marked = i < p.len() && p.is_live(i) && p.fluid[i] as usize == k + 1;
-        disc.must(is_marked, || format!("fluid {k} has it, but it is not marked so"))?;
+        let disc = Subject::particle(world, i as usize);
         let owner = disc.organism.and_then(|(id, _)| world.organisms.get(id));
-        disc.must(owner.is_some_and(|owner| owner.fluid == Some(k as u32)), || {
-            format!("fluid {k} is not its owner's")
-        })?;
+        let is_owners = owner.is_some_and(|owner| owner.fluid == Some(k as u32));
+        disc.must(is_owners, || format!("fluid {k} is not its owner's"))?;
     }
     let owners = |i: &u32| p.owner[*i as usize];
     let mixes = fluid.is_enclosed && fluid.particles.windows(2).any(|pair| owners(&pair[0]) != owners(&pair[1]));
-    none.must(!mixes, || format!("fluid {k} is enclosed and has several owners"))
-}
-
-/// Every slot of the table of organisms lives or is free exactly once.
-fn check_slots(world: &World) -> Check {
-    let (organisms, none) = (&world.organisms, Subject::default());
-    let mut free = organisms.free_slots().to_vec();
-    free.sort_unstable();
-    let empty = (0..organisms.slot_count()).filter(|&index| organisms.id_at(index).is_none());
-    none.must(empty.eq(free), || "the empty places of organisms are not those that are free".to_owned())
+    Subject::default().must(!mixes, || format!("fluid {k} is enclosed and has several owners"))
 }

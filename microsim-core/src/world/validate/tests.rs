@@ -1,15 +1,17 @@
 //! Each kind of damage is found, and named.
 
 use crate::{
-    AgarSpec, AmoeboidCellSpec, FluidBlockSpec, Inputs, Placement, PlateletSpec, World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Exchange, FluidBlockSpec, Inputs, Placement,
+    PlateletSpec, World, WorldConfig, glam::Vec2,
 };
 
-/// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid.
+/// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
 fn room() -> World {
     let mut world = World::new(WorldConfig::default()).unwrap();
     world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
     world.spawn(&PlateletSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
     world.spawn(&AgarSpec::default().into(), Placement::at(100.0, 45.0)).unwrap();
+    world.add_chemical(ChemicalSpec { initial: 1.0, ..ChemicalSpec::default() }).unwrap();
     world.spawn(&FluidBlockSpec::default().into(), Placement::at(130.0, 45.0)).unwrap();
     (0..3).for_each(|_| world.step(&Inputs::new()));
     world
@@ -42,7 +44,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.particles.role[2] = 200, "role 200");
     finds(|w| w.particles.fluid[2] = 9, "fluid 9");
     finds(|w| w.particles.x[2] -= 80.0, "outside the room");
-    finds(|w| w.particles.owner[2] = 77, "owner 77 does not live");
+    finds(|w| w.particles.owner[2] = 77, "its owner is 77");
     finds(|w| _ = w.particles.extend(1), "neither in use nor free");
     finds(|w| w.blocks[0].owner[1] = 1, "lane 1 of block 0");
     finds(|w| w.blocks[0].template = 9, "template 9");
@@ -51,6 +53,25 @@ fn damage_to_the_store_is_found() {
     finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
     finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
     finds(|w| w.obstacle_digests.push(7), "digests");
+}
+
+#[test]
+fn damage_to_chemicals_is_found() {
+    finds(|w| w.chemicals[0].add(Vec2::ZERO, f32::NAN), "chemical 0: the concentration in cell 0 is NaN");
+    finds(|w| w.chemicals[0].add(Vec2::ZERO, -50.0), "chemical 0: the concentration in cell 0 is -");
+    let narrow = WorldConfig { size: Vec2::splat(40.0), ..WorldConfig::default() };
+    finds(
+        |w| w.chemicals[0] = Chemical::new(ChemicalSpec::default(), &narrow).unwrap(),
+        "chemical 0: 400 concentrations do not fill",
+    );
+    finds(
+        |w| {
+            let id = w.organisms().next().unwrap();
+            let unknown = Exchange { chemical: ChemicalId(7), secretion: 1.0, uptake: 0.0 };
+            w.organisms.get_mut(id).unwrap().exchanges.push(unknown);
+        },
+        "`exchanges.chemical`",
+    );
 }
 
 #[test]
