@@ -17,8 +17,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::kind::Kind;
 use crate::template::Role;
-use crate::world::World;
-use crate::world::view::{OrganismView, ParticleView};
+use crate::world::view::{OrganismView, ParticleView, View};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 
@@ -61,11 +60,12 @@ struct Skin {
 }
 
 impl Painting {
-    pub(super) fn of(world: &World) -> Self {
+    pub(super) fn of(view: View<'_>) -> Self {
+        let world = view.world();
         let room = world.config().size;
         let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), things: Vec::new() };
-        painting.background(world.config().seed as u32, world.time() as f32);
-        let mut organisms: Vec<OrganismView<'_>> = world.view().organisms().collect();
+        painting.background(world.config().seed as u32, view.time() as f32);
+        let mut organisms: Vec<OrganismView<'_>> = view.organisms().collect();
         organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
         for organism in organisms {
             painting.organism(organism);
