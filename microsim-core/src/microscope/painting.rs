@@ -259,7 +259,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn grown_cytoplasm_has_another_colour() {
+    fn t72_grown_cytoplasm_has_another_colour() {
         let skin = Skin { body: Vec3::new(0.7, 0.8, 0.5), rim: Vec3::new(0.4, 0.5, 0.3), mottle: 0.0, seed: 0 };
         let disc = |role| {
             let particle = ParticleView { index: 7, position: Vec2::ZERO, velocity: Vec2::ZERO, radius: 1.0, role };

@@ -253,3 +253,23 @@ impl<'a> OrganismView<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Placement, PlateletSpec, WorldConfig};
+
+    #[test]
+    fn t52_the_surface_is_the_outline_pushed_out_by_the_discs_radius() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
+        let platelet = world.view().organism(id).unwrap();
+        let (centre, radius) = (platelet.centroid(), platelet.particles().next().unwrap().radius);
+        assert_eq!(platelet.outline().len(), platelet.surface().len());
+        for (node, pushed) in platelet.outline().zip(platelet.surface()) {
+            let expected = node + (node - centre).normalize() * radius;
+            assert!((pushed - expected).length() < 1e-3 && radius > 0.0, "{node} -> {pushed}");
+        }
+        assert!(platelet.nucleus().is_some());
+    }
+}

@@ -6,25 +6,25 @@ use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
 use crate::ui::pen::{Align, Pen, Size};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
-use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, World};
+use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, View};
 
 /// Draws a world's anatomy over its picture.
-pub(super) fn draw(pen: &mut Pen, world: &World, camera: &Camera) {
+pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
     let screen = pen.screen();
     let canvas = pen.canvas();
     canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
-    for ((_, chemical), colour) in world.view().chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
+    for ((_, chemical), colour) in view.chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
         draw_chemical(canvas, camera, chemical, colour);
     }
-    for (bond, ends) in world.view().bonds() {
+    for (bond, ends) in view.bonds() {
         let (width, colour) = stroke(bond);
         draw_segment(canvas, camera, ends, width, colour);
     }
-    for organism in world.view().organisms() {
+    for organism in view.organisms() {
         draw_particles(canvas, camera, organism);
         draw_regions(canvas, camera, organism);
     }
-    for ends in world.view().contacts() {
+    for ends in view.contacts() {
         draw_segment(canvas, camera, ends, 2.4, ALERT);
     }
     draw_legend(pen);
