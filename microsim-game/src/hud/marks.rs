@@ -166,11 +166,16 @@ impl Gains {
     /// Draws them where they were gained; they rise unless nothing may move.
     pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
         let unit = pen.line(Size::Body);
-        for (k, (gain, age)) in self.0.iter().enumerate() {
+        let mut places: Vec<Vec2> = Vec::new();
+        for (gain, age) in &self.0 {
+            // Several at once stand above each other.
+            let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
+            while places.iter().any(|other| (place - *other).abs().cmplt(Vec2::new(2.8, 1.2) * unit).all()) {
+                place.y -= 1.2 * unit;
+            }
+            places.push(place);
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
-            // Several at once stand beside each other.
-            let beside = (k % 3) as f32 - 1.0;
-            let at = style.camera.to_screen(gain.at) - Vec2::new(-2.0 * unit * beside, unit + rise);
+            let at = place - Vec2::new(0.0, rise);
             pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
         }
     }

@@ -1,6 +1,6 @@
 //! The end of a round: the score by kind, and its place among the best.
 
-use super::pause::draw_heading;
+use super::page::draw_shade;
 use super::play::Play;
 use super::scores::draw_table;
 use super::title::Title;
@@ -107,7 +107,7 @@ impl Screen for End {
 
     fn draw(&mut self, context: &mut Context) {
         let pen = &mut context.pen;
-        draw_heading(pen, "");
+        draw_shade(pen);
         let (screen, line) = (pen.screen(), pen.line(Size::Body));
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
         pen.write(heading, Size::Large, Align::Centre, HALO, &format!("{} points", self.points));

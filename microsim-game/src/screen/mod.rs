@@ -3,6 +3,7 @@
 
 pub mod end;
 pub mod keys;
+mod page;
 pub mod pause;
 pub mod pick;
 pub mod play;

@@ -154,6 +154,9 @@ impl Screen for Play {
     fn draw(&mut self, context: &mut Context) {
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
         context.paint(&Frame { view, camera, time: context.time });
+        if !context.is_top {
+            return;
+        }
         let hints = Hints::of(view, self.round.player());
         let (key, time) = (context.settings.keys.label(Action::Consume), context.motion());
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };

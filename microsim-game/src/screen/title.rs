@@ -126,7 +126,7 @@ impl Screen for Title {
         self.menu.draw(pen, &place);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
         let corner = screen - 0.8 * pen.line(Size::Small);
-        pen.write(corner, Size::Small, Align::Right, fade(HALO, 0.8), version);
+        pen.label(corner, Size::Small, Align::Right, HALO, version);
     }
 
     fn is_overlay(&self) -> bool {

@@ -89,7 +89,7 @@ impl Pen {
         self.screen
     }
 
-    /// Height of a line of text, drawing units. What is clicked is at least half as high again.
+    /// Height of a line of text, drawing units. What is clicked is at least 1.4 times as high.
     #[must_use]
     pub fn line(&self, size: Size) -> f32 {
         1.35 * self.pixels(size)
@@ -114,7 +114,7 @@ impl Pen {
         }
     }
 
-    /// The same on a dark panel, to be read above anything.
+    /// The same on a dark panel, to be read above anything, and wholly in the picture.
     pub fn label(&mut self, at: Vec2, size: Size, align: Align, colour: Color, text: &str) {
         let half = Vec2::new(0.5 * self.width(size, text) + 0.35 * self.line(size), 0.56 * self.line(size));
         let middle = match align {
@@ -122,7 +122,8 @@ impl Pen {
             Align::Centre => at.x,
             Align::Right => at.x - half.x,
         };
-        let middle = Vec2::new(middle, at.y);
+        let (low, high) = (half, (self.screen - half).max(half));
+        let middle = Vec2::new(middle, at.y).clamp(low, high);
         self.panel(middle - half, middle + half);
         self.write(middle, size, Align::Centre, colour, text);
     }

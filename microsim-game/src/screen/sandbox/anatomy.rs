@@ -98,9 +98,11 @@ fn draw_legend(pen: &mut Pen) {
         "square: front  bar: rear",
         "amber: contact",
     ];
-    let right = pen.screen().x - 0.5 * line;
+    let widest = entries.iter().map(|entry| pen.width(Size::Small, entry)).fold(0.0, f32::max);
+    let low = Vec2::new(pen.screen().x - widest - 1.3 * line, 1.6 * line);
+    pen.panel(low, low + Vec2::new(widest + 0.8 * line, 1.2 * line * entries.len() as f32));
     for (k, entry) in entries.into_iter().enumerate() {
-        let at = Vec2::new(right, line * (2.2 + 1.2 * k as f32));
-        pen.label(at, Size::Small, Align::Right, HALO, entry);
+        let at = low + line * Vec2::new(0.4, 0.6 + 1.2 * k as f32);
+        pen.write(at, Size::Small, Align::Left, HALO, entry);
     }
 }
