@@ -264,7 +264,7 @@ mod tests {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
         let platelet = world.view().organism(id).unwrap();
-        let (centre, radius) = (platelet.centroid(), platelet.particles().next().unwrap().radius);
+        let (centre, radius) = (platelet.centroid(), platelet.particles().last().unwrap().radius);
         assert_eq!(platelet.outline().len(), platelet.surface().len());
         for (node, pushed) in platelet.outline().zip(platelet.surface()) {
             let expected = node + (node - centre).normalize() * radius;

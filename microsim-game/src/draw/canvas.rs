@@ -48,6 +48,12 @@ impl Canvas {
         Self { mesh: Mesh { vertices, indices, texture: None } }
     }
 
+    /// How many corners have a colour.
+    #[cfg(test)]
+    pub(crate) fn count(&self, colour: Color) -> usize {
+        self.corners().filter(|(_, _, drawn)| *drawn == <[u8; 4]>::from(colour)).count()
+    }
+
     /// What has been collected: corners of triangles with their place in the texture and their colour.
     #[cfg(test)]
     pub(crate) fn corners(&self) -> impl Iterator<Item = (Vec2, Vec2, [u8; 4])> {

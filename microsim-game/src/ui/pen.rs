@@ -69,6 +69,12 @@ impl Pen {
         pen
     }
 
+    /// One that draws no text, and into no window.
+    #[cfg(test)]
+    pub(crate) fn bare() -> Self {
+        Self { canvas: Canvas::bare(), font: None, factor: 1.0, scale: 1.0, screen: USUAL }
+    }
+
     /// Adapts to a picture of this size, and to the player's wish.
     pub fn fit(&mut self, screen: Vec2, wish: f32) {
         (self.screen, self.factor) = (screen, factor(screen) * wish);
