@@ -47,7 +47,7 @@ fn compare(one: &World, other: &World) -> Option<String> {
 }
 
 /// Plays two replays side by side, up to the first difference.
-fn compare_runs(one: &mut Player<'_>, other: &mut Player<'_>) -> Option<String> {
+fn compare_runs(one: &mut Player, other: &mut Player) -> Option<String> {
     loop {
         if one.world().digest() != other.world().digest() {
             return compare(one.world(), other.world());

@@ -72,7 +72,7 @@ fn recorded_by(replay: &Replay) -> String {
     if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
 }
 
-fn print(replay: &Replay, player: &Player<'_>, is_json: bool) -> Result<(), Failure> {
+fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure> {
     let world = player.world();
     let scenario = replay.origin().scenario().map(|scenario| scenario.name().to_owned()).unwrap_or_default();
     let report = Report {

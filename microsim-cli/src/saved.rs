@@ -71,7 +71,7 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Failure {
 }
 
 /// Sets a replay up.
-pub(crate) fn play<'a>(replay: &'a Replay, path: &Path) -> Result<Player<'a>, Failure> {
+pub(crate) fn play(replay: &Replay, path: &Path) -> Result<Player, Failure> {
     Player::new(replay).map_err(|problems| {
         let origin = format!("<scenario in {}>", path.display());
         Failure::Scenario(Source::new(origin, replay.origin().text.clone()), problems)

@@ -106,6 +106,7 @@ pub use world::anatomy::Bond;
 pub use world::difference::Difference;
 pub use world::measure::Census;
 pub use world::membrane_quality::{CrawlQuality, MembraneQuality};
+pub use world::moment::Moment;
 pub use world::named_measure::Measure;
 pub use world::quality::Quality;
 pub use world::query::RayHit;

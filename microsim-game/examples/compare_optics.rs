@@ -90,7 +90,8 @@ fn both(
     microscope: Microscope,
 ) -> Result<(Vec<u8>, Vec<u8>), String> {
     let reference = microscope.expose(world, field).map_err(|error| error.to_string())?;
-    let picture = renderer.draw(world, field, microscope, Quality::High)?;
+    let recipe = renderer.recipe(world.view(), field, microscope, Quality::High)?;
+    let picture = renderer.draw(&recipe);
     Ok((pixels(&picture), reference.rows(0..SIZE[1] as usize)))
 }
 

@@ -1,7 +1,6 @@
 //! Measures what pictures of the microscope cost on this machine: `cargo run --release -p microsim-game --example optics_cost`.
 
 use microsim_core::glam::Vec2;
-use microsim_core::microscope::recipe::Card;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::scenario::{self, Scenario};
 use microsim_game::microscope::{Quality, Renderer};
@@ -21,26 +20,23 @@ fn measure() -> Result<(), String> {
     let builtin = scenario::builtin("hunt").ok_or("no hunt")?;
     let scenario = Scenario::parse(builtin.text, &[]).map_err(|error| error.to_string())?;
     let world = scenario.build().map_err(|error| error.to_string())?.world;
-    let start = Instant::now();
-    for _ in 0..FRAMES {
-        let field = Field { centre: Vec2::new(60.0, 38.0), width: 106.667, pixels: [1280, 720] };
-        let microscope = Microscope { optics: Optics::PhaseContrast, film: Film::CINE };
-        microscope.recipe(&world, field, Card::FULL).map_err(|error| error.to_string())?;
-    }
-    println!("recipe: {:.1} ms", start.elapsed().as_secs_f32() * 1000.0 / FRAMES as f32);
     let mut renderer = Renderer::new()?;
     for pixels in [[640, 360], [1280, 720]] {
         let field = Field { centre: Vec2::new(60.0, 38.0), width: 106.667, pixels };
         for optics in [Optics::PhaseContrast, Optics::Dic, Optics::Stained, Optics::Classic] {
             let microscope = Microscope { optics, film: Film::CINE };
             for quality in [Quality::Low, Quality::Medium, Quality::High] {
-                renderer.draw(&world, field, microscope, quality)?.get_texture_data();
+                let mut draw = || {
+                    let recipe = renderer.recipe(world.view(), field, microscope, quality)?;
+                    Ok::<_, String>(renderer.draw(&recipe))
+                };
+                draw()?.get_texture_data();
                 let start = Instant::now();
                 for _ in 0..FRAMES {
-                    renderer.draw(&world, field, microscope, quality)?;
+                    draw()?;
                 }
                 // Reading waits until all is done.
-                renderer.draw(&world, field, microscope, quality)?.get_texture_data();
+                draw()?.get_texture_data();
                 let each = start.elapsed().as_secs_f32() * 1000.0 / (FRAMES + 1) as f32;
                 println!("{}x{} {} {quality:?}: {each:.1} ms", pixels[0], pixels[1], optics.name());
             }

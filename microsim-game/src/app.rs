@@ -118,7 +118,8 @@ impl App {
                 break;
             }
             next_frame().await;
-            self.timings.add([updated - began, drawn - updated, drawn.elapsed()]);
+            let submitting = self.context.scenery.take_submitting();
+            self.timings.add([updated - began, drawn - updated - submitting, drawn.elapsed() + submitting]);
             self.rest();
         }
         if self.plan.timings {
@@ -138,9 +139,11 @@ impl App {
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
         }
+        // Read in any case: what nobody reads piles up.
+        let input = self.device.read(&context.settings.keys);
         match &mut self.plan.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
-            None => self.device.read(&context.settings.keys),
+            None => input,
         }
     }
 

@@ -5,8 +5,8 @@
 //! ```text
 //!   input --> screen --> rules, stage --> core            (what is played; `rules` knows no window)
 //!               |
-//!               +--> viewer --> picture --> draw          (the scene: core units to pixels to triangles)
-//!               +--> hud, ui                              (what lies above it)
+//!               +--> viewer --> scenery --> draw, microscope   (the scene: a moment of the world, on the screen)
+//!               +--> hud, ui                                   (what lies above it)
 //! ```
 //!
 //! Only [`convert`] knows both the core's vectors and macroquad's.
@@ -20,7 +20,6 @@ pub mod draw;
 pub mod hud;
 pub mod input;
 pub mod microscope;
-pub mod picture;
 pub mod rules;
 pub mod scenery;
 pub mod screen;

@@ -7,6 +7,7 @@ use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use serde::{Deserialize, Serialize};
+use std::time::{Duration, Instant};
 
 /// A frame that takes longer than this is slow, s; one that takes longer than that is hopeless.
 const SLOW_FRAME: f32 = 0.04;
@@ -101,6 +102,8 @@ pub struct Scenery {
     given_up: usize,
     /// Time that slow frames have taken, s.
     slow: f32,
+    /// Time for which the graphics card was told what to do, since it was last asked for.
+    submitting: Duration,
 }
 
 const STEPS_DOWN: [Option<Quality>; 4] = [Some(Quality::High), Some(Quality::Medium), Some(Quality::Low), None];
@@ -109,7 +112,8 @@ impl Scenery {
     /// Makes textures and programs. Needs an open window.
     #[must_use]
     pub fn new() -> Self {
-        Self { painter: Painter::new(), renderer: Renderer::new().ok(), given_up: 0, slow: 0.0 }
+        let (painter, renderer) = (Painter::new(), Renderer::new().ok());
+        Self { painter, renderer, given_up: 0, slow: 0.0, submitting: Duration::ZERO }
     }
 
     /// Lowers automatic effort when frames stay slow.
@@ -122,6 +126,11 @@ impl Scenery {
             let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
             self.given_up = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
         }
+    }
+
+    /// Time that went into telling the graphics card what to do since this was last asked.
+    pub fn take_submitting(&mut self) -> Duration {
+        std::mem::take(&mut self.submitting)
     }
 
     /// Draws a frame.
@@ -148,7 +157,10 @@ impl Scenery {
         let width = screen.x / frame.camera.scale();
         let field = Field { centre: frame.camera.centre(), width, pixels: [pixels.x as u32, pixels.y as u32] };
         let microscope = Microscope { optics, film: Film::DIGITAL };
-        let Ok(picture) = renderer.draw(frame.world, field, microscope, quality) else { return false };
+        let Ok(recipe) = renderer.recipe(frame.view, field, microscope, quality) else { return false };
+        let began = Instant::now();
+        let picture = renderer.draw(&recipe);
+        self.submitting += began.elapsed();
         renderer.show(&picture, 0.0, 0.0, screen.x, screen.y);
         true
     }

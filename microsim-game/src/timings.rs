@@ -6,7 +6,8 @@ use std::time::Duration;
 /// Frames of which the times are kept: the last ones.
 const KEPT: usize = 4096;
 
-/// Times of the last frames: steps and input, drawing, and handing over to the graphics card.
+/// Times of the last frames: steps and input, working out what is to be drawn, and telling the graphics card, with waiting
+/// for it.
 #[derive(Clone, Debug, Default)]
 pub struct Timings {
     frames: usize,

@@ -2,10 +2,9 @@
 
 use crate::camera::Camera;
 use crate::clock::FixedStep;
-use crate::picture::Picture;
 use macroquad::time::get_time;
 use microsim_core::glam::Vec2;
-use microsim_core::{OrganismId, World};
+use microsim_core::{Moment, OrganismId, View, World};
 
 /// Steps are given up when they have taken this much of a frame, s.
 const STEP_BUDGET: f64 = 0.03;
@@ -30,8 +29,10 @@ pub struct Viewer {
     /// What part of the room is seen.
     pub camera: Camera,
     clock: FixedStep,
-    before: Picture,
-    now: Picture,
+    /// Before the last step, and after it.
+    before: Moment,
+    after: Moment,
+    /// How far the moment that is seen lies between the two.
     alpha: f32,
     step_ms: f32,
 }
@@ -40,8 +41,8 @@ impl Viewer {
     /// A viewer of the present moment.
     #[must_use]
     pub fn new(world: &World, camera: Camera) -> Self {
-        let now = Picture::of(world);
-        Self { camera, clock: FixedStep::new(world.config().dt), before: now.clone(), now, alpha: 1.0, step_ms: 0.0 }
+        let (clock, now) = (FixedStep::new(world.config().dt), world.moment());
+        Self { camera, clock, before: now.clone(), after: now, alpha: 1.0, step_ms: 0.0 }
     }
 
     /// Takes the steps that are due in this frame, at `speed` times the usual speed. When the machine is too slow for
@@ -68,20 +69,20 @@ impl Viewer {
         let world = step(scene);
         let took = (get_time() - began) as f32 * 1000.0;
         self.step_ms += (took - self.step_ms) * if self.step_ms > 0.0 { 0.1 } else { 1.0 };
-        self.before = std::mem::replace(&mut self.now, Picture::of(world));
+        self.before = std::mem::replace(&mut self.after, world.moment());
         self.alpha = 1.0;
     }
 
-    /// The world has changed without a step.
-    pub fn refresh(&mut self, world: &World) {
-        self.now = Picture::of(world);
-        self.alpha = 1.0;
-    }
-
-    /// What is to be seen now: between the last two steps.
+    /// What is to be seen now of the world that it runs: between the last two steps.
     #[must_use]
-    pub fn picture(&self) -> Picture {
-        self.now.since(&self.before, self.alpha)
+    pub fn view<'a>(&'a self, world: &'a World) -> View<'a> {
+        world.view_since(&self.before, self.alpha)
+    }
+
+    /// Where somebody is at the moment that is seen.
+    #[must_use]
+    pub fn place_of(&self, world: &World, id: Option<OrganismId>) -> Option<Vec2> {
+        Some(self.view(world).organism(id?)?.centroid())
     }
 
     /// Time that a step takes, ms, smoothed.

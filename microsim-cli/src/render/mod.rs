@@ -174,7 +174,7 @@ impl Plan {
     }
 
     /// Runs the world, with its scenario's commands or as recorded, up to a moment.
-    fn run_to(&self, moment: f64, projector: &mut Projector<'_>, bar: &ProgressBar) -> Result<(), Failure> {
+    fn run_to(&self, moment: f64, projector: &mut Projector, bar: &ProgressBar) -> Result<(), Failure> {
         while projector.world().step_index() < step_at(projector.world(), moment) {
             projector.step()?;
             bar.set_position(projector.world().step_index());

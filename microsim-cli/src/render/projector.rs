@@ -31,15 +31,15 @@ pub(super) fn open(args: &ScenarioArgs) -> Result<(Prepared, Option<Replay>), Fa
 }
 
 /// A world that goes on.
-pub(super) enum Projector<'a> {
+pub(super) enum Projector {
     /// By its scenario's script.
     Script(Box<World>, Box<Script>),
     /// As it was recorded.
-    Replay(Box<Player<'a>>),
+    Replay(Box<Player>),
 }
 
-impl<'a> Projector<'a> {
-    pub(super) fn new(prepared: &Prepared, replay: Option<&'a Replay>, path: &Path) -> Result<Self, Failure> {
+impl Projector {
+    pub(super) fn new(prepared: &Prepared, replay: Option<&Replay>, path: &Path) -> Result<Self, Failure> {
         Ok(match replay {
             Some(replay) => Self::Replay(Box::new(play(replay, path)?)),
             None => Self::Script(Box::new(prepared.built.world.clone()), Box::new(prepared.built.script.clone())),

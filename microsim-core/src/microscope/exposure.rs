@@ -64,9 +64,9 @@ impl Microscope {
         let picture = Grid { corner, pixel, columns, top: 0, rows };
         let (image, margin) = image_grid(&picture, mode);
         let scene = match mode.shade {
-            Shade::Painted => Scene::Painted(Painting::of(world)),
+            Shade::Painted => Scene::Painted(Painting::of(world.view())),
             Shade::Light(shade, _) => {
-                let specimen = Specimen::of(world, field.centre);
+                let specimen = Specimen::of(world.view(), field.centre);
                 let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
                 Scene::Lit { specimen, surround, shade }
             }

@@ -17,8 +17,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::kind::Kind;
 use crate::template::Role;
-use crate::world::World;
-use crate::world::view::{OrganismView, ParticleView};
+use crate::world::view::{OrganismView, ParticleView, View};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 
@@ -61,11 +60,12 @@ struct Skin {
 }
 
 impl Painting {
-    pub(super) fn of(world: &World) -> Self {
+    pub(super) fn of(view: View<'_>) -> Self {
+        let world = view.world();
         let room = world.config().size;
         let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), things: Vec::new() };
-        painting.background(world.config().seed as u32, world.time() as f32);
-        let mut organisms: Vec<OrganismView<'_>> = world.view().organisms().collect();
+        painting.background(world.config().seed as u32, view.time() as f32);
+        let mut organisms: Vec<OrganismView<'_>> = view.organisms().collect();
         organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
         for organism in organisms {
             painting.organism(organism);
@@ -256,18 +256,34 @@ fn mix_colours(a: Vec3, b: Vec3, share: f32) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::maths::{larger, smaller};
     use super::*;
 
+    const SKIN: Skin = Skin { body: Vec3::new(0.7, 0.8, 0.5), rim: Vec3::new(0.4, 0.5, 0.3), mottle: 0.0, seed: 0 };
+
+    /// Radius and colour of a particle of cytoplasm.
+    fn disc(index: u32, role: Role) -> (f32, Vec3) {
+        let particle = ParticleView { index, position: Vec2::ZERO, velocity: Vec2::ZERO, radius: 1.0, role };
+        match cytoplasm(&particle, &SKIN) {
+            Thing::Disc { radius, colour, .. } => (radius, colour),
+            Thing::Triangle { .. } => unreachable!("cytoplasm is made of discs"),
+        }
+    }
+
     #[test]
-    fn grown_cytoplasm_has_another_colour() {
-        let skin = Skin { body: Vec3::new(0.7, 0.8, 0.5), rim: Vec3::new(0.4, 0.5, 0.3), mottle: 0.0, seed: 0 };
-        let disc = |role| {
-            let particle = ParticleView { index: 7, position: Vec2::ZERO, velocity: Vec2::ZERO, radius: 1.0, role };
-            match cytoplasm(&particle, &skin) {
-                Thing::Disc { colour, .. } => colour,
-                Thing::Triangle { .. } => unreachable!("cytoplasm is made of discs"),
-            }
+    fn t72_grown_cytoplasm_has_another_colour() {
+        for index in 0..20 {
+            let apart = disc(index, Role::GrownCytoplasm).1 - disc(index, Role::Cytoplasm).1;
+            assert!(apart.length() > 0.05, "{index}: {apart}");
+        }
+    }
+
+    #[test]
+    fn t81_cytoplasm_has_different_sizes_and_colours() {
+        let discs: Vec<(f32, Vec3)> = (0..50).map(|index| disc(index, Role::Cytoplasm)).collect();
+        let spread = |of: fn(&(f32, Vec3)) -> f32| {
+            discs.iter().map(of).fold(f32::MIN, larger) - discs.iter().map(of).fold(f32::MAX, smaller)
         };
-        assert!((disc(Role::GrownCytoplasm) - disc(Role::Cytoplasm)).length() > 0.1);
+        assert!(spread(|(radius, _)| *radius) > 0.4 && spread(|(_, colour)| colour.x) > 0.2);
     }
 }

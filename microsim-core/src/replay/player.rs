@@ -8,12 +8,12 @@ use std::fmt;
 
 /// A run as it is made again from a replay. Each item of the iterator is a step that was taken.
 #[derive(Clone, Debug)]
-pub struct Player<'a> {
+pub struct Player {
     run: Built,
     told: Inputs,
-    records: std::slice::Iter<'a, Record>,
+    records: std::vec::IntoIter<Record>,
     /// What is left of the present record: steps already taken, changes to come.
-    now: Option<(&'a Record, u32, usize)>,
+    now: Option<(Record, u32, usize)>,
 }
 
 /// A world that is not what it was when it was recorded.
@@ -36,14 +36,14 @@ impl fmt::Display for Mismatch {
 
 impl std::error::Error for Mismatch {}
 
-impl<'a> Player<'a> {
+impl Player {
     /// Sets up the first step.
     ///
     /// # Errors
     /// When the scenario is none that this version of the library accepts.
-    pub fn new(replay: &'a Replay) -> Result<Self, Diagnostics> {
+    pub fn new(replay: &Replay) -> Result<Self, Diagnostics> {
         let run = replay.origin().scenario()?.build()?;
-        Ok(Self { run, told: Inputs::new(), records: replay.records.iter(), now: None })
+        Ok(Self { run, told: Inputs::new(), records: replay.records.clone().into_iter(), now: None })
     }
 
     /// The world as it is now.
@@ -65,7 +65,7 @@ impl<'a> Player<'a> {
     }
 }
 
-impl Iterator for Player<'_> {
+impl Iterator for Player {
     type Item = Result<(), Mismatch>;
 
     /// Takes one step; an error where its digest is not the recorded one. One can go on after that, but the digests that

@@ -23,8 +23,7 @@ pub enum Bond {
 impl<'a> View<'a> {
     /// The constraints between two particles, each with where the two are.
     pub fn bonds(self) -> impl Iterator<Item = (Bond, [Vec2; 2])> + 'a {
-        let particles = &self.world.particles;
-        let ends = move |(bond, pair): (Bond, [u32; 2])| (bond, pair.map(|i| particles.position(i as usize)));
+        let ends = move |(bond, pair): (Bond, [u32; 2])| (bond, pair.map(|i| self.position(i)));
         let organisms = self.world.organisms.iter();
         organisms.flat_map(move |(_, organism)| self.bonds_of(organism)).map(ends)
     }
@@ -33,7 +32,7 @@ impl<'a> View<'a> {
     /// the nearer node of a membrane's link.
     pub fn contacts(self) -> impl Iterator<Item = [Vec2; 2]> + 'a {
         let touching = self.world.near_pairs().filter(|pair| pair.touched);
-        touching.map(move |pair| [pair.i, pair.j].map(|i| self.world.particles.position(i as usize)))
+        touching.map(move |pair| [pair.i, pair.j].map(|i| self.position(i)))
     }
 
     fn bonds_of(self, organism: &Organism) -> Vec<(Bond, [u32; 2])> {

@@ -13,6 +13,7 @@ mod growth;
 mod ingestion;
 pub(crate) mod measure;
 pub(crate) mod membrane_quality;
+pub(crate) mod moment;
 pub(crate) mod named_measure;
 mod push;
 pub(crate) mod quality;
@@ -241,16 +242,7 @@ impl World {
     /// Centre of an organism: the area centroid of its outline, or its particles' mean. `None` for a stale handle.
     #[must_use]
     pub fn centroid(&self, id: OrganismId) -> Option<Vec2> {
-        let outline: Vec<Vec2> = self.view().organism(id)?.outline().collect();
-        crate::geometry::polygon::centroid(&outline).or_else(|| self.mean_position(id))
-    }
-
-    fn mean_position(&self, id: OrganismId) -> Option<Vec2> {
-        let organism = self.organisms.get(id)?;
-        let (sum, count) = organism
-            .particles()
-            .fold((Vec2::ZERO, 0.0), |(sum, count), i| (sum + self.particles.position(i as usize), count + 1.0));
-        Some(sum / count)
+        Some(self.view().organism(id)?.centroid())
     }
 
     pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! A read-only view for drawing and measuring.
 
 use super::World;
+use super::moment::Moment;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
@@ -17,12 +18,14 @@ use glam::Vec2;
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     pub(super) world: &'a World,
+    /// Whence everything is on its way, and how much of that is done; see [`World::view_since`].
+    pub(super) earlier: Option<(&'a Moment, f32)>,
 }
 
 /// One organism, for reading.
 #[derive(Clone, Copy, Debug)]
 pub struct OrganismView<'a> {
-    world: &'a World,
+    view: View<'a>,
     organism: &'a Organism,
     id: OrganismId,
 }
@@ -46,22 +49,27 @@ impl World {
     /// A read-only view of the present state.
     #[must_use]
     pub fn view(&self) -> View<'_> {
-        View { world: self }
+        View { world: self, earlier: None }
     }
 }
 
 impl<'a> View<'a> {
+    /// The world, as it is now.
+    #[must_use]
+    pub fn world(self) -> &'a World {
+        self.world
+    }
+
     /// All organisms, in a stable order.
     pub fn organisms(self) -> impl Iterator<Item = OrganismView<'a>> {
-        let world = self.world;
-        world.organisms.iter().map(move |(id, organism)| OrganismView { world, organism, id })
+        self.world.organisms.iter().map(move |(id, organism)| OrganismView { view: self, organism, id })
     }
 
     /// One organism; `None` for a stale handle.
     #[must_use]
     pub fn organism(self, id: OrganismId) -> Option<OrganismView<'a>> {
         let organism = self.world.organisms.get(id)?;
-        Some(OrganismView { world: self.world, organism, id })
+        Some(OrganismView { view: self, organism, id })
     }
 
     /// All chemicals, in the order in which they were added.
@@ -102,7 +110,18 @@ impl<'a> OrganismView<'a> {
 
     /// Centres of its outline, counter-clockwise; empty if it has none.
     pub fn outline(self) -> impl ExactSizeIterator<Item = Vec2> + 'a {
-        self.organism.outline_particles().map(move |i| self.world.particles.position(i as usize))
+        self.organism.outline_particles().map(move |i| self.view.position(i))
+    }
+
+    /// Centre of its outline's area, or the mean of its particles if it has none.
+    #[must_use]
+    pub fn centroid(self) -> Vec2 {
+        let outline: Vec<Vec2> = self.outline().collect();
+        crate::geometry::polygon::centroid(&outline).unwrap_or_else(|| {
+            let add = |(sum, count): (Vec2, f32), particle: ParticleView| (sum + particle.position, count + 1.0);
+            let (sum, count) = self.particles().fold((Vec2::ZERO, 0.0), add);
+            sum / count
+        })
     }
 
     /// Its outline pushed out by the discs' radius, square to the line between its neighbours (the seed's 3.2.1 pushes away
@@ -113,7 +132,7 @@ impl<'a> OrganismView<'a> {
         let count = outline.len();
         let pushed = self.organism.outline_particles().zip(0..count).map(|(i, k)| {
             let along = outline[(k + 1) % count] - outline[(k + count - 1) % count];
-            outline[k] - along.perp().normalize_or_zero() * self.world.particles.radius[i as usize]
+            outline[k] - along.perp().normalize_or_zero() * self.view.world.particles.radius[i as usize]
         });
         pushed.collect()
     }
@@ -133,7 +152,7 @@ impl<'a> OrganismView<'a> {
     /// [`PhagocytosisParams::size_ratio`] how large soft prey may be.
     #[must_use]
     pub fn cytoplasm_area(self) -> f32 {
-        self.world.engulfer_area(self.organism)
+        self.view.world.engulfer_area(self.organism)
     }
 
     /// Whether it is soft prey: one at a time, and only of the right size.
@@ -151,7 +170,7 @@ impl<'a> OrganismView<'a> {
     /// Its phagosomes: the prey in each, and the centres of the membrane around it, counter-clockwise. Only cups make them,
     /// see [`crate::IngestionWay`].
     pub fn phagosomes(self) -> impl Iterator<Item = (OrganismId, Vec<Vec2>)> + 'a {
-        let at = move |&i: &u32| self.world.particles.position(i as usize);
+        let at = move |&i: &u32| self.view.position(i);
         self.organism.phagosomes.iter().map(move |inner| (inner.prey, inner.ring.iter().map(at).collect()))
     }
 
@@ -200,8 +219,7 @@ impl<'a> OrganismView<'a> {
     /// Its front body (soft bodies), or the centre of its front while it crawls.
     #[must_use]
     pub fn front(self) -> Option<Vec2> {
-        self.front_index()
-            .map(|k| self.world.particles.position(self.organism.body.particle(self.organism.outline[k]) as usize))
+        self.front_index().map(|k| self.view.position(self.organism.body.particle(self.organism.outline[k])))
     }
 
     /// Position in the outline of its front, see [`OrganismView::front`].
@@ -225,13 +243,33 @@ impl<'a> OrganismView<'a> {
     }
 
     fn particle(self, i: u32) -> ParticleView {
-        let (particles, index, i) = (&self.world.particles, i, i as usize);
+        let (particles, index, position, i) = (&self.view.world.particles, i, self.view.position(i), i as usize);
         ParticleView {
             index,
-            position: particles.position(i),
+            position,
             velocity: particles.velocity(i),
             radius: particles.radius[i],
             role: Role::from_u8(particles.role[i]),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Placement, PlateletSpec, WorldConfig};
+
+    #[test]
+    fn t52_the_surface_is_the_outline_pushed_out_by_the_discs_radius() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
+        let platelet = world.view().organism(id).unwrap();
+        let (centre, radius) = (platelet.centroid(), platelet.particles().last().unwrap().radius);
+        assert_eq!(platelet.outline().len(), platelet.surface().len());
+        for (node, pushed) in platelet.outline().zip(platelet.surface()) {
+            let expected = node + (node - centre).normalize() * radius;
+            assert!((pushed - expected).length() < 1e-3 && radius > 0.0, "{node} -> {pushed}");
+        }
+        assert!(platelet.nucleus().is_some());
     }
 }

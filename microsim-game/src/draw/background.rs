@@ -5,7 +5,6 @@ use super::canvas::Canvas;
 use super::palette::{Dice, HALO, INK, SLIDE, fade, mix};
 use crate::camera::Camera;
 use macroquad::color::Color;
-use macroquad::window::clear_background;
 use microsim_core::glam::Vec2;
 use std::f32::consts::TAU;
 
@@ -43,9 +42,8 @@ impl Background {
         Self { motes: blobs.into_iter().chain(specks.collect::<Vec<_>>()).collect() }
     }
 
-    /// Clears the picture and draws what lies below the scene.
+    /// Draws what lies below the scene.
     pub(crate) fn draw(&self, canvas: &mut Canvas, camera: &Camera, time: f32) {
-        clear_background(SLIDE);
         for mote in &self.motes {
             let sway = Vec2::from_angle(mote.phase + 0.05 * TAU * time * (0.5 + mote.depth)) * mote.radius * 0.35;
             let place = mote.place + mote.wander * time + sway;

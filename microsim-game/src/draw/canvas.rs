@@ -32,15 +32,34 @@ impl fmt::Debug for Canvas {
 pub(crate) type Rim = (f32, Color);
 
 impl Canvas {
+    /// One with the pictures of the atlas. Needs an open window, as do all that can be drawn.
     pub(crate) fn new() -> Self {
-        let texture = Texture2D::from_rgba8(atlas::WIDTH, atlas::HEIGHT, &atlas::pixels());
-        Self {
-            mesh: Mesh {
-                vertices: Vec::with_capacity(MAX_VERTICES),
-                indices: Vec::with_capacity(MAX_INDICES),
-                texture: Some(texture),
-            },
-        }
+        Self::of(Texture2D::from_rgba8(atlas::WIDTH, atlas::HEIGHT, &atlas::pixels()))
+    }
+
+    /// One with another texture, for [`Canvas::image`].
+    pub(crate) fn of(texture: Texture2D) -> Self {
+        Self { mesh: Mesh { texture: Some(texture), ..Self::bare().mesh } }
+    }
+
+    /// One that collects and cannot draw.
+    pub(crate) fn bare() -> Self {
+        let (vertices, indices) = (Vec::with_capacity(MAX_VERTICES), Vec::with_capacity(MAX_INDICES));
+        Self { mesh: Mesh { vertices, indices, texture: None } }
+    }
+
+    /// How many corners have a colour.
+    #[cfg(test)]
+    pub(crate) fn count(&self, colour: Color) -> usize {
+        self.corners().filter(|(_, _, drawn)| *drawn == <[u8; 4]>::from(colour)).count()
+    }
+
+    /// What has been collected: corners of triangles with their place in the texture and their colour.
+    #[cfg(test)]
+    pub(crate) fn corners(&self) -> impl Iterator<Item = (Vec2, Vec2, [u8; 4])> {
+        let corner =
+            |v: &macroquad::models::Vertex| (Vec2::new(v.position.x, v.position.y), Vec2::new(v.uv.x, v.uv.y), v.color);
+        self.mesh.vertices.iter().map(corner)
     }
 
     /// Draws what has been collected.
@@ -59,9 +78,16 @@ impl Canvas {
 
     /// A rectangle with a picture of the atlas on it.
     pub(crate) fn stamp(&mut self, centre: Vec2, half: Vec2, tile: Tile, colour: Color) {
+        let corners = [Vec2::NEG_ONE, Vec2::ONE];
+        self.image(corners.map(|corner| centre + corner * half), corners.map(|corner| tile.at(corner)), colour);
+    }
+
+    /// A part of the texture, both by upper left and lower right corner: in picture pixels, in shares of the texture.
+    pub(crate) fn image(&mut self, at: [Vec2; 2], part: [Vec2; 2], colour: Color) {
         self.reserve(4, 6);
-        let corners = [Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0), Vec2::ONE, Vec2::new(-1.0, 1.0)];
-        let [a, b, c, d] = corners.map(|corner| self.vertex(centre + corner * half, tile.at(corner), colour));
+        let corner = |[low, high]: [Vec2; 2], right: f32, down: f32| low + (high - low) * Vec2::new(right, down);
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let [a, b, c, d] = corners.map(|(x, y)| self.vertex(corner(at, x, y), corner(part, x, y), colour));
         self.triangle(a, b, c);
         self.triangle(a, c, d);
     }

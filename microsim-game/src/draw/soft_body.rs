@@ -4,9 +4,8 @@ use super::Frame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
 use super::palette::{HALO, INK, NUCLEUS, PLATELET, RED_CELL, RIGID, chance, fade};
-use crate::picture::Shape;
 use macroquad::color::Color;
-use microsim_core::Role;
+use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 use std::f32::consts::TAU;
 
@@ -16,25 +15,25 @@ const HAIR_LENGTH: f32 = 0.9;
 const WAVES: f32 = 7.0;
 const BEAT: f64 = 9.0;
 
-pub(super) fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
-    let Some(body) = Body::of(frame, shape) else { return };
+pub(super) fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = Body::of(frame, organism) else { return };
     let width = 3.0 + 0.4 * frame.camera.scale();
     let (bright, faint) = (fade(HALO, 0.80), fade(HALO, 0.40));
     canvas.band(&body.surface, &[(-0.5, bright), (0.4 * width, faint), (width, fade(HALO, 0.0))]);
 }
 
-pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
-    let Some(body) = Body::of(frame, shape) else { return };
+pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = Body::of(frame, organism) else { return };
     body.draw_hairs(canvas, frame);
     canvas.fan(body.centre, &body.surface, Tile::Cell, fade(RIGID, 0.96));
     body.draw_rim(canvas, 0.75);
-    if let Some((at, disc)) = frame.picture.find(shape, Role::Nucleus) {
-        let (at, radius) = (frame.camera.to_screen(at), disc.radius * frame.camera.scale());
+    if let Some(nucleus) = organism.nucleus() {
+        let (at, radius) = (frame.camera.to_screen(nucleus.position), nucleus.radius * frame.camera.scale());
         canvas.sprite(at, 1.5 * radius, Tile::Soft, fade(NUCLEUS, 0.55));
         canvas.sprite(at, radius, Tile::Disc, fade(NUCLEUS, 0.70));
         canvas.sprite(at - 0.25 * radius, 0.7 * radius, Tile::Soft, fade(HALO, 0.35));
     }
-    if let Some(&front) = shape.front.and_then(|front| body.surface.get(front)) {
+    if let Some(&front) = organism.front_index().and_then(|front| body.surface.get(front)) {
         let radius = 0.16 * (front - body.centre).length();
         let inside = front.lerp(body.centre, 0.16);
         canvas.sprite(inside, 1.5 * radius, Tile::Soft, fade(HALO, 0.95));
@@ -43,27 +42,27 @@ pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Sh
 }
 
 /// A disc that is thinner in its middle.
-pub(super) fn draw_red_cell(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
-    let Some(body) = Body::of(frame, shape) else { return };
-    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(RED_CELL, shape));
+pub(super) fn draw_red_cell(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = Body::of(frame, organism) else { return };
+    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(RED_CELL, organism));
     let size = (body.surface[0] - body.centre).length();
     canvas.sprite(body.centre, 0.62 * size, Tile::Soft, fade(HALO, 0.38));
     body.draw_rim(canvas, 0.40);
 }
 
 /// A colour that differs a little from one individual to the next.
-fn tinted(colour: Color, shape: &Shape) -> Color {
-    let tint = 0.92 + 0.12 * chance(shape.id.index() as usize);
+fn tinted(colour: Color, organism: OrganismView<'_>) -> Color {
+    let tint = 0.92 + 0.12 * chance(organism.id().index() as usize);
     Color::new(colour.r * tint, colour.g * tint, colour.b * tint, 0.93)
 }
 
-pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &Frame<'_>, shape: &Shape) {
-    let Some(body) = Body::of(frame, shape) else { return };
+pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = Body::of(frame, organism) else { return };
     let size = (body.surface[0] - body.centre).length();
-    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(PLATELET, shape));
+    canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(PLATELET, organism));
     body.draw_rim(canvas, 0.45);
-    if let Some((at, _)) = frame.picture.find(shape, Role::Nucleus) {
-        canvas.sprite(frame.camera.to_screen(at), 0.20 * size, Tile::Soft, fade(NUCLEUS, 0.40));
+    if let Some(nucleus) = organism.nucleus() {
+        canvas.sprite(frame.camera.to_screen(nucleus.position), 0.20 * size, Tile::Soft, fade(NUCLEUS, 0.40));
     }
 }
 
@@ -74,14 +73,10 @@ struct Body {
 }
 
 impl Body {
-    fn of(frame: &Frame<'_>, shape: &Shape) -> Option<Self> {
-        let room = frame.picture.surface(shape);
-        let nucleus = frame.picture.find(shape, Role::Nucleus).map(|(at, _)| at);
-        let centre = nucleus.or_else(|| frame.picture.middle(shape))?;
-        (!room.is_empty()).then(|| Self {
-            centre: frame.camera.to_screen(centre),
-            surface: room.iter().map(|&point| frame.camera.to_screen(point)).collect(),
-        })
+    fn of(frame: &Frame<'_>, organism: OrganismView<'_>) -> Option<Self> {
+        let surface: Vec<Vec2> = organism.surface().iter().map(|&point| frame.camera.to_screen(point)).collect();
+        let centre = organism.nucleus().map_or_else(|| organism.centroid(), |nucleus| nucleus.position);
+        (!surface.is_empty()).then(|| Self { centre: frame.camera.to_screen(centre), surface })
     }
 
     fn draw_rim(&self, canvas: &mut Canvas, strength: f32) {
@@ -94,7 +89,7 @@ impl Body {
     fn draw_hairs(&self, canvas: &mut Canvas, frame: &Frame<'_>) {
         let (count, length) = (self.surface.len(), HAIR_LENGTH * frame.camera.scale());
         let total = (count * HAIRS) as f32;
-        let beat = (frame.world.time() * BEAT % f64::from(TAU)) as f32;
+        let beat = (frame.view.time() * BEAT % f64::from(TAU)) as f32;
         for hair in 0..count * HAIRS {
             let (k, between) = (hair / HAIRS, (hair % HAIRS) as f32 / HAIRS as f32);
             let side = self.surface[(k + 1) % count] - self.surface[k];

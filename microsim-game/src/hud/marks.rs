@@ -166,12 +166,81 @@ impl Gains {
     /// Draws them where they were gained; they rise unless nothing may move.
     pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
         let unit = pen.line(Size::Body);
-        for (k, (gain, age)) in self.0.iter().enumerate() {
+        let mut places: Vec<Vec2> = Vec::new();
+        for (gain, age) in &self.0 {
+            // Several at once stand below each other, and none rises out of the picture.
+            let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
+            place.y = place.y.max(3.0 * unit);
+            while places.iter().any(|other| (place - *other).abs().cmplt(Vec2::new(2.8, 1.2) * unit).all()) {
+                place.y += 1.25 * unit;
+            }
+            places.push(place);
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
-            // Several at once stand beside each other.
-            let beside = (k % 3) as f32 - 1.0;
-            let at = style.camera.to_screen(gain.at) - Vec2::new(-2.0 * unit * beside, unit + rise);
+            let at = place - Vec2::new(0.0, rise);
             pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use microsim_core::{Kind, OrganismId, Placement, RigidCellSpec, World, WorldConfig};
+
+    fn prey() -> OrganismId {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        world.spawn(&RigidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap()
+    }
+
+    fn drawn(draw: impl Fn(&mut Pen, &Style<'_>), is_classic: bool) -> Pen {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let mut pen = Pen::bare();
+        draw(&mut pen, &Style { camera: &camera, time: None, is_classic, key: "Q" });
+        pen
+    }
+
+    #[test]
+    fn t69_t75_the_green_arrow_is_for_what_can_be_taken_in() {
+        let arrows = |readiness, at, is_classic| {
+            let target = Target { prey: prey(), at, reach: 5.0, readiness };
+            drawn(|pen, style| draw_targets(pen, style, &[target]), is_classic).canvas().count(READY)
+        };
+        let (seen, outside) = (Vec2::new(80.0, 45.0), Vec2::new(400.0, 45.0));
+        let arrow = arrows(Readiness::Ready, seen, false);
+        assert!(arrow > 0);
+        assert_eq!(arrows(Readiness::Ready, outside, false), arrow, "at the edge of the picture");
+        assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
+        assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
+        assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the seed");
+    }
+
+    #[test]
+    fn t71_the_key_cap_stands_at_what_is_inside_and_lights_up_while_it_is_digested() {
+        let held = |state| {
+            let held = Held { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 2.0, state };
+            drawn(|pen, style| draw_held(pen, style, &[held]), false)
+        };
+        let cap = |state, face| held(state).canvas().count(face);
+        assert_eq!(cap(State::Entering, INK), 0, "no key yet");
+        assert!(cap(State::Inside(0.0), INK) > 0 && cap(State::Inside(0.0), HALO) > 0);
+        assert_eq!(cap(State::Inside(0.0), ALERT), 0);
+        assert!(cap(State::Inside(0.5), ALERT) > 0);
+    }
+
+    #[test]
+    fn t70_gains_are_shown_apart_from_each_other_and_for_a_while() {
+        let mut gains = Gains::default();
+        let gain = Gain { kind: Kind::Agar, points: 10, at: Vec2::new(80.0, 45.0) };
+        gains.add(&[gain; 4]);
+        let panels = |gains: &Gains| drawn(|pen, style| gains.draw(pen, style), false).canvas().corners().count() / 4;
+        assert_eq!(panels(&gains), 4);
+        let heights: std::collections::BTreeSet<i32> = drawn(|pen, style| gains.draw(pen, style), false)
+            .canvas()
+            .corners()
+            .map(|(at, ..)| at.y.round() as i32)
+            .collect();
+        assert_eq!(heights.len(), 8, "upper and lower edges of four panels");
+        gains.pass(GAIN_TIME + 0.1);
+        assert_eq!(panels(&gains), 0);
     }
 }

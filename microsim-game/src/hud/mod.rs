@@ -12,19 +12,19 @@ const LAST_SECONDS: f32 = 10.0;
 
 /// What the status line says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Status {
+pub struct Status<'a> {
     /// Points so far.
     pub score: u32,
     /// Time left and time in all, s.
     pub time: [f32; 2],
     /// Whether nothing may flash.
     pub is_calm: bool,
-    /// Whether this is a replay.
-    pub is_replay: bool,
+    /// What else there is to know; empty if nothing.
+    pub note: &'a str,
 }
 
 /// Draws score and time along the upper edge.
-pub fn draw_status(pen: &mut Pen, status: &Status) {
+pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let (screen, line) = (pen.screen(), pen.line(Size::Large));
     let [left, whole] = status.time;
     let share = (left / whole).clamp(0.0, 1.0);
@@ -38,8 +38,8 @@ pub fn draw_status(pen: &mut Pen, status: &Status) {
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), Size::Large, Align::Right, colour, &clock(left));
-    if status.is_replay {
-        pen.label(Vec2::new(0.5 * screen.x, middle), Size::Body, Align::Centre, HALO, "Replay");
+    if !status.note.is_empty() {
+        pen.label(Vec2::new(0.5 * screen.x, middle), Size::Body, Align::Centre, HALO, status.note);
     }
 }
 

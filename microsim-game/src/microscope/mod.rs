@@ -6,7 +6,8 @@
 //! # fn frame(world: &microsim_core::World, field: Field) -> Result<(), String> {
 //! let mut renderer = Renderer::new()?; // once, with an open window
 //! let microscope = Microscope { optics: Optics::Dic, film: Film::CINE };
-//! let picture = renderer.draw(world, field, microscope, Quality::High)?;
+//! let recipe = renderer.recipe(world.view(), field, microscope, Quality::High)?;
+//! let picture = renderer.draw(&recipe);
 //! renderer.show(&picture, 0.0, 0.0, 1280.0, 720.0);
 //! # Ok(())
 //! # }
@@ -20,7 +21,7 @@ use macroquad::math::vec2;
 use macroquad::miniquad::{BufferId, BufferSource, BufferType, BufferUsage, PassAction, RenderingBackend, TextureId};
 use macroquad::texture::{DrawTextureParams, Texture2D, draw_texture_ex};
 use macroquad::window::get_internal_gl;
-use microsim_core::World;
+use microsim_core::View;
 use microsim_core::microscope::recipe::{
     Card, Content, Draw, Input, Map, Precision, Program, Recipe, Target, noise_table,
 };
@@ -106,21 +107,18 @@ impl Renderer {
         })
     }
 
-    /// Draws a world's picture, of as many pixels as the field says. The texture is the renderer's own and shows the next
-    /// picture once that is drawn.
+    /// What this renderer has to do for a picture of as many pixels as the field says.
     ///
     /// # Errors
     /// Which number of the field or the film is out of range.
-    pub fn draw(
-        &mut self,
-        world: &World,
+    pub fn recipe(
+        &self,
+        view: View<'_>,
         field: Field,
         microscope: Microscope,
         quality: Quality,
-    ) -> Result<Texture2D, String> {
-        let recipe =
-            microscope.recipe(world, field, quality.card(self.precision)).map_err(|error| error.to_string())?;
-        Ok(self.carry_out(&recipe))
+    ) -> Result<Recipe, String> {
+        microscope.recipe(view, field, quality.card(self.precision)).map_err(|error| error.to_string())
     }
 
     /// Shows a picture in the window, in macroquad's units.
@@ -130,7 +128,8 @@ impl Renderer {
         draw_texture_ex(picture, left, top, WHITE, params);
     }
 
-    fn carry_out(&mut self, recipe: &Recipe) -> Texture2D {
+    /// Draws a picture. The texture is the renderer's own and shows the next picture once that is drawn.
+    pub fn draw(&mut self, recipe: &Recipe) -> Texture2D {
         let card = card();
         self.upload(card, recipe);
         for pass in &recipe.passes {

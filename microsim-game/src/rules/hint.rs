@@ -1,7 +1,7 @@
 //! What the player is shown: which cells can be taken in, what is about to be, what waits to be digested.
 
 use microsim_core::glam::Vec2;
-use microsim_core::{MealPhase, OrganismId, OrganismView, World};
+use microsim_core::{MealPhase, OrganismId, OrganismView, View};
 
 /// Whether a rigid cell can be taken in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,17 +63,16 @@ pub struct Hints {
 impl Hints {
     /// The hints for a player.
     #[must_use]
-    pub fn of(world: &World, player: OrganismId) -> Self {
-        let view = world.view();
+    pub fn of(view: View<'_>, player: OrganismId) -> Self {
         let Some(engulfer) = view.organism(player) else { return Self::default() };
         let free = |organism: &OrganismView<'_>| organism.is_soft_prey() && organism.held_by().is_none();
         let targets = view.organisms().filter(free).filter_map(|prey| {
-            let (at, reach) = (world.centroid(prey.id())?, reach(prey));
-            Some(Target { prey: prey.id(), at, reach, readiness: readiness(engulfer, prey)? })
+            let readiness = readiness(engulfer, prey)?;
+            Some(Target { prey: prey.id(), at: prey.centroid(), reach: reach(prey), readiness })
         });
         let held = engulfer.meals().filter_map(|(prey, phase)| {
-            let (at, reach) = (world.centroid(prey)?, reach(view.organism(prey)?));
-            Some(Held { prey, at, reach, state: state(engulfer, phase) })
+            let organism = view.organism(prey)?;
+            Some(Held { prey, at: organism.centroid(), reach: reach(organism), state: state(engulfer, phase) })
         });
         Self { targets: targets.collect(), held: held.collect() }
     }

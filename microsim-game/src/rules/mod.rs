@@ -1,13 +1,13 @@
 //! The rules of the game (seed, 3.3.2), over the core's worlds and events alone: no window, no clock, no drawing.
 //!
 //! ```text
-//!   mouse, bot or replay --> Intent --> Round: script, world --> events --> Referee: score, time, gains
-//!                                                    \---------> hints: what the player should be shown
+//!   mouse or bot --> Intent --> Round: world, record --> events --> Referee: score, time, gains
+//!                                 ^        |    \-----------------> hints: what the player should be shown
+//!                                 \- Replay <-/
 //! ```
 
 pub mod bot;
 pub mod hint;
-pub mod recording;
 pub mod referee;
 pub mod round;
 

@@ -1,16 +1,31 @@
-//! One round: a world, its player and the referee. Mouse, bots and replays play it in the same way, by intents.
+//! One round: a world, its player and the referee. Mouse and bots play it by intents, which are recorded; a replay has its
+//! own.
 
 use super::referee::Referee;
-use microsim_core::scenario::{Scenario, Script};
-use microsim_core::{Intent, OrganismId, World};
+use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
+use microsim_core::scenario::{Built, Scenario};
+use microsim_core::{Inputs, Intent, OrganismId, World};
+use std::num::NonZeroU32;
 
-/// A round that is being played.
+/// Steps between two digests of a recorded round.
+const DIGEST_INTERVAL: NonZeroU32 = NonZeroU32::new(60).expect("not zero");
+
+/// A round that is being played, or played again.
 #[derive(Clone, Debug)]
 pub struct Round {
-    world: World,
-    script: Script,
+    name: String,
+    course: Course,
     player: OrganismId,
     referee: Referee,
+}
+
+/// What makes a round go on.
+#[derive(Clone, Debug)]
+enum Course {
+    /// Intents as they come, and what is recorded of them.
+    Live { run: Box<Built>, recorder: Recorder, record: Vec<u8> },
+    /// What was recorded, and where it first came out otherwise.
+    Replay { run: Box<Player>, is_over: bool, mismatch: Option<Mismatch> },
 }
 
 impl Round {
@@ -19,29 +34,95 @@ impl Round {
     /// # Errors
     /// Says what is wrong with the scenario, or that it is no game.
     pub fn new(scenario: &Scenario) -> Result<Self, String> {
-        let built = scenario.build().map_err(|diagnostics| diagnostics.to_string())?;
-        let (Some(game), Some(player)) = (built.game, built.player) else {
-            return Err(format!("`{}` is no game: it has no table [game]", scenario.name()));
-        };
-        let referee = Referee::new(game, player, &built.world);
-        Ok(Self { world: built.world, script: built.script, player, referee })
+        let run = Box::new(scenario.build().map_err(|diagnostics| diagnostics.to_string())?);
+        let (recorder, record) = Recorder::new(scenario.origin(), DIGEST_INTERVAL);
+        Self::of(scenario.name(), Course::Live { run, recorder, record })
     }
 
-    /// One step. Nothing happens any more when time is up.
+    /// Sets up a round that was recorded.
+    ///
+    /// # Errors
+    /// As for [`Round::new`].
+    pub fn again(replay: &Replay) -> Result<Self, String> {
+        let scenario = replay.origin().scenario().map_err(|diagnostics| diagnostics.to_string())?;
+        let run = Box::new(Player::new(replay).map_err(|diagnostics| diagnostics.to_string())?);
+        Self::of(scenario.name(), Course::Replay { run, is_over: false, mismatch: None })
+    }
+
+    fn of(name: &str, course: Course) -> Result<Self, String> {
+        let run = course.run();
+        let (Some(game), Some(player)) = (&run.game, run.player) else {
+            return Err(format!("`{name}` is no game: it has no table [game]"));
+        };
+        let referee = Referee::new(game.clone(), player, &run.world);
+        Ok(Self { name: name.to_owned(), course, player, referee })
+    }
+
+    /// One step; in a replay the intent does not count. Nothing happens any more when the round is over.
     pub fn step(&mut self, intent: Intent) {
-        if self.referee.is_over() {
+        if self.is_over() {
             return;
         }
-        let mut inputs = self.script.before_step(&mut self.world).clone();
-        inputs.set(self.player, intent);
-        self.world.step(&inputs);
-        self.referee.after_step(&self.world);
+        match &mut self.course {
+            Course::Live { run, recorder, record } => {
+                let mut inputs = Inputs::new();
+                inputs.set(self.player, intent);
+                run.step(&inputs);
+                record.extend(recorder.step(&inputs, &run.world));
+            }
+            Course::Replay { run, is_over, mismatch } => match run.next() {
+                Some(step) => *mismatch = mismatch.or(step.err()),
+                None => {
+                    *is_over = true;
+                    return;
+                }
+            },
+        }
+        self.referee.after_step(&self.course.run().world);
+    }
+
+    /// Whether time is up, or the replay ends.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
+    }
+
+    /// Whether it is played again.
+    #[must_use]
+    pub fn is_replay(&self) -> bool {
+        matches!(self.course, Course::Replay { .. })
+    }
+
+    /// Where a replay first came out otherwise than it was recorded: another version of the library may have recorded it.
+    #[must_use]
+    pub fn mismatch(&self) -> Option<Mismatch> {
+        match &self.course {
+            Course::Live { .. } => None,
+            Course::Replay { mismatch, .. } => *mismatch,
+        }
+    }
+
+    /// All of it so far, as a [`Replay`]; `None` of what is one.
+    #[must_use]
+    pub fn record(&self) -> Option<Vec<u8>> {
+        match &self.course {
+            Course::Live { run, recorder, record } => {
+                Some([&record[..], &recorder.clone().finish(&run.world)].concat())
+            }
+            Course::Replay { .. } => None,
+        }
+    }
+
+    /// Name of its scenario.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Its world.
     #[must_use]
     pub fn world(&self) -> &World {
-        &self.world
+        &self.course.run().world
     }
 
     /// The cell that is played.
@@ -54,5 +135,14 @@ impl Round {
     #[must_use]
     pub fn referee(&self) -> &Referee {
         &self.referee
+    }
+}
+
+impl Course {
+    fn run(&self) -> &Built {
+        match self {
+            Self::Live { run, .. } => run,
+            Self::Replay { run, .. } => run.run(),
+        }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::bot::{Bot, Policy};
 use super::hint::{Hints, Readiness, State};
-use super::recording::Recording;
 use super::round::Round;
 use microsim_core::glam::Vec2;
+use microsim_core::replay::Replay;
 use microsim_core::scenario::{Scenario, builtin};
-use microsim_core::{Event, Intent, Kind};
+use microsim_core::{Event, Intent, Kind, Role};
 
 fn scenario(seed: u64, time: f32) -> Scenario {
     let text = builtin("game").unwrap().text;
@@ -55,7 +55,7 @@ fn hunt(round: &mut Round, digests: bool, done: impl Fn(&Round) -> bool) {
 }
 
 fn inside(round: &Round) -> usize {
-    let hints = Hints::of(round.world(), round.player());
+    let hints = Hints::of(round.world().view(), round.player());
     hints.held.iter().filter(|held| matches!(held.state, State::Inside(_))).count()
 }
 
@@ -89,6 +89,19 @@ fn t61_t62_t65_only_what_is_digested_counts() {
 }
 
 #[test]
+fn t72_what_a_meal_adds_is_told_apart_from_what_was_there() {
+    let mut round = table(PELLET);
+    let grown = |round: &Round| {
+        let cell = round.world().view().organism(round.player()).unwrap();
+        cell.particles().filter(|particle| particle.role == Role::GrownCytoplasm).count()
+    };
+    assert_eq!(grown(&round), 0);
+    hunt(&mut round, true, |round| round.referee().score() > 0);
+    (0..120).for_each(|_| round.step(Intent::REST));
+    assert!(grown(&round) > 0);
+}
+
+#[test]
 fn t65_t70_rigid_cells_earn_more_and_every_gain_is_shown_once() {
     let mut round = table(PREY);
     hunt(&mut round, true, |round| round.referee().score() > 0);
@@ -105,13 +118,13 @@ fn t65_t70_rigid_cells_earn_more_and_every_gain_is_shown_once() {
 #[test]
 fn t67_t69_growth_enables_larger_prey() {
     let mut round = table("[[spawn]]\nof = \"giant\"\nat = [66.0, 25.0]\n");
-    let readiness = |round: &Round| Hints::of(round.world(), round.player()).targets[0].readiness;
+    let readiness = |round: &Round| Hints::of(round.world().view(), round.player()).targets[0].readiness;
     let Readiness::TooLarge(share) = readiness(&round) else { panic!("{:?}", readiness(&round)) };
     assert!(share > 0.1 && share < 1.0);
     let player = round.player();
     let mut world = round.world().clone();
     world.grow(player, 60, 400).unwrap();
-    assert_eq!(Hints::of(&world, player).targets[0].readiness, Readiness::Ready);
+    assert_eq!(Hints::of(world.view(), player).targets[0].readiness, Readiness::Ready);
     round.step(Intent::REST);
     assert!(matches!(readiness(&round), Readiness::TooLarge(_)));
 }
@@ -119,7 +132,7 @@ fn t67_t69_growth_enables_larger_prey() {
 #[test]
 fn t75_one_rigid_cell_inside_leaves_no_room_for_another() {
     let mut round = table(&format!("{PREY}[[spawn]]\nof = \"prey\"\nat = [60.0, 40.0]\n"));
-    let targets = |round: &Round| Hints::of(round.world(), round.player()).targets;
+    let targets = |round: &Round| Hints::of(round.world().view(), round.player()).targets;
     assert!(targets(&round).iter().all(|target| target.readiness == Readiness::Ready));
     hunt(&mut round, false, |round| inside(round) == 1);
     let left = targets(&round);
@@ -133,7 +146,7 @@ fn t29_t71_hints_follow_a_meal_from_touch_to_digestion() {
     let mut round = table(PELLET);
     let mut seen = [false; 4];
     for _ in 0..1200 {
-        let hints = Hints::of(round.world(), round.player());
+        let hints = Hints::of(round.world().view(), round.player());
         match hints.held.first().map(|held| held.state) {
             Some(State::Touching(share)) => seen[0] |= share > 0.3 && !hints.can_digest(),
             Some(State::Entering) => seen[1] |= !hints.can_digest(),
@@ -166,23 +179,32 @@ fn the_score_is_the_sum_of_its_gains_and_no_more_than_was_eaten() {
 
 #[test]
 fn the_same_seed_and_intents_are_the_same_round_to_the_bit() {
-    let scenario = scenario(5, 8.0);
-    let mut recording = Recording::new(scenario.clone());
-    let (mut round, mut bot) = (Round::new(&scenario).unwrap(), Bot::new(Policy::Random, 5));
-    while !round.referee().is_over() {
-        let intent = bot.intent(round.world(), round.player());
-        recording.push(intent);
-        round.step(intent);
-    }
-    let mut again = Round::new(recording.scenario()).unwrap();
-    while !again.referee().is_over() {
-        again.step(recording.intent(again.world().step_index()));
+    let outcome = |round: &Round| (round.world().digest(), round.referee().score());
+    let round = play(Policy::Greedy, 5, 12.0, |_| {});
+    assert_eq!(outcome(&play(Policy::Greedy, 5, 12.0, |_| {})), outcome(&round));
+    assert_ne!(outcome(&play(Policy::Greedy, 6, 12.0, |_| {})), outcome(&round));
+}
+
+#[test]
+fn a_round_is_played_again_to_the_bit_from_its_record() {
+    let round = play(Policy::Random, 5, 8.0, |_| {});
+    let record = round.record().unwrap();
+    let mut again = Round::again(&Replay::read(&record).unwrap()).unwrap();
+    while !again.is_over() {
+        again.step(Intent::REST);
     }
     assert_eq!(again.world().digest(), round.world().digest());
     assert_eq!(again.referee().score(), round.referee().score());
-    let mut other = Round::new(&self::scenario(6, 8.0)).unwrap();
-    recording.intents().for_each(|intent| other.step(intent));
-    assert_ne!(other.world().digest(), round.world().digest());
+    assert_eq!((again.name(), again.mismatch()), ("game", None));
+    assert!(again.is_replay() && again.record().is_none());
+}
+
+#[test]
+fn a_record_that_was_cut_off_is_played_as_far_as_it_goes() {
+    let record = play(Policy::Random, 5, 4.0, |_| {}).record().unwrap();
+    let mut again = Round::again(&Replay::read(&record[..record.len() - 40]).unwrap()).unwrap();
+    (0..240).for_each(|_| again.step(Intent::REST));
+    assert!(again.is_over() && !again.referee().is_over());
 }
 
 /// Scores of all policies over seeds, one list each. Nobody eats all that there is.

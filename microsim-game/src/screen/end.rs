@@ -1,13 +1,14 @@
 //! The end of a round: the score by kind, and its place among the best.
 
-use super::pause::draw_heading;
+use super::page::draw_shade;
 use super::play::Play;
 use super::scores::draw_table;
 use super::title::Title;
-use super::{Change, Context, Screen};
+use super::{Change, Context, LAST_GAME, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Action, Input, Move};
-use crate::rules::referee::{Referee, Tally};
+use crate::rules::referee::Tally;
+use crate::rules::round::Round;
 use crate::store::scores::Score;
 use crate::ui::menu::{Choice, Item, Menu, Place};
 use crate::ui::pen::{Align, Pen, Size};
@@ -33,7 +34,8 @@ pub struct End {
 impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
     #[must_use]
-    pub fn new(name: &str, referee: &Referee, is_replay: bool, context: &mut Context) -> Self {
+    pub fn new(round: &Round, context: &mut Context) -> Self {
+        let (name, referee) = (round.name(), round.referee());
         let time = referee.game().time;
         let count = |is_rigid: bool| {
             let of_kind = referee.tallies().iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
@@ -42,12 +44,13 @@ impl End {
         let score =
             Score { game: name.to_owned(), time, points: referee.score(), small: count(false), rigid: count(true) };
         let mut place = None;
-        if !is_replay {
+        if let Some(record) = round.record() {
             let (found, kept) = context.scores.add(score, &context.store);
             place = found;
-            if let Err(error) = kept {
-                context.tell(format!("cannot keep the score: {error}"));
+            if let Err(error) = kept.and(context.store.write(LAST_GAME, &record)) {
+                context.tell(format!("cannot keep the game: {error}"));
             }
+            context.last_game = Some(record);
         }
         let items = ["Play again", "Watch it again", "Title"].map(Item::new);
         Self {
@@ -104,7 +107,7 @@ impl Screen for End {
 
     fn draw(&mut self, context: &mut Context) {
         let pen = &mut context.pen;
-        draw_heading(pen, "");
+        draw_shade(pen);
         let (screen, line) = (pen.screen(), pen.line(Size::Body));
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
         pen.write(heading, Size::Large, Align::Centre, HALO, &format!("{} points", self.points));

@@ -1,15 +1,15 @@
 //! Which key does what: choose an action, then press its new key.
 
-use super::pause::{TOP, draw_heading};
+use super::page::Page;
 use super::{Change, Context, Screen};
 use crate::input::keys::Keys;
 use crate::input::{Action, Input, Move};
-use crate::ui::menu::{Choice, Item, Menu, Place};
+use crate::ui::menu::{Choice, Item};
 
 /// The menu of keys.
 #[derive(Debug)]
 pub struct KeysMenu {
-    menu: Menu,
+    page: Page,
     /// The action that waits for its key.
     waiting: Option<Action>,
 }
@@ -18,7 +18,7 @@ impl KeysMenu {
     /// The present keys.
     #[must_use]
     pub fn new(context: &Context) -> Self {
-        Self { menu: Menu::new(items(&context.settings.keys, None)), waiting: None }
+        Self { page: Page::new("Keys", items(&context.settings.keys, None)), waiting: None }
     }
 
     fn assign(&mut self, action: Action, input: &Input, context: &mut Context) {
@@ -46,9 +46,7 @@ impl Screen for KeysMenu {
             self.assign(action, input, context);
         } else if input.step == Some(Move::Back) {
             return Change::Pop;
-        } else if let Some(Choice::Pick(item) | Choice::Less(item)) =
-            self.menu.update(input, &Place::middle(&context.pen, TOP))
-        {
+        } else if let Some(Choice::Pick(item) | Choice::Less(item)) = self.page.update(input, &context.pen) {
             match Action::ALL.get(item) {
                 Some(&action) => self.waiting = Some(action),
                 None if item > Action::ALL.len() => return Change::Pop,
@@ -58,14 +56,12 @@ impl Screen for KeysMenu {
                 }
             }
         }
-        self.menu.items = items(&context.settings.keys, self.waiting);
+        self.page.menu.items = items(&context.settings.keys, self.waiting);
         Change::Stay
     }
 
     fn draw(&mut self, context: &mut Context) {
-        draw_heading(&mut context.pen, "Keys");
-        let place = Place::middle(&context.pen, TOP);
-        self.menu.draw(&mut context.pen, &place);
+        self.page.draw(&mut context.pen);
     }
 
     fn name(&self) -> String {

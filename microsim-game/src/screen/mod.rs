@@ -3,6 +3,7 @@
 
 pub mod end;
 pub mod keys;
+mod page;
 pub mod pause;
 pub mod pick;
 pub mod play;
@@ -14,7 +15,6 @@ pub mod title;
 use crate::args::Scene;
 use crate::draw::Frame;
 use crate::input::Input;
-use crate::rules::recording::Recording;
 use crate::scenery::{Scenery, Sight};
 use crate::store::files::Store;
 use crate::store::scores::Scores;
@@ -24,6 +24,8 @@ use crate::viewer::Pace;
 use microsim_core::glam::Vec2;
 use std::fmt;
 
+/// File of the last round that was played to its end: a replay, which `microsim replay` reads too.
+const LAST_GAME: &str = "last-game.replay";
 /// How long a message is shown, s.
 const MESSAGE_TIME: f32 = 4.0;
 
@@ -104,8 +106,8 @@ pub struct Context {
     pub game: GameChoice,
     /// Scenario files that the player has named or dropped, for the list.
     pub files: Vec<Scene>,
-    /// The last round that was played to its end, or left.
-    pub recording: Option<Recording>,
+    /// The last round that was played to its end, as a replay.
+    pub last_game: Option<Vec<u8>>,
     /// Whether the screen that draws has nothing above it.
     pub is_top: bool,
     /// Whether a picture is wanted.
@@ -119,6 +121,7 @@ impl Context {
     pub fn new(store: Store, game: GameChoice, files: Vec<Scene>) -> Self {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
+        let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
             pen: Pen::new(),
@@ -129,7 +132,7 @@ impl Context {
             time: 0.0,
             game,
             files,
-            recording: None,
+            last_game,
             is_top: true,
             wants_picture: false,
             message: None,

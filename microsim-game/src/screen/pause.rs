@@ -1,19 +1,17 @@
 //! The menu that stops a scene.
 
+use super::page::Page;
 use super::play::Play;
 use super::settings::SettingsMenu;
 use super::title::Title;
 use super::{Change, Context, Screen};
-use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Action, Input, Move};
-use crate::ui::menu::{Choice, Item, Menu, Place};
-use crate::ui::pen::{Align, Pen, Size};
-use microsim_core::glam::Vec2;
+use crate::ui::menu::{Choice, Item};
 
 /// The menu that stops a scene.
 #[derive(Debug)]
 pub struct Pause {
-    menu: Menu,
+    page: Page,
     is_game: bool,
 }
 
@@ -26,7 +24,7 @@ impl Pause {
         } else {
             &["Go on", "Settings", "Title"]
         };
-        Self { menu: Menu::new(labels.iter().map(|&label| Item::new(label)).collect()), is_game }
+        Self { page: Page::new("Paused", labels.iter().map(|&label| Item::new(label)).collect()), is_game }
     }
 }
 
@@ -38,10 +36,8 @@ impl Screen for Pause {
         if self.is_game && input.presses(Action::Restart) {
             return Play::start(context);
         }
-        let Some(Choice::Pick(item)) = self.menu.update(input, &Place::middle(&context.pen, TOP)) else {
-            return Change::Stay;
-        };
-        match self.menu.items[item].label.as_str() {
+        let Some(Choice::Pick(item)) = self.page.update(input, &context.pen) else { return Change::Stay };
+        match self.page.menu.items[item].label.as_str() {
             "Go on" => Change::Pop,
             "Restart" => Play::start(context),
             "Settings" => Change::push(SettingsMenu::new(context)),
@@ -50,23 +46,10 @@ impl Screen for Pause {
     }
 
     fn draw(&mut self, context: &mut Context) {
-        draw_heading(&mut context.pen, "Paused");
-        let place = Place::middle(&context.pen, TOP);
-        self.menu.draw(&mut context.pen, &place);
+        self.page.draw(&mut context.pen);
     }
 
     fn name(&self) -> String {
         "pause".to_owned()
     }
-}
-
-/// Share of the picture's height above a menu with a heading.
-pub(super) const TOP: f32 = 0.3;
-
-/// Darkens what lies below, and writes a heading.
-pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
-    let screen = pen.screen();
-    pen.canvas().rectangle(Vec2::ZERO, screen, fade(INK, 0.6));
-    let at = Vec2::new(0.5 * screen.x, 0.5 * TOP * screen.y);
-    pen.write(at, Size::Large, Align::Centre, HALO, text);
 }

@@ -7,11 +7,11 @@ use crate::draw::Frame;
 use crate::hud::{self, Status, marks};
 use crate::input::{Action, Input, Move};
 use crate::rules::hint::Hints;
-use crate::rules::recording::Recording;
 use crate::rules::round::Round;
 use crate::viewer::{Viewer, first_view};
 use macroquad::miniquad;
 use microsim_core::Intent;
+use microsim_core::replay::Replay;
 use microsim_core::scenario::Scenario;
 
 /// Units that are seen from bottom to top at first; more as the cell grows.
@@ -22,12 +22,8 @@ const ADVICE_TIME: f64 = 7.0;
 /// A round on the screen.
 #[derive(Debug)]
 pub struct Play {
-    name: String,
     round: Round,
     viewer: Viewer,
-    /// What is being recorded, or replayed.
-    recording: Recording,
-    is_replay: bool,
     gains: marks::Gains,
     /// Area of the cell at the beginning, and what the camera has made of its growth.
     first_area: f32,
@@ -64,44 +60,36 @@ impl Play {
     pub fn start(context: &mut Context) -> Change {
         // Every round is another one, but for pictures that must come out the same.
         let seed = if context.pace.is_exact { 1 } else { miniquad::date::now() as u64 };
-        let opened =
-            context.game.scenario(seed).and_then(|scenario| Self::open(Recording::new(scenario), false, context));
-        opened.unwrap_or_else(|problem| {
-            context.tell(problem);
-            Change::Stay
-        })
+        let round = context.game.scenario(seed).and_then(|scenario| Round::new(&scenario));
+        Self::open(round, context)
     }
 
     /// The last round again.
     pub fn replay(context: &mut Context) -> Change {
-        let Some(recording) = context.recording.clone() else {
+        let Some(record) = &context.last_game else {
             context.tell("No game has been played yet.");
             return Change::Stay;
         };
-        Self::open(recording, true, context).unwrap_or_default()
+        let replay = Replay::read(record).map_err(|error| format!("the last game: {error}"));
+        Self::open(replay.and_then(|replay| Round::again(&replay)), context)
     }
 
-    fn open(recording: Recording, is_replay: bool, context: &Context) -> Result<Change, String> {
-        let round = Round::new(recording.scenario())?;
+    fn open(round: Result<Round, String>, context: &mut Context) -> Change {
+        let round = match round {
+            Ok(round) => round,
+            Err(problem) => {
+                context.tell(problem);
+                return Change::Stay;
+            }
+        };
         let world = round.world();
         let camera = first_view(world, Some(round.player()), VIEW, context.pen.screen());
         let first_area = world.view().organism(round.player()).map_or(1.0, |cell| cell.cytoplasm_area());
-        Ok(Change::reset(Self {
-            name: recording.scenario().name().to_owned(),
-            viewer: Viewer::new(world, camera),
-            round,
-            recording,
-            is_replay,
-            gains: marks::Gains::default(),
-            first_area,
-            grown: 1.0,
-        }))
+        let viewer = Viewer::new(world, camera);
+        Change::reset(Self { round, viewer, gains: marks::Gains::default(), first_area, grown: 1.0 })
     }
 
     fn intent(&self, input: &Input) -> Intent {
-        if self.is_replay {
-            return self.recording.intent(self.round.world().step_index());
-        }
         let goal = input.is_held.then(|| self.viewer.camera.to_room(input.cursor));
         let moving = goal.and_then(|goal| Intent::toward(goal).ok()).unwrap_or(Intent::REST);
         moving.digesting(input.holds(Action::Consume))
@@ -109,14 +97,8 @@ impl Play {
 
     fn run(&mut self, input: &Input, context: &Context) {
         let intent = self.intent(input);
-        let Self { round, viewer, recording, gains, is_replay, .. } = self;
-        let records = !*is_replay;
+        let Self { round, viewer, gains, .. } = self;
         viewer.run(context.pace, 1.0, round, |round| {
-            // A frame may be several steps, of which a replay has one each.
-            let intent = if records { intent } else { recording.intent(round.world().step_index()) };
-            if records && !round.referee().is_over() {
-                recording.push(intent);
-            }
             round.step(intent);
             gains.add(round.referee().gains());
             round.world()
@@ -131,15 +113,15 @@ impl Play {
         let step = self.grown + (wanted - self.grown) * (1.0 - (-1.5 * context.pace.elapsed).exp());
         self.viewer.camera.zoom(self.grown / step, 0.5 * context.pen.screen());
         self.grown = step;
-        let at = self.round.world().centroid(self.round.player());
-        let cursor = (input.is_held && !self.is_replay).then_some(input.cursor);
+        let at = self.viewer.place_of(self.round.world(), Some(self.round.player()));
+        let cursor = (input.is_held && !self.round.is_replay()).then_some(input.cursor);
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
     }
 
     fn advice(&self, hints: &Hints, context: &Context) -> Option<String> {
         let key = context.settings.keys.label(Action::Consume);
         let time = self.round.world().time();
-        if self.is_replay {
+        if self.round.is_replay() {
             None
         } else if hints.can_digest() && self.round.referee().score() == 0 {
             Some(format!("Hold {key} to digest what you have taken in"))
@@ -163,20 +145,19 @@ impl Screen for Play {
         }
         self.run(input, context);
         self.look(input, context);
-        if self.round.referee().is_over() {
-            if !self.is_replay {
-                context.recording = Some(self.recording.clone());
-            }
-            return Change::push(End::new(&self.name, self.round.referee(), self.is_replay, context));
+        if self.round.is_over() {
+            return Change::push(End::new(&self.round, context));
         }
         Change::Stay
     }
 
     fn draw(&mut self, context: &mut Context) {
-        let picture = self.viewer.picture();
-        let (world, camera) = (self.round.world(), &self.viewer.camera);
-        context.paint(&Frame { picture: &picture, world, camera, time: context.time });
-        let hints = Hints::of(world, self.round.player());
+        let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
+        context.paint(&Frame { view, camera, time: context.time });
+        if !context.is_top {
+            return;
+        }
+        let hints = Hints::of(view, self.round.player());
         let (key, time) = (context.settings.keys.label(Action::Consume), context.motion());
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };
         let advice = self.advice(&hints, context);
@@ -185,9 +166,13 @@ impl Screen for Play {
         marks::draw_targets(pen, &style, &hints.targets);
         self.gains.draw(pen, &style);
         let referee = self.round.referee();
+        let note = match (self.round.is_replay(), self.round.mismatch()) {
+            (false, _) => "",
+            (true, None) => "Replay",
+            (true, Some(_)) => "Replay, not as it was played",
+        };
         let time = [referee.time_left(), referee.game().time];
-        let is_calm = context.settings.reduced_motion;
-        hud::draw_status(pen, &Status { score: referee.score(), time, is_calm, is_replay: self.is_replay });
+        hud::draw_status(pen, &Status { score: referee.score(), time, is_calm: context.settings.reduced_motion, note });
         advice.into_iter().for_each(|advice| hud::draw_advice(pen, &advice));
     }
 
@@ -196,6 +181,6 @@ impl Screen for Play {
     }
 
     fn name(&self) -> String {
-        format!("{}-{}-{}", self.name, self.round.world().step_index(), self.round.referee().score())
+        format!("{}-{}-{}", self.round.name(), self.round.world().step_index(), self.round.referee().score())
     }
 }

@@ -1,6 +1,6 @@
 //! High scores.
 
-use super::pause::draw_heading;
+use super::page::draw_heading;
 use super::{Change, Context, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};

@@ -1,17 +1,17 @@
 //! Settings.
 
 use super::keys::KeysMenu;
-use super::pause::{TOP, draw_heading};
+use super::page::Page;
 use super::{Change, Context, Screen};
 use crate::input::{Input, Move};
 use crate::scenery::Sight;
 use crate::store::settings::Settings;
-use crate::ui::menu::{Choice, Item, Menu, Place};
+use crate::ui::menu::{Choice, Item};
 
 /// The menu of settings.
 #[derive(Debug)]
 pub struct SettingsMenu {
-    menu: Menu,
+    page: Page,
 }
 
 const SIGHT: usize = 0;
@@ -26,7 +26,7 @@ impl SettingsMenu {
     /// The present settings.
     #[must_use]
     pub fn new(context: &Context) -> Self {
-        Self { menu: Menu::new(items(&context.settings)) }
+        Self { page: Page::new("Settings", items(&context.settings)) }
     }
 }
 
@@ -48,7 +48,7 @@ impl Screen for SettingsMenu {
         if input.step == Some(Move::Back) {
             return Change::Pop;
         }
-        let Some(choice) = self.menu.update(input, &Place::middle(&context.pen, TOP)) else { return Change::Stay };
+        let Some(choice) = self.page.update(input, &context.pen) else { return Change::Stay };
         let settings = &mut context.settings;
         match choice {
             Choice::Pick(SIGHT) => context.change_sight(false),
@@ -62,15 +62,13 @@ impl Screen for SettingsMenu {
             Choice::Pick(KEYS) => return Change::push(KeysMenu::new(context)),
             _ => return Change::Pop,
         }
-        self.menu.items = items(&context.settings);
+        self.page.menu.items = items(&context.settings);
         context.save_settings();
         Change::Stay
     }
 
     fn draw(&mut self, context: &mut Context) {
-        draw_heading(&mut context.pen, "Settings");
-        let place = Place::middle(&context.pen, TOP);
-        self.menu.draw(&mut context.pen, &place);
+        self.page.draw(&mut context.pen);
     }
 
     fn name(&self) -> String {

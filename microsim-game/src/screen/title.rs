@@ -10,6 +10,7 @@ use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
+use crate::ui::glyphs::TITLE;
 use crate::ui::menu::{Choice, Item, Menu, Place};
 use crate::ui::pen::{Align, Size};
 use crate::viewer::{Viewer, first_view};
@@ -80,7 +81,7 @@ impl Scene {
             stage.step();
             stage.world()
         });
-        let at = self.stage.player().and_then(|id| self.stage.world().centroid(id));
+        let at = self.viewer.place_of(self.stage.world(), self.stage.player());
         // The menu covers the middle: the hunter is seen beside it.
         let beside = Vec2::new(0.36 * VIEW, 0.0);
         self.viewer.look(0.0, 0.0, at.map(|at| at - beside), None, context.pace.elapsed);
@@ -105,9 +106,8 @@ impl Screen for Title {
 
     fn draw(&mut self, context: &mut Context) {
         if let Some(scene) = &self.scene {
-            let picture = scene.viewer.picture();
-            let world = scene.stage.world();
-            context.paint(&Frame { picture: &picture, world, camera: &scene.viewer.camera, time: context.time });
+            let view = scene.viewer.view(scene.stage.world());
+            context.paint(&Frame { view, camera: &scene.viewer.camera, time: context.time });
         }
         if !context.is_top {
             return;
@@ -120,13 +120,13 @@ impl Screen for Title {
         let wide = (left + 1.6 * place.item.x).min(screen.x);
         pen.canvas()
             .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
-        pen.write(Vec2::new(left, 0.13 * screen.y + 0.3 * line), Size::Huge, Align::Left, HALO, "microsim");
+        pen.write(Vec2::new(left, 0.13 * screen.y + 0.3 * line), Size::Huge, Align::Left, HALO, TITLE);
         let motto = Vec2::new(left + 0.05 * line, 0.13 * screen.y + 0.95 * line);
         pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
         self.menu.draw(pen, &place);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
         let corner = screen - 0.8 * pen.line(Size::Small);
-        pen.write(corner, Size::Small, Align::Right, fade(HALO, 0.8), version);
+        pen.label(corner, Size::Small, Align::Right, HALO, version);
     }
 
     fn is_overlay(&self) -> bool {

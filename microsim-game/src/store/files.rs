@@ -53,17 +53,30 @@ impl Store {
         }
     }
 
+    /// What is in a file, if it can be read.
+    #[must_use]
+    pub fn read(&self, name: &str) -> Option<Vec<u8>> {
+        fs::read(self.folder.as_ref()?.join(name)).ok()
+    }
+
+    /// Writes a value for [`Store::load`].
+    ///
+    /// # Errors
+    /// See [`Store::write`].
+    pub fn save<T: Serialize>(&self, name: &str, value: &T) -> io::Result<()> {
+        self.write(name, toml::to_string(value).map_err(io::Error::other)?.as_bytes())
+    }
+
     /// Writes a file, wholly or not at all.
     ///
     /// # Errors
     /// When the folder or the file cannot be written; the old file is as it was then.
-    pub fn save<T: Serialize>(&self, name: &str, value: &T) -> io::Result<()> {
+    pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        let text = toml::to_string(value).map_err(io::Error::other)?;
         fs::create_dir_all(folder)?;
         let fresh = folder.join(format!("{name}.{}.new", process::id()));
         let written = fs::File::create(&fresh).and_then(|mut file| {
-            file.write_all(text.as_bytes())?;
+            file.write_all(bytes)?;
             file.sync_all()
         });
         let result = written.and_then(|()| fs::rename(&fresh, folder.join(name)));

@@ -79,7 +79,7 @@ impl Place {
     /// At the left edge.
     #[must_use]
     pub fn side(pen: &Pen, top: f32) -> Self {
-        let item = Vec2::new(12.5 * pen.line(Size::Small), 1.45 * pen.line(Size::Small));
+        let item = Vec2::new(12.5 * pen.line(Size::Small), 1.4 * pen.line(Size::Small));
         let corner = Vec2::new(0.5 * item.y, top);
         let visible = (((pen.screen().y - corner.y - 0.3 * item.y) / item.y) as usize).max(3);
         Self { corner, item, visible, size: Size::Small }

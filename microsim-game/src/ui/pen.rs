@@ -1,18 +1,17 @@
 //! The pen: text and plain shapes in drawing units, in few draw calls.
 
+use super::glyphs::Glyphs;
 use crate::draw::canvas::Canvas;
 use crate::draw::palette::{INK, fade};
 use macroquad::color::Color;
-use macroquad::text::{Font, TextParams, draw_text_ex, load_ttf_font_from_bytes, measure_text};
 use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
-use std::collections::BTreeSet;
 
 /// Height of a picture for which text has its usual size, and its width.
 const USUAL: Vec2 = Vec2::new(1280.0, 720.0);
 
-/// Sizes of text; every size costs an atlas of glyphs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Sizes of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Size {
     /// What may be overlooked.
     Small,
@@ -20,8 +19,22 @@ pub enum Size {
     Body,
     /// What is to be seen.
     Large,
-    /// The title.
+    /// [`TITLE`](super::glyphs::TITLE).
     Huge,
+}
+
+impl Size {
+    pub(super) const ALL: [Self; 4] = [Self::Small, Self::Body, Self::Large, Self::Huge];
+
+    /// Height of letters in a picture of the usual size, pixels.
+    pub(super) fn usual(self) -> f32 {
+        match self {
+            Self::Small => 15.0,
+            Self::Body => 19.0,
+            Self::Large => 30.0,
+            Self::Huge => 64.0,
+        }
+    }
 }
 
 /// Where text lies from its place.
@@ -39,41 +52,40 @@ pub enum Align {
 #[derive(Debug)]
 pub struct Pen {
     canvas: Canvas,
-    font: Option<Font>,
+    /// The font, and its letters at the present scale.
+    font: Option<(fontdue::Font, Glyphs)>,
     factor: f32,
+    /// Pixels per drawing unit, with the player's wish.
+    scale: f32,
     screen: Vec2,
-    warm: BTreeSet<u16>,
-    texts: Vec<Text>,
-}
-
-#[derive(Debug)]
-struct Text {
-    at: Vec2,
-    size: u16,
-    colour: Color,
-    text: String,
 }
 
 impl Pen {
-    /// Makes the font. Needs an open window.
+    /// A pen for a picture of the usual size. Needs an open window.
     #[must_use]
     pub fn new() -> Self {
-        let font = load_ttf_font_from_bytes(epaint_default_fonts::UBUNTU_LIGHT).ok();
-        let (warm, texts) = (BTreeSet::new(), Vec::new());
-        Self { canvas: Canvas::new(), font, factor: 1.0, screen: USUAL, warm, texts }
+        let mut pen = Self { canvas: Canvas::new(), font: None, factor: 1.0, scale: 0.0, screen: USUAL };
+        pen.fit(USUAL, 1.0);
+        pen
+    }
+
+    /// One that draws no text, and into no window.
+    #[cfg(test)]
+    pub(crate) fn bare() -> Self {
+        Self { canvas: Canvas::bare(), font: None, factor: 1.0, scale: 1.0, screen: USUAL }
     }
 
     /// Adapts to a picture of this size, and to the player's wish.
     pub fn fit(&mut self, screen: Vec2, wish: f32) {
         (self.screen, self.factor) = (screen, factor(screen) * wish);
-        // Glyphs that are made in the middle of a frame come out as black boxes.
-        for size in [Size::Small, Size::Body, Size::Large, Size::Huge] {
-            let pixels = (f32::from(self.pixels(size)) * screen_dpi_scale()).ceil() as u16;
-            if self.warm.insert(pixels)
-                && let Some(font) = &self.font
-            {
-                font.populate_font_cache(&CHARACTERS.chars().collect::<Vec<_>>(), pixels);
-            }
+        let density = screen_dpi_scale();
+        if self.scale != self.factor * density {
+            self.scale = self.factor * density;
+            let font = self.font.take().map(|(font, _)| font).or_else(font);
+            self.font = font.map(|font| {
+                let glyphs = Glyphs::new(&font, density, |size| self.pixels(size) * density);
+                (font, glyphs)
+            });
         }
     }
 
@@ -83,10 +95,10 @@ impl Pen {
         self.screen
     }
 
-    /// Height of a line of text, drawing units. What is clicked is at least half as high again.
+    /// Height of a line of text, drawing units. What is clicked is at least 1.4 times as high.
     #[must_use]
     pub fn line(&self, size: Size) -> f32 {
-        1.35 * f32::from(self.pixels(size))
+        1.35 * self.pixels(size)
     }
 
     /// Surface for plain shapes.
@@ -102,12 +114,13 @@ impl Pen {
             Align::Right => 1.0,
         };
         let left = if shift > 0.0 { at.x - shift * self.width(size, text) } else { at.x };
-        let pixels = self.pixels(size);
-        let at = Vec2::new(left, at.y + 0.34 * f32::from(pixels)).round();
-        self.texts.push(Text { at, size: pixels, colour, text: text.to_owned() });
+        let at = Vec2::new(left, at.y + 0.34 * self.pixels(size));
+        if let Some((_, glyphs)) = &mut self.font {
+            glyphs.write(at, size, colour, text);
+        }
     }
 
-    /// The same on a dark panel, to be read above anything.
+    /// The same on a dark panel, to be read above anything, and wholly in the picture.
     pub fn label(&mut self, at: Vec2, size: Size, align: Align, colour: Color, text: &str) {
         let half = Vec2::new(0.5 * self.width(size, text) + 0.35 * self.line(size), 0.56 * self.line(size));
         let middle = match align {
@@ -115,7 +128,8 @@ impl Pen {
             Align::Centre => at.x,
             Align::Right => at.x - half.x,
         };
-        let middle = Vec2::new(middle, at.y);
+        let (low, high) = (half, (self.screen - half).max(half));
+        let middle = Vec2::new(middle, at.y).clamp(low, high);
         self.panel(middle - half, middle + half);
         self.write(middle, size, Align::Centre, colour, text);
     }
@@ -128,27 +142,19 @@ impl Pen {
     /// Width of text, drawing units.
     #[must_use]
     pub fn width(&self, size: Size, text: &str) -> f32 {
-        measure_text(text, self.font.as_ref(), self.pixels(size), 1.0).width
+        self.font.as_ref().map_or(0.0, |(_, glyphs)| glyphs.width(size, text))
     }
 
     /// Draws what has been collected: what comes later lies above it.
     pub fn flush(&mut self) {
         self.canvas.flush();
-        for Text { at, size, colour, text } in self.texts.drain(..) {
-            let params =
-                TextParams { font: self.font.as_ref(), font_size: size, color: colour, ..TextParams::default() };
-            draw_text_ex(&text, at.x, at.y, params);
+        if let Some((_, glyphs)) = &mut self.font {
+            glyphs.flush();
         }
     }
 
-    fn pixels(&self, size: Size) -> u16 {
-        let usual = match size {
-            Size::Small => 15.0,
-            Size::Body => 19.0,
-            Size::Large => 30.0,
-            Size::Huge => 64.0,
-        };
-        (usual * self.factor).round() as u16
+    fn pixels(&self, size: Size) -> f32 {
+        (size.usual() * self.factor).round()
     }
 }
 
@@ -158,10 +164,12 @@ impl Default for Pen {
     }
 }
 
-/// All that is ever written.
-const CHARACTERS: &str = " !\"#$%&'()*+,-./0123456789:;<=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~\u{d7}\u{b7}\u{b5}\u{b2}";
+/// The font; there is one, if it is not broken.
+pub(super) fn font() -> Option<fontdue::Font> {
+    fontdue::Font::from_bytes(epaint_default_fonts::UBUNTU_LIGHT, fontdue::FontSettings::default()).ok()
+}
 
-/// Size of text for a picture: few different ones, for every one costs memory.
+/// Size of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
     let steps = [0.8, 1.0, 1.25, 1.5, 2.0];
@@ -171,6 +179,7 @@ fn factor(screen: Vec2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn text_comes_in_few_sizes_and_is_never_tiny() {

@@ -27,7 +27,7 @@ use super::painting::Painting;
 use super::specimen::Specimen;
 use super::wave;
 use crate::error::{Error, in_range};
-use crate::world::World;
+use crate::world::view::View;
 use glam::{IVec2, Vec2};
 
 /// Smallest pixel that a card computes an image on, micrometres.
@@ -167,20 +167,20 @@ pub fn noise_table() -> (u16, Vec<u8>) {
 }
 
 impl Microscope {
-    /// What a graphics card has to do for the picture that [`Microscope::expose`] computes.
+    /// What a graphics card has to do for the picture that [`Microscope::expose`] computes of what is viewed.
     ///
     /// # Errors
     /// Names the number of the field, the film or the card that is out of range.
-    pub fn recipe(&self, world: &World, field: Field, card: Card) -> Result<Recipe, Error> {
+    pub fn recipe(&self, view: View<'_>, field: Field, card: Card) -> Result<Recipe, Error> {
         field.validate()?;
         self.film.validate().map_err(|error| error.within("film"))?;
         in_range("card.detail", card.detail, 0.1, 1.0)?;
-        let frame = self.film.frame(world.time(), scramble(world.config().seed as u32 ^ 0xf11e));
+        let frame = self.film.frame(view.time(), scramble(view.world().config().seed as u32 ^ 0xf11e));
         let mode = self.optics.mode();
         let kitchen = Kitchen { optics: self.optics, mode, card, field, frame };
         Ok(match mode.shade {
-            Shade::Painted => kitchen.painted(&Painting::of(world)),
-            Shade::Light(..) => kitchen.lit(&Specimen::of(world, field.centre)),
+            Shade::Painted => kitchen.painted(&Painting::of(view)),
+            Shade::Light(..) => kitchen.lit(&Specimen::of(view, field.centre)),
         })
     }
 }

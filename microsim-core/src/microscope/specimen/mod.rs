@@ -12,7 +12,6 @@ use super::matter::{Grid, Matter, Plate};
 use super::noise::scramble;
 use super::recipe::Slide;
 use crate::kind::Kind;
-use crate::world::World;
 use crate::world::view::{OrganismView, View};
 use amoeboid::AmoeboidBody;
 use chamber::Chamber;
@@ -36,15 +35,15 @@ pub(super) struct Specimen {
 }
 
 impl Specimen {
-    /// What there is in a world, for a camera that looks at `camera`.
-    pub(super) fn of(world: &World, camera: Vec2) -> Self {
-        let (seed, time) = (world.config().seed, world.time() as f32);
+    /// What there is to see, for a camera that looks at `camera`.
+    pub(super) fn of(view: View<'_>, camera: Vec2) -> Self {
+        let (world, time) = (view.world(), view.time() as f32);
+        let seed = world.config().seed;
         let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
         let chamber =
             Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
         let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
-        let view = world.view();
         for organism in view.organisms() {
             specimen.add(organism, view);
         }

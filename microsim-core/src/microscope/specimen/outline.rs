@@ -44,8 +44,7 @@ impl Polar {
     pub(super) fn around(outline: &[Vec2]) -> Option<Self> {
         let centre = centroid(outline)?;
         let mean = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
-        let radii: Vec<f32> = (0..DIRECTIONS).map(|k| reach(outline, centre, direction(k))).collect();
-        Some(Self::new(centre, mean, radii)).filter(|polar| mean > 0.0 && polar.farthest.is_finite())
+        Some(Self::new(centre, mean, reaches(outline, centre))).filter(|polar| mean > 0.0 && polar.farthest.is_finite())
     }
 
     pub(super) fn disc(centre: Vec2, radius: f32) -> Option<Self> {
@@ -103,19 +102,45 @@ fn direction(k: usize) -> Vec2 {
     }
 }
 
-/// How far an outline reaches from a point in a direction; 0 where it does not.
-fn reach(outline: &[Vec2], from: Vec2, direction: Vec2) -> f32 {
-    let direction = direction.normalize();
-    let count = outline.len();
-    let crossing = |k: usize| {
-        let (a, b) = (outline[k] - from, outline[(k + 1) % count] - from);
-        let (side_a, side_b) = (direction.perp_dot(a), direction.perp_dot(b));
-        if (side_a < 0.0) == (side_b < 0.0) {
-            return 0.0;
+/// How far an outline reaches from a point in each direction; 0 where it does not.
+fn reaches(outline: &[Vec2], from: Vec2) -> Vec<f32> {
+    let directions: Vec<Vec2> = (0..DIRECTIONS).map(|k| direction(k).normalize()).collect();
+    let mut reaches = vec![0.0; DIRECTIONS];
+    for (k, &corner) in outline.iter().enumerate() {
+        let (a, b) = (corner - from, outline[(k + 1) % outline.len()] - from);
+        for at in between(a, b) {
+            reaches[at] = larger(reaches[at], crossing(a, b, directions[at]));
         }
-        (a + (b - a) * (side_a / (side_a - side_b))).dot(direction)
+    }
+    reaches
+}
+
+/// Directions that may cross a side from `a` to `b`, seen from the origin: those between its ends, and one more each.
+fn between(a: Vec2, b: Vec2) -> impl Iterator<Item = usize> {
+    let [start, end] = [a, b].map(|end| diamond_angle(end) * (DIRECTIONS as f32 / 4.0));
+    let turn = DIRECTIONS as f32;
+    let way = end - start;
+    // The shorter way round, but where the side passes so near that either may be.
+    let way = if way > 0.5 * turn {
+        way - turn
+    } else if way < -0.5 * turn {
+        way + turn
+    } else {
+        way
     };
-    (0..count).map(crossing).fold(0.0, larger)
+    let (low, high) = (smaller(start, start + way).floor() as i32 - 1, larger(start, start + way).ceil() as i32 + 1);
+    let all = way.abs() > 0.45 * turn || !way.is_finite();
+    let (low, high) = if all { (0, DIRECTIONS as i32 - 1) } else { (low, high) };
+    (low..=high).map(|at| at.rem_euclid(DIRECTIONS as i32) as usize)
+}
+
+/// How far from the origin a side from `a` to `b` is crossed in a direction; 0 if it is not.
+fn crossing(a: Vec2, b: Vec2, direction: Vec2) -> f32 {
+    let (side_a, side_b) = (direction.perp_dot(a), direction.perp_dot(b));
+    if (side_a < 0.0) == (side_b < 0.0) {
+        return 0.0;
+    }
+    (a + (b - a) * (side_a / (side_a - side_b))).dot(direction)
 }
 
 /// Signed distance from an outline, positive inside, on a grid.
@@ -277,6 +302,7 @@ fn is_inside(edges: &[Edge], at: Vec2) -> bool {
 mod tests {
     use super::*;
     use crate::geometry::ellipse;
+    use crate::microscope::noise::Dice;
 
     #[test]
     fn a_table_of_radii_knows_its_outline() {
@@ -290,6 +316,24 @@ mod tests {
             outline.iter().all(|&p| (polar.radius(p - polar.centre) / (p - polar.centre).length() - 1.0).abs() < 0.02)
         );
         assert!(Polar::around(&[Vec2::ZERO, Vec2::ONE, Vec2::X * f32::NAN]).is_none() && Polar::around(&[]).is_none());
+    }
+
+    #[test]
+    fn no_side_is_overlooked() {
+        let mut dice = Dice::new(5);
+        for _ in 0..50 {
+            // Any shape, with the centre inside, outside and on its edge.
+            let outline: Vec<Vec2> =
+                (0..9).map(|_| Vec2::new(dice.range([-3.0, 3.0]), dice.range([-3.0, 3.0]))).collect();
+            for from in [Vec2::ZERO, outline[0], 0.5 * (outline[0] + outline[1]), Vec2::splat(4.0)] {
+                let of_all = |k: usize| {
+                    let sides = (0..9).map(|side| (outline[side] - from, outline[(side + 1) % 9] - from));
+                    sides.map(|(a, b)| crossing(a, b, direction(k).normalize())).fold(0.0, larger)
+                };
+                let expected: Vec<f32> = (0..DIRECTIONS).map(of_all).collect();
+                assert_eq!(reaches(&outline, from), expected, "{outline:?} from {from}");
+            }
+        }
     }
 
     #[test]

@@ -302,3 +302,28 @@ fn make_slipper(polar: &mut Polar, facing: Vec2, axes: Vec2, amount: f32) {
         1.0 + amount * (1.6 * pointed - hollow)
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::microscope::look::Look;
+    use crate::{Placement, PlateletSpec, World, WorldConfig};
+
+    #[test]
+    fn t83_platelets_are_slightly_distorted_each_in_its_own_way() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
+        let platelet = world.view().organism(id).unwrap();
+        let Look::Round(look) = Look::of(platelet) else { panic!("platelets are round") };
+        let radii = |seed: u32| {
+            let body = RoundBody::of(platelet, look, seed).unwrap();
+            (0..32).map(|k| body.polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()
+        };
+        let (one, other) = (radii(1), radii(2));
+        let mean = one.iter().sum::<f32>() / one.len() as f32;
+        let farthest = one.iter().map(|radius| (radius - mean).abs()).fold(0.0, larger);
+        assert!(farthest > 0.02 * mean && farthest < 0.4 * mean, "{farthest} of {mean}");
+        let apart = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+        assert!(apart > 0.02 * mean, "{apart} of {mean}");
+    }
+}

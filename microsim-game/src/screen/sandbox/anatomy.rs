@@ -6,25 +6,25 @@ use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
 use crate::ui::pen::{Align, Pen, Size};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
-use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, World};
+use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, View};
 
 /// Draws a world's anatomy over its picture.
-pub(super) fn draw(pen: &mut Pen, world: &World, camera: &Camera) {
+pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
     let screen = pen.screen();
     let canvas = pen.canvas();
     canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
-    for ((_, chemical), colour) in world.view().chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
+    for ((_, chemical), colour) in view.chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
         draw_chemical(canvas, camera, chemical, colour);
     }
-    for (bond, ends) in world.view().bonds() {
+    for (bond, ends) in view.bonds() {
         let (width, colour) = stroke(bond);
         draw_segment(canvas, camera, ends, width, colour);
     }
-    for organism in world.view().organisms() {
+    for organism in view.organisms() {
         draw_particles(canvas, camera, organism);
         draw_regions(canvas, camera, organism);
     }
-    for ends in world.view().contacts() {
+    for ends in view.contacts() {
         draw_segment(canvas, camera, ends, 2.4, ALERT);
     }
     draw_legend(pen);
@@ -98,9 +98,11 @@ fn draw_legend(pen: &mut Pen) {
         "square: front  bar: rear",
         "amber: contact",
     ];
-    let right = pen.screen().x - 0.5 * line;
+    let widest = entries.iter().map(|entry| pen.width(Size::Small, entry)).fold(0.0, f32::max);
+    let low = Vec2::new(pen.screen().x - widest - 1.3 * line, 1.6 * line);
+    pen.panel(low, low + Vec2::new(widest + 0.8 * line, 1.2 * line * entries.len() as f32));
     for (k, entry) in entries.into_iter().enumerate() {
-        let at = Vec2::new(right, line * (2.2 + 1.2 * k as f32));
-        pen.label(at, Size::Small, Align::Right, HALO, entry);
+        let at = low + line * Vec2::new(0.4, 0.6 + 1.2 * k as f32);
+        pen.write(at, Size::Small, Align::Left, HALO, entry);
     }
 }

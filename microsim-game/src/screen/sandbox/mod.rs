@@ -180,10 +180,10 @@ impl Screen for Sandbox {
             }
         }
         let digests = input.holds(Action::Consume);
-        let problem = self.tools.use_on(&mut self.stage, &mut self.viewer, input, is_on_panel, digests);
+        let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests);
         problem.into_iter().for_each(|problem| context.tell(problem));
         self.run(context);
-        let at = self.stage.player().and_then(|id| self.stage.world().centroid(id));
+        let at = self.viewer.place_of(self.stage.world(), self.stage.player());
         let wheel = if is_on_panel { 0.0 } else { input.wheel };
         self.viewer.look(input.zoom(), wheel, at, None, context.pace.elapsed);
         self.panel.items = panel::items(self);
@@ -191,14 +191,13 @@ impl Screen for Sandbox {
     }
 
     fn draw(&mut self, context: &mut Context) {
-        let picture = self.viewer.picture();
-        let (world, camera) = (self.stage.world(), &self.viewer.camera);
-        context.paint(&Frame { picture: &picture, world, camera, time: context.time });
+        let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
+        context.paint(&Frame { view, camera, time: context.time });
         let pen = &mut context.pen;
         if self.shows.anatomy {
-            anatomy::draw(pen, world, camera);
+            anatomy::draw(pen, view, camera);
         }
-        self.tools.draw(pen, &self.stage, camera);
+        self.tools.draw(pen, view, camera);
         if self.shows.plots {
             self.plots.draw(pen);
         }

@@ -5,11 +5,10 @@ use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
 use crate::stage::Stage;
 use crate::ui::pen::{Pen, Size};
-use crate::viewer::Viewer;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec, Placement,
-    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, World,
+    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
 };
 
 /// How near the cursor must be to something, pixels.
@@ -90,12 +89,12 @@ impl Tools {
     pub(super) fn use_on(
         &mut self,
         stage: &mut Stage,
-        viewer: &mut Viewer,
+        camera: &Camera,
         input: &Input,
         is_on_panel: bool,
         digests: bool,
     ) -> Option<String> {
-        let at = viewer.camera.to_room(input.cursor);
+        let at = camera.to_room(input.cursor);
         let begins = input.is_clicked && !is_on_panel;
         let goes_on = input.is_held && (begins || self.hand.is_some());
         self.hand = goes_on.then_some(at);
@@ -107,7 +106,7 @@ impl Tools {
         if !begins {
             return None;
         }
-        let found = nearest(stage.world(), at, REACH / viewer.camera.scale());
+        let found = nearest(stage.world(), at, REACH / camera.scale());
         let result = match (self.tool, found) {
             (Tool::Spawn, _) => self.put_in(stage, at),
             (Tool::Remove, Some(id)) => stage.world_mut().remove(id).map_err(|error| error.to_string()),
@@ -121,9 +120,6 @@ impl Tools {
             }
             _ => Ok(()),
         };
-        if matches!(self.tool, Tool::Spawn | Tool::Remove) {
-            viewer.refresh(stage.world());
-        }
         result.err()
     }
 
@@ -145,14 +141,14 @@ impl Tools {
     }
 
     /// Draws what the tool is about to do.
-    pub(super) fn draw(&self, pen: &mut Pen, stage: &Stage, camera: &Camera) {
+    pub(super) fn draw(&self, pen: &mut Pen, view: View<'_>, camera: &Camera) {
         let Some(hand) = self.hand else { return };
         let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(Size::Body));
         match self.tool {
             Tool::Push => pen.canvas().arc(at, PUSH_RADIUS * camera.scale(), width, 1.0, fade(HALO, 0.8)),
             Tool::Drag => {
-                if let Some(held) = self.grasped.and_then(|id| stage.world().centroid(id)) {
-                    pen.canvas().segment(camera.to_screen(held), at, width, READY);
+                if let Some(held) = self.grasped.and_then(|id| view.organism(id)) {
+                    pen.canvas().segment(camera.to_screen(held.centroid()), at, width, READY);
                 }
             }
             _ => {}

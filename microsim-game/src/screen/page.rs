@@ -1,0 +1,55 @@
+//! Pages: a heading and a menu, over what lies below, darkened.
+
+use crate::draw::palette::{HALO, INK, fade};
+use crate::input::Input;
+use crate::ui::menu::{Choice, Item, Menu, Place};
+use crate::ui::pen::{Align, Pen, Size};
+use microsim_core::glam::Vec2;
+
+/// Share of the picture's height above the menu, and above the middle of the heading.
+const TOP: f32 = 0.3;
+const HEADING: f32 = 0.15;
+/// How dark what lies below gets.
+const SHADE: f32 = 0.76;
+
+/// A heading and a menu.
+#[derive(Debug)]
+pub(super) struct Page {
+    heading: &'static str,
+    pub menu: Menu,
+}
+
+impl Page {
+    pub(super) fn new(heading: &'static str, items: Vec<Item>) -> Self {
+        Self { heading, menu: Menu::new(items) }
+    }
+
+    /// Moves through the menu.
+    pub(super) fn update(&mut self, input: &Input, pen: &Pen) -> Option<Choice> {
+        self.menu.update(input, &Place::middle(pen, TOP))
+    }
+
+    pub(super) fn draw(&self, pen: &mut Pen) {
+        draw_heading(pen, self.heading);
+        self.menu.draw(pen, &Place::middle(pen, TOP));
+    }
+
+    /// Writes a line between the heading and the menu.
+    pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
+        let at = Vec2::new(0.5, TOP - 0.05) * pen.screen();
+        pen.write(at, Size::Small, Align::Centre, HALO, text);
+    }
+}
+
+/// Darkens what lies below.
+pub(super) fn draw_shade(pen: &mut Pen) {
+    let screen = pen.screen();
+    pen.canvas().rectangle(Vec2::ZERO, screen, fade(INK, SHADE));
+}
+
+/// Darkens what lies below, and writes a heading.
+pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
+    draw_shade(pen);
+    let at = Vec2::new(0.5, HEADING) * pen.screen();
+    pen.write(at, Size::Large, Align::Centre, HALO, text);
+}
