@@ -47,7 +47,7 @@ fn the_files_hold_what_they_say() {
     assert!(write(&folder, "new/deep", &[]).status.success());
     let out = folder.root().join("new/deep");
     let (width, height) = size_of_png(&out.join("frame.png"));
-    assert!(width == 1600 && (1200..1300).contains(&height), "{width} x {height}");
+    assert!(width == 1200 && (900..975).contains(&height), "{width} x {height}");
     size_of_png(&out.join("frames.png"));
 
     let svg = fs::read_to_string(out.join("frame.svg")).unwrap();

@@ -7,7 +7,7 @@ use microsim_core::World;
 /// Pictures on the sheet, start and end included.
 const MOMENTS: u64 = 6;
 /// Longer side of each, pixels.
-const TILE: u32 = 800;
+const TILE: u32 = 400;
 
 /// Small pictures of evenly spaced moments.
 #[derive(Debug)]

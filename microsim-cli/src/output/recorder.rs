@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 /// Longer side of the picture of the end, pixels.
-const FRAME: u32 = 1600;
+const FRAME: u32 = 1200;
 
 /// What is collected while a run goes on.
 #[derive(Debug)]

@@ -26,7 +26,8 @@ pub(super) fn make(folder: &Path) -> Result<String, Failure> {
     let run: Value =
         serde_json::from_slice(&bytes).map_err(|error| Failure::Message(format!("{}: {error}", path.display())))?;
     let title = text(&run["scenario"]);
-    let lead = format!("seed {}, {} steps, {} s simulated", run["seed"], run["steps"], run["simulated_seconds"]);
+    let seconds = run["simulated_seconds"].as_f64().unwrap_or_default();
+    let lead = format!("seed {}, {} steps, {seconds:.2} s simulated", run["seed"], run["steps"]);
     let mut page = Page::new(&title, &lead);
     page.warning(&list(&run["failures"]));
     page.section("Pictures", &pictures(folder)?);
@@ -34,7 +35,7 @@ pub(super) fn make(folder: &Path) -> Result<String, Failure> {
     let (varying, constant) = over_time(&measures);
     page.section("Organisms", &organisms(&Columns::read(folder, "trajectories")?));
     page.section("Measures", &(figures(&varying) + &table(&constant)));
-    page.section("Events", &events(folder, run["simulated_seconds"].as_f64().unwrap_or_default())?);
+    page.section("Events", &events(folder, seconds)?);
     page.section("Speed of the simulation", &step_times(&run));
     page.section("Result", &table(&rows(&run)));
     let scenario = escape(text(&run["effective_scenario"]));
