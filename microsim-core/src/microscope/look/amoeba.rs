@@ -11,6 +11,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     nucleus: NucleusLook {
         lobes: [1, 1],
         radius: [0.235, 0.235],
+        behind: 0.0,
         spread: 0.0,
         matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
         texture: Texture { amount: 0.2, size: 1.5 },

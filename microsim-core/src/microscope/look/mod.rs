@@ -209,6 +209,8 @@ pub(super) struct NucleusLook {
     pub lobes: [u32; 2],
     /// Smallest and largest, in the cell's mean radii.
     pub radius: [f32; 2],
+    /// Share of a crawling cell's length by which it lies behind the centre.
+    pub behind: f32,
     /// Distance of the lobes from the middle of the nucleus, in the cell's mean radii.
     pub spread: f32,
     pub matter: Matter,

@@ -11,6 +11,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     nucleus: NucleusLook {
         lobes: [3, 5],
         radius: [0.24, 0.30],
+        behind: 0.16,
         spread: 0.42,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
         texture: Texture { amount: 0.42, size: 0.8 },

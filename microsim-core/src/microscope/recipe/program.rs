@@ -93,6 +93,7 @@ const FILM: Uniforms =
     &[("exposure", 4, 1), ("stock", 4, 1), ("parts", 2, 5), ("image", 4, 1), ("reach", 1, 1), ("weights", 1, LONGEST)];
 
 const SCREEN: Formula = Formula { source: include_str!("../screen.glsl"), constants: &[] };
+const BOX: Formula = Formula { source: include_str!("../box.glsl"), constants: &[] };
 const SOFTEN: Formula = Formula { source: include_str!("../soften.glsl"), constants: &[] };
 
 impl Program {
@@ -195,9 +196,9 @@ impl Program {
         let drawn = |own: &[&'static Formula]| [&[&maths::FORMULA, &noise::FORMULA, &matter::FORMULA], own].concat();
         match self {
             Ground => drawn(&[&ground::FORMULA]),
-            Walls => drawn(&[&chamber::FORMULA]),
-            Obstacle => drawn(&[&outline::FORMULA, &chamber::FORMULA]),
-            Amoeboid => drawn(&[&outline::FORMULA, &amoeboid::FORMULA]),
+            Walls => drawn(&[&BOX, &chamber::FORMULA]),
+            Obstacle => drawn(&[&BOX, &outline::FORMULA, &chamber::FORMULA]),
+            Amoeboid => drawn(&[&BOX, &outline::FORMULA, &amoeboid::FORMULA]),
             Round | Ciliate => drawn(&[&round::FORMULA]),
             Spot => drawn(&[&spot::SPOT]),
             Thread => drawn(&[&spot::THREAD]),

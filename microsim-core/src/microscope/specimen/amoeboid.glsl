@@ -1,15 +1,6 @@
 // Cells that crawl; see amoeboid.rs.
 
-varying vec2 at;
-
-#ifdef VERTEX
-attribute vec2 place;
-
-void main() {
-    at = place;
-    gl_Position = seen_at(place);
-}
-#else
+#ifndef VERTEX
 // Centre, radius, width of the rim.
 uniform vec4 middle;
 // To the cell's own frame.

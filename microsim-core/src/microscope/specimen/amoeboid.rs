@@ -87,33 +87,33 @@ impl AmoeboidBody {
         let (centre, radius) = middle_of(&surface)?;
         let outline = smooth(&surface);
         let shape = stretch(&surface, centre, radius);
-        let velocity = drift(organism);
         let mut body = Self {
             look,
             map: DistanceMap::of(&outline, STEP, MARGIN),
             centre,
             radius,
             from_shape: shape.inverse() * radius,
-            front: Front::of(velocity, &outline, centre, radius),
+            front: Front::of(organism, &outline, centre, radius),
             lobes: Vec::new(),
             seed,
             time,
         };
-        body.lobes = body.lobes(shape, centre, radius, body.front);
+        let Front { way, strength, ahead, behind, .. } = body.front;
+        let middle = centre - way * (look.nucleus.behind * (ahead + behind) * strength);
+        body.lobes = body.lobes(middle, radius, shape);
         if organism.dividing_for().is_some() {
-            body.part_nucleus(&outline, velocity);
+            body.part_nucleus(&outline);
         }
         Some(body)
     }
 
-    /// Lobes of a nucleus: a chain around a middle that lies behind the centre, inside whatever shape the cell has.
-    fn lobes(&self, shape: Mat2, centre: Vec2, radius: f32, front: Front) -> Vec<(Vec2, f32)> {
+    /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
+    fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
         let nucleus = &self.look.nucleus;
         let mut dice = Dice::new(self.seed ^ 0x1ace);
         let [fewest, most] = nucleus.lobes;
         let count = fewest + dice.bits() % (most - fewest + 1);
         let first = dice.unit() * TAU;
-        let middle = centre - front.way * (0.16 * (front.ahead + front.behind) * front.strength);
         // A chain that does not close; the more lobes, the smaller they are.
         let step = smaller(1.35, 4.2 / count as f32);
         let size = radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
@@ -128,18 +128,14 @@ impl AmoeboidBody {
 
     /// Doubles the nucleus of a cell that divides: its lobes part as the furrow closes, and end where those of the
     /// daughters, which are as the two halves, will be.
-    fn part_nucleus(&mut self, outline: &[Vec2], velocity: Vec2) {
-        let from_centre = || outline.iter().map(|&p| p - self.centre);
-        let farthest = from_centre().max_by(|a, b| a.length().total_cmp(&b.length()));
-        let axis = farthest.map_or(Vec2::X, |way| way.normalize_or(Vec2::X));
-        let waist = from_centre().filter(|p| p.dot(axis).abs() < 0.15 * self.radius);
-        let waist = waist.map(|p| p.perp_dot(axis).abs()).fold(0.0, larger);
-        let parted = smoothstep(0.75 * self.radius, 0.15 * self.radius, waist);
-        let halves = [axis, -axis].into_iter().filter_map(|way| {
-            let half: Vec<Vec2> = outline.iter().copied().filter(|&p| (p - self.centre).dot(way) > 0.0).collect();
-            let (centre, radius) = middle_of(&half)?;
-            let front = Front::of(velocity, &half, centre, radius);
-            Some(self.lobes(Mat2::from_diagonal(Vec2::splat(radius)), centre, radius, front))
+    fn part_nucleus(&mut self, outline: &[Vec2]) {
+        let Some((i, j)) = narrowest(outline) else { return };
+        let waist = 0.5 * (outline[i] - outline[j]).length();
+        let parted = smoothstep(0.6 * self.radius, 0.2 * self.radius, waist);
+        let halves = [outline[i..=j].to_vec(), [&outline[j..], &outline[..=i]].concat()];
+        let halves = halves.iter().filter_map(|half| {
+            let (centre, radius) = middle_of(half)?;
+            Some(self.lobes(centre, radius, Mat2::from_diagonal(Vec2::splat(radius))))
         });
         // Two lobes in the same place run into each other, too.
         let swelling = 0.25 * NECK * self.radius;
@@ -327,7 +323,9 @@ impl AmoeboidBody {
 }
 
 impl Front {
-    fn of(velocity: Vec2, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
+    fn of(organism: OrganismView<'_>, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
+        let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
+        let velocity = cytoplasm().map(|p| p.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0);
         let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
         let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
         // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
@@ -345,17 +343,19 @@ impl Front {
     }
 }
 
-/// Mean velocity of the cytoplasm.
-fn drift(organism: OrganismView<'_>) -> Vec2 {
-    let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
-    cytoplasm().map(|particle| particle.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0)
-}
-
 /// Centroid of an outline and radius of the disc of equal area; nothing if it encloses none.
 fn middle_of(outline: &[Vec2]) -> Option<(Vec2, f32)> {
     let centre = centroid(outline).filter(|centre| centre.is_finite())?;
     let radius = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
     (radius > 0.0 && radius.is_finite()).then_some((centre, radius))
+}
+
+/// Where an outline is narrowest: two points of it, at least a quarter of it apart.
+fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
+    let count = outline.len();
+    let pairs = (0..count).flat_map(|i| (i + count / 4..count.min(i + 3 * count / 4)).map(move |j| (i, j)));
+    let apart = |(i, j): (usize, usize)| (outline[i] - outline[j]).length_squared();
+    pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
 }
 
 /// A quarter of a circle: 0 outside, 1 from a depth of 1 on, steep at the edge.
