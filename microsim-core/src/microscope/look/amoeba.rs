@@ -57,6 +57,6 @@ const VACUOLES: GranuleLook = GranuleLook {
     radius: 1.2,
     spread: 0.4,
     limits: [0.5, 2.4],
-    matter: Matter { phase: -0.016 * WAVE, haemoglobin: 0.0, cytoplasm: -0.3, nucleus: 0.0 },
+    matter: Matter { phase: -0.016 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
