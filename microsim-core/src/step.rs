@@ -6,7 +6,7 @@ use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
-use crate::particle::BlockRange;
+use crate::particle::{BlockRange, outside_of};
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact};
@@ -19,11 +19,11 @@ pub enum Phase {
     SteerOrganisms,
     /// Pairs that may touch before the next step are found.
     FindPairs,
-    /// Velocities are applied and limited, positions predicted.
+    /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
     /// Fluid returns to its density; viscosity.
     ProjectFluids,
-    /// Constraints: blocks in lanes, then loose bodies.
+    /// Blocks in lanes, their positions predicted and their constraints projected; then constraints of loose bodies.
     ProjectConstraints,
     /// Discs and obstacles push each other apart.
     ProjectContacts,
@@ -140,13 +140,17 @@ pub(crate) fn find_pairs(world: &mut World) {
 }
 
 fn predict_positions(world: &mut World, h: f32) {
-    let World { config, particles, scratch, dispatch, .. } = world;
+    let World { config, particles, blocks, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
-    integrate::in_stretches(
-        particles,
-        *dispatch,
+    let outside = outside_of(blocks.iter().map(Block::range), particles.len());
+    let mut columns = particles.columns();
+    dispatch.run(
         #[inline(always)]
-        |stretch| integrate::predict_positions(stretch, config.gravity, config.speed_limit(), h),
+        || {
+            for loose in outside {
+                integrate::predict_positions(&mut columns.part(loose), config.gravity, config.speed_limit(), h);
+            }
+        },
     );
 }
 
@@ -157,9 +161,16 @@ fn project_fluids(world: &mut World, h: f32) {
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World { particles, templates, blocks, organisms, scratch, dispatch, .. } = world;
-    let constraints = |template: u32| templates[template as usize].constraints();
-    block::project(blocks, constraints, particles, h, *dispatch);
+    let World { config, particles, templates, blocks, organisms, scratch, dispatch, .. } = world;
+    block::predict_and_project(
+        blocks,
+        #[inline(always)]
+        |block| integrate::predict_positions(block, config.gravity, config.speed_limit(), h),
+        |template| templates[template as usize].constraints(),
+        particles,
+        h,
+        *dispatch,
+    );
     for (membrane, ring) in membranes(organisms) {
         membrane.project(ring, particles, h);
     }
@@ -175,7 +186,9 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 fn project_contacts(world: &mut World) {
     let World { config, particles, obstacles, organisms, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
-    contact::project(&mut broad_phase.contacts, particles, &mut scratch.impacts);
+    for contacts in broad_phase.contacts.lists_mut() {
+        contact::project(contacts, particles, &mut scratch.impacts);
+    }
     guard.wrong_side += u64::from(ring_contact::project(&mut broad_phase.ring_contacts, particles));
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);

@@ -52,6 +52,16 @@ fn built_in_scenarios_end_in_their_golden_digests() {
 }
 
 #[test]
+fn every_behaviour_is_in_a_built_in_scenario() {
+    let steers = |organism: OrganismView<'_>| format!("{:?} {:?}", organism.controller(), organism.exchanges());
+    let built_in = builtins().iter().map(|scenario| build(scenario.name, None));
+    let all: String = built_in.flat_map(|world| world.view().organisms().map(steers).collect::<Vec<_>>()).collect();
+    let models = "Wander Patrol Thrash Ram PersistentWalk Chemotaxis RunAndTumble Brownian Avoidance Flee Pursue";
+    let missing: Vec<&str> = models.split(' ').filter(|model| !all.contains(&format!("{model}({model}"))).collect();
+    assert!(missing.is_empty(), "digests cover no {missing:?}");
+}
+
+#[test]
 fn equal_seeds_give_equal_worlds_and_other_seeds_other_ones() {
     let run = |seed: u64| {
         let mut world = build("demo", Some(seed));

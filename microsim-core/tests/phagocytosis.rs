@@ -2,24 +2,22 @@
 //! `phagocytosis.rs`.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
+#[path = "common/chase.rs"]
+mod chase;
 mod common;
 
+use chase::{agar, begins, by, chase, is_ingested, phase, small_rigid};
 use common::run;
 use microsim_core::geometry::polygon::{contains_point, is_simple, signed_area};
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Event, IngestionWay, Inputs, Intent, Kind, MealPhase, OrganismId, OrganismSpec,
-    PhagocytosisParams, Placement, PlateletSpec, RigidCellSpec, Rng, Role, World, WorldConfig,
+    PhagocytosisParams, Placement, RigidCellSpec, Rng, Role, World, WorldConfig,
 };
 
 /// Near the right wall, which stops prey that is pushed.
 const CENTRE: Vec2 = Vec2::new(128.0, 45.0);
-
-/// The default parameters but for the way in.
-fn by(way: IngestionWay) -> PhagocytosisParams {
-    PhagocytosisParams { way, ..PhagocytosisParams::default() }
-}
 
 /// A cell and one prey at some distance to its right.
 fn scene(prey: &OrganismSpec, distance: f32) -> (World, OrganismId, OrganismId) {
@@ -33,48 +31,6 @@ fn scene_by(way: IngestionWay, prey: &OrganismSpec, distance: f32) -> (World, Or
     let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
     let prey = world.spawn(prey, Placement::at(CENTRE.x + distance, CENTRE.y)).unwrap();
     (world, cell, prey)
-}
-
-fn agar() -> OrganismSpec {
-    AgarSpec::default().into()
-}
-
-/// A rigid cell that is small enough.
-fn small_rigid() -> OrganismSpec {
-    RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() }.into()
-}
-
-fn phase(world: &World, cell: OrganismId, prey: OrganismId) -> Option<MealPhase> {
-    world.view().organism(cell)?.meals().find(|meal| meal.0 == prey).map(|meal| meal.1)
-}
-
-/// Steps towards the prey until `done`, at most `limit` steps; checks every step that nothing is lost or half inside.
-fn chase(
-    world: &mut World,
-    cell: OrganismId,
-    prey: OrganismId,
-    limit: u32,
-    done: impl Fn(&World) -> bool,
-) -> Option<u32> {
-    for step in 0..limit {
-        let mut inputs = Inputs::new();
-        world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
-        world.step(&inputs);
-        let census = world.census();
-        assert_eq!((census.leaks, census.improper_absorptions), (0, 0), "step {step}");
-        if done(world) {
-            return Some(step);
-        }
-    }
-    None
-}
-
-fn begins(world: &World) -> bool {
-    world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }))
-}
-
-fn is_ingested(event: &Event) -> bool {
-    matches!(event, Event::Ingested { .. })
 }
 
 #[test]
@@ -451,74 +407,4 @@ fn several_cups_close_at_once_and_removal_leaves_nothing() {
     assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0));
     world.remove(cell).unwrap();
     assert_eq!(world.census().particles, 1, "the other agar");
-}
-
-/// A cell that takes prey in by one way, prey in a random direction, and platelets around.
-fn among_platelets(
-    seed: u64,
-    way: IngestionWay,
-    prey: &OrganismSpec,
-    distance: f32,
-) -> (World, OrganismId, OrganismId) {
-    let mut rng = Rng::new(seed, 9);
-    let mut world = World::new(WorldConfig { size: Vec2::new(110.0, 90.0), ..WorldConfig::default() }).unwrap();
-    let spec = AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() };
-    let cell = world.spawn(&spec.into(), Placement::at(55.0, 45.0)).unwrap();
-    let at = Vec2::new(55.0, 45.0) + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * distance;
-    let prey = world.spawn(prey, Placement::at(at.x, at.y)).unwrap();
-    for _ in 0..60 {
-        let at = Placement::at(rng.range(3.0, 107.0), rng.range(3.0, 87.0));
-        // Where there is no room there is no platelet.
-        let _ = world.spawn(&PlateletSpec::default().into(), at);
-    }
-    (world, cell, prey)
-}
-
-/// Steps from the beginning of an ingestion to its end, and whether the prey is inside then.
-fn absorb(seed: u64, way: IngestionWay, prey: &OrganismSpec, distance: f32) -> Option<(u32, bool)> {
-    let (mut world, cell, prey) = among_platelets(seed, way, prey, distance);
-    chase(&mut world, cell, prey, 900, begins)?;
-    let ends = |world: &World| world.events().iter().any(|e| is_ingested(e) || matches!(e, Event::Released { .. }));
-    let took = chase(&mut world, cell, prey, 600, ends).expect("inside or released");
-    let outline: Vec<Vec2> = world.view().organism(cell).unwrap().outline().collect();
-    let discs = world.view().organism(prey).unwrap().particles().map(|p| contains_point(&outline, p.position));
-    let inside: Vec<bool> = discs.collect();
-    let is_inside = phase(&world, cell, prey) == Some(MealPhase::Ingested);
-    assert!(inside.iter().all(|&part| part == is_inside), "seed {seed}: {way:?}, partly inside");
-    assert!(world.quality().edge_stretch_max < 0.5, "seed {seed}: {:?}", world.quality());
-    Some((took, is_inside))
-}
-
-/// Absorbs over seeds; all must end within the time limit (and the time to be put on a side), none partly inside.
-fn absorb_over_seeds(seeds: u64, way: IngestionWay, prey: &OrganismSpec, distance: f32) {
-    let ends: Vec<(u32, bool)> = (0..seeds).filter_map(|seed| absorb(seed, way, prey, distance)).collect();
-    let inside = ends.iter().filter(|end| end.1).count() as u64;
-    let longest = ends.iter().map(|end| end.0).max().unwrap();
-    let mean = ends.iter().map(|end| end.0).sum::<u32>() / ends.len() as u32;
-    let begun = ends.len();
-    println!("{way:?}: {begun} of {seeds} begun, {inside} inside, steps: mean {mean}, longest {longest}");
-    assert!(longest < 240, "{way:?}: {longest} steps");
-    assert!(
-        begun as u64 * 10 >= seeds * 9 && inside * 10 >= begun as u64 * 9,
-        "{way:?}: {begun} begun, {inside} inside"
-    );
-}
-
-const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
-
-#[test]
-fn agar_and_rigid_cells_among_platelets_are_absorbed_from_every_side() {
-    for way in WAYS {
-        absorb_over_seeds(6, way, &agar(), 16.0);
-        absorb_over_seeds(6, way, &small_rigid(), 19.0);
-    }
-}
-
-#[test]
-#[ignore = "a soak: minutes in release"]
-fn absorption_over_200_seeds() {
-    for way in WAYS {
-        absorb_over_seeds(200, way, &agar(), 16.0);
-        absorb_over_seeds(200, way, &small_rigid(), 19.0);
-    }
 }

@@ -39,6 +39,13 @@ fn platelets_come_in_any_number() {
 }
 
 #[test]
+fn a_crowd_finds_room_with_every_seed() {
+    for seed in 1..=20 {
+        assert_eq!(build("hunt", &[("seed", &seed.to_string())]).organisms().count(), 112, "seed {seed}");
+    }
+}
+
+#[test]
 fn the_probe_sweeps_through_the_platelets_and_parks_beside_them() {
     let mut world = build("platelets", &[]);
     let probe = world.organisms().next().unwrap();

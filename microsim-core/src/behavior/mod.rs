@@ -52,10 +52,10 @@ fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
     let Organism { controller, progress, rng, .. } = organism;
     let wish = controller.decide(senses, rng)?;
     let way_out = if controller.insists() { None } else { progress.way_out(wish, senses, rng) };
-    Some(way_out.map_or(wish, |way| {
-        controller.head(way);
-        senses.along(way)
-    }))
+    if let Some(escape) = way_out {
+        controller.head(heading(escape.goal - senses.at));
+    }
+    Some(way_out.unwrap_or(wish))
 }
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).

@@ -1,23 +1,33 @@
-//! Whether what wants to move gets anywhere, and how what is stuck tries to get away.
+//! Whether what wants to move gets anywhere, and how what is stuck tries to get away: faster than it goes about, as
+//! ciliates do (Hamel et al. 2011, PNAS 108, 7290).
 
 use super::controller::senses::{Senses, Wish};
-use crate::geometry::ring::{direction_or, rotate, unit_vector};
+use crate::geometry::ring::{direction_or, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
-use std::f32::consts::PI;
+use std::f32::consts::TAU;
 
 /// It has got somewhere when it is so far from where it was, in its radii.
 const SOMEWHERE: f32 = 1.0 / 3.0;
 /// Time without that after which it is stuck: so many times the time to get there at its speed, and some more, s.
-const PATIENCE: [f32; 2] = [1.4, 0.4];
-/// What still goes its way with this share of its speed is not stuck.
+const PATIENCE: [f32; 2] = [1.2, 0.3];
+/// What still gets away from where it was with this share of its speed is not stuck.
 const GOING: f32 = 0.3;
-/// Time for which it tries one way out, the same way, and by how much longer each further try is.
+/// Time for which it goes one way out, the same way.
 const TRY: [f32; 2] = [1.3, 0.5];
-const LONGER: f32 = 0.3;
-/// It first goes back the way that it came, give or take this angle, radians.
-const ASTRAY: f32 = 0.5;
+/// Time after which a way out on which it is not going is given up, s.
+const GIVE_UP: f32 = 0.6;
+/// Speed at which it tries to get away, in its own.
+const HASTE: f32 = 1.5;
+/// Ways that it considers, all around.
+const WAYS: u32 = 12;
+/// Weight of the way back among them, against what has been in its way.
+const BACK: f32 = 0.5;
+/// Weight of its long axis among them: what is long has to turn before it goes another way.
+const END_FIRST: f32 = 0.5;
+/// What remains of the ways that failed with each further one.
+const MEMORY: f32 = 0.5;
 
 /// Where an organism last got to, and its way out when it is stuck.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,10 +37,18 @@ pub(crate) struct Progress {
     before: Vec2,
     /// Time since then for which it wanted to move, s.
     pub stalled: f32,
-    /// Direction that it tries, and time for which it still does, s.
-    escape: Option<(Vec2, f32)>,
-    /// Ways out that it has tried.
-    tries: u32,
+    /// Way out that it is on.
+    escape: Option<Escape>,
+    /// Sum of the ways that failed, the last ones weighing most.
+    failed: Vec2,
+}
+
+/// A way out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Escape {
+    way: Vec2,
+    /// Time for which it has been on it, s.
+    age: f32,
 }
 
 impl Progress {
@@ -38,29 +56,92 @@ impl Progress {
     pub(crate) fn note(&mut self, wants_to_move: bool, senses: &Senses<'_>) {
         let distance = SOMEWHERE * senses.radius;
         if (senses.at - self.mark).length_squared() > distance * distance {
-            *self = Self { mark: senses.at, before: self.mark, stalled: 0.0, tries: 0, ..*self };
+            *self = Self { mark: senses.at, before: self.mark, stalled: 0.0, failed: Vec2::ZERO, ..*self };
         } else if wants_to_move {
             self.stalled += senses.around.dt;
         }
     }
 
-    /// The direction in which it tries to get away, if it is stuck: first back, then anywhere.
-    pub(crate) fn way_out(&mut self, wish: Wish, senses: &Senses<'_>, rng: &mut Rng) -> Option<Vec2> {
-        let ahead = direction_or((wish.goal - senses.at) * wish.pace, Vec2::ZERO);
-        let is_going = senses.velocity.dot(ahead) > GOING * senses.speed;
+    /// How it tries to get away, if it is stuck: rather away from what it has tried, back the way that it came and with
+    /// an end first.
+    pub(crate) fn way_out(&mut self, wish: Wish, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
         let needed = SOMEWHERE * senses.radius / senses.speed;
         let [due, length] = [PATIENCE, TRY].map(|[times, more]| times * needed + more);
-        self.escape = match self.escape {
-            Some((way, left)) if left > senses.around.dt => Some((way, left - senses.around.dt)),
-            _ if self.stalled < due || is_going => None,
+        let goes = |way: Vec2| senses.velocity.dot(way) > GOING * senses.speed;
+        let escape = match self.escape {
+            Some(Escape { way, age }) if age > GIVE_UP && !goes(way) && self.stalled > 0.0 => {
+                self.instead_of(way, senses, rng)
+            }
+            Some(Escape { way, age }) if age < length => Escape { way, age: age + senses.around.dt },
+            _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => {
+                self.instead_of(direction_or((wish.goal - senses.at) * wish.pace, Vec2::ZERO), senses, rng)
+            }
             _ => {
-                let astray = if self.tries == 0 { ASTRAY } else { PI };
-                let back = direction_or(self.before - senses.at, Vec2::X);
-                let way = senses.along_walls(rotate(back, unit_vector(rng.range(-astray, astray))));
-                self.tries += 1;
-                Some((way, length * (1.0 + LONGER * (self.tries - 1) as f32)))
+                self.escape = None;
+                return None;
             }
         };
-        self.escape.map(|(way, _)| way)
+        self.escape = Some(escape);
+        Some(Wish { pace: HASTE, ..senses.along(escape.way) })
+    }
+
+    /// The most promising of some ways all around, after one that failed.
+    fn instead_of(&mut self, failed: Vec2, senses: &Senses<'_>, rng: &mut Rng) -> Escape {
+        self.failed = self.failed * MEMORY + failed;
+        Escape { way: self.best_way(senses, rng), age: 0.0 }
+    }
+
+    fn best_way(&self, senses: &Senses<'_>, rng: &mut Rng) -> Vec2 {
+        let towards = direction_or(self.before - senses.at, Vec2::ZERO) * BACK - self.failed;
+        let axis = senses.axis() * END_FIRST;
+        let merit = |way: Vec2| way.dot(towards) + way.dot(axis).abs();
+        let first = rng.range(0.0, TAU);
+        let ways = (0..WAYS).map(|k| senses.along_walls(unit_vector(first + TAU * k as f32 / WAYS as f32)));
+        ways.reduce(|a, b| if merit(b) > merit(a) { b } else { a }).unwrap_or(Vec2::X)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::controller::senses::Surroundings;
+    use super::*;
+    use crate::geometry::ring::ellipse;
+    use crate::id::OrganismId;
+
+    /// The ways out, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
+    fn ways_out(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
+        const DT: f32 = 0.1;
+        let around = Surroundings { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
+        let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
+        let way_out = |step: u32| {
+            let at = Vec2::new(30.0, 30.0) + velocity * (step as f32 * DT);
+            let outline: Vec<Vec2> = ellipse(Vec2::new(2.0, 1.0), 16).into_iter().map(|arm| at + arm).collect();
+            let me = OrganismId { index: 0, generation: 0 };
+            let (speed, radius, arrival) = (1.0, 1.5, 0.25);
+            let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
+            progress.note(true, &senses);
+            let wish = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
+            wish.map(|wish| direction_or(wish.goal - at, Vec2::ZERO))
+        };
+        (0..(seconds / DT) as u32).map(way_out).collect()
+    }
+
+    #[test]
+    fn what_is_stuck_tries_one_way_after_the_other_and_none_that_just_failed() {
+        let ways = ways_out(Vec2::ZERO, 4.0);
+        let waits = ways.iter().take_while(|way| way.is_none()).count();
+        assert!((9..=11).contains(&waits), "{waits} tenths of a second");
+        assert!(ways[waits..].iter().all(Option::is_some));
+        let mut tried: Vec<Vec2> = ways.into_iter().flatten().collect();
+        tried.dedup();
+        assert!(tried.len() >= 4, "{tried:?}");
+        assert!(tried[0].x < 0.0, "{}", tried[0]);
+        assert!(tried.windows(2).all(|pair| pair[0].dot(pair[1]) < 0.5), "{tried:?}");
+    }
+
+    #[test]
+    fn what_gets_somewhere_is_let_alone() {
+        assert_eq!(ways_out(Vec2::X * 0.5, 4.0), [None; 40]);
+        assert_eq!(ways_out(Vec2::Y * 0.35, 4.0), [None; 40], "pushed aside, but away");
     }
 }

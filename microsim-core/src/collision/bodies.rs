@@ -136,24 +136,28 @@ impl Bodies {
         self.small.in_box(low, high).chain(self.large.in_box(low, high))
     }
 
-    /// Adds what `find` gives for each two discs of different bodies that may touch.
-    pub(super) fn pairs<R: Send>(&self, find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync, found: &mut Vec<R>) {
-        let within = |layer: &Layer, rows: Range<usize>| {
-            let (mut near, mut found) = (Vec::new(), Vec::new());
+    /// Adds what `find` gives for each two discs of different bodies that may touch: of small bodies to the lists, strip by
+    /// strip of rows, of large ones to what is returned.
+    pub(super) fn pairs<R: Send>(
+        &self,
+        find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync,
+        strips: &mut Vec<Vec<R>>,
+        others: &mut Vec<R>,
+    ) {
+        let within = |layer: &Layer, rows: Range<usize>, found: &mut Vec<R>| {
+            let mut near = Vec::new();
             layer.grid.pairs(rows, |a, b| {
                 self.pairs_between(&layer.bodies[a], &layer.bodies[b], &mut near, |a, b| found.extend(find(a, b)));
             });
-            found
         };
-        let strips = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP).collect();
-        for strip in parallel::map(strips, |rows| within(&self.small, rows)) {
-            found.extend(strip);
-        }
-        found.extend(within(&self.large, 0..self.large.grid.rows()));
+        let rows = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP);
+        strips.resize_with(rows.len(), Vec::new);
+        parallel::for_each(rows.zip(strips).collect(), |(rows, found)| within(&self.small, rows, found));
+        within(&self.large, 0..self.large.grid.rows(), others);
         let mut near = Vec::new();
         for body in &self.large.bodies {
             for other in self.small.in_box(body.low, body.high) {
-                self.pairs_between(body, other, &mut near, |a, b| found.extend(find(a, b)));
+                self.pairs_between(body, other, &mut near, |a, b| others.extend(find(a, b)));
             }
         }
     }

@@ -12,15 +12,15 @@ use super::crowd::{Crowd, Disc};
 use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
-use super::{Contact, ObstacleContact};
-use crate::particle::{BlockRange, NO_OWNER, Particles};
+use super::{Contact, Contacts, ObstacleContact};
+use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
 use glam::Vec2;
 use parry2d::bounding_volume::BoundingVolume;
 
 /// The pairs of this step, and what found them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BroadPhase {
-    pub contacts: Vec<Contact>,
+    pub contacts: Contacts,
     pub obstacle_contacts: Vec<ObstacleContact>,
     pub ring_contacts: RingContacts,
     bodies: Bodies,
@@ -52,8 +52,9 @@ impl BroadPhase {
         self.sort(around);
         let Self { contacts, bodies, membranes, fluid, .. } = self;
         contacts.clear();
-        bodies.pairs(|a, b| contact_of_bodies(a, b, around), contacts);
-        let mut consider = |a: &Disc, b: &Disc| contacts.extend(contact(a, b, around));
+        let Contacts { strips, others } = contacts;
+        bodies.pairs(|a, b| contact_of_bodies(a, b, around), strips, others);
+        let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, around));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
             bodies.pairs_with(fluid, &mut consider);
@@ -92,7 +93,8 @@ impl BroadPhase {
         membranes.found.clear();
         fluid.found.clear();
         bodies.collect(blocks, p, reach);
-        for i in loose(blocks, p.len()).filter(|&i| p.groups[i].memberships != 0) {
+        let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
+        for i in loose.filter(|&i| p.groups[i].memberships != 0) {
             let disc = Disc::of(p, i, reach);
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc),
@@ -124,13 +126,6 @@ impl BroadPhase {
             obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
         }
     }
-}
-
-/// Entries of the store that are in no block.
-fn loose(blocks: &[BlockRange], len: usize) -> impl Iterator<Item = usize> + '_ {
-    let ends = blocks.iter().map(|block| block.base + block.len());
-    let gaps = std::iter::once(0).chain(ends).zip(blocks.iter().map(|block| block.base).chain([len]));
-    gaps.flat_map(|(start, end)| start..end)
 }
 
 /// Whether a disc's fluid is not that of the first disc: then there are several.

@@ -42,6 +42,31 @@ impl Contact {
     }
 }
 
+/// The contacts of a step, in lists that were filled independently of each other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Contacts {
+    /// Of small bodies, by strips of the room.
+    strips: Vec<Vec<Contact>>,
+    others: Vec<Contact>,
+}
+
+impl Contacts {
+    fn clear(&mut self) {
+        self.strips.iter_mut().for_each(Vec::clear);
+        self.others.clear();
+    }
+
+    /// All of them, always in the same order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Contact> {
+        self.strips.iter().flatten().chain(&self.others)
+    }
+
+    /// The lists.
+    pub(crate) fn lists_mut(&mut self) -> impl Iterator<Item = &mut [Contact]> {
+        self.strips.iter_mut().chain([&mut self.others]).map(Vec::as_mut_slice)
+    }
+}
+
 /// A disc and an obstacle that may touch during the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ObstacleContact {

@@ -2,6 +2,7 @@
 //! neighbouring ones. Stretches that do not overlap can be worked on at the same time.
 
 use glam::Vec2;
+use std::ops::Range;
 
 /// Columns of [`super::Particles`], from some particle on.
 #[derive(Debug)]
@@ -25,6 +26,22 @@ impl<'a> Columns<'a> {
             (self.origin_x[j] - self.origin_x[i]) + (self.x[j] - self.x[i]),
             (self.origin_y[j] - self.origin_y[i]) + (self.y[j] - self.y[i]),
         )
+    }
+
+    /// Some of them.
+    pub(crate) fn part(&mut self, range: Range<usize>) -> Columns<'_> {
+        let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;
+        Columns {
+            origin_x: &origin_x[range.clone()],
+            origin_y: &origin_y[range.clone()],
+            x: &mut x[range.clone()],
+            y: &mut y[range.clone()],
+            prev_x: &mut prev_x[range.clone()],
+            prev_y: &mut prev_y[range.clone()],
+            vx: &mut vx[range.clone()],
+            vy: &mut vy[range.clone()],
+            inv_mass: &inv_mass[range],
+        }
     }
 
     /// The first `count` entries, and the others.

@@ -21,6 +21,7 @@ mod columns;
 pub(crate) use columns::Columns;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
@@ -51,6 +52,20 @@ impl BlockRange {
     pub(crate) fn len(&self) -> usize {
         self.slots * LANES
     }
+
+    /// One past its last entry.
+    pub(crate) fn end(&self) -> usize {
+        self.base + self.len()
+    }
+}
+
+/// Stretches of a store of `len` entries that are in no block, of blocks in the order in which they lie there.
+pub(crate) fn outside_of(
+    blocks: impl Iterator<Item = BlockRange> + Clone,
+    len: usize,
+) -> impl Iterator<Item = Range<usize>> {
+    let starts = std::iter::once(0).chain(blocks.clone().map(|block| block.end()));
+    starts.zip(blocks.map(|block| block.base).chain([len])).map(|(start, end)| start..end)
 }
 
 /// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.

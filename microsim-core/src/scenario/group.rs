@@ -265,6 +265,14 @@ impl Group {
         }
     }
 
+    /// How many there are from the beginning in random places.
+    pub(super) fn random_count(&self) -> usize {
+        match self.place {
+            Place::Random { count, .. } if self.from == 0.0 => count as usize,
+            _ => 0,
+        }
+    }
+
     /// Path of the field that says how many there are.
     pub(super) fn count_path(&self, report: &Report<'_>) -> String {
         let count = format!("{}.count", self.path);

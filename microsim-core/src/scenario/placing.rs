@@ -11,6 +11,8 @@ use std::f32::consts::TAU;
 
 /// Random places that are tried for one organism.
 const TRIES: u32 = 2000;
+/// Layouts that are tried.
+const LAYOUTS: usize = 20;
 /// Streams of random numbers from here on are for placing; those of the world's organisms lie below.
 const STREAM: u64 = 1 << 62;
 
@@ -21,27 +23,33 @@ pub(super) struct Placed {
     pub placement: Placement,
 }
 
-/// Finds places for all organisms that are there from the beginning, group by group. Fixed places count before random ones do, wherever they stand in the
-/// file, so that random placement never takes a place that is asked for.
+/// Finds places for all organisms that are there from the beginning, group by group. Fixed places count before random
+/// ones do, wherever they stand in the file, so that random placement never takes a place that is asked for. When one
+/// finds none, the random ones are all laid out anew.
 pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, report: &Report<'_>) -> Vec<Vec<Placed>> {
     let reach = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
     let mut taken = Taken::new(reach.fold(0.0, |far, reach| if reach > far { reach } else { far }), obstacles);
     let rng = |index: usize| Rng::new(seed, STREAM + index as u64);
-    let mut placed: Vec<Vec<Placed>> =
+    let fixed: Vec<Vec<Placed>> =
         groups.iter().enumerate().map(|(index, group)| fixed(group, rng(index), &mut taken)).collect();
-    for (index, group) in groups.iter().enumerate() {
-        if let Place::Random { count, within, gap } = group.place
-            && group.from == 0.0
-        {
-            placed[index] = random(group, within, gap, rng(index), &mut taken);
-            let found = placed[index].len();
-            if found < count as usize {
-                let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
-                let accepted =
-                    format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
-                report.refuse(&group.count_path(report), message, accepted);
-            }
+    let mut lay_out = |layout: usize| {
+        let (mut placed, mut taken) = (fixed.clone(), taken.clone());
+        for (index, group) in groups.iter().enumerate() {
+            placed[index].extend(random(group, rng(layout * groups.len() + index), &mut taken));
         }
+        placed
+    };
+    let is_short = |(group, placed): &(&Group, &Vec<Placed>)| placed.len() < group.random_count();
+    let is_complete = |placed: &Vec<Vec<Placed>>| !groups.iter().zip(placed).any(|pair| is_short(&pair));
+    if let Some(placed) = (0..LAYOUTS).map(&mut lay_out).find(is_complete) {
+        return placed;
+    }
+    let placed = lay_out(0);
+    for (group, placed) in groups.iter().zip(&placed).filter(is_short) {
+        let (found, count) = (placed.len(), group.random_count());
+        let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
+        let accepted = format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
+        report.refuse(&group.count_path(report), message, accepted);
     }
     placed
 }
@@ -62,10 +70,11 @@ fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
     places.into_iter().map(put).collect()
 }
 
-/// As many of a group as find a free place, by rejection.
-fn random(group: &Group, [low, high]: [Vec2; 2], gap: f32, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
+/// As many of a group whose places are random as find a free one, by rejection.
+fn random(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
     let mut placed = Vec::new();
-    for _ in 0..group.place.count() {
+    let Place::Random { within: [low, high], gap, .. } = group.place else { return placed };
+    for _ in 0..group.random_count() {
         let (scale, angle) = draw(group, &mut rng);
         let radius = group.prototype.extent(scale);
         let (low, high) = (low + radius, high - radius);
@@ -97,6 +106,7 @@ pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
 }
 
 /// Circles that are taken, in cells of a square grid so that few are looked at.
+#[derive(Clone)]
 struct Taken<'a> {
     cell: f32,
     /// Largest radius.

@@ -4,7 +4,7 @@ use super::ConstraintSet;
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, Span};
 use crate::parallel;
-use crate::particle::{BlockRange, NO_OWNER, Particles};
+use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
 /// Blocks that are projected side by side.
@@ -54,16 +54,13 @@ impl Block {
     fn span(&self, start: usize) -> Span<LANES> {
         Span { base: self.base as usize - start, scale: self.scale }
     }
-
-    /// One past its last particle.
-    fn end(&self) -> usize {
-        self.base as usize + self.range().len()
-    }
 }
 
-/// Projects all constraints of all blocks, [`BATCH`] blocks of one template at a time.
-pub(crate) fn project<'a>(
+/// Predicts the positions of all blocks and projects all their constraints, [`BATCH`] blocks of one template at a time: what
+/// one has loaded the other finds at hand.
+pub(crate) fn predict_and_project<'a>(
     blocks: &[Block],
+    predict: impl Fn(&mut Columns<'_>) + Sync + Send,
     constraints: impl Fn(u32) -> &'a ConstraintSet + Sync + Send,
     particles: &mut Particles,
     h: f32,
@@ -73,7 +70,7 @@ pub(crate) fn project<'a>(
     let (mut rest, mut start) = (particles.columns(), 0);
     for of_template in blocks.chunk_by(|a, b| a.template == b.template) {
         for batch in of_template.chunks(BATCH) {
-            let end = batch.iter().map(Block::end).max().unwrap_or(start);
+            let end = batch.last().map_or(start, |block| block.range().end());
             let (stretch, others) = rest.split_at(end - start);
             batches.push((batch, start, stretch));
             (rest, start) = (others, end);
@@ -85,7 +82,12 @@ pub(crate) fn project<'a>(
         let constraints = constraints(batch[0].template);
         dispatch.run(
             #[inline(always)]
-            || constraints.project(&spans, &mut stretch, h),
+            || {
+                for block in batch.iter().map(Block::range) {
+                    predict(&mut stretch.part(block.base - start..block.end() - start));
+                }
+                constraints.project(&spans, &mut stretch, h);
+            },
         );
     });
 }
@@ -120,7 +122,14 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            project(std::slice::from_ref(&block), |_| &constraints, &mut in_lanes, 0.01, Dispatch::default());
+            predict_and_project(
+                std::slice::from_ref(&block),
+                |_| (),
+                |_| &constraints,
+                &mut in_lanes,
+                0.01,
+                Dispatch::default(),
+            );
             loose.iter_mut().for_each(|p| constraints.project(&[Span::LOOSE], &mut p.columns(), 0.01));
         }
         for (lane, loose) in loose.iter().enumerate() {

@@ -118,6 +118,14 @@ impl Senses<'_> {
         way
     }
 
+    /// Along the longest extent of its outline; the longer beside its radius, the longer, and zero when it is round.
+    pub(crate) fn axis(&self) -> Vec2 {
+        let ways = self.outline.iter().map(|&node| node - self.at);
+        let longest = ways.reduce(|a, b| if b.length_squared() > a.length_squared() { b } else { a });
+        let longest = longest.unwrap_or(Vec2::ZERO);
+        direction_or(longest, Vec2::ZERO) * (longest.length() / self.radius - 1.0)
+    }
+
     /// The wall that a direction leads into soonest, if there is one next to it: the unit vector away from it.
     pub(crate) fn wall_ahead(&self, heading: Vec2) -> Option<Vec2> {
         let ahead = self.walls().filter(|wall| wall.gap < WHISKERS * self.radius && wall.away.dot(heading) < 0.0);

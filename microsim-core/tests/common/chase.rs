@@ -1,0 +1,54 @@
+//! Cells that are steered towards prey until something happens.
+
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AgarSpec, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId, OrganismSpec, PhagocytosisParams,
+    RigidCellSpec, World,
+};
+
+/// The default parameters but for the way in.
+pub(crate) fn by(way: IngestionWay) -> PhagocytosisParams {
+    PhagocytosisParams { way, ..PhagocytosisParams::default() }
+}
+
+pub(crate) fn agar() -> OrganismSpec {
+    AgarSpec::default().into()
+}
+
+/// A rigid cell that is small enough.
+pub(crate) fn small_rigid() -> OrganismSpec {
+    RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() }.into()
+}
+
+pub(crate) fn phase(world: &World, cell: OrganismId, prey: OrganismId) -> Option<MealPhase> {
+    world.view().organism(cell)?.meals().find(|meal| meal.0 == prey).map(|meal| meal.1)
+}
+
+/// Steps towards the prey until `done`, at most `limit` steps; checks every step that nothing is lost or half inside.
+pub(crate) fn chase(
+    world: &mut World,
+    cell: OrganismId,
+    prey: OrganismId,
+    limit: u32,
+    done: impl Fn(&World) -> bool,
+) -> Option<u32> {
+    for step in 0..limit {
+        let mut inputs = Inputs::new();
+        world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
+        world.step(&inputs);
+        let census = world.census();
+        assert_eq!((census.leaks, census.improper_absorptions), (0, 0), "step {step}");
+        if done(world) {
+            return Some(step);
+        }
+    }
+    None
+}
+
+pub(crate) fn begins(world: &World) -> bool {
+    world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }))
+}
+
+pub(crate) fn is_ingested(event: &Event) -> bool {
+    matches!(event, Event::Ingested { .. })
+}
