@@ -9,7 +9,7 @@ use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, FluidBlockSpec, Inputs, Intent, Obstacle, OrganismSpec, Placement,
+    AgarSpec, AmoeboidCellSpec, CoccusSpec, Event, FluidBlockSpec, Inputs, Intent, Obstacle, OrganismSpec, Placement,
     PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, World, WorldConfig, glam::Vec2,
 };
 use std::fmt::Write as _;
@@ -188,4 +188,52 @@ fn nothing_pops_or_flickers_while_a_cell_crawls() {
         }
         last = Some(picture);
     }
+}
+
+#[test]
+fn what_rests_does_not_flicker() {
+    let mut world = world();
+    let still = Film { grain: 0.0, ..Film::DIGITAL };
+    // The ground, and the inside of a red cell.
+    let fields = [Vec2::new(34.0, 14.0), Vec2::new(24.0, 28.0)];
+    let fields = fields.map(|centre| Field { centre, width: 4.0, pixels: [48, 27] });
+    (0..120).for_each(|_| world.step(&Inputs::new()));
+    let shoot_all = |world: &World| {
+        let shots = Optics::ALL.into_iter().flat_map(|optics| fields.map(|field| (optics, field)));
+        let shoot = |(optics, field)| Microscope { optics, film: still }.expose(world, field).unwrap().rows(0..27);
+        shots.map(shoot).collect::<Vec<_>>()
+    };
+    let before = shoot_all(&world);
+    (0..3).for_each(|_| world.step(&Inputs::new()));
+    for (shot, (before, after)) in before.iter().zip(shoot_all(&world)).enumerate() {
+        let apart: u32 = before.iter().zip(&after).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
+        let mean = apart as f32 / after.len() as f32;
+        assert!(mean < 0.5, "picture {shot}: {mean}");
+    }
+}
+
+#[test]
+fn nuclei_do_not_jump_when_daughters_part() {
+    let mut world = World::new(WorldConfig { size: Vec2::new(62.0, 35.0), ..WorldConfig::default() }).unwrap();
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(7.5), node_radius: 0.7, ..Default::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(31.0, 17.0)).unwrap();
+    world.divide(cell).unwrap();
+    let microscope = Microscope { optics: Optics::Fluorescence, film: Film { grain: 0.0, ..Film::DIGITAL } };
+    let field = Field { centre: Vec2::new(31.0, 17.5), width: 48.0, pixels: [96, 70] };
+    let mut last: Option<Vec<i32>> = None;
+    for step in 0..2000 {
+        world.step(&Inputs::new());
+        // Nuclei alone are bright blue.
+        let bytes = microscope.expose(&world, field).unwrap().rows(0..70);
+        let blue: Vec<i32> = bytes.chunks_exact(3).map(|pixel| i32::from(pixel[2].saturating_sub(40))).collect();
+        let last = last.replace(blue.clone()).unwrap_or_else(|| blue.clone());
+        let apart: i32 = last.iter().zip(&blue).map(|(a, b)| (a - b).abs()).sum();
+        // 2 if both were somewhere else at once.
+        let share = apart as f32 / blue.iter().sum::<i32>() as f32;
+        assert!(share < 0.5, "step {step}: {share}");
+        if world.events().iter().any(|event| matches!(event, Event::Divided { .. })) {
+            return;
+        }
+    }
+    panic!("it never divides");
 }

@@ -27,6 +27,8 @@ use std::path::Path;
 const FPS: f64 = 24.0;
 /// Most frames of one movie.
 const MOST_FRAMES: f64 = 100_000.0;
+/// Most pixels of the pictures of one contact sheet, which is made in memory.
+const MOST_SHEET: u64 = 1 << 28;
 
 /// `render`.
 #[derive(Debug, clap::Args)]
@@ -71,8 +73,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub columns: Option<u32>,
     /// Threads to compute pictures on; without it, one for each processor
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub threads: Option<u16>,
     /// Shade where chemicals are: each shade is half of the next
     #[arg(long)]
     pub chemicals: bool,
@@ -90,6 +92,10 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     let is_sheet = format == Format::Png && plan.pictures() > 1;
     if format != Format::Png && plan.optics.len() > 1 {
         return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
+    }
+    if is_sheet && plan.pictures() as u64 * plan.size.pixels() > MOST_SHEET {
+        let accepted = format!("at most {MOST_SHEET} pixels in all");
+        return Err(Failure::Message(format!("a sheet of {} pictures, accepted: {accepted}", plan.pictures())));
     }
     interrupt::listen();
     let mut projector = Projector::new(&prepared, replay.as_ref(), Path::new(&args.scenario.scenario))?;
@@ -149,7 +155,7 @@ impl Plan {
             film,
             size: args.size,
             view: args.view.clone().unwrap_or(ViewSpec::Room),
-            threads: args.threads.unwrap_or(threads).clamp(1, 256),
+            threads: args.threads.map_or(threads, usize::from),
             has_scale_bar: !args.no_scale_bar,
             shows_chemicals: args.chemicals,
         })

@@ -14,6 +14,12 @@ const FOLLOWING: f32 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size(pub [u32; 2]);
 
+impl Size {
+    pub(crate) fn pixels(self) -> u64 {
+        self.0.map(u64::from).iter().product()
+    }
+}
+
 impl FromStr for Size {
     type Err = String;
 

@@ -41,6 +41,11 @@ impl Obstacle {
         self.shape.compute_aabb(&self.pose)
     }
 
+    /// Whether `point` is inside. Unlike [`Obstacle::nearest`] it is right on the edges that a compound's parts share.
+    pub(crate) fn contains(&self, point: Vec2) -> bool {
+        self.shape.contains_local_point(self.pose.inverse_transform_point(point))
+    }
+
     /// Nearest point of the surface, and whether `point` is inside.
     pub(crate) fn nearest(&self, point: Vec2) -> (Vec2, bool) {
         let local = self.pose.inverse_transform_point(point);

@@ -166,7 +166,7 @@ impl Painting {
     /// The page, darker where the chamber is.
     fn page(&self, place: Vec2) -> Vec3 {
         let is_outside = place.cmplt(Vec2::ZERO).any() || place.cmpgt(self.room).any();
-        let is_solid = is_outside || self.obstacles.iter().any(|obstacle| obstacle.nearest(place).1);
+        let is_solid = is_outside || self.obstacles.iter().any(|obstacle| obstacle.contains(place));
         PAGE * (1.0 + 0.03 * octaves(place / 9.0, 2, PAGE_SEED)) * if is_solid { 0.7 } else { 1.0 }
     }
 }

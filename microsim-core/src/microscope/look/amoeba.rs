@@ -6,34 +6,57 @@ use crate::microscope::matter::Matter;
 pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 2.4, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
     rim: 8.0,
-    texture: Texture { amount: 0.06, size: 1.2 },
-    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, pulse: 8.0 },
+    texture: Texture { amount: 0.02, size: 1.2 },
+    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 0.15, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 1],
-        radius: [0.22, 0.25],
-        spread: 0.05,
+        radius: [0.235, 0.235],
+        behind: 0.0,
+        spread: 0.0,
         matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
         texture: Texture { amount: 0.2, size: 1.5 },
     },
-    granules: &[GRANULES, VACUOLES],
+    granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],
     fibres: 0,
     blebs: [0.0, 0.0],
 };
 
+/// Unevenness of the cytoplasm, which streams and parts with it.
+const DENSER: GranuleLook = GranuleLook {
+    density: 0.3,
+    radius: 0.9,
+    spread: 0.4,
+    limits: [0.4, 1.8],
+    matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.06, nucleus: 0.0 },
+    shape: SpotShape::Bump,
+};
+
+const THINNER: GranuleLook =
+    GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.06, nucleus: 0.0 }, ..DENSER };
+
+const FINE: GranuleLook = GranuleLook {
+    density: 0.7,
+    radius: 0.22,
+    spread: 0.35,
+    limits: [0.1, 0.5],
+    matter: Matter { phase: 0.03 * WAVE, haemoglobin: 0.0, cytoplasm: 0.2, nucleus: 0.0 },
+    shape: SpotShape::Ball,
+};
+
 const GRANULES: GranuleLook = GranuleLook {
-    density: 0.35,
-    radius: 0.5,
-    spread: 0.3,
-    limits: [0.3, 0.9],
-    matter: Matter { phase: 0.03 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
+    density: 0.22,
+    radius: 0.42,
+    spread: 0.42,
+    limits: [0.2, 1.1],
+    matter: Matter { phase: 0.026 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
 const VACUOLES: GranuleLook = GranuleLook {
-    density: 0.006,
-    radius: 1.4,
-    spread: 0.3,
-    limits: [0.8, 2.4],
-    matter: Matter { phase: -0.03 * WAVE, haemoglobin: 0.0, cytoplasm: -0.3, nucleus: 0.0 },
+    density: 0.007,
+    radius: 1.2,
+    spread: 0.4,
+    limits: [0.5, 2.4],
+    matter: Matter { phase: -0.016 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

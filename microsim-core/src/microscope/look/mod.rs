@@ -137,7 +137,9 @@ pub(super) enum SpotShape {
 /// A fringe of beating hairs.
 #[derive(Debug)]
 pub(super) struct Cilia {
-    pub count: u32,
+    /// Number at most, and their distance at least, micrometres.
+    pub most: f32,
+    pub apart: f32,
     /// Of each, in radii.
     pub length: f32,
     /// Of each, micrometres.
@@ -194,6 +196,8 @@ pub(super) struct Lamella {
     /// Delay of the ruffles along its edge, radians, and how far inside it they run.
     pub ruffle: f32,
     pub ruffle_inset: f32,
+    /// Irregularity of its edge.
+    pub rags: f32,
     /// Period with which it swells and thins, s.
     pub pulse: f32,
 }
@@ -205,6 +209,8 @@ pub(super) struct NucleusLook {
     pub lobes: [u32; 2],
     /// Smallest and largest, in the cell's mean radii.
     pub radius: [f32; 2],
+    /// Share of a crawling cell's length by which it lies behind the centre.
+    pub behind: f32,
     /// Distance of the lobes from the middle of the nucleus, in the cell's mean radii.
     pub spread: f32,
     pub matter: Matter,

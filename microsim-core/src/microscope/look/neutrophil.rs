@@ -7,13 +7,14 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 0.0185 * WAVE * 4.0, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
     rim: 3.6,
     texture: Texture { amount: 0.10, size: 0.45 },
-    lamella: Lamella { length: 0.33, thickness: 0.30, ruffle: 0.22, ruffle_inset: 0.45, pulse: 8.0 },
+    lamella: Lamella { length: 0.33, thickness: 0.30, ruffle: 0.22, ruffle_inset: 0.45, rags: 0.45, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [3, 5],
         radius: [0.24, 0.30],
+        behind: 0.16,
         spread: 0.42,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
-        texture: Texture { amount: 0.22, size: 0.8 },
+        texture: Texture { amount: 0.42, size: 0.8 },
     },
     granules: &[DENSE, CLEAR, VACUOLES],
     fibres: 3,
@@ -25,7 +26,7 @@ const DENSE: GranuleLook = GranuleLook {
     radius: 0.19,
     spread: 0.36,
     limits: [0.09, 0.45],
-    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
+    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 2.6, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -34,7 +35,7 @@ const CLEAR: GranuleLook = GranuleLook {
     radius: 0.20,
     spread: 0.3,
     limits: [0.1, 0.4],
-    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -0.9, nucleus: 0.0 },
+    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.2, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -43,6 +44,6 @@ const VACUOLES: GranuleLook = GranuleLook {
     radius: 0.5,
     spread: 0.25,
     limits: [0.35, 0.75],
-    matter: Matter { phase: -0.045 * WAVE, haemoglobin: 0.0, cytoplasm: -0.30, nucleus: 0.0 },
+    matter: Matter { phase: -0.030 * WAVE, haemoglobin: 0.0, cytoplasm: -0.60, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

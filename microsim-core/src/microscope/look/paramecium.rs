@@ -10,7 +10,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
     texture: Texture { amount: 0.05, size: 0.5 },
     unevenness: 0.006,
     inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
-    cilia: Some(&Cilia { count: 340, length: 0.16, width: 0.14, phase: 0.26, waves: 10.0, rate: 4.0 }),
+    cilia: Some(&Cilia { most: 380.0, apart: 0.35, length: 0.16, width: 0.14, phase: 0.26, waves: 9.0, rate: 4.0 }),
     pellicle: Some(&Pellicle {
         furrows: 22.0,
         furrow_depth: 0.012,

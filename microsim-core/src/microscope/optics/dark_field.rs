@@ -3,10 +3,10 @@
 use super::{Mode, Shade, Sight, grey};
 use crate::microscope::formula::Formula;
 
-const GAIN: f32 = 2.6;
+const GAIN: f32 = 2.2;
 /// Light that gets past the stop.
 const LEAK: f32 = 0.006;
-const GAMMA: f32 = 0.8;
+const GAMMA: f32 = 1.0;
 
 const FORMULA: Formula = Formula {
     source: include_str!("dark_field.glsl"),

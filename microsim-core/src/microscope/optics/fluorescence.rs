@@ -5,7 +5,7 @@ use crate::microscope::formula::Formula;
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.012, 0.014, 0.016];
-const NUCLEUS: [f32; 3] = [0.10, 0.50, 1.00];
+const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
 /// How soon the camera saturates.

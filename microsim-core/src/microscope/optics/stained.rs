@@ -11,11 +11,11 @@ use crate::microscope::noise::{octaves, shift_of};
 /// A field without a specimen: 198, 198, 193 of 255.
 const BACKGROUND: [f32; 3] = [0.776, 0.780, 0.757];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.100, 0.245, 0.195];
+const HAEMOGLOBIN: [f32; 3] = [0.100, 0.258, 0.205];
 const CYTOPLASM: [f32; 3] = [0.112, 0.251, 0.020];
-const NUCLEUS: [f32; 3] = [0.26, 0.46, -0.10];
+const NUCLEUS: [f32; 3] = [0.29, 0.52, -0.10];
 /// What dries on the glass between the cells: plasma with a little of each dye, and none where it was washed off.
-const PLASMA: [f32; 3] = [0.040, 0.016, 0.085];
+const PLASMA: [f32; 3] = [0.052, 0.020, 0.112];
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
 const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
 /// Distance over which the curvature of the delay is taken, micrometres.
@@ -44,7 +44,7 @@ const FORMULA: Formula = Formula {
 };
 
 pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.15, grain: 0.25, shade: Shade::Light(shade, &FORMULA) };
+    Mode { channels: 3, has_surround: false, blur: 0.12, grain: 0.25, shade: Shade::Light(shade, &FORMULA) };
 
 fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sight.matter(x, y);

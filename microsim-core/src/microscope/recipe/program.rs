@@ -68,7 +68,7 @@ const PLACE: &[(&str, usize)] = &[("place", 2)];
 const ROUND: &[(&str, usize)] =
     &[("centre", 2), ("rim", 3), ("facing", 2), ("matter", 4), ("profile", 4), ("grains", 4)];
 const SPOT: &[(&str, usize)] = &[("at", 2), ("corner", 2), ("size", 2), ("matter", 4)];
-const THREAD: &[(&str, usize)] = &[("from", 2), ("to", 2), ("corner", 2), ("half_width", 1), ("matter", 4)];
+const THREAD: &[(&str, usize)] = &[("from", 2), ("to", 2), ("corner", 2), ("form", 2), ("matter", 4)];
 const PAINTED: &[(&str, usize)] = &[("place", 2), ("texture_place", 2), ("colour", 4), ("rim", 4), ("noise", 3)];
 
 const MATTER: Uniforms = &[("view", 4, 1), ("pixel", 2, 1), ("scale", 4, 1)];
@@ -85,6 +85,7 @@ const AMOEBOID: Uniforms = &[
     ("matter", 4, 1),
     ("nucleus_matter", 4, 1),
     ("nucleus_texture", 2, 1),
+    ("edge", 2, 1),
     ("lobes", 3, amoeboid::LOBES),
     ("shifts", 2, 5),
 ];
@@ -92,6 +93,7 @@ const FILM: Uniforms =
     &[("exposure", 4, 1), ("stock", 4, 1), ("parts", 2, 5), ("image", 4, 1), ("reach", 1, 1), ("weights", 1, LONGEST)];
 
 const SCREEN: Formula = Formula { source: include_str!("../screen.glsl"), constants: &[] };
+const BOX: Formula = Formula { source: include_str!("../box.glsl"), constants: &[] };
 const SOFTEN: Formula = Formula { source: include_str!("../soften.glsl"), constants: &[] };
 
 impl Program {
@@ -194,9 +196,9 @@ impl Program {
         let drawn = |own: &[&'static Formula]| [&[&maths::FORMULA, &noise::FORMULA, &matter::FORMULA], own].concat();
         match self {
             Ground => drawn(&[&ground::FORMULA]),
-            Walls => drawn(&[&chamber::FORMULA]),
-            Obstacle => drawn(&[&outline::FORMULA, &chamber::FORMULA]),
-            Amoeboid => drawn(&[&outline::FORMULA, &amoeboid::FORMULA]),
+            Walls => drawn(&[&BOX, &chamber::FORMULA]),
+            Obstacle => drawn(&[&BOX, &outline::FORMULA, &chamber::FORMULA]),
+            Amoeboid => drawn(&[&BOX, &outline::FORMULA, &amoeboid::FORMULA]),
             Round | Ciliate => drawn(&[&round::FORMULA]),
             Spot => drawn(&[&spot::SPOT]),
             Thread => drawn(&[&spot::THREAD]),

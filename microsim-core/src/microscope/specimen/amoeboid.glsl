@@ -1,15 +1,6 @@
 // Cells that crawl; see amoeboid.rs.
 
-varying vec2 at;
-
-#ifdef VERTEX
-attribute vec2 place;
-
-void main() {
-    at = place;
-    gl_Position = seen_at(place);
-}
-#else
+#ifndef VERTEX
 // Centre, radius, width of the rim.
 uniform vec4 middle;
 // To the cell's own frame.
@@ -23,6 +14,8 @@ uniform vec4 relief;
 uniform vec4 matter;
 uniform vec4 nucleus_matter;
 uniform vec2 nucleus_texture;
+// Irregularity of the front's edge, and how far it is ahead of that by its pulse.
+uniform vec2 edge;
 uniform vec3 lobes[LOBES];
 // Where the noise of texture, ruffles, clumps, border and nuclear outline begins.
 uniform vec2 shifts[5];
@@ -41,7 +34,7 @@ float lamella_at(vec2 place) {
 }
 
 float nucleus_at(vec2 place, float softness) {
-    float neck = 0.10 * middle.z;
+    float neck = NECK * middle.z;
     float depth = lobes[0].z - length(place - lobes[0].xy);
     for (int k = 1; k < LOBES; k++) {
         float other = lobes[k].z - length(place - lobes[k].xy);
@@ -52,21 +45,23 @@ float nucleus_at(vec2 place, float softness) {
         return 0.0;
     }
     float uneven = 0.05 * middle.z * two_octaves((place - middle.xy) / (0.2 * middle.z), shifts[4]);
-    float edge = max(softness, 0.12);
-    return rising(-edge, edge, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
+    float width = max(softness, 0.12);
+    return rising(-width, width, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
 }
 
 void main() {
     float softness = max(0.7 * pixel.x, 0.08);
     float depth = depth_at(at);
-    if (depth <= -softness) {
+    if (depth <= -softness - 2.0 * edge.x) {
         gl_FragColor = vec4(0.0);
         return;
     }
     float front_share = lamella_at(at);
-    float dome = mix(rise(depth / middle.w), lamella.z * rise(depth / (0.25 * middle.w)), front_share);
     vec2 from_centre = at - middle.xy;
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
+    float rags = two_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
+    depth += edge.x * front_share * (rags + edge.y);
+    float dome = mix(rise(depth / middle.w), lamella.z * rise(depth / (0.25 * middle.w)), front_share);
     vec4 sum = matter * (dome * (1.0 + relief.z * three_octaves(own / relief.w, shifts[0])));
     float ruffle = bell((depth - relief.y) / 0.28) * front_share;
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));

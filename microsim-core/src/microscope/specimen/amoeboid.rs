@@ -4,7 +4,7 @@
 //! particles of the cytoplasm, the nucleus on the membrane's own order of nodes, the front on how the cell moves and is
 //! shaped.
 
-use super::outline::{DistanceMap, smooth};
+use super::outline::{DistanceMap, smooth, united};
 use super::spot::{Spot, Thread};
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
 use crate::microscope::formula::Formula;
@@ -29,10 +29,22 @@ const CRAWLING: f32 = 12.0;
 /// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
 const SKEWED: f32 = 8.0;
 
-/// Most lobes of a nucleus.
-pub(in crate::microscope) const LOBES: usize = 5;
+/// Farthest that anything of a cell reaches beyond its membrane, micrometres.
+const MARGIN: f32 = 2.0;
+/// Width over which a bleb and the body run into each other, micrometres.
+const BLEB_NECK: f32 = 0.5;
 
-pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("amoeboid.glsl"), constants: &[] };
+/// Width over which lobes of a nucleus run into each other, in the cell's mean radii.
+const NECK: f32 = 0.10;
+/// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
+const RAGS: f32 = 0.3;
+const PULSE: f32 = 2.0;
+
+/// Most lobes of the nuclei of a cell: two of five while it divides.
+pub(in crate::microscope) const LOBES: usize = 10;
+
+pub(in crate::microscope) const FORMULA: Formula =
+    Formula { source: include_str!("amoeboid.glsl"), constants: &[("NECK", &[NECK]), ("RAGS", &[RAGS])] };
 
 /// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
 /// nucleus.
@@ -46,8 +58,7 @@ pub(super) struct AmoeboidBody {
     centre: Vec2,
     /// Radius of the disc of equal area, micrometres.
     radius: f32,
-    /// From the disc of radius 1 to the membrane: how the cell is turned and stretched.
-    shape: Mat2,
+    /// From the membrane to a disc of the same radius: how the cell is turned and stretched, undone.
     from_shape: Mat2,
     front: Front,
     lobes: Vec<(Vec2, f32)>,
@@ -73,71 +84,71 @@ impl AmoeboidBody {
     /// `None` if there is no area to draw.
     pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, seed: u32, time: f32) -> Option<Self> {
         let surface = organism.surface();
-        let centre = centroid(&surface).filter(|centre| centre.is_finite())?;
-        let radius = (signed_area(&surface).abs() / std::f32::consts::PI).sqrt();
-        if !(radius > 0.0 && radius.is_finite()) {
-            return None;
-        }
+        let (centre, radius) = middle_of(&surface)?;
         let outline = smooth(&surface);
         let shape = stretch(&surface, centre, radius);
-        let is_dividing = organism.dividing_for().is_some();
         let mut body = Self {
             look,
-            map: DistanceMap::of(&outline, STEP, 1.0),
+            map: DistanceMap::of(&outline, STEP, MARGIN),
             centre,
             radius,
-            shape,
             from_shape: shape.inverse() * radius,
             front: Front::of(organism, &outline, centre, radius),
             lobes: Vec::new(),
             seed,
             time,
         };
-        body.lobes = if is_dividing { body.parting_lobes(&outline) } else { body.lobes() };
+        let Front { way, strength, ahead, behind, .. } = body.front;
+        let middle = centre - way * (look.nucleus.behind * (ahead + behind) * strength);
+        body.lobes = body.lobes(middle, radius, shape);
+        if organism.dividing_for().is_some() {
+            body.part_nucleus(&outline);
+        }
         Some(body)
     }
 
-    /// Lobes of the nucleus: a chain around a middle that lies behind the centre, inside whatever shape the cell has.
-    fn lobes(&self) -> Vec<(Vec2, f32)> {
+    /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
+    fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
         let nucleus = &self.look.nucleus;
         let mut dice = Dice::new(self.seed ^ 0x1ace);
         let [fewest, most] = nucleus.lobes;
         let count = fewest + dice.bits() % (most - fewest + 1);
         let first = dice.unit() * TAU;
-        let middle =
-            self.centre - self.front.way * (0.16 * (self.front.ahead + self.front.behind) * self.front.strength);
         // A chain that does not close; the more lobes, the smaller they are.
         let step = smaller(1.35, 4.2 / count as f32);
-        let size = self.radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
+        let size = radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
         let lobe = |k: u32| {
-            let radius = dice.range(nucleus.radius) * size;
+            let lobe = dice.range(nucleus.radius) * size;
             let angle = first + k as f32 * step + dice.range([-0.15, 0.15]);
-            let place = middle + self.shape * (unit_vector(angle) * (nucleus.spread * dice.range([0.85, 1.15])));
-            (self.map.pushed_inside(place, radius + 0.04 * self.radius), radius)
+            let place = middle + shape * (unit_vector(angle) * (nucleus.spread * dice.range([0.85, 1.15])));
+            (self.map.pushed_inside(place, lobe + 0.04 * radius), lobe)
         };
         (0..count).map(lobe).collect()
     }
 
-    /// Lobes of a nucleus that divides with its cell: they part as the furrow closes, and end where those of the daughters
-    /// are.
-    fn parting_lobes(&self, outline: &[Vec2]) -> Vec<(Vec2, f32)> {
-        let axis = self.shape.x_axis.normalize_or_zero();
-        let axis =
-            outline.iter().map(|&p| p - self.centre).max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(axis);
-        let axis = axis.normalize_or(Vec2::X);
-        let side = |sign: f32| {
-            let half: Vec<Vec2> =
-                outline.iter().copied().filter(|&p| (p - self.centre).dot(axis) * sign > 0.0).collect();
-            centroid(&half).unwrap_or(self.centre)
-        };
-        let waist = outline.iter().map(|&p| p - self.centre).filter(|p| p.dot(axis).abs() < 0.15 * self.radius);
-        let waist = waist.map(|p| p.perp_dot(axis).abs()).fold(0.0, larger);
-        let parted = smoothstep(0.75 * self.radius, 0.15 * self.radius, waist);
-        let size = mix(1.0, std::f32::consts::FRAC_1_SQRT_2, parted);
-        let halves = self.lobes().into_iter().flat_map(|(at, radius)| {
-            [1.0, -1.0].map(|sign| (at.lerp(at + side(sign) - self.centre, parted), radius * size))
+    /// Doubles the nucleus of a cell that divides: its lobes part as the furrow closes, and end where those of the
+    /// daughters, which are as the two halves, will be.
+    fn part_nucleus(&mut self, outline: &[Vec2]) {
+        let Some((i, j)) = narrowest(outline) else { return };
+        let waist = 0.5 * (outline[i] - outline[j]).length();
+        let parted = smoothstep(0.6 * self.radius, 0.2 * self.radius, waist);
+        let halves = [outline[i..=j].to_vec(), [&outline[j..], &outline[..=i]].concat()];
+        let halves = halves.iter().filter_map(|half| {
+            let (centre, radius) = middle_of(half)?;
+            Some(self.lobes(centre, radius, Mat2::from_diagonal(Vec2::splat(radius))))
         });
-        halves.take(LOBES).collect()
+        // Two lobes in the same place run into each other, too.
+        let swelling = 0.25 * NECK * self.radius;
+        let part = |(half, whole): (&(Vec2, f32), &(Vec2, f32))| {
+            (whole.0.lerp(half.0, parted), mix(whole.1 - swelling, half.1, parted))
+        };
+        self.lobes = halves.flat_map(|half| half.iter().zip(&self.lobes).map(part).collect::<Vec<_>>()).collect();
+    }
+
+    /// Bulges of the membrane of a cell that holds prey: round ones that come and go at its sides and behind.
+    pub(super) fn swell(&mut self, prey: impl Iterator<Item = (Vec2, u32)>) {
+        let blebs: Vec<(Vec2, f32)> = prey.filter_map(|(at, seed)| self.bleb(at, seed)).collect();
+        blebs.into_iter().for_each(|(at, radius)| self.map.unite(at, radius, BLEB_NECK));
     }
 
     pub(super) fn draw(&self, plate: &mut Plate) {
@@ -166,6 +177,7 @@ impl AmoeboidBody {
         uniforms.extend(look.matter.to_array());
         uniforms.extend(look.nucleus.matter.to_array());
         uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size]);
+        uniforms.extend([look.lamella.rags, PULSE * (self.pulse() - 1.0)]);
         let nowhere = (Vec2::ZERO, -1000.0);
         let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
         uniforms.extend(lobes.flat_map(|(at, radius)| [at.x, at.y, radius]));
@@ -180,15 +192,17 @@ impl AmoeboidBody {
 
     /// Its matter at a place, without what floats in it.
     fn at(&self, place: Vec2, softness: f32) -> Matter {
+        let look = self.look;
         let depth = self.map.at(place);
-        if depth <= -softness {
+        if depth <= -softness - 2.0 * look.lamella.rags {
             return Matter::NONE;
         }
-        let look = self.look;
         let lamella = self.lamella(place);
+        let own = self.from_shape * (place - self.centre);
+        let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
+        let depth = depth + look.lamella.rags * lamella * (rags + PULSE * (self.pulse() - 1.0));
         let rim = self.rim();
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
-        let own = self.from_shape * (place - self.centre);
         let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = look.matter * (dome * texture);
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
@@ -233,12 +247,8 @@ impl AmoeboidBody {
 
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let neck = 0.10 * self.radius;
         let inside = |&(at, radius): &(Vec2, f32)| radius - (place - at).length();
-        let depth = self.lobes.iter().map(inside).reduce(|a, b| {
-            let share = (0.5 + 0.5 * (a - b) / neck).clamp(0.0, 1.0);
-            mix(b, a, share) + neck * share * (1.0 - share)
-        });
+        let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
         let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
@@ -271,7 +281,7 @@ impl AmoeboidBody {
         let radius = radius.clamp(look.limits[0], look.limits[1]);
         let seed = dice.bits();
         let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
-        let at = carrier + offset + jitter;
+        let at = self.map.pushed_inside(carrier + offset + jitter, radius + 0.1);
         let room = smoothstep(0.0, 0.5, self.map.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
@@ -280,23 +290,21 @@ impl AmoeboidBody {
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.
     pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
-        let share = smoothstep(-radius, radius, self.map.at(prey));
+        let share = smoothstep(-0.5 * radius, 4.0 * radius, self.map.at(prey));
         let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
         (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
     }
 
-    /// A bleb that comes and goes while prey is inside: a round bulge of the membrane at the sides and behind.
-    pub(super) fn bleb(&self, prey: Vec2, seed: u32) -> Option<Spot> {
+    /// Centre and radius of the bleb that prey inside the cell brings about.
+    fn bleb(&self, prey: Vec2, seed: u32) -> Option<(Vec2, f32)> {
         let [smallest, largest] = self.look.blebs;
         let cycle = self.time / BLEB_PERIOD + Dice::new(seed).unit();
         let mut dice = Dice::new(seed ^ scramble(cycle as u32));
         let way = rotate(-self.front.way, unit_vector(dice.range([-1.9, 1.9])));
         let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
         let radius = dice.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.map.at(prey));
-        let step = 0.05 * self.radius;
-        let edge = (0..60).map(|k| self.centre + way * (k as f32 * step)).find(|&at| self.map.at(at) < 0.0)?;
-        let matter = Matter { cytoplasm: 0.25, ..Matter::phase(0.22) };
-        (radius > 0.05).then_some(Spot { at: edge + way * (0.3 * radius), radius, matter, shape: SpotShape::Ball })
+        let reach = self.map.crossing(self.centre, way, 0.05 * self.radius)?;
+        (radius > 0.05).then_some((self.centre + way * (reach + 0.3 * radius), radius))
     }
 
     /// Retraction fibres, which the tail leaves on the glass.
@@ -308,7 +316,7 @@ impl AmoeboidBody {
             let way = rotate(-way, unit_vector(dice.range([-0.45, 0.45])));
             let length = dice.range([2.0, 4.0]) * strength;
             let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
-            Thread { from: tail, to: tail + way * length, radius: 0.09, matter }
+            Thread { from: tail, to: tail + way * length, radius: 0.09, matter, peak: 0.0 }
         };
         (0..self.look.fibres).map(fibre).collect()
     }
@@ -335,6 +343,21 @@ impl Front {
     }
 }
 
+/// Centroid of an outline and radius of the disc of equal area; nothing if it encloses none.
+fn middle_of(outline: &[Vec2]) -> Option<(Vec2, f32)> {
+    let centre = centroid(outline).filter(|centre| centre.is_finite())?;
+    let radius = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
+    (radius > 0.0 && radius.is_finite()).then_some((centre, radius))
+}
+
+/// Where an outline is narrowest: two points of it, at least a quarter of it apart.
+fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
+    let count = outline.len();
+    let pairs = (0..count).flat_map(|i| (i + count / 4..count.min(i + 3 * count / 4)).map(move |j| (i, j)));
+    let apart = |(i, j): (usize, usize)| (outline[i] - outline[j]).length_squared();
+    pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
+}
+
 /// A quarter of a circle: 0 outside, 1 from a depth of 1 on, steep at the edge.
 fn rise(depth: f32) -> f32 {
     let depth = depth.clamp(0.0, 1.0);
@@ -354,7 +377,7 @@ fn stretch(outline: &[Vec2], centre: Vec2, radius: f32) -> Mat2 {
     if along.length() < 0.2 * radius {
         return Mat2::from_diagonal(Vec2::splat(radius));
     }
-    // A shape so slender that it has no area would have no inverse.
-    let against = against.clamp_length_max(0.75 * along.length());
+    // A slender shape would draw texture out into streaks.
+    let against = against.clamp_length_max(0.33 * along.length());
     Mat2::from_cols(along + against, (along - against).perp())
 }

@@ -1,15 +1,6 @@
 // Walls and obstacles of a clear polymer; see chamber.rs.
 
-varying vec2 at;
-
-#ifdef VERTEX
-attribute vec2 place;
-
-void main() {
-    at = place;
-    gl_Position = seen_at(place);
-}
-#else
+#ifndef VERTEX
 uniform vec4 room;
 
 vec4 polymer(vec2 place, float depth) {

@@ -80,17 +80,12 @@ impl Chamber {
 
 /// How deep a place lies in an obstacle, negative outside.
 fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
-    // A compound's parts have edges inside it, which are no rim.
-    let has_rim = obstacle.shape.as_compound().is_none();
-    match obstacle.nearest(place) {
-        (nearest, true) => {
-            if has_rim {
-                (nearest - place).length()
-            } else {
-                RIM
-            }
-        }
-        (nearest, false) => -(nearest - place).length(),
+    let distance = (obstacle.nearest(place).0 - place).length();
+    match (obstacle.contains(place), obstacle.shape.as_compound()) {
+        (false, _) => -distance,
+        (true, None) => distance,
+        // A compound's parts have edges inside it, which are no rim.
+        (true, Some(_)) => RIM,
     }
 }
 

@@ -62,11 +62,11 @@ impl Specimen {
                 self.round.push(body);
             }
             Look::Amoeboid(look) => {
-                let Some(body) = AmoeboidBody::of(organism, look, seed, time) else { return };
+                let Some(mut body) = AmoeboidBody::of(organism, look, seed, time) else { return };
+                body.swell(meals(organism, view));
                 self.spots.extend(body.spots(organism));
                 self.threads.extend(body.threads());
                 self.spots.extend(phagosomes(&body, organism, view));
-                self.spots.extend(blebs(&body, organism, view));
                 self.amoeboid.push(body);
             }
             Look::Rod(matter) => self.spots.extend(rod(organism, *matter)),
@@ -107,11 +107,10 @@ fn phagosomes(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -
     discs.filter_map(|disc| body.phagosome(disc.position, disc.radius)).collect()
 }
 
-/// Blebs of a cell that holds prey.
-fn blebs(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
-    let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey)).take(4);
-    let discs = prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))));
-    discs.filter_map(|(at, seed)| body.bleb(at, seed)).collect()
+/// Places and seeds of the first few things that a cell holds.
+fn meals<'a>(organism: OrganismView<'a>, view: View<'a>) -> impl Iterator<Item = (Vec2, u32)> + 'a {
+    let prey = organism.meals().filter_map(move |(prey, _)| view.organism(prey)).take(4);
+    prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))))
 }
 
 /// A row of drops so close together that they are one.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{centroid, signed_area};
 use crate::microscope::formula::Formula;
-use crate::microscope::maths::{larger, smaller};
+use crate::microscope::maths::{larger, mix, smaller};
 use crate::microscope::recipe::Map;
 use glam::Vec2;
 
@@ -225,6 +225,23 @@ impl DistanceMap {
         }
     }
 
+    /// Makes a disc part of the inside; over `neck` the two edges run into each other.
+    pub(super) fn unite(&mut self, centre: Vec2, radius: f32, neck: f32) {
+        for k in 0..self.values.len() {
+            let cell = Vec2::new((k % self.size[0]) as f32, (k / self.size[0]) as f32);
+            let depth = radius - (self.low + cell * self.step - centre).length();
+            self.values[k] = united(self.values[k], depth, neck);
+        }
+    }
+
+    /// Distance from a place inside to the edge, in steps along a direction.
+    pub(super) fn crossing(&self, from: Vec2, way: Vec2, step: f32) -> Option<f32> {
+        let depth = |k: u32| self.at(from + way * (k as f32 * step));
+        let beyond = (1..60).find(|&k| depth(k) < 0.0)?;
+        let (inside, outside) = (depth(beyond - 1), depth(beyond));
+        Some(step * ((beyond - 1) as f32 + (inside / (inside - outside)).clamp(0.0, 1.0)))
+    }
+
     /// As a texture, two bytes for each depth, and what [`FORMULA`] has to know of it.
     pub(in crate::microscope) fn texture(&self) -> (Map, [f32; 7]) {
         let [columns, rows] = self.size;
@@ -270,17 +287,24 @@ impl DistanceMap {
         let mut place = place;
         for _ in 0..4 {
             let lacking = depth - self.at(place);
-            if lacking > 0.0 {
-                let h = self.step;
-                let slope = Vec2::new(
-                    self.at(place + Vec2::new(h, 0.0)) - self.at(place - Vec2::new(h, 0.0)),
-                    self.at(place + Vec2::new(0.0, h)) - self.at(place - Vec2::new(0.0, h)),
-                );
-                place += slope.normalize_or_zero() * smaller(lacking, 4.0 * h);
+            if lacking <= 0.0 {
+                break;
             }
+            let h = self.step;
+            let slope = Vec2::new(
+                self.at(place + Vec2::new(h, 0.0)) - self.at(place - Vec2::new(h, 0.0)),
+                self.at(place + Vec2::new(0.0, h)) - self.at(place - Vec2::new(0.0, h)),
+            );
+            place += slope.normalize_or_zero() * smaller(lacking, 4.0 * h);
         }
         place
     }
+}
+
+/// Depth in the union of two things, given the depths in each; over `neck` their edges run into each other.
+pub(super) fn united(a: f32, b: f32, neck: f32) -> f32 {
+    let share = (0.5 + 0.5 * (a - b) / neck).clamp(0.0, 1.0);
+    mix(b, a, share) + neck * share * (1.0 - share)
 }
 
 /// A side of an outline, from one corner to the next.

@@ -5,7 +5,7 @@ use super::spot::{Spot, Thread};
 use crate::geometry::{direction_or, rotate, unit_vector};
 use crate::microscope::formula::Formula;
 use crate::microscope::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
-use crate::microscope::maths::{bell, larger, smoothstep};
+use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
 use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
 use crate::microscope::recipe::{Program, Slide};
@@ -22,6 +22,8 @@ const EDGE: f32 = 0.06;
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
+/// Points of the curve that a cilium is.
+const CILIUM_POINTS: usize = 5;
 /// Fewest and most directions in which a graphics card is told a body's radius, and their number where that is one pixel.
 const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
@@ -206,7 +208,8 @@ impl RoundBody {
         };
         let radius = |k: usize| self.polar.mean * (0.05 - 0.005 * k as f32);
         let matter = Matter { cytoplasm: 0.4, ..Matter::phase(pellicle.gullet_phase) };
-        (0..6).map(|k| Thread { from: point(k), to: point(k + 2), radius: radius(k), matter: matter * 0.5 }).collect()
+        let points: Vec<Vec2> = (0..8).map(point).collect();
+        Thread::curve(&points, radius, matter * 0.6)
     }
 
     /// Canals that lead to a vacuole; they swell while it is empty.
@@ -215,15 +218,14 @@ impl RoundBody {
         let canal = |k: u32| {
             let way = rotate(unit_vector(k as f32 * TAU / 7.0 + 0.3), self.facing);
             let to = at + way * (vacuole + 0.16 * self.polar.mean);
-            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.45 }
+            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.55, peak: 0.0 }
         };
         (0..7).map(canal).collect()
     }
 
     /// Its cilia and canals at a time.
     pub(super) fn threads(&self, time: f32) -> Vec<Thread> {
-        let cilia = self.look.cilia.iter().flat_map(|cilia| (0..cilia.count).map(move |k| (cilia, k)));
-        let mut threads: Vec<Thread> = cilia.flat_map(|(cilia, k)| self.cilium(cilia, k, time)).collect();
+        let mut threads = self.look.cilia.map_or_else(Vec::new, |cilia| self.cilia(cilia, time));
         if let Some(pellicle) = self.look.pellicle {
             let vacuoles = self.vacuoles(pellicle, time);
             threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
@@ -232,22 +234,33 @@ impl RoundBody {
         threads
     }
 
-    /// One cilium in two straight parts: it swings with the metachronal wave and bends as it swings.
-    fn cilium(&self, cilia: &Cilia, k: u32, time: f32) -> [Thread; 2] {
-        let share = k as f32 / cilia.count as f32;
+    fn cilia(&self, cilia: &Cilia, time: f32) -> Vec<Thread> {
+        let count = smaller(cilia.most, TAU * self.polar.mean / cilia.apart).ceil();
+        (0..count as u32).flat_map(|k| self.cilium(cilia, k as f32 / count, time)).collect()
+    }
+
+    /// The cilium at a share of the way around: it swings with the metachronal wave and bends as it swings.
+    fn cilium(&self, cilia: &Cilia, share: f32, time: f32) -> Vec<Thread> {
+        // Between even in angle and even on the stretched disc, they are about as dense everywhere.
+        let stretch = Vec2::new(self.axes.x.sqrt(), self.axes.y.sqrt());
         let root = |share: f32| {
-            let way = rotate(unit_vector(TAU * share), self.facing);
+            let way = rotate(unit_vector(TAU * share) * stretch, self.facing).normalize_or_zero();
             self.polar.centre + way * self.polar.radius(way)
         };
         let from = root(share);
         let outwards = -direction_or(root(share + 0.004) - root(share - 0.004), Vec2::X).perp();
         let wave = unit_vector(TAU * (share * cilia.waves - time * cilia.rate) + 0.6 * wobble(share * 40.0, self.seed));
-        let length = cilia.length * self.polar.mean * 0.5;
-        let middle = from + rotate(outwards, unit_vector(0.55 * wave.y - 0.35)) * length;
-        let to = middle + rotate(outwards, unit_vector(0.95 * wave.y - 0.5 + 0.4 * wave.x)) * length;
-        let matter = Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) };
-        let radius = 0.5 * cilia.width;
-        [Thread { from, to: middle, radius, matter }, Thread { from: middle, to, radius, matter: matter * 0.9 }]
+        let part = cilia.length * self.polar.mean / (CILIUM_POINTS - 1) as f32;
+        let mut at = from;
+        let point = |k: usize| {
+            let point = at;
+            let along = k as f32 / (CILIUM_POINTS - 2) as f32;
+            let swing = mix(0.5 * wave.y - 0.3, 0.8 * wave.y - 0.55 + 0.35 * wave.x, along);
+            at += rotate(outwards, unit_vector(swing)) * part;
+            point
+        };
+        let points: Vec<Vec2> = (0..CILIUM_POINTS).map(point).collect();
+        Thread::curve(&points, |_| 0.5 * cilia.width, Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) })
     }
 }
 

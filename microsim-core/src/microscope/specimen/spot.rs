@@ -70,20 +70,32 @@ pub(super) struct Thread {
     pub to: Vec2,
     /// Half its width, micrometres.
     pub radius: f32,
-    /// In its middle; it thins out towards `to`.
+    /// Where it is thickest; it thins out towards its ends.
     pub matter: Matter,
+    /// Where that is: 0 at `from`, less than 1.
+    pub peak: f32,
 }
 
 impl Thread {
+    /// A curve through points, thinning out at its last: threads that run into each other, each thickest at a point.
+    pub(super) fn curve(points: &[Vec2], radius: impl Fn(usize) -> f32, matter: Matter) -> Vec<Self> {
+        let thread = |k: usize| {
+            let (from, to) = (points[k.saturating_sub(1)], points[k + 1]);
+            Self { from, to, radius: radius(k), matter, peak: if k == 0 { 0.0 } else { 0.5 } }
+        };
+        (0..points.len().saturating_sub(1)).map(thread).collect()
+    }
+
     /// A quadrangle for [`THREAD`].
     pub(super) fn draw_on(&self, slide: &mut Slide) {
         if !slide.sees(self.from, (self.to - self.from).length() + 2.0 * self.radius) {
             return;
         }
         let (is_less, matter) = magnitude(self.matter);
-        let mut vertices = Vec::with_capacity(44);
+        let mut vertices = Vec::with_capacity(48);
         for corner in [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]] {
-            vertices.extend([self.from.x, self.from.y, self.to.x, self.to.y, corner[0], corner[1], self.radius]);
+            vertices.extend([self.from.x, self.from.y, self.to.x, self.to.y, corner[0], corner[1]]);
+            vertices.extend([self.radius, self.peak]);
             vertices.extend(matter.to_array());
         }
         slide.add(Program::Thread, is_less, &vertices, QUAD);
@@ -99,7 +111,8 @@ impl Thread {
         plate.add(self.from.min(self.to) - reach, self.from.max(self.to) + reach, |p| {
             let along = ((p - self.from).dot(way) * per_length).clamp(0.0, 1.0);
             let apart = (p - self.from - way * along).length() / radius;
-            matter * (bell(apart) * (1.0 - along * along))
+            let share = if along < self.peak { along / self.peak } else { (1.0 - along) / (1.0 - self.peak) };
+            matter * (bell(apart) * share)
         });
     }
 }
