@@ -28,11 +28,14 @@ fn catch_time(mut built: Built) -> Option<f64> {
     None
 }
 
-/// Longest time without progress in a minute, s, who had it and when.
+/// Longest time without progress in a minute, s, who had it and when, or what had become invalid.
 fn longest_stall(mut built: Built) -> (f32, String) {
     let mut longest = (0.0, String::new());
     while built.world.time() < 60.0 {
         built.world.step(&Inputs::new());
+        if let Err(violation) = built.world.validate() {
+            return (f32::INFINITY, format!("invalid at {:.1} s: {violation}", built.world.time()));
+        }
         let view = built.world.view();
         for organism in view.organisms().filter(|organism| organism.goal().is_some()) {
             if organism.stalled_for() > longest.0 {

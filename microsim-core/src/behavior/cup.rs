@@ -9,6 +9,7 @@
 
 use super::{heading, place};
 use crate::capability::phagocytosis::Engulfer;
+use crate::geometry::polygon::contains_point;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
@@ -84,10 +85,10 @@ pub(crate) fn drive_lips(
         for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {
             let Some(fold) = Fold::find(organism, prey, particles) else { continue };
             let cup = Cup { organism, engulfer, prey, particles, fold };
-            if cup.is_past_prey() {
-                cup.close(contractions);
-            } else {
+            if !cup.is_past_prey() {
                 cup.advance(drives);
+            } else if !cup.is_blocked() {
+                cup.close(contractions);
             }
         }
     }
@@ -117,6 +118,26 @@ impl Cup<'_> {
             let (_, away) = nearest(self.prey, self.lip(is_after, 0) as usize, self.particles);
             away.dot(self.fold.mouth) > 0.0
         })
+    }
+
+    /// Whether something else has got between the lips, which would crush it. They wait until it is gone, or their time is up.
+    fn is_blocked(&self) -> bool {
+        let (p, ring) = (self.particles, &self.organism.outline);
+        let middle = self.fold.bottom + 2 * ring.len();
+        let arc = middle - self.fold.before - self.rim(false)..=middle + self.fold.after + self.rim(true);
+        let fold: Vec<Vec2> = arc.map(|k| p.position(ring[k % ring.len()] as usize)).collect();
+        let (low, high) = fold.iter().fold((fold[0], fold[0]), |(low, high), &at| (low.min(at), high.max(at)));
+        let owners = [ring[0], self.prey.particles().next().unwrap_or(ring[0])].map(|i| p.owner[i as usize]);
+        p.live().filter(|&i| !owners.contains(&p.owner[i])).any(|i| {
+            let at = p.position(i);
+            at.cmpge(low).all() && at.cmple(high).all() && contains_point(&fold, at)
+        })
+    }
+
+    /// The step of the lip's node that is farthest out.
+    fn rim(&self, is_after: bool) -> usize {
+        let out = |step: usize| self.particles.position(self.lip(is_after, step) as usize).dot(self.fold.mouth);
+        (1..=LIP).fold(0, |rim, step| if out(step) > out(rim) { step } else { rim })
     }
 
     /// Moves the lips along the prey's surface towards the mouth.
@@ -151,5 +172,40 @@ impl Cup<'_> {
             }
             inner = width;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::World;
+    use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, PlateletSpec, WorldConfig};
+
+    #[test]
+    fn lips_wait_while_something_else_is_between_them() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(56.0, 45.0)).unwrap();
+        let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(90.0, 45.0)).unwrap();
+        for _ in 0..900 {
+            let mut inputs = Inputs::new();
+            world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
+            world.step(&inputs);
+            if !world.scratch.contractions.is_empty() {
+                break;
+            }
+        }
+        let closing = |world: &World| {
+            let mut contractions = Vec::new();
+            drive_lips(&world.organisms, &world.particles, &mut Vec::new(), &mut contractions);
+            contractions
+        };
+        let lips = closing(&world);
+        let [a, b] = [lips[0].a, lips[0].b].map(|i| world.particles.position(i as usize));
+        let p = &mut world.particles;
+        let disc = p.live().find(|&i| p.owner[i] == platelet.index).unwrap();
+        let by = (a + b) * 0.5 - p.position(disc);
+        (p.x[disc], p.y[disc]) = (p.x[disc] + by.x, p.y[disc] + by.y);
+        assert!(closing(&world).is_empty());
     }
 }

@@ -18,8 +18,8 @@ const GOING: f32 = 0.3;
 const TRY: [f32; 2] = [1.3, 0.5];
 /// Time after which a way out on which it is not going is given up, s.
 const GIVE_UP: f32 = 0.6;
-/// Speed at which it tries to get away, in its own.
-const HASTE: f32 = 1.5;
+/// Speed at which it tries to get away, in its own: so many times, and more with each second without success.
+const HASTE: [f32; 2] = [1.5, 0.75];
 /// Ways that it considers, all around.
 const WAYS: u32 = 12;
 /// Weight of the way back among them, against what has been in its way.
@@ -82,7 +82,7 @@ impl Progress {
             }
         };
         self.escape = Some(escape);
-        Some(Wish { pace: HASTE, ..senses.along(escape.way) })
+        Some(Wish { pace: HASTE[0] + HASTE[1] * self.stalled, ..senses.along(escape.way) })
     }
 
     /// The most promising of some ways all around, after one that failed.

@@ -42,6 +42,7 @@ impl Obstacle {
     }
 
     /// Whether `point` is inside. Unlike [`Obstacle::nearest`] it is right on the edges that a compound's parts share.
+    #[cfg(feature = "microscope")]
     pub(crate) fn contains(&self, point: Vec2) -> bool {
         self.shape.contains_local_point(self.pose.inverse_transform_point(point))
     }
