@@ -20,6 +20,8 @@ const TRY: [f32; 2] = [1.3, 0.5];
 const GIVE_UP: f32 = 0.6;
 /// Speed at which it tries to get away, in its own: so many times, and more with each second without success.
 const HASTE: [f32; 2] = [1.5, 0.75];
+/// Time after which it does not push harder any more, s: what cannot get away must not crush what holds it.
+const UTMOST: f32 = 4.0;
 /// Ways that it considers, all around.
 const WAYS: u32 = 12;
 /// Weight of the way back among them, against what has been in its way.
@@ -82,7 +84,8 @@ impl Progress {
             }
         };
         self.escape = Some(escape);
-        Some(Wish { pace: HASTE[0] + HASTE[1] * self.stalled, ..senses.along(escape.way) })
+        let effort = if self.stalled < UTMOST { self.stalled } else { UTMOST };
+        Some(Wish { pace: HASTE[0] + HASTE[1] * effort, ..senses.along(escape.way) })
     }
 
     /// The most promising of some ways all around, after one that failed.

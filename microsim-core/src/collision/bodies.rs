@@ -137,7 +137,7 @@ impl Bodies {
     }
 
     /// Adds what `find` gives for each two discs of different bodies that may touch: of small bodies to the lists, strip by
-    /// strip of rows, of large ones to what is returned.
+    /// strip of rows, of large ones to the others.
     pub(super) fn pairs<R: Send>(
         &self,
         find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync,
