@@ -315,13 +315,9 @@ impl Particles {
         }
     }
 
-    /// Whether two nodes of a membrane are one or two links apart.
+    /// Whether two nodes of a membrane are the ends of one link.
     pub(crate) fn are_ring_neighbours(&self, a: usize, b: usize) -> bool {
-        let follows = |first: usize, second: usize| {
-            let next = self.next_in_ring[first] as usize;
-            next == second || self.next_in_ring.get(next).is_some_and(|&after| after as usize == second)
-        };
-        follows(a, b) || follows(b, a)
+        self.next_in_ring[a] as usize == b || self.next_in_ring[b] as usize == a
     }
 
     /// Makes entry `i` dead without freeing its index (a lane of a block).
