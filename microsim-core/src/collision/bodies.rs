@@ -4,6 +4,7 @@
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
 
+use super::bounds::Bounds;
 use super::crowd::{Crowd, Disc};
 use super::grid::Grid;
 use crate::parallel;
@@ -19,34 +20,8 @@ const PORTION: usize = 16;
 /// A body: its discs, and the box around what they can reach in the step.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    pub low: Vec2,
-    pub high: Vec2,
+    bounds: Bounds,
     discs: Range<usize>,
-}
-
-impl Body {
-    /// The body of these discs, the first of which is at `first` of all.
-    fn around(discs: &[Disc], first: usize) -> Self {
-        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        for disc in discs {
-            low = low.min(disc.at - disc.reach);
-            high = high.max(disc.at + disc.reach);
-        }
-        Self { low, high, discs: first..first + discs.len() }
-    }
-
-    fn centre(&self) -> Vec2 {
-        (self.low + self.high) * 0.5
-    }
-
-    fn extent(&self) -> f32 {
-        let Vec2 { x, y } = self.high - self.low;
-        if x > y { x } else { y }
-    }
-
-    pub(super) fn meets(&self, low: Vec2, high: Vec2) -> bool {
-        self.low.cmple(high).all() && self.high.cmpge(low).all()
-    }
 }
 
 /// Bodies of like size, in the order of the cells that their centres are in.
@@ -62,7 +37,9 @@ struct Layer {
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
     /// Body by body; what lies between two bodies means nothing.
-    pub discs: Vec<Disc>,
+    discs: Vec<Disc>,
+    /// The box of each disc.
+    boxes: Vec<Bounds>,
     found: Vec<Body>,
     small: Layer,
     large: Layer,
@@ -71,28 +48,34 @@ pub(super) struct Bodies {
 impl Bodies {
     /// Makes a body of each instance in some blocks, in place of all there were.
     pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, reach: f32) {
-        let Self { discs, found, .. } = self;
-        discs.resize(blocks.iter().map(BlockRange::len).sum(), Disc::default());
-        let (mut portions, mut rest, mut start) = (Vec::new(), discs.as_mut_slice(), 0);
+        let Self { discs, boxes, found, .. } = self;
+        let len = blocks.iter().map(BlockRange::len).sum();
+        discs.resize(len, Disc::default());
+        boxes.resize(len, Bounds::EMPTY);
+        let (mut portions, mut start) = (Vec::new(), 0);
+        let mut rest = (discs.as_mut_slice(), boxes.as_mut_slice());
         for blocks in blocks.chunks(PORTION) {
             let len = blocks.iter().map(BlockRange::len).sum();
-            let (discs, others) = rest.split_at_mut(len);
-            portions.push((blocks, start, discs));
-            (rest, start) = (others, start + len);
+            let (discs, others) = rest.0.split_at_mut(len);
+            let (boxes, other_boxes) = rest.1.split_at_mut(len);
+            portions.push((blocks, start, discs, boxes));
+            (rest, start) = ((others, other_boxes), start + len);
         }
-        let collected = parallel::map(portions, |(blocks, start, discs)| {
+        let collected = parallel::map(portions, |(blocks, start, discs, boxes)| {
             let mut bodies = Vec::with_capacity(blocks.len() * LANES);
             let mut end = 0;
             for (block, lane) in blocks.iter().flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
-                let first = end;
+                let (first, mut bounds) = (end, Bounds::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
                     if particles.groups[i].memberships != 0 {
                         discs[end] = Disc::of(particles, i, reach);
+                        boxes[end] = discs[end].bounds();
+                        bounds = bounds.join(boxes[end]);
                         end += 1;
                     }
                 }
                 if end > first {
-                    bodies.push(Body::around(&discs[first..end], start + first));
+                    bodies.push(Body { bounds, discs: start + first..start + end });
                 }
             }
             bodies
@@ -103,15 +86,17 @@ impl Bodies {
 
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc) {
-        self.found.push(Body::around(&[disc], self.discs.len()));
+        let (bounds, first) = (disc.bounds(), self.discs.len());
+        self.found.push(Body { bounds, discs: first..first + 1 });
         self.discs.push(disc);
+        self.boxes.push(bounds);
     }
 
     /// Sorts the bodies for the search.
     pub(super) fn sort(&mut self, size: Vec2) {
         let Self { found, small, large, .. } = self;
-        let mean = found.iter().map(Body::extent).sum::<f32>() / found.len() as f32;
-        let larger = found.extract_if(.., |body| body.extent() > 2.0 * mean).collect::<Vec<_>>();
+        let mean = found.iter().map(|body| body.bounds.extent()).sum::<f32>() / found.len() as f32;
+        let larger = found.extract_if(.., |body| body.bounds.extent() > 2.0 * mean).collect::<Vec<_>>();
         small.sort(found, size);
         large.sort(&larger, size);
     }
@@ -124,7 +109,8 @@ impl Bodies {
     /// Calls `visit` once for each disc of a body and each disc of a crowd that may touch.
     pub(super) fn pairs_with(&self, crowd: &Crowd, mut visit: impl FnMut(&Disc, &Disc)) {
         for body in self.small.bodies.iter().chain(&self.large.bodies) {
-            for other in crowd.in_box(body.low, body.high).filter(|other| other.meets(body)) {
+            let near_body = crowd.in_box(body.bounds.low(), body.bounds.high());
+            for other in near_body.filter(|other| other.bounds().meets(body.bounds)) {
                 let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
                 near.for_each(|disc| visit(disc, other));
             }
@@ -133,7 +119,8 @@ impl Bodies {
 
     /// Bodies whose boxes meet this one.
     pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Body> {
-        self.small.in_box(low, high).chain(self.large.in_box(low, high))
+        let bounds = Bounds::new(low, high);
+        self.small.meeting(bounds).chain(self.large.meeting(bounds))
     }
 
     /// Adds what `find` gives for each two discs of different bodies that may touch: of small bodies to the lists, strip by
@@ -156,20 +143,26 @@ impl Bodies {
         within(&self.large, 0..self.large.grid.rows(), others);
         let mut near = Vec::new();
         for body in &self.large.bodies {
-            for other in self.small.in_box(body.low, body.high) {
+            for other in self.small.meeting(body.bounds) {
                 self.pairs_between(body, other, &mut near, |a, b| others.extend(find(a, b)));
             }
         }
     }
 
     fn pairs_between(&self, a: &Body, b: &Body, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
-        if a.meets(b.low, b.high) {
+        if a.bounds.meets(b.bounds) {
             near.clear();
-            near.extend(self.discs_of(b).iter().filter(|disc| disc.meets(a)));
-            for disc in self.discs_of(a).iter().filter(|disc| disc.meets(b)) {
+            near.extend(self.discs_meeting(b, a.bounds));
+            for disc in self.discs_meeting(a, b.bounds) {
                 near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
             }
         }
+    }
+
+    /// Discs of a body that may reach into a box.
+    fn discs_meeting(&self, body: &Body, bounds: Bounds) -> impl Iterator<Item = &Disc> {
+        let discs = self.boxes[body.discs.clone()].iter().zip(self.discs_of(body));
+        discs.filter(move |(disc, _)| disc.meets(bounds)).map(|(_, disc)| disc)
     }
 }
 
@@ -183,21 +176,19 @@ impl Clone for Bodies {
 impl Layer {
     fn sort(&mut self, found: &[Body], size: Vec2) {
         let Self { bodies, grid, extent } = self;
-        *extent = found.iter().map(Body::extent).fold(0.0, |far, extent| if extent > far { extent } else { far });
-        grid.fill(Vec2::ZERO, size, Vec2::splat(*extent), found.len(), |k| found[k].centre());
+        *extent = found
+            .iter()
+            .map(|body| body.bounds.extent())
+            .fold(0.0, |far, extent| if extent > far { extent } else { far });
+        grid.fill(Vec2::ZERO, size, Vec2::splat(*extent), found.len(), |k| found[k].bounds.centre());
         bodies.clear();
         bodies.extend(grid.order().iter().map(|&k| found[k as usize].clone()));
     }
 
-    fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Body> {
+    /// Bodies whose boxes meet this one.
+    fn meeting(&self, bounds: Bounds) -> impl Iterator<Item = &Body> {
         let half = Vec2::splat(0.5 * self.extent);
-        let cells = self.grid.ranges_in_box(low - half, high + half);
-        cells.flat_map(|range| &self.bodies[range]).filter(move |body| body.meets(low, high))
-    }
-}
-
-impl Disc {
-    fn meets(&self, body: &Body) -> bool {
-        body.meets(self.at - self.reach, self.at + self.reach)
+        let cells = self.grid.ranges_in_box(bounds.low() - half, bounds.high() + half);
+        cells.flat_map(|range| &self.bodies[range]).filter(move |body| body.bounds.meets(bounds))
     }
 }

@@ -1,5 +1,6 @@
 //! Crowds: discs that are looked for one by one, in a grid. Membranes and fluid, which have many and move freely.
 
+use super::bounds::Bounds;
 use super::grid::Grid;
 use crate::particle::Particles;
 use glam::Vec2;
@@ -18,6 +19,12 @@ pub(super) struct Disc {
 impl Disc {
     pub(super) fn of(particles: &Particles, i: usize, reach: f32) -> Self {
         Self { at: particles.position(i), reach: particles.radius[i] + reach, index: i as u32 }
+    }
+
+    /// The box around what it can reach in the step.
+    #[inline(always)]
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::new(self.at - self.reach, self.at + self.reach)
     }
 
     /// Whether the two may touch during the step.

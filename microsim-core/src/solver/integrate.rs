@@ -1,6 +1,7 @@
 //! The two ends of a substep: where particles would go, and what velocity their corrected positions amount to.
 
 use super::instruction_set::Dispatch;
+use super::lanes::{LANES, each, load, store};
 use super::ratio_limit;
 use crate::parallel;
 use crate::particle::{Columns, Particles};
@@ -22,21 +23,31 @@ pub(crate) fn in_stretches(p: &mut Particles, dispatch: Dispatch, kernel: impl F
 /// `v += h g`, limited to the speed limit; `x += h v`, for everything that can move.
 #[inline(always)]
 pub(crate) fn predict_positions(particles: &mut Columns<'_>, gravity: Vec2, max_speed: f32, h: f32) {
-    let Columns { x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = particles;
-    let moving = x.iter_mut().zip(&mut **y).zip(prev_x.iter_mut().zip(&mut **prev_y));
-    let columns = moving.zip(vx.iter_mut().zip(&mut **vy)).zip(inv_mass.iter());
-    for ((((x, y), (prev_x, prev_y)), (vx, vy)), inv_mass) in columns {
-        let moves = if *inv_mass > 0.0 { h } else { 0.0 };
-        *vx += moves * gravity.x;
-        *vy += moves * gravity.y;
-        let limit = ratio_limit(*vx * *vx + *vy * *vy, max_speed);
-        *vx *= limit;
-        *vy *= limit;
-        *prev_x = *x;
-        *prev_y = *y;
-        *x += moves * *vx;
-        *y += moves * *vy;
+    let (whole, end) = in_lanes(particles);
+    for at in (0..whole).step_by(LANES) {
+        predict::<LANES>(particles, at, gravity, max_speed, h);
     }
+    for at in whole..end {
+        predict::<1>(particles, at, gravity, max_speed, h);
+    }
+}
+
+#[inline(always)]
+fn predict<const L: usize>(p: &mut Columns<'_>, at: usize, gravity: Vec2, max_speed: f32, h: f32) {
+    let inv_mass = load::<L>(p.inv_mass, at);
+    let moves = each::<L>(|l| if inv_mass[l] > 0.0 { h } else { 0.0 });
+    let (x, y, vx, vy) = (load::<L>(p.x, at), load::<L>(p.y, at), load::<L>(p.vx, at), load::<L>(p.vy, at));
+    let (vx, vy) = (each::<L>(|l| vx[l] + moves[l] * gravity.x), each::<L>(|l| vy[l] + moves[l] * gravity.y));
+    let (vx, vy) = match limits(&vx, &vy, max_speed) {
+        Some(limit) => (each::<L>(|l| vx[l] * limit[l]), each::<L>(|l| vy[l] * limit[l])),
+        None => (vx, vy),
+    };
+    store(p.vx, at, vx);
+    store(p.vy, at, vy);
+    store(p.prev_x, at, x);
+    store(p.prev_y, at, y);
+    store(p.x, at, each::<L>(|l| x[l] + moves[l] * vx[l]));
+    store(p.y, at, each::<L>(|l| y[l] + moves[l] * vy[l]));
 }
 
 /// `v = (x - x_prev) / h`, damped. A particle that the projections moved farther than the speed limit allows is moved
@@ -44,17 +55,44 @@ pub(crate) fn predict_positions(particles: &mut Columns<'_>, gravity: Vec2, max_
 #[inline(always)]
 pub(crate) fn update_velocities(particles: &mut Columns<'_>, damping: f32, max_speed: f32, h: f32) {
     let keep = 1.0 / (1.0 + damping * h);
-    let (longest, inverse) = (max_speed * h, 1.0 / h);
-    let Columns { x, y, prev_x, prev_y, vx, vy, .. } = particles;
-    let columns = x.iter_mut().zip(&mut **y).zip(prev_x.iter().zip(&**prev_y)).zip(vx.iter_mut().zip(&mut **vy));
-    for (((x, y), (prev_x, prev_y)), (vx, vy)) in columns {
-        let (dx, dy) = (*x - *prev_x, *y - *prev_y);
-        let limit = ratio_limit(dx * dx + dy * dy, longest);
-        *x = *prev_x + dx * limit;
-        *y = *prev_y + dy * limit;
-        *vx = dx * limit * inverse * keep;
-        *vy = dy * limit * inverse * keep;
+    let (whole, end) = in_lanes(particles);
+    for at in (0..whole).step_by(LANES) {
+        update::<LANES>(particles, at, max_speed, keep, h);
     }
+    for at in whole..end {
+        update::<1>(particles, at, max_speed, keep, h);
+    }
+}
+
+#[inline(always)]
+fn update<const L: usize>(p: &mut Columns<'_>, at: usize, max_speed: f32, keep: f32, h: f32) {
+    let inverse = 1.0 / h;
+    let (x, y, from_x, from_y) =
+        (load::<L>(p.x, at), load::<L>(p.y, at), load::<L>(p.prev_x, at), load::<L>(p.prev_y, at));
+    let (mut dx, mut dy) = (each::<L>(|l| x[l] - from_x[l]), each::<L>(|l| y[l] - from_y[l]));
+    if let Some(limit) = limits(&dx, &dy, max_speed * h) {
+        (dx, dy) = (each::<L>(|l| dx[l] * limit[l]), each::<L>(|l| dy[l] * limit[l]));
+        store(p.x, at, each::<L>(|l| if limit[l] < 1.0 { from_x[l] + dx[l] } else { x[l] }));
+        store(p.y, at, each::<L>(|l| if limit[l] < 1.0 { from_y[l] + dy[l] } else { y[l] }));
+    }
+    store(p.vx, at, each::<L>(|l| dx[l] * inverse * keep));
+    store(p.vy, at, each::<L>(|l| dy[l] * inverse * keep));
+}
+
+/// Factors that bring vectors down to `longest`, if one of them is longer: few are, and a root and a division are most of the
+/// work here.
+#[inline(always)]
+fn limits<const L: usize>(x: &[f32; L], y: &[f32; L], longest: f32) -> Option<[f32; L]> {
+    let squared = each::<L>(|l| x[l] * x[l] + y[l] * y[l]);
+    let some = squared.iter().fold(false, |some, &squared| some | (squared > longest * longest));
+    if some { Some(each::<L>(|l| ratio_limit(squared[l], longest))) } else { None }
+}
+
+/// How many entries can be worked on in lanes, and how many there are.
+#[inline(always)]
+fn in_lanes(particles: &Columns<'_>) -> (usize, usize) {
+    let count = particles.x.len();
+    (count - count % LANES, count)
 }
 
 /// Takes back the damping of [`update_velocities`] from some particles.

@@ -50,6 +50,12 @@ pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
     lanes
 }
 
+/// Sets the `L` entries of a column from `at` on.
+#[inline(always)]
+pub(crate) fn store<const L: usize>(column: &mut [f32], at: usize, values: [f32; L]) {
+    column[at..at + L].copy_from_slice(&values);
+}
+
 /// Adds `amount` to the `L` entries of a column from `at` on.
 #[inline(always)]
 pub(crate) fn add<const L: usize>(column: &mut [f32], at: usize, amount: [f32; L]) {

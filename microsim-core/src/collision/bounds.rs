@@ -1,0 +1,75 @@
+//! Axis-aligned boxes, made to be compared quickly: most of a pair search is asking whether two of them meet.
+
+use glam::{Vec2, Vec4, Vec4Swizzles};
+
+/// A box, as `(-low, high)`: two boxes meet if four sums are positive, which is one comparison of four lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Bounds(Vec4);
+
+impl Bounds {
+    /// Holds nothing; joined with another box, it is that one.
+    pub(super) const EMPTY: Self = Self(Vec4::NEG_INFINITY);
+
+    pub(super) fn new(low: Vec2, high: Vec2) -> Self {
+        Self(Vec4::new(-low.x, -low.y, high.x, high.y))
+    }
+
+    pub(super) fn low(self) -> Vec2 {
+        -self.0.xy()
+    }
+
+    pub(super) fn high(self) -> Vec2 {
+        self.0.zw()
+    }
+
+    pub(super) fn centre(self) -> Vec2 {
+        (self.low() + self.high()) * 0.5
+    }
+
+    /// The larger one of width and height.
+    pub(super) fn extent(self) -> f32 {
+        let Vec2 { x, y } = self.high() - self.low();
+        if x > y { x } else { y }
+    }
+
+    /// The box around both.
+    #[inline(always)]
+    pub(super) fn join(self, other: Self) -> Self {
+        Self(Vec4::select(other.0.cmpgt(self.0), other.0, self.0))
+    }
+
+    #[inline(always)]
+    pub(super) fn meets(self, other: Self) -> bool {
+        self.0.cmpge(-other.0.zwxy()).all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_meet_where_they_share_a_point() {
+        let unit = Bounds::new(Vec2::ZERO, Vec2::ONE);
+        let at = |x: f32, y: f32| Bounds::new(Vec2::new(x, y), Vec2::new(x + 2.0, y + 2.0));
+        for (other, meets) in [
+            (at(0.2, 0.2), true),
+            (at(1.0, -2.0), true),
+            (at(1.1, 0.0), false),
+            (at(0.0, 1.1), false),
+            (at(-2.1, 0.0), false),
+            (at(0.0, -2.1), false),
+            (Bounds::EMPTY, false),
+        ] {
+            assert_eq!((unit.meets(other), other.meets(unit)), (meets, meets), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn the_box_around_boxes_is_no_larger_than_it_must_be() {
+        let both = Bounds::new(Vec2::ZERO, Vec2::ONE).join(Bounds::new(Vec2::new(-1.0, 0.5), Vec2::new(0.5, 3.0)));
+        let all = Bounds::EMPTY.join(both);
+        assert_eq!((all.low(), all.high()), (Vec2::new(-1.0, 0.0), Vec2::new(1.0, 3.0)));
+        assert_eq!((all.centre(), all.extent()), (Vec2::new(0.0, 1.5), 3.0));
+    }
+}
