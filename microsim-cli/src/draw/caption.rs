@@ -35,9 +35,8 @@ pub(crate) fn draw(size: Vec2, margin: f32, time: f64) -> Vec<Item> {
 }
 
 /// A scale bar in the lower left corner of a picture of this size, everything in pixels but the length that it says.
-pub(crate) fn scale_bar(length: f32, pixels: f32, height: f32, margin: f32, shade: u32) -> Vec<Item> {
+pub(crate) fn scale_bar(length: f32, pixels: f32, height: f32, margin: f32, colour: Colour) -> Vec<Item> {
     let scale = height / GRID;
-    let colour = Colour::hex(shade * 0x01_01_01).faded(0.9);
     let mut bar = Path::default();
     bar.add_line(&[Vec2::splat(margin), Vec2::new(margin + pixels, margin)]);
     let at = Vec2::new(margin, margin + 2.2 * scale);

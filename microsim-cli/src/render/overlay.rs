@@ -1,6 +1,6 @@
 //! What is painted over a picture: chemicals, and the scale bar in a corner.
 
-use crate::draw::{caption, chemical, png::Picture};
+use crate::draw::{caption, chemical, png::Picture, shape::Colour};
 use microsim_core::World;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Optics};
@@ -8,6 +8,10 @@ use microsim_core::microscope::{Field, Optics};
 /// Height of the letters and distance from the corner, as shares of the picture's height.
 const LETTERS: f32 = 0.026;
 const MARGIN: f32 = 0.04;
+/// Of the scale bar. It must be read on any ground, but be no harder an edge than the picture has: hence a hue that no
+/// specimen has, and not black, on light grounds.
+const ON_LIGHT: u32 = 0x78_5a_e6;
+const ON_DARK: u32 = 0xe1_e1_e1;
 /// Sides from which on a picture has room for a scale bar, pixels.
 const LEAST: [usize; 2] = [160, 90];
 
@@ -26,9 +30,9 @@ pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) ->
         return picture;
     }
     let is_light = matches!(optics, Optics::Stained | Optics::BrightField | Optics::Classic);
-    let shade = if is_light { 30 } else { 225 };
+    let colour = Colour::hex(if is_light { ON_LIGHT } else { ON_DARK });
     let length = caption::bar_length(field.width);
     let height = height as f32;
-    let items = caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, shade);
+    let items = caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, colour.faded(0.85));
     picture.painted_over(&items)
 }
