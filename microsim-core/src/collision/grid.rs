@@ -69,7 +69,7 @@ impl Grid {
 
     /// How many columns away something within this distance can be.
     pub(crate) fn columns_within(&self, distance: f32) -> usize {
-        (distance * self.inverse_cell.x) as usize + 1
+        (distance * self.inverse_cell.x).ceil() as usize
     }
 
     pub(crate) fn columns(&self) -> usize {

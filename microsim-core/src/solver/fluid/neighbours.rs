@@ -164,8 +164,10 @@ fn source(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Source {
 /// Particles in the very same place would never come apart: gives them different ones.
 fn separate_coincident(sources: &mut [Source]) {
     for k in 1..sources.len() {
-        let here = sources[k].position();
-        let same = sources[k.saturating_sub(4)..k].iter().filter(|other| other.position() == here).count();
-        sources[k].x += same as f32 * 1e-3;
+        let (here, before) = (sources[k].position(), &sources[k.saturating_sub(4)..k]);
+        if before.iter().any(|other| other.x == here.x) {
+            let same = before.iter().filter(|other| other.position() == here).count();
+            sources[k].x += same as f32 * 1e-3;
+        }
     }
 }
