@@ -162,7 +162,7 @@ impl AmoeboidBody {
         let (low, high) = self.map.bounds();
         if slide.sees(0.5 * (low + high), (high - low).length()) {
             let corners = box_corners(low, high);
-            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(self.map.clone()));
+            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(&self.map));
         }
     }
 

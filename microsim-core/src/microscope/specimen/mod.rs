@@ -22,6 +22,11 @@ use spot::{Spot, Thread};
 
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
+/// Farthest that anything of an organism reaches beyond the box around its particles: share of the box's longer side, and
+/// micrometres. Fibres and cilia do, and outlines that are made uneven.
+const BEYOND: [f32; 2] = [0.25, 6.0];
+/// Pixels over which small things are spread.
+const BLUR: f32 = 3.0;
 
 /// Everything that lies on the slide at one moment.
 #[derive(Clone, Debug)]
@@ -35,8 +40,8 @@ pub(super) struct Specimen {
 }
 
 impl Specimen {
-    /// What there is to see, for a camera that looks at `camera`.
-    pub(super) fn of(view: View<'_>, camera: Vec2) -> Self {
+    /// What there is to see, for a camera that looks at `camera`, on a grid and on what lies within it.
+    pub(super) fn of(view: View<'_>, camera: Vec2, grid: &Grid) -> Self {
         let (world, time) = (view.world(), view.time() as f32);
         let seed = world.config().seed;
         let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
@@ -44,7 +49,7 @@ impl Specimen {
             Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
         let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
-        for organism in view.organisms() {
+        for organism in view.organisms().filter(|&organism| may_be_on(grid, organism)) {
             specimen.add(organism, view);
         }
         specimen
@@ -97,6 +102,17 @@ impl Specimen {
         self.threads.iter().for_each(|thread| thread.draw_on(slide));
         self.spots.iter().for_each(|spot| spot.draw_on(slide));
     }
+}
+
+/// Whether anything of an organism may lie on a grid.
+fn may_be_on(grid: &Grid, organism: OrganismView<'_>) -> bool {
+    let nothing = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+    let (low, high) = organism.particles().fold(nothing, |(low, high), particle| {
+        (low.min(particle.position - particle.radius), high.max(particle.position + particle.radius))
+    });
+    let beyond = BEYOND[0] * (high - low).max_element() + BEYOND[1] + BLUR * grid.pixel;
+    let (lower_left, upper_right) = grid.bounds();
+    !((high + beyond).cmplt(lower_left).any() || (low - beyond).cmpgt(upper_right).any())
 }
 
 /// Walls around the prey that a cell holds.

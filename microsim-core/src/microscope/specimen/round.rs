@@ -301,7 +301,7 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
     polar.reshape(|way| {
         let own = rotate(way, back);
         let angle = libm::atan2f(own.y, own.x);
-        1.0 + waves.iter().map(|&(order, phase, size)| size * unit_vector(order * angle + phase).x).sum::<f32>()
+        1.0 + waves.iter().map(|&(order, phase, size)| size * libm::cosf(order * angle + phase)).sum::<f32>()
     });
 }
 
