@@ -84,15 +84,17 @@ impl Specimen {
         let mut plate = Plate::empty(grid);
         self.ground.draw(&mut plate);
         self.chamber.draw(&mut plate);
-        self.amoeboid.iter().for_each(|body| body.draw(&mut plate));
-        self.round.iter().for_each(|body| body.draw(&mut plate));
-        self.threads.iter().for_each(|thread| thread.draw(&mut plate));
-        self.spots.iter().for_each(|spot| spot.draw(&mut plate));
+        self.draw_organisms(&mut plate);
         plate
     }
-}
 
-impl Specimen {
+    fn draw_organisms(&self, plate: &mut Plate) {
+        self.amoeboid.iter().for_each(|body| body.draw(plate));
+        self.round.iter().for_each(|body| body.draw(plate));
+        self.threads.iter().for_each(|thread| thread.draw(plate));
+        self.spots.iter().for_each(|spot| spot.draw(plate));
+    }
+
     /// The same matter for a graphics card; an empty target holds `bias`.
     pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
         self.ground.draw_on(slide, bias);
@@ -146,4 +148,35 @@ fn rod(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
 fn drops(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
     let drop = |at, radius| Spot { at, radius: 1.6 * radius, matter: matter * 0.6, shape: SpotShape::Bump };
     organism.particles().map(|particle| drop(particle.position, particle.radius)).collect()
+}
+
+#[cfg(all(test, feature = "scenario"))]
+mod tests {
+    use super::*;
+    use crate::scenario::{Scenario, builtin};
+
+    #[test]
+    fn what_is_left_out_would_not_be_seen() {
+        let mut left_out = 0;
+        for name in ["demo", "hunt", "dam-break"] {
+            let scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+            let mut world = scenario.build().unwrap().world;
+            (0..30).for_each(|_| world.step(&crate::Inputs::new()));
+            let (view, size) = (world.view(), world.config().size);
+            let small = Grid { corner: Vec2::ZERO, pixel: 0.5, columns: 24, top: 0, rows: 24 };
+            for (share, pixel) in [(0.2, 0.5), (0.35, 0.25), (0.5, 0.5), (0.7, 2.0)] {
+                let grid = Grid { corner: size * share, pixel, ..small };
+                let mut specimen = Specimen::of(view, Vec2::ZERO, &Grid { corner: -10.0 * size, ..small });
+                assert!(specimen.round.is_empty() && specimen.spots.is_empty());
+                for organism in view.organisms().filter(|&organism| !may_be_on(&grid, organism)) {
+                    specimen.add(organism, view);
+                    left_out += 1;
+                }
+                let mut plate = Plate::empty(grid);
+                specimen.draw_organisms(&mut plate);
+                assert!(plate.matter.iter().all(|matter| *matter == Matter::NONE), "{name} {share}");
+            }
+        }
+        assert!(left_out > 600, "{left_out}");
+    }
 }

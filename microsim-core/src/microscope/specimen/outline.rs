@@ -199,9 +199,9 @@ impl DistanceMap {
         let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= reach * reach);
         let near: Vec<Edge> = near.map(|(edge, _)| *edge).collect();
         if side > BLOCK {
-            let half = side / 2;
-            for corner in [[left, top], [left + half, top], [left, top + half], [left + half, top + half]] {
-                self.measure_square(corner, half, &near);
+            let part = side / 2;
+            for corner in [[left, top], [left + part, top], [left, top + part], [left + part, top + part]] {
+                self.measure_square(corner, part, &near);
             }
             return;
         }
