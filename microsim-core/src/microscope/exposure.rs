@@ -8,7 +8,7 @@ use super::noise::scramble;
 use super::optics::{Mode, Optics, Shade, Sight};
 use super::painting::Painting;
 use super::specimen::Specimen;
-use super::wave::Surround;
+use super::wave::{Surround, surround_grid};
 use crate::error::Error;
 use crate::world::World;
 use glam::Vec2;
@@ -66,8 +66,9 @@ impl Microscope {
         let scene = match mode.shade {
             Shade::Painted => Scene::Painted(Painting::of(world.view())),
             Shade::Light(shade, _) => {
-                let specimen = Specimen::of(world.view(), field.centre);
-                let surround = mode.has_surround.then(|| Surround::of(&specimen, &image));
+                let around = mode.has_surround.then(|| surround_grid(&image, image.pixel));
+                let specimen = Specimen::of(world.view(), field.centre, &around.unwrap_or(image));
+                let surround = around.map(|grid| Surround::of(&specimen, grid));
                 Scene::Lit { specimen, surround, shade }
             }
         };

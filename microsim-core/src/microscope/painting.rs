@@ -157,7 +157,7 @@ impl Painting {
         slide.add_apart(Program::Page, &corners, QUAD.to_vec(), room.clone(), None);
         for obstacle in &self.obstacles {
             if let Some((_, map)) = obstacle_map(obstacle, slide) {
-                slide.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(map));
+                slide.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(&map));
             }
         }
         self.things.iter().for_each(|thing| thing.draw_on(slide));

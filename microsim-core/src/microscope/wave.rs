@@ -60,9 +60,8 @@ pub(super) struct Surround {
 }
 
 impl Surround {
-    /// Of a specimen over what `picture` shows.
-    pub(super) fn of(specimen: &Specimen, picture: &Grid) -> Self {
-        let grid = surround_grid(picture, picture.pixel);
+    /// Of a specimen, on a [`surround_grid`].
+    pub(super) fn of(specimen: &Specimen, grid: Grid) -> Self {
         let pixel = grid.pixel;
         let Plate { matter, .. } = specimen.plate(grid);
         let wave: Vec<Vec2> = matter.into_iter().map(behind).collect();

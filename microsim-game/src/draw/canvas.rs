@@ -122,11 +122,21 @@ impl Canvas {
         self.quad([from - half, from + half, to + half, to - half], [colour; 4]);
     }
 
-    /// A ring in few pieces, for many small ones.
+    /// A ring in as few pieces as look round, for many small ones.
     pub(crate) fn circle(&mut self, centre: Vec2, radius: f32, width: f32, colour: Color) {
-        const PIECES: usize = 12;
-        let at = |k: usize| centre + Vec2::from_angle(k as f32 * std::f32::consts::TAU / PIECES as f32) * radius;
-        (0..PIECES).for_each(|k| self.segment(at(k), at(k + 1), width, colour));
+        let pieces = (4.0 + 2.0 * radius.max(0.0).sqrt()).min(16.0) as u16;
+        let count = 2 * pieces;
+        self.reserve(count.into(), 3 * usize::from(count));
+        let first = self.mesh.vertices.len() as u16;
+        for k in 0..pieces {
+            let way = Vec2::from_angle(f32::from(k) * std::f32::consts::TAU / f32::from(pieces));
+            for reach in [radius - 0.5 * width, radius + 0.5 * width] {
+                self.vertex(centre + way * reach, atlas::plain(), colour);
+            }
+        }
+        for k in 0..count {
+            self.triangle(first + k, first + (k + 1) % count, first + (k + 2) % count);
+        }
     }
 
     /// Part of a ring, clockwise from its top; `share` of it.

@@ -8,6 +8,8 @@ use crate::ui::pen::{Align, Pen, Size};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
+/// Height that is kept free for the status line and a mark's own label below it, lines of text.
+const BELOW_STATUS: f32 = 4.6;
 /// Time for which points are shown, s.
 const GAIN_TIME: f32 = 1.6;
 
@@ -34,12 +36,12 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
             other => other,
         };
         let bob = style.time.map_or(0.0, |time| 0.12 * unit * (5.0 * time).sin());
-        let top = style.camera.to_screen(target.at) - Vec2::new(0.0, target.reach * style.camera.scale());
-        let tip = top - Vec2::new(0.0, 0.25 * unit);
-        let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all();
+        let (at, reach) = (style.camera.to_screen(target.at), target.reach * style.camera.scale());
+        let tip = Vec2::new(at.x, (at.y - reach - 0.25 * unit).max(BELOW_STATUS * unit));
+        let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all() && tip.y < at.y + reach;
         match readiness {
             Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
-            Readiness::Ready => draw_at_edge(pen, style.camera.to_screen(target.at), unit),
+            Readiness::Ready => draw_at_edge(pen, at, unit),
             _ if !is_seen => {}
             Readiness::TooLarge(share) => draw_too_large(pen, tip, unit, share),
             Readiness::NoRoom => {
@@ -212,6 +214,18 @@ mod tests {
         assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the seed");
+    }
+
+    #[test]
+    fn marks_leave_the_status_line_free() {
+        for height in 60..90 {
+            let at = Vec2::new(80.0, height as f32);
+            let target = Target { prey: prey(), at, reach: 5.0, readiness: Readiness::TooLarge(0.5) };
+            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &[target]), false);
+            let free = 2.0 * pen.line(Size::Body);
+            assert!(pen.canvas().corners().all(|(at, ..)| at.y > free), "{height}");
+            assert!(height > 75 || pen.canvas().corners().count() > 0, "{height}");
+        }
     }
 
     #[test]

@@ -161,8 +161,13 @@ impl Renderer {
             let Draw { vertices, indices, .. } = draw;
             mesh.fill(card, vertices, indices);
         }
-        self.maps.drain(..).for_each(|map| card.delete_texture(map));
-        self.maps = recipe.maps.iter().map(|Map { size, texels }| targets::sharp(card, *size, texels)).collect();
+        for (k, Map { size, texels }) in recipe.maps.iter().enumerate() {
+            // Filled anew: miniquad remembers every texture that it ever made, deleted or not.
+            match self.maps.get(k) {
+                Some(&map) => card.texture_resize(map, size[0].into(), size[1].into(), Some(texels)),
+                None => self.maps.push(targets::sharp(card, *size, texels)),
+            }
+        }
     }
 
     fn run(

@@ -47,10 +47,9 @@ pub trait Screen: fmt::Debug {
 }
 
 /// What happens to the stack of screens.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub enum Change {
     /// Nothing.
-    #[default]
     Stay,
     /// This one comes on top.
     Push(Box<dyn Screen>),

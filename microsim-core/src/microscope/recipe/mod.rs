@@ -180,7 +180,7 @@ impl Microscope {
         let kitchen = Kitchen { optics: self.optics, mode, card, field, frame };
         Ok(match mode.shade {
             Shade::Painted => kitchen.painted(&Painting::of(view)),
-            Shade::Light(..) => kitchen.lit(&Specimen::of(view, field.centre)),
+            Shade::Light(..) => kitchen.lit(view),
         })
     }
 }
@@ -195,13 +195,14 @@ struct Kitchen {
 }
 
 impl Kitchen {
-    fn lit(&self, specimen: &Specimen) -> Recipe {
+    fn lit(&self, view: View<'_>) -> Recipe {
         let grid = self.image_grid(larger(self.field.pixel() / self.card.detail, FINEST));
         let (scale, bias) = self.coding();
         let coarse = if self.card.is_soft { grid.pixel } else { 2.0 * grid.pixel };
         let around = self.mode.has_surround.then(|| wave::surround_grid(&grid, coarse));
-        let mut slide = Slide::new(around.unwrap_or(grid).bounds(), grid.pixel);
-        specimen.draw_on(&mut slide, bias);
+        let widest = around.unwrap_or(grid);
+        let mut slide = Slide::new(widest.bounds(), grid.pixel);
+        Specimen::of(view, self.field.centre, &widest).draw_on(&mut slide, bias);
         let mut passes = vec![self.matter(Target::Matter, &grid)];
         let mut uniforms = [scale, bias].concat();
         let low = grid.bounds().0;

@@ -97,7 +97,7 @@ impl Slide {
         vertices: &[f32],
         indices: Vec<u16>,
         uniforms: Vec<f32>,
-        map: Option<DistanceMap>,
+        map: Option<&DistanceMap>,
     ) {
         let mut draw = Draw { vertices: vertices.to_vec(), indices, ..Draw::of(program, false) };
         if let Some(map) = map {

@@ -162,7 +162,7 @@ impl AmoeboidBody {
         let (low, high) = self.map.bounds();
         if slide.sees(0.5 * (low + high), (high - low).length()) {
             let corners = box_corners(low, high);
-            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(self.map.clone()));
+            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(&self.map));
         }
     }
 
@@ -258,21 +258,21 @@ impl AmoeboidBody {
     /// Granules, each on the particle of cytoplasm that carries it, and the walls of what was taken in.
     pub(super) fn spots(&self, organism: OrganismView<'_>) -> Vec<Spot> {
         let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
-        carriers.flat_map(|carrier| self.granules_on(&carrier)).collect()
+        let mut spots = Vec::new();
+        carriers.for_each(|carrier| self.granules_on(&carrier, &mut spots));
+        spots
     }
 
-    fn granules_on(&self, carrier: &ParticleView) -> Vec<Spot> {
+    fn granules_on(&self, carrier: &ParticleView, spots: &mut Vec<Spot>) {
         // Not of the cell: in a division a particle becomes another cell's.
         let mut dice = Dice::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
-        let mut spots = Vec::new();
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
             let expected = look.density * 0.866 * spacing * spacing;
             let count = (expected + dice.unit()) as u32;
             spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut dice)));
         }
-        spots
     }
 
     fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, dice: &mut Dice) -> Option<Spot> {

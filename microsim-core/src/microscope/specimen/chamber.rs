@@ -63,7 +63,7 @@ impl Chamber {
         }
         for obstacle in &self.obstacles {
             if let Some((corners, map)) = obstacle_map(obstacle, slide) {
-                slide.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(map));
+                slide.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(&map));
             }
         }
     }

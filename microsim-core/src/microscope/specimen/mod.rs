@@ -22,6 +22,11 @@ use spot::{Spot, Thread};
 
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
+/// Farthest that anything of an organism reaches beyond the box around its particles: share of the box's longer side, and
+/// micrometres. Fibres and cilia do, and outlines that are made uneven.
+const BEYOND: [f32; 2] = [0.25, 6.0];
+/// Pixels over which small things are spread.
+const BLUR: f32 = 3.0;
 
 /// Everything that lies on the slide at one moment.
 #[derive(Clone, Debug)]
@@ -35,8 +40,8 @@ pub(super) struct Specimen {
 }
 
 impl Specimen {
-    /// What there is to see, for a camera that looks at `camera`.
-    pub(super) fn of(view: View<'_>, camera: Vec2) -> Self {
+    /// What there is to see, for a camera that looks at `camera`, on a grid and on what lies within it.
+    pub(super) fn of(view: View<'_>, camera: Vec2, grid: &Grid) -> Self {
         let (world, time) = (view.world(), view.time() as f32);
         let seed = world.config().seed;
         let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
@@ -44,7 +49,7 @@ impl Specimen {
             Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
         let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
-        for organism in view.organisms() {
+        for organism in view.organisms().filter(|&organism| may_be_on(grid, organism)) {
             specimen.add(organism, view);
         }
         specimen
@@ -79,15 +84,17 @@ impl Specimen {
         let mut plate = Plate::empty(grid);
         self.ground.draw(&mut plate);
         self.chamber.draw(&mut plate);
-        self.amoeboid.iter().for_each(|body| body.draw(&mut plate));
-        self.round.iter().for_each(|body| body.draw(&mut plate));
-        self.threads.iter().for_each(|thread| thread.draw(&mut plate));
-        self.spots.iter().for_each(|spot| spot.draw(&mut plate));
+        self.draw_organisms(&mut plate);
         plate
     }
-}
 
-impl Specimen {
+    fn draw_organisms(&self, plate: &mut Plate) {
+        self.amoeboid.iter().for_each(|body| body.draw(plate));
+        self.round.iter().for_each(|body| body.draw(plate));
+        self.threads.iter().for_each(|thread| thread.draw(plate));
+        self.spots.iter().for_each(|spot| spot.draw(plate));
+    }
+
     /// The same matter for a graphics card; an empty target holds `bias`.
     pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
         self.ground.draw_on(slide, bias);
@@ -97,6 +104,17 @@ impl Specimen {
         self.threads.iter().for_each(|thread| thread.draw_on(slide));
         self.spots.iter().for_each(|spot| spot.draw_on(slide));
     }
+}
+
+/// Whether anything of an organism may lie on a grid.
+fn may_be_on(grid: &Grid, organism: OrganismView<'_>) -> bool {
+    let nothing = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+    let (low, high) = organism.particles().fold(nothing, |(low, high), particle| {
+        (low.min(particle.position - particle.radius), high.max(particle.position + particle.radius))
+    });
+    let beyond = BEYOND[0] * (high - low).max_element() + BEYOND[1] + BLUR * grid.pixel;
+    let (lower_left, upper_right) = grid.bounds();
+    !((high + beyond).cmplt(lower_left).any() || (low - beyond).cmpgt(upper_right).any())
 }
 
 /// Walls around the prey that a cell holds.
@@ -130,4 +148,35 @@ fn rod(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
 fn drops(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
     let drop = |at, radius| Spot { at, radius: 1.6 * radius, matter: matter * 0.6, shape: SpotShape::Bump };
     organism.particles().map(|particle| drop(particle.position, particle.radius)).collect()
+}
+
+#[cfg(all(test, feature = "scenario"))]
+mod tests {
+    use super::*;
+    use crate::scenario::{Scenario, builtin};
+
+    #[test]
+    fn what_is_left_out_would_not_be_seen() {
+        let mut left_out = 0;
+        for name in ["demo", "hunt", "dam-break"] {
+            let scenario = Scenario::parse(builtin(name).unwrap().text, &[]).unwrap();
+            let mut world = scenario.build().unwrap().world;
+            (0..30).for_each(|_| world.step(&crate::Inputs::new()));
+            let (view, size) = (world.view(), world.config().size);
+            let small = Grid { corner: Vec2::ZERO, pixel: 0.5, columns: 24, top: 0, rows: 24 };
+            for (share, pixel) in [(0.2, 0.5), (0.35, 0.25), (0.5, 0.5), (0.7, 2.0)] {
+                let grid = Grid { corner: size * share, pixel, ..small };
+                let mut specimen = Specimen::of(view, Vec2::ZERO, &Grid { corner: -10.0 * size, ..small });
+                assert!(specimen.round.is_empty() && specimen.spots.is_empty());
+                for organism in view.organisms().filter(|&organism| !may_be_on(&grid, organism)) {
+                    specimen.add(organism, view);
+                    left_out += 1;
+                }
+                let mut plate = Plate::empty(grid);
+                specimen.draw_organisms(&mut plate);
+                assert!(plate.matter.iter().all(|matter| *matter == Matter::NONE), "{name} {share}");
+            }
+        }
+        assert!(left_out > 600, "{left_out}");
+    }
 }

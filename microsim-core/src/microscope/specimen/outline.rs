@@ -8,8 +8,9 @@ use glam::Vec2;
 
 pub(in crate::microscope) const FORMULA: Formula = Formula { source: include_str!("outline.glsl"), constants: &[] };
 
-/// Cells of a block of a map along each side.
-const BLOCK: usize = 6;
+/// Cells along each side of the squares that a map is measured in, and of the smallest ones.
+const SQUARE: usize = 32;
+const BLOCK: usize = 8;
 /// Directions in a table of radii.
 const DIRECTIONS: usize = 128;
 /// Points of a smooth outline per node.
@@ -167,31 +168,54 @@ impl DistanceMap {
         map
     }
 
-    /// Distances from an outline, block after block: near a block only a few edges can be the nearest.
+    /// Distances from an outline.
     fn measure(&mut self, outline: &[Vec2]) {
         let [columns, rows] = self.size;
         let edges: Vec<Edge> = (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]).collect();
-        for top in (0..rows).step_by(BLOCK) {
-            for left in (0..columns).step_by(BLOCK) {
-                let half = 0.5 * (BLOCK - 1) as f32 * self.step;
-                let middle = self.low + Vec2::new(left as f32, top as f32) * self.step + Vec2::splat(half);
-                let squares: Vec<f32> = edges.iter().map(|edge| distance_squared(edge, middle)).collect();
-                let nearest = squares.iter().copied().fold(f32::INFINITY, smaller).sqrt();
-                let reach = nearest + 2.0 * half * std::f32::consts::SQRT_2;
-                let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= reach * reach);
-                let near: Vec<Edge> = near.map(|(edge, _)| *edge).collect();
-                // The outline passes through no block that is farther from it than its corners from its middle.
-                let whole = (nearest > half * std::f32::consts::SQRT_2).then(|| is_inside(&edges, middle));
-                for (y, x) in
-                    (top..rows.min(top + BLOCK)).flat_map(|y| (left..columns.min(left + BLOCK)).map(move |x| (y, x)))
-                {
-                    let at = self.low + Vec2::new(x as f32, y as f32) * self.step;
-                    let distance =
-                        near.iter().map(|edge| distance_squared(edge, at)).fold(f32::INFINITY, smaller).sqrt();
-                    let is_inside = whole.unwrap_or_else(|| is_inside(&edges, at));
-                    self.values[y * columns + x] = if is_inside { distance } else { -distance };
+        for corner in (0..rows).step_by(SQUARE).flat_map(|y| (0..columns).step_by(SQUARE).map(move |x| [x, y])) {
+            self.measure_square(corner, SQUARE, &edges);
+        }
+        for y in 0..rows {
+            let crossings = crossings(&edges, self.low.y + y as f32 * self.step);
+            for x in 0..columns {
+                let at = self.low.x + x as f32 * self.step;
+                let is_inside = crossings.iter().filter(|&&crossing| at < crossing).count() % 2 == 1;
+                self.values[y * columns + x] *= if is_inside { 1.0 } else { -1.0 };
+            }
+        }
+    }
+
+    /// Distances from edges in a square of cells, of which only a few can be the nearest to any of a smaller one.
+    fn measure_square(&mut self, [left, top]: [usize; 2], side: usize, edges: &[Edge]) {
+        let [columns, rows] = self.size;
+        if left >= columns || top >= rows {
+            return;
+        }
+        let half = 0.5 * (side - 1) as f32 * self.step;
+        let middle = self.low + Vec2::new(left as f32, top as f32) * self.step + Vec2::splat(half);
+        let squares: Vec<f32> = edges.iter().map(|edge| distance_squared(edge, middle)).collect();
+        let nearest = squares.iter().copied().fold(f32::INFINITY, smaller).sqrt();
+        let reach = nearest + 2.0 * half * std::f32::consts::SQRT_2;
+        let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= reach * reach);
+        let near: Vec<Edge> = near.map(|(edge, _)| *edge).collect();
+        if side > BLOCK {
+            let part = side / 2;
+            for corner in [[left, top], [left + part, top], [left, top + part], [left + part, top + part]] {
+                self.measure_square(corner, part, &near);
+            }
+            return;
+        }
+        for y in top..rows.min(top + BLOCK) {
+            let place = |x: usize| self.low + Vec2::new((left + x) as f32, y as f32) * self.step;
+            let places: [Vec2; BLOCK] = std::array::from_fn(place);
+            let mut squares = [f32::INFINITY; BLOCK];
+            for edge in &near {
+                for (square, place) in squares.iter_mut().zip(places) {
+                    *square = smaller(*square, distance_squared(edge, place));
                 }
             }
+            let row = &mut self.values[y * columns..][left..columns.min(left + BLOCK)];
+            row.iter_mut().zip(squares).for_each(|(value, square)| *value = square.sqrt());
         }
     }
 
@@ -213,15 +237,21 @@ impl DistanceMap {
     /// Takes the creases out: each value becomes a weighted mean of its neighbours.
     fn soften(&mut self) {
         let [columns, rows] = self.size;
-        let pick = |values: &[f32], x: usize, y: usize| values[y.min(rows - 1) * columns + x.min(columns - 1)];
-        for (dx, dy) in [(1, 0), (0, 1)] {
-            let old = std::mem::take(&mut self.values);
-            let mean = |k: usize| {
-                let (x, y) = (k % columns, k / columns);
-                let before = pick(&old, x.saturating_sub(dx), y.saturating_sub(dy));
-                0.25 * before + 0.5 * pick(&old, x, y) + 0.25 * pick(&old, x + dx, y + dy)
-            };
-            self.values = (0..old.len()).map(mean).collect();
+        for line in self.values.chunks_exact_mut(columns) {
+            let mut before = line[0];
+            for x in 0..columns {
+                let (here, after) = (line[x], line[(x + 1).min(columns - 1)]);
+                line[x] = 0.25 * before + 0.5 * here + 0.25 * after;
+                before = here;
+            }
+        }
+        let old = self.values.clone();
+        let row = |y: usize| &old[y * columns..][..columns];
+        for (y, line) in self.values.chunks_exact_mut(columns).enumerate() {
+            let neighbours = row(y.saturating_sub(1)).iter().zip(row((y + 1).min(rows - 1)));
+            for (value, (before, after)) in line.iter_mut().zip(neighbours) {
+                *value = 0.25 * before + 0.5 * *value + 0.25 * after;
+            }
         }
     }
 
@@ -248,11 +278,12 @@ impl DistanceMap {
         let least = self.values.iter().copied().fold(f32::INFINITY, smaller);
         let most = self.values.iter().copied().fold(f32::NEG_INFINITY, larger);
         let share = |depth: f32| ((depth - least) / larger(most - least, 1e-6) * 65535.0) as u16;
-        let texel = |&depth: &f32| {
+        let mut texels = Vec::with_capacity(4 * self.values.len());
+        for &depth in &self.values {
             let [high, low] = share(depth).to_be_bytes();
-            [high, low, 0, 255]
-        };
-        let map = Map { size: [columns as u16, rows as u16], texels: self.values.iter().flat_map(texel).collect() };
+            texels.extend([high, low, 0, 255]);
+        }
+        let map = Map { size: [columns as u16, rows as u16], texels };
         (map, [self.low.x, self.low.y, 1.0 / self.step, most, columns as f32, rows as f32, least])
     }
 
@@ -316,10 +347,10 @@ fn distance_squared([a, b]: &Edge, at: Vec2) -> f32 {
     (to - edge * share).length_squared()
 }
 
-/// Whether a place lies within all of an outline's edges: a ray from it crosses an odd number.
-fn is_inside(edges: &[Edge], at: Vec2) -> bool {
-    let crosses = |[a, b]: &Edge| (a.y > at.y) != (b.y > at.y) && at.x < a.x + (b.x - a.x) * (at.y - a.y) / (b.y - a.y);
-    edges.iter().filter(|edge| crosses(edge)).count() % 2 == 1
+/// Where the edges of an outline cross a height: what has an odd number of them on its right is inside.
+fn crossings(edges: &[Edge], y: f32) -> Vec<f32> {
+    let crosses = edges.iter().filter(|[a, b]| (a.y > y) != (b.y > y));
+    crosses.map(|[a, b]| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect()
 }
 
 #[cfg(test)]

@@ -200,7 +200,7 @@ impl RoundBody {
     }
 
     /// The tube from the mouth, at the end of the groove, into the body.
-    fn gullet(&self, pellicle: &Pellicle) -> Vec<Thread> {
+    fn gullet(&self, pellicle: &Pellicle, threads: &mut Vec<Thread>) {
         let point = |k: usize| {
             let way = k as f32 / 6.0;
             let own = Vec2::new(0.02 - 0.26 * way, GROOVE[0] + 0.02 + 0.34 * way * way) * self.axes;
@@ -208,39 +208,38 @@ impl RoundBody {
         };
         let radius = |k: usize| self.polar.mean * (0.05 - 0.005 * k as f32);
         let matter = Matter { cytoplasm: 0.4, ..Matter::phase(pellicle.gullet_phase) };
-        let points: Vec<Vec2> = (0..8).map(point).collect();
-        Thread::curve(&points, radius, matter * 0.6)
+        let points: [Vec2; 8] = std::array::from_fn(point);
+        threads.extend(Thread::curve(&points, radius, matter * 0.6));
     }
 
     /// Canals that lead to a vacuole; they swell while it is empty.
-    fn canals(&self, pellicle: &Pellicle, (at, vacuole, filled): (Vec2, f32, f32)) -> Vec<Thread> {
+    fn canals(&self, pellicle: &Pellicle, (at, vacuole, filled): (Vec2, f32, f32)) -> [Thread; 7] {
         let radius = 0.02 * self.polar.mean * (1.0 - 0.6 * filled);
-        let canal = |k: u32| {
+        let canal = |k: usize| {
             let way = rotate(unit_vector(k as f32 * TAU / 7.0 + 0.3), self.facing);
             let to = at + way * (vacuole + 0.16 * self.polar.mean);
             Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.55, peak: 0.0 }
         };
-        (0..7).map(canal).collect()
+        std::array::from_fn(canal)
     }
 
     /// Its cilia and canals at a time.
     pub(super) fn threads(&self, time: f32) -> Vec<Thread> {
-        let mut threads = self.look.cilia.map_or_else(Vec::new, |cilia| self.cilia(cilia, time));
+        let mut threads = Vec::new();
+        if let Some(cilia) = self.look.cilia {
+            let count = smaller(cilia.most, TAU * self.polar.mean / cilia.apart).ceil();
+            (0..count as u32).for_each(|k| self.cilium(cilia, k as f32 / count, time, &mut threads));
+        }
         if let Some(pellicle) = self.look.pellicle {
             let vacuoles = self.vacuoles(pellicle, time);
             threads.extend(vacuoles.into_iter().flat_map(|vacuole| self.canals(pellicle, vacuole)));
-            threads.extend(self.gullet(pellicle));
+            self.gullet(pellicle, &mut threads);
         }
         threads
     }
 
-    fn cilia(&self, cilia: &Cilia, time: f32) -> Vec<Thread> {
-        let count = smaller(cilia.most, TAU * self.polar.mean / cilia.apart).ceil();
-        (0..count as u32).flat_map(|k| self.cilium(cilia, k as f32 / count, time)).collect()
-    }
-
     /// The cilium at a share of the way around: it swings with the metachronal wave and bends as it swings.
-    fn cilium(&self, cilia: &Cilia, share: f32, time: f32) -> Vec<Thread> {
+    fn cilium(&self, cilia: &Cilia, share: f32, time: f32, threads: &mut Vec<Thread>) {
         // Between even in angle and even on the stretched disc, they are about as dense everywhere.
         let stretch = Vec2::new(self.axes.x.sqrt(), self.axes.y.sqrt());
         let root = |share: f32| {
@@ -259,8 +258,9 @@ impl RoundBody {
             at += rotate(outwards, unit_vector(swing)) * part;
             point
         };
-        let points: Vec<Vec2> = (0..CILIUM_POINTS).map(point).collect();
-        Thread::curve(&points, |_| 0.5 * cilia.width, Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) })
+        let points: [Vec2; CILIUM_POINTS] = std::array::from_fn(point);
+        let matter = Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) };
+        threads.extend(Thread::curve(&points, |_| 0.5 * cilia.width, matter));
     }
 }
 
@@ -301,7 +301,7 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
     polar.reshape(|way| {
         let own = rotate(way, back);
         let angle = libm::atan2f(own.y, own.x);
-        1.0 + waves.iter().map(|&(order, phase, size)| size * unit_vector(order * angle + phase).x).sum::<f32>()
+        1.0 + waves.iter().map(|&(order, phase, size)| size * libm::cosf(order * angle + phase)).sum::<f32>()
     });
 }
 

@@ -33,12 +33,10 @@ impl Spot {
             SpotShape::Ball => 1.0,
             SpotShape::Ring => 2.0,
         };
-        let mut vertices = Vec::with_capacity(40);
-        for corner in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
-            vertices.extend([self.at.x, self.at.y, corner[0], corner[1], self.radius, shape]);
-            vertices.extend(matter.to_array());
-        }
-        slide.add(Program::Spot, is_less, &vertices, QUAD);
+        let [phase, haemoglobin, cytoplasm, nucleus] = matter.to_array();
+        let vertices = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[x, y]| [self.at.x, self.at.y, x, y, self.radius, shape, phase, haemoglobin, cytoplasm, nucleus]);
+        slide.add(Program::Spot, is_less, vertices.as_flattened(), QUAD);
     }
 
     /// Adds the spot to a plate. What is smaller than a pixel is spread over one and loses no matter.
@@ -78,12 +76,12 @@ pub(super) struct Thread {
 
 impl Thread {
     /// A curve through points, thinning out at its last: threads that run into each other, each thickest at a point.
-    pub(super) fn curve(points: &[Vec2], radius: impl Fn(usize) -> f32, matter: Matter) -> Vec<Self> {
-        let thread = |k: usize| {
+    pub(super) fn curve(points: &[Vec2], radius: impl Fn(usize) -> f32, matter: Matter) -> impl Iterator<Item = Self> {
+        let thread = move |k: usize| {
             let (from, to) = (points[k.saturating_sub(1)], points[k + 1]);
             Self { from, to, radius: radius(k), matter, peak: if k == 0 { 0.0 } else { 0.5 } }
         };
-        (0..points.len().saturating_sub(1)).map(thread).collect()
+        (0..points.len().saturating_sub(1)).map(thread)
     }
 
     /// A quadrangle for [`THREAD`].
@@ -92,13 +90,11 @@ impl Thread {
             return;
         }
         let (is_less, matter) = magnitude(self.matter);
-        let mut vertices = Vec::with_capacity(48);
-        for corner in [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]] {
-            vertices.extend([self.from.x, self.from.y, self.to.x, self.to.y, corner[0], corner[1]]);
-            vertices.extend([self.radius, self.peak]);
-            vertices.extend(matter.to_array());
-        }
-        slide.add(Program::Thread, is_less, &vertices, QUAD);
+        let Self { from, to, radius, peak, .. } = *self;
+        let [phase, haemoglobin, cytoplasm, nucleus] = matter.to_array();
+        let vertices = [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]]
+            .map(|[x, y]| [from.x, from.y, to.x, to.y, x, y, radius, peak, phase, haemoglobin, cytoplasm, nucleus]);
+        slide.add(Program::Thread, is_less, vertices.as_flattened(), QUAD);
     }
 
     pub(super) fn draw(&self, plate: &mut Plate) {

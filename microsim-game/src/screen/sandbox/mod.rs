@@ -179,8 +179,7 @@ impl Screen for Sandbox {
                 return change;
             }
         }
-        let digests = input.holds(Action::Consume);
-        let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests);
+        let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel);
         problem.into_iter().for_each(|problem| context.tell(problem));
         self.run(context);
         let at = self.viewer.place_of(self.stage.world(), self.stage.player());

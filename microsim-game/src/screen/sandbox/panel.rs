@@ -8,13 +8,13 @@ use super::{SPEEDS, Sandbox};
 use crate::ui::menu::{Choice, Item, Place};
 use crate::ui::pen::{Pen, Size};
 
-const STEP: usize = Tool::ALL.len() + 1;
+const PAUSE: usize = Tool::ALL.len();
+const STEP: usize = PAUSE + 1;
 const SPEED: usize = STEP + 1;
 const ANATOMY: usize = SPEED + 1;
 const PLOTS: usize = ANATOMY + 1;
 const RESTART: usize = PLOTS + 1;
 const SCENARIOS: usize = RESTART + 1;
-const PAUSE: usize = Tool::ALL.len();
 
 /// Where it lies: along the left edge, below the status line.
 pub(super) fn place(pen: &Pen) -> Place {

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
-use crate::input::Input;
+use crate::input::{Action, Input};
 use crate::stage::Stage;
 use crate::ui::pen::{Pen, Size};
 use microsim_core::glam::Vec2;
@@ -92,7 +92,6 @@ impl Tools {
         camera: &Camera,
         input: &Input,
         is_on_panel: bool,
-        digests: bool,
     ) -> Option<String> {
         let at = camera.to_room(input.cursor);
         let begins = input.is_clicked && !is_on_panel;
@@ -102,7 +101,7 @@ impl Tools {
             self.grasped = None;
         }
         let goal = self.hand.filter(|_| self.tool == Tool::Steer).and_then(|at| Intent::toward(at).ok());
-        stage.steer(goal.unwrap_or(Intent::REST).digesting(digests));
+        stage.steer(goal.unwrap_or(Intent::REST).digesting(input.holds(Action::Consume)));
         if !begins {
             return None;
         }
