@@ -33,6 +33,7 @@ pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) ->
     let colour = Colour::hex(if is_light { ON_LIGHT } else { ON_DARK });
     let length = caption::bar_length(field.width);
     let height = height as f32;
-    let items = caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, colour.faded(0.85));
+    let items =
+        caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, colour.faded(0.85));
     picture.painted_over(&items)
 }

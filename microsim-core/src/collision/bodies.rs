@@ -21,6 +21,8 @@ const PORTION: usize = 16;
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     bounds: Bounds,
+    /// Of all its discs.
+    owner: u32,
     discs: Range<usize>,
 }
 
@@ -75,7 +77,8 @@ impl Bodies {
                     }
                 }
                 if end > first {
-                    bodies.push(Body { bounds, discs: start + first..start + end });
+                    let owner = particles.owner[discs[first].index as usize];
+                    bodies.push(Body { bounds, owner, discs: start + first..start + end });
                 }
             }
             bodies
@@ -85,9 +88,9 @@ impl Bodies {
     }
 
     /// Makes a body of a disc on its own.
-    pub(super) fn add_single(&mut self, disc: Disc) {
+    pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
         let (bounds, first) = (disc.bounds(), self.discs.len());
-        self.found.push(Body { bounds, discs: first..first + 1 });
+        self.found.push(Body { bounds, owner, discs: first..first + 1 });
         self.discs.push(disc);
         self.boxes.push(bounds);
     }
@@ -123,19 +126,23 @@ impl Bodies {
         self.small.meeting(bounds).chain(self.large.meeting(bounds))
     }
 
-    /// Adds what `find` gives for each two discs of different bodies that may touch: of small bodies to the lists, strip by
-    /// strip of rows, of large ones to the others.
+    /// Adds what `find` gives for each two discs that may touch, of bodies whose owners may meet: of small bodies to the lists,
+    /// strip by strip of rows, of large ones to the others.
     pub(super) fn pairs<R: Send>(
         &self,
+        may_meet: impl Fn(u32, u32) -> bool + Send + Sync,
         find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync,
         strips: &mut Vec<Vec<R>>,
         others: &mut Vec<R>,
     ) {
+        let between = |a: &Body, b: &Body, near: &mut Vec<Disc>, found: &mut Vec<R>| {
+            if a.bounds.meets(b.bounds) && may_meet(a.owner, b.owner) {
+                self.pairs_between(a, b, near, |a, b| found.extend(find(a, b)));
+            }
+        };
         let within = |layer: &Layer, rows: Range<usize>, found: &mut Vec<R>| {
             let mut near = Vec::new();
-            layer.grid.pairs(rows, |a, b| {
-                self.pairs_between(&layer.bodies[a], &layer.bodies[b], &mut near, |a, b| found.extend(find(a, b)));
-            });
+            layer.grid.pairs(rows, |a, b| between(&layer.bodies[a], &layer.bodies[b], &mut near, found));
         };
         let rows = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP);
         strips.resize_with(rows.len(), Vec::new);
@@ -144,18 +151,16 @@ impl Bodies {
         let mut near = Vec::new();
         for body in &self.large.bodies {
             for other in self.small.meeting(body.bounds) {
-                self.pairs_between(body, other, &mut near, |a, b| others.extend(find(a, b)));
+                between(body, other, &mut near, others);
             }
         }
     }
 
     fn pairs_between(&self, a: &Body, b: &Body, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
-        if a.bounds.meets(b.bounds) {
-            near.clear();
-            near.extend(self.discs_meeting(b, a.bounds));
-            for disc in self.discs_meeting(a, b.bounds) {
-                near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
-            }
+        near.clear();
+        near.extend(self.discs_meeting(b, a.bounds));
+        for disc in self.discs_meeting(a, b.bounds) {
+            near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
         }
     }
 

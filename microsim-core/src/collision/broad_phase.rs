@@ -53,7 +53,8 @@ impl BroadPhase {
         let Self { contacts, bodies, membranes, fluid, .. } = self;
         contacts.clear();
         let Contacts { strips, others } = contacts;
-        bodies.pairs(|a, b| contact_of_bodies(a, b, around), strips, others);
+        let may_meet = |a: u32, b: u32| a != b && !around.exemptions.contains(a, b);
+        bodies.pairs(may_meet, |a, b| contact_of_bodies(a, b, around.particles), strips, others);
         let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, around));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
@@ -97,7 +98,7 @@ impl BroadPhase {
         for i in loose.filter(|&i| p.groups[i].memberships != 0) {
             let disc = Disc::of(p, i, reach);
             match (p.fluid[i], p.next_in_ring[i]) {
-                (0, NO_OWNER) => bodies.add_single(disc),
+                (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
                 _ => fluid.found.push(disc),
             }
@@ -141,14 +142,10 @@ fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
     (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| Contact::new(p, i, j))
 }
 
-/// The same for discs of two bodies, which are in no fluid and no ring.
-fn contact_of_bodies(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
-    let (p, i, j) = (around.particles, a.index as usize, b.index as usize);
-    let owners = [p.owner[i], p.owner[j]];
-    let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0
-        && p.groups[i].meets(p.groups[j])
-        && owners[0] != owners[1]
-        && !around.exemptions.contains(owners[0], owners[1]);
+/// The same for discs of two bodies that may meet: they are in no fluid and no ring.
+fn contact_of_bodies(a: &Disc, b: &Disc, p: &Particles) -> Option<Contact> {
+    let (i, j) = (a.index as usize, b.index as usize);
+    let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
     collide.then(|| Contact::new(p, i, j))
 }
 

@@ -78,5 +78,6 @@ pub(crate) struct ObstacleContact {
 /// Friction and restitution of two surfaces on each other.
 pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
     let restitution = if a.restitution > b.restitution { a.restitution } else { b.restitution };
-    ((a.friction * b.friction).sqrt(), restitution)
+    let friction = if a.friction == b.friction { a.friction } else { (a.friction * b.friction).sqrt() };
+    (friction, restitution)
 }
