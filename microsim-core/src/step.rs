@@ -9,7 +9,7 @@ use crate::organism::table::Organisms;
 use crate::particle::{BlockRange, outside_of};
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
-use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact};
+use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
 use crate::world::World;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -213,10 +213,11 @@ fn update_velocities(world: &mut World, h: f32) {
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
-/// The safety net: casts a ray from every disc near a membrane.
+/// The safety net: lays out what crosses itself, and casts a ray from every disc near a membrane.
 fn catch_strays(world: &mut World) {
-    let World { particles, organisms, guard, scratch, .. } = world;
-    for (place, ring) in organisms.rings().enumerate() {
+    let World { config, particles, organisms, guard, scratch, .. } = world;
+    for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
+        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles));
         let caught = ring_contact::catch_strays(ring, place, &scratch.broad_phase.ring_contacts, particles);
         guard.net_fired += u64::from(caught);
     }

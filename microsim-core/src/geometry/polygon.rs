@@ -176,7 +176,7 @@ fn is_clear_of_later(edges: &[(Vec2, Vec2)], index: usize) -> bool {
 }
 
 /// Whether the edge `b c` runs back over the edge `a b`, or one of them has no length.
-fn folds_back(a: Vec2, b: Vec2, c: Vec2) -> bool {
+pub(crate) fn folds_back(a: Vec2, b: Vec2, c: Vec2) -> bool {
     let (ux, uy) = offset(a, b);
     let (vx, vy) = offset(b, c);
     turn(a, b, c) == 0.0 && ux * vx + uy * vy <= 0.0
@@ -184,7 +184,7 @@ fn folds_back(a: Vec2, b: Vec2, c: Vec2) -> bool {
 
 /// Whether the closed segments `a b` and `c d` share a point: their boxes overlap, and each has
 /// its ends on different sides of the other or on it.
-fn segments_touch(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
+pub(crate) fn segments_touch(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
     ranges_overlap(a.x, b.x, c.x, d.x)
         && ranges_overlap(a.y, b.y, c.y, d.y)
         && turn(a, b, c) * turn(a, b, d) <= 0.0

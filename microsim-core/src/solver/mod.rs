@@ -21,6 +21,7 @@ pub(crate) mod ring_contact;
 pub(crate) mod rope;
 #[cfg(test)]
 pub(crate) mod testing;
+pub(crate) mod untangle;
 
 use crate::error::{Error, in_range};
 use crate::particle::Columns;

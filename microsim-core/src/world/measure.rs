@@ -26,7 +26,8 @@ pub struct Census {
     pub improper_absorptions: usize,
     /// How often a disc was found on the wrong side of the link of a membrane nearest to it, since the world was made.
     pub wrong_side: u64,
-    /// How often the membranes' safety net, a ray cast, had to take a disc back, since the world was made.
+    /// How often the membranes' safety net had to take a disc back, found by a ray, or to lay out links that crossed, since
+    /// the world was made.
     pub net_fired: u64,
     /// Prey that lies partly within an engulfer that is not taking it in.
     pub partial_absorptions: usize,

@@ -90,7 +90,7 @@ pub struct World {
 pub(crate) struct Guard {
     /// A disc was found on the wrong side of the link nearest to it.
     pub wrong_side: u64,
-    /// A ray cast found a disc on the wrong side of a whole membrane.
+    /// A ray cast found a disc on the wrong side of a whole membrane, or links of one crossed.
     pub net_fired: u64,
 }
 

@@ -1,0 +1,121 @@
+//! The net under a ring's own shape. Its nodes keep off each other as discs do, which is enough but where a cell is overfull
+//! and pressed against something: then a tooth of a few links can be squeezed so thin that its sides cross. What crosses
+//! itself within a few links is laid out straight.
+
+use super::contact::shift;
+use crate::geometry::polygon::{folds_back, segments_touch};
+use crate::particle::Particles;
+use glam::Vec2;
+
+/// Links that are at most this many links apart are looked at.
+const FARTHEST: usize = 6;
+
+/// Most rounds: what is laid out may cross the next few links.
+const ROUNDS: usize = 4;
+
+/// Lays out straight what crosses itself within a few links. Returns how often it had to.
+pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
+    // The way between the two links that cross is the shorter one.
+    let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
+    let mut crossings = 0;
+    for _ in 0..ROUNDS {
+        let before = crossings;
+        for first in 0..ring.len() {
+            if let Some(apart) = (1..=farthest).find(|&apart| meet(ring, first, apart, p)) {
+                lay_out(ring, first, apart + 1, p);
+                crossings += 1;
+            }
+        }
+        if crossings == before {
+            break;
+        }
+    }
+    crossings
+}
+
+/// Whether a link and the one that comes so many links later share a point that they should not.
+fn meet(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
+    let at = |k: usize| position(ring, k, p);
+    let (a, b, c, d) = (at(first), at(first + 1), at(first + apart), at(first + apart + 1));
+    if apart == 1 { folds_back(a, b, d) } else { segments_touch(a, b, c, d) }
+}
+
+/// Puts the nodes between two of a ring evenly on the line between those.
+fn lay_out(ring: &[u32], first: usize, count: usize, p: &mut Particles) {
+    let (from, to) = (position(ring, first, p), position(ring, first + count, p));
+    for k in 1..count {
+        let there = from + (to - from) * (k as f32 / count as f32);
+        let by = there - position(ring, first + k, p);
+        shift(p, ring[(first + k) % ring.len()] as usize, by);
+    }
+}
+
+fn position(ring: &[u32], k: usize, p: &Particles) -> Vec2 {
+    p.position(ring[k % ring.len()] as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::disc;
+    use super::*;
+    use crate::geometry::polygon::is_simple;
+    use proptest::prelude::*;
+
+    fn ring_of(points: &[Vec2]) -> (Vec<u32>, Particles) {
+        let mut p = Particles::default();
+        let ring = points.iter().map(|&at| p.insert(&disc(at, 1.0))).collect();
+        (ring, p)
+    }
+
+    fn outline(ring: &[u32], p: &Particles) -> Vec<Vec2> {
+        (0..ring.len()).map(|k| position(ring, k, p)).collect()
+    }
+
+    /// A square of 24 links, and what is done to some of its nodes.
+    fn square(moved: &[(usize, [f32; 2])]) -> Vec<Vec2> {
+        let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]].map(Vec2::from);
+        let point = |k: usize| corners[k / 6].lerp(corners[(k / 6 + 1) % 4], (k % 6) as f32 / 6.0);
+        let mut points: Vec<Vec2> = (0..24).map(point).collect();
+        moved.iter().for_each(|&(k, at)| points[k] = at.into());
+        points
+    }
+
+    #[test]
+    fn what_crosses_itself_within_a_few_links_is_laid_out() {
+        for moved in [
+            // A tooth with its sides across each other; two nodes that have changed places on their line; one that lies
+            // behind the one before it; a loop of five links; one over the ring's seam.
+            &[(2, [3.5, 1.0]), (3, [2.5, 1.0])][..],
+            &[(2, [3.0, 0.0]), (3, [2.0, 0.0])],
+            &[(3, [1.5, 0.0])],
+            &[(2, [3.6, 0.4]), (3, [3.0, 1.5]), (4, [2.4, 0.4])],
+            &[(23, [0.0, -1.0]), (0, [0.0, 1.5])],
+        ] {
+            let points = square(moved);
+            assert!(!is_simple(&points), "{moved:?}");
+            let (ring, mut p) = ring_of(&points);
+            assert!(untangle(&ring, &mut p) > 0);
+            assert!(is_simple(&outline(&ring, &p)), "{moved:?}: {:?}", outline(&ring, &p));
+            assert_eq!(untangle(&ring, &mut p), 0);
+        }
+    }
+
+    #[test]
+    fn small_rings_are_looked_at_too() {
+        let (ring, mut p) = ring_of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(Vec2::from));
+        assert_eq!(untangle(&ring, &mut p), 0);
+        assert_eq!(untangle(&ring[..3], &mut p), 0);
+    }
+
+    proptest! {
+        #[test]
+        fn a_ring_that_does_not_cross_itself_stays_as_it_is(
+            points in crate::geometry::arbitrary::star_polygon()
+        ) {
+            prop_assume!(is_simple(&points));
+            let (ring, mut p) = ring_of(&points);
+            prop_assert_eq!(untangle(&ring, &mut p), 0);
+            prop_assert_eq!(outline(&ring, &p), points);
+        }
+    }
+}
