@@ -70,9 +70,12 @@ fn inject(organism: &mut Organism, count: u32, spacing: f32, p: &mut Particles) 
     let mut added = Vec::new();
     for k in 0..count {
         let mut around = unit_vector(k as f32 * GOLDEN_ANGLE) * (CROWDING * spacing * (k as f32 + 0.5).sqrt());
-        while !contains_point(&outline, centre + around * 2.0) && around.length_squared() > 1e-4 {
-            around *= 0.5;
+        // Both: an outline may bulge in between.
+        let has_room = |around: Vec2| [1.0, 2.0].iter().all(|&far| contains_point(&outline, centre + around * far));
+        while !has_room(around) {
+            around = if around.length_squared() > 1e-4 { around * 0.5 } else { break };
         }
+        let around = if contains_point(&outline, centre + around) { around } else { Vec2::ZERO };
         added.push(p.insert(&Particle { offset: centre + around - like.origin, velocity: Vec2::ZERO, ..like }));
     }
     organism.fluid_particles.extend(&added);
@@ -90,6 +93,7 @@ fn injection_point(organism: &Organism, outline: &[Vec2], p: &Particles) -> Opti
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::{AmoeboidCellSpec, Inputs, Placement, World, WorldConfig};
 
     #[test]
@@ -114,6 +118,28 @@ mod tests {
         world.particles.x[node] += 3.0;
         (0..60).for_each(|_| world.step(&Inputs::new()));
         assert!(world.quality().edge_stretch_max < 0.02, "{:?}", world.quality());
+    }
+
+    #[test]
+    fn new_cytoplasm_is_inside_of_a_membrane_with_folds() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        // A star with deep, narrow bays: twice as far from the centre may be in the next ray.
+        let ring = world.organisms.get(cell).unwrap().outline.clone();
+        let middle = world.centroid(cell).unwrap();
+        for &node in ring.iter().step_by(3) {
+            let p = &mut world.particles;
+            let out = p.position(node as usize) - middle;
+            (p.x[node as usize], p.y[node as usize]) = (
+                middle.x - p.origin_x[node as usize] + 0.05 * out.x,
+                middle.y - p.origin_y[node as usize] + 0.05 * out.y,
+            );
+        }
+        world.grow(cell, 30, 300).unwrap();
+        let outline: Vec<_> = world.view().organism(cell).unwrap().outline().collect();
+        let organism = world.organisms.get(cell).unwrap();
+        let added = &organism.fluid_particles[organism.fluid_particles.len() - 300..];
+        assert!(added.iter().all(|&i| contains_point(&outline, world.particles.position(i as usize))));
     }
 
     #[test]
