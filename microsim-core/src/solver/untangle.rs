@@ -10,6 +10,9 @@ use glam::Vec2;
 /// Links that are at most this many links apart are looked at.
 const FARTHEST: usize = 6;
 
+/// What is farther off than this, in its radii, has not got there by being squeezed: as far as the longest links looked at
+/// reach when they are stretched to their limit, and some more.
+const BROKEN: f32 = 20.0;
 /// Most rounds: what is laid out may cross the next few links.
 const ROUNDS: usize = 4;
 
@@ -22,8 +25,7 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
         let before = crossings;
         for first in 0..ring.len() {
             if let Some(apart) = (1..=farthest).find(|&apart| meet(ring, first, apart, p)) {
-                lay_out(ring, first, apart + 1, p);
-                crossings += 1;
+                crossings += u32::from(lay_out(ring, first, apart + 1, p));
             }
         }
         if crossings == before {
@@ -40,14 +42,17 @@ fn meet(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
     if apart == 1 { folds_back(a, b, d) } else { segments_touch(a, b, c, d) }
 }
 
-/// Puts the nodes between two of a ring evenly on the line between those.
-fn lay_out(ring: &[u32], first: usize, count: usize, p: &mut Particles) {
+/// Puts the nodes between two of a ring evenly on the line between those, unless one is so far off that it is broken: that
+/// is a matter of quarantine.
+fn lay_out(ring: &[u32], first: usize, count: usize, p: &mut Particles) -> bool {
     let (from, to) = (position(ring, first, p), position(ring, first + count, p));
-    for k in 1..count {
-        let there = from + (to - from) * (k as f32 / count as f32);
-        let by = there - position(ring, first + k, p);
-        shift(p, ring[(first + k) % ring.len()] as usize, by);
+    let way = |k: usize| from + (to - from) * (k as f32 / count as f32) - position(ring, first + k, p);
+    let moves: Vec<_> = (1..count).map(|k| (ring[(first + k) % ring.len()] as usize, way(k))).collect();
+    let is_sound = moves.iter().all(|&(i, way)| way.length() < BROKEN * p.radius[i]);
+    if is_sound {
+        moves.into_iter().for_each(|(i, way)| shift(p, i, way));
     }
+    is_sound
 }
 
 fn position(ring: &[u32], k: usize, p: &Particles) -> Vec2 {
@@ -97,6 +102,16 @@ mod tests {
             assert!(untangle(&ring, &mut p) > 0);
             assert!(is_simple(&outline(&ring, &p)), "{moved:?}: {:?}", outline(&ring, &p));
             assert_eq!(untangle(&ring, &mut p), 0);
+        }
+    }
+
+    #[test]
+    fn what_is_broken_is_left_to_quarantine() {
+        for far in [300.0, f32::NAN, f32::INFINITY] {
+            let (ring, mut p) = ring_of(&square(&[(2, [1.0, -far]), (3, [0.9, 1.0])]));
+            let before = outline(&ring, &p);
+            assert_eq!(untangle(&ring, &mut p), 0);
+            assert_eq!(format!("{before:?}"), format!("{:?}", outline(&ring, &p)), "{far}");
         }
     }
 
