@@ -8,11 +8,11 @@ use crate::particle::Particles;
 use glam::Vec2;
 
 /// Links that are at most this many links apart are looked at.
-const FARTHEST: usize = 6;
+const FARTHEST: usize = 12;
 
 /// What is farther off than this, in its radii, has not got there by being squeezed: as far as the longest links looked at
 /// reach when they are stretched to their limit, and some more.
-const BROKEN: f32 = 20.0;
+const BROKEN: f32 = 40.0;
 /// Most rounds: what is laid out may cross the next few links.
 const ROUNDS: usize = 4;
 
