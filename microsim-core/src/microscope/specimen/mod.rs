@@ -150,7 +150,8 @@ fn drops(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
     organism.particles().map(|particle| drop(particle.position, particle.radius)).collect()
 }
 
-#[cfg(all(test, feature = "scenario"))]
+#[cfg(test)]
+#[cfg(feature = "scenario")]
 mod tests {
     use super::*;
     use crate::scenario::{Scenario, builtin};
