@@ -15,7 +15,7 @@ pub struct WorldConfig {
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
     /// Substeps per step, 1 to 64. More are stiffer and cost proportionally; below 6 jams stretch visibly, and with 1 a
-    /// membrane under a heavy load may cross itself.
+    /// membrane under an absurd load may leak.
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
