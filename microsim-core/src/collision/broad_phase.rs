@@ -178,6 +178,16 @@ mod tests {
     use crate::rng::Rng;
     use crate::solver::testing::disc;
 
+    #[test]
+    fn nodes_of_a_membrane_collide_unless_a_link_joins_them() {
+        let mut p = Particles::default();
+        let ring: Vec<u32> = (0..6).map(|k| p.insert(&disc(Vec2::new(k as f32, 0.0), 1.0))).collect();
+        p.link_ring(&ring);
+        let collides = |a: usize, b: usize| may_collide(&p, a, b, &Exemptions::default());
+        assert!(!collides(0, 1) && !collides(1, 0) && !collides(5, 0));
+        assert!(collides(0, 2) && collides(2, 0) && collides(4, 0) && collides(0, 3));
+    }
+
     fn random_discs(seed: u64, count: u32) -> Particles {
         let mut rng = Rng::new(seed, 1);
         let mut particles = Particles::default();
