@@ -130,7 +130,7 @@ fn main() -> ExitCode {
     drop(scenario);
     let mut director = Director { rng: Rng::new(seed, 7), inputs: Inputs::new(), counts: BTreeMap::new() };
     let start = Instant::now();
-    println!("step\tsteps/s\torganisms\tparticles\tallocated, kB\tneeded, kB\tresident, kB\twhat happened");
+    println!("step\tsteps/s\torganisms\tparticles\tnodes\tallocated, kB\tneeded, kB\tresident, kB\twhat happened");
     for step in 1..=steps {
         director.direct(&mut world);
         world.step(&director.inputs);
@@ -143,7 +143,9 @@ fn main() -> ExitCode {
             let (allocated, needed) = (ALLOCATOR.allocated(), needed(&world));
             let census = world.census();
             let rate = world.step_index() as f64 / start.elapsed().as_secs_f64();
-            print!("{step}\t{rate:.0}\t{}\t{}\t", census.organisms, census.particles);
+            let outlines = world.view().organisms().map(|organism| organism.outline().len());
+            let nodes: usize = outlines.sum();
+            print!("{step}\t{rate:.0}\t{}\t{}\t{nodes}\t", census.organisms, census.particles);
             println!("{}\t{}\t{}\t{:?}", allocated / 1000, needed / 1000, resident_kb(), director.counts);
             if census.quarantined > 0 || (step >= MINUTE && allocated > MOST_SLACK * needed) {
                 println!("step {step}: somebody is in quarantine, or memory is lost");

@@ -385,8 +385,15 @@ impl Organism {
         self.fluid_particles.len() as f32 + eaten / each
     }
 
-    /// Remembers how many nodes its membrane has for its content, so that it can have as many again.
-    pub(crate) fn note_nodes(&mut self, fluids: &[Fluid]) {
+    /// Remembers how many nodes its membrane has for its content, so that it can have as many again; not while it is still on
+    /// its way to a number, or each fusion would leave it more.
+    pub(crate) fn note_settled_nodes(&mut self, fluids: &[Fluid]) {
+        if self.divider.as_ref().is_some_and(|divider| divider.wanted_nodes.is_none()) {
+            self.note_nodes(fluids);
+        }
+    }
+
+    fn note_nodes(&mut self, fluids: &[Fluid]) {
         let nodes_per_root = self.outline.len() as f32 / self.content(fluids).sqrt();
         self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
     }
