@@ -17,7 +17,7 @@ use crate::world::World;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found.
+    /// Pairs that may touch before the next step are found, and the neighbours of fluid.
     FindPairs,
     /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
@@ -79,6 +79,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     steer(world, inputs);
     finished(Phase::SteerOrganisms);
     find_pairs(world);
+    find_neighbours(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for _ in 0..world.config.substeps {
@@ -139,6 +140,11 @@ pub(crate) fn find_pairs(world: &mut World) {
     });
 }
 
+fn find_neighbours(world: &mut World) {
+    let World { config, particles, fluids, scratch, .. } = world;
+    scratch.fluid.find_neighbours(fluids, particles, config.size);
+}
+
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
@@ -155,10 +161,8 @@ fn predict_positions(world: &mut World, h: f32) {
 }
 
 fn project_fluids(world: &mut World, h: f32) {
-    let World { config, particles, fluids, scratch, dispatch, .. } = world;
-    for fluid in fluids.iter().filter(|fluid| !fluid.particles.is_empty()) {
-        scratch.fluid.project(fluid, particles, config.size, h, *dispatch);
-    }
+    let World { particles, fluids, scratch, dispatch, .. } = world;
+    scratch.fluid.project(fluids, particles, h, *dispatch);
 }
 
 fn project_constraints(world: &mut World, h: f32) {

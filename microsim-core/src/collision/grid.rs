@@ -80,10 +80,18 @@ impl Grid {
         self.rows
     }
 
-    /// Column and row of the cell that holds `point`; a float-to-integer cast saturates, so any point has one.
+    /// Column and row of the cell that holds `point`; a float-to-integer cast saturates, so any point has one. (To `i32`,
+    /// which processors convert to.)
+    #[inline(always)]
     pub(crate) fn cell_of(&self, point: Vec2) -> (usize, usize) {
         let local = (point - self.origin) * self.inverse_cell;
-        ((local.x as usize).min(self.columns - 1), (local.y as usize).min(self.rows - 1))
+        let place = |along: f32, cells: usize| ((along as i32).max(0) as usize).min(cells - 1);
+        (place(local.x, self.columns), place(local.y, self.rows))
+    }
+
+    /// Column of the cell that an entry of [`Grid::order`] in this row is in.
+    pub(crate) fn column_at(&self, row: usize, place: usize) -> usize {
+        self.cells[self.order[place] as usize] as usize - row * self.columns
     }
 
     fn cell_index(&self, point: Vec2) -> usize {

@@ -1,4 +1,4 @@
-//! The density constraint of position-based fluids (Macklin, Mueller 2013), and viscosity in the same pass.
+//! The density constraint of position-based fluids (Macklin, Mueller 2013), and viscosity in the same passes.
 //!
 //! Lengths are in units of the support `H`: `q = |x_i - x_j|`, `W = (1 - q)^3`, `|grad W| = 3 (1 - q)^2`.
 
@@ -13,13 +13,15 @@ const RELAXATION: f32 = 0.5;
 const UNDER_RELAXATION: f32 = 0.7;
 /// Enclosed particles are kept from getting nearer than this share of the rest spacing.
 const MIN_SPACING: f32 = 0.85;
+/// Share of what two of them lack to it that a substep corrects, on each side.
+const SPACING_SHARE: f32 = 0.25;
 
 /// A wall stands for the mirror image of the fluid before it, or else fluid would crowd there: this many particles ...
 const WALL_WEIGHT: f32 = 1.45;
 /// ... this far behind its surface. Fitted to a mirrored hexagonal lattice.
 const WALL_DEPTH: f32 = 0.5 / SUPPORT;
 
-/// Kernel sums of a group's members, themselves included.
+/// Kernel sums of a group's members, themselves included, and what follows from them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
     density: Lanes,
@@ -30,6 +32,11 @@ pub(super) struct Sums {
     wall_y: Lanes,
     /// Sum of the squared lengths of the neighbours' gradients.
     squared: Lanes,
+    /// Sum of the neighbours' ways in this substep, each with its kernel's weight.
+    drift_x: Lanes,
+    drift_y: Lanes,
+    /// `-lambda` (eq. 11), times what is common to all corrections of eq. 12.
+    pub multiplier: Lanes,
 }
 
 /// First pass: what the neighbours amount to.
@@ -45,11 +52,13 @@ pub(super) fn sum(group: &Group, sources: &[Source]) -> Sums {
                 let r = distance(dx, dy);
                 let near = positive(1.0 - r);
                 let slope = near * near;
-                let along = slope / r;
-                sums.density[l] += slope * near;
+                let (along, weight) = (slope / r, slope * near);
+                sums.density[l] += weight;
                 sums.gradient_x[l] += dx * along;
                 sums.gradient_y[l] += dy * along;
                 sums.squared[l] += slope * slope;
+                sums.drift_x[l] += weight * other.moved_x;
+                sums.drift_y[l] += weight * other.moved_y;
             }
         }
     }
@@ -81,57 +90,63 @@ impl Sums {
         each(|l| positive(self.density[l] / rest_density - 1.0))
     }
 
-    /// `-lambda` (eq. 11), times what is common to all corrections of eq. 12.
+    /// Finds the multipliers from the sums.
     #[inline(always)]
-    pub(super) fn multipliers(&self, rest_density: f32) -> Lanes {
+    pub(super) fn find_multipliers(&mut self, rest_density: f32) {
         let compression = self.compression(rest_density);
         let slope = 3.0 / rest_density;
-        each(|l| {
+        self.multiplier = each(|l| {
             let own = self.gradient_x[l] * self.gradient_x[l] + self.gradient_y[l] * self.gradient_y[l];
             let weight = (self.squared[l] + own) * (slope * slope) + RELAXATION;
             compression[l] / weight * (UNDER_RELAXATION * slope)
-        })
+        });
     }
 }
 
-/// Shares of what is wrong that a substep corrects.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shares {
-    /// Of the difference between the way of a particle in this substep and its neighbours' mean (XSPH, eq. 17).
-    pub viscosity: f32,
-    /// Of what two particles lack to the least spacing, on each side.
-    pub spacing: f32,
-}
-
-/// Second pass: how far the members are moved, by the constraints (eq. 12), by neighbours that are too near, and by
-/// viscosity.
+/// Second pass: how far the members are moved, by the constraints (eq. 12), with what is `added` to their push at a distance,
+/// and by viscosity, which takes a share of the difference between the way of a particle in this substep and its neighbours'
+/// mean (XSPH, eq. 17).
 #[inline(always)]
-pub(super) fn shifts(group: &Group, sources: &[Source], sums: &Sums, shares: Shares) -> [Lanes; 2] {
+pub(super) fn shifts(
+    group: &Group,
+    sources: &[Source],
+    sums: &Sums,
+    viscosity: f32,
+    added: impl Fn(f32, f32) -> f32,
+) -> [Lanes; 2] {
     let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
-    let own = group.load(sources, |s| s.multiplier);
-    let [mut shift_x, mut shift_y, mut drift_x, mut drift_y] = [[0.0; LANES]; 4];
+    let own = sums.multiplier;
+    let [mut shift_x, mut shift_y] = [[0.0; LANES]; 2];
     for window in group.windows(sources) {
         for other in window {
             for l in 0..LANES {
                 let (dx, dy) = (x[l] - other.x, y[l] - other.y);
                 let r = distance(dx, dy);
                 let near = positive(1.0 - r);
-                let slope = near * near;
-                let lacking = positive(MIN_SPACING / SUPPORT - r);
-                let along = ((own[l] + other.multiplier) * slope + shares.spacing * lacking) / r;
+                let along = added((own[l] + other.multiplier) * (near * near), r) / r;
                 shift_x[l] += dx * along;
                 shift_y[l] += dy * along;
-                drift_x[l] += slope * near * other.moved_x;
-                drift_y[l] += slope * near * other.moved_y;
             }
         }
     }
     let (moved_x, moved_y) = (group.load(sources, |s| s.moved_x), group.load(sources, |s| s.moved_y));
-    let toward = |drift: Lanes, moved: Lanes, l: usize| shares.viscosity * (drift[l] / sums.density[l] - moved[l]);
+    let toward = |drift: &Lanes, moved: Lanes, l: usize| viscosity * (drift[l] / sums.density[l] - moved[l]);
     [
-        each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(drift_x, moved_x, l)),
-        each(|l| shift_y[l] + 2.0 * own[l] * sums.wall_y[l] + toward(drift_y, moved_y, l)),
+        each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(&sums.drift_x, moved_x, l)),
+        each(|l| shift_y[l] + 2.0 * own[l] * sums.wall_y[l] + toward(&sums.drift_y, moved_y, l)),
     ]
+}
+
+/// A push at this distance, and what keeps the least spacing.
+#[inline(always)]
+pub(super) fn keep_spacing(push: f32, r: f32) -> f32 {
+    push + SPACING_SHARE * positive(MIN_SPACING / SUPPORT - r)
+}
+
+/// A push alone.
+#[inline(always)]
+pub(super) fn keep_no_spacing(push: f32, _: f32) -> f32 {
+    push
 }
 
 /// `1 - q` of a wall at this distance.

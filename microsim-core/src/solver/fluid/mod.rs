@@ -5,8 +5,8 @@
 //! cohesion), `dx_i = s sum_j (lambda_i + lambda_j) grad W_ij / rho_0` (eq. 12). One kernel for density and gradient keeps
 //! the projection exact; its slope at `q = 0` keeps particles from clustering. Viscosity is XSPH (eq. 17).
 //!
-//! In each substep particles are sorted by cell ([`neighbours`]); then each gathers from its neighbours, eight side by
-//! side, so no order of writing matters ([`density`], [`granular`]).
+//! Once per step particles are sorted by cell ([`neighbours`]); in each substep each of them gathers from its neighbours,
+//! eight side by side, so no order of writing matters ([`density`], [`granular`]).
 
 mod density;
 mod granular;
@@ -16,7 +16,7 @@ use super::instruction_set::Dispatch;
 use crate::error::{Error, in_range};
 use crate::parallel;
 use crate::particle::Particles;
-use density::{SUPPORT, Shares, Sums};
+use density::{SUPPORT, Sums};
 use glam::Vec2;
 use neighbours::{Group, Lanes, Sorted};
 use serde::{Deserialize, Serialize};
@@ -74,11 +74,12 @@ pub(crate) struct Fluid {
     pub particles: Vec<u32>,
 }
 
-/// What fluids are projected with, one after the other; nothing in it outlasts a substep.
+/// What fluids are projected with; nothing in it outlasts a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Workspace {
     rest_density: f32,
-    sorted: Sorted,
+    /// Of each fluid, found once per step.
+    sorted: Vec<Sorted>,
     /// Of each group.
     sums: Vec<Sums>,
     shifts: Vec<[Lanes; 2]>,
@@ -87,7 +88,7 @@ pub(crate) struct Workspace {
 impl Default for Workspace {
     fn default() -> Self {
         let rest_density = density::lattice_density();
-        Self { rest_density, sorted: Sorted::default(), sums: Vec::new(), shifts: Vec::new() }
+        Self { rest_density, sorted: Vec::new(), sums: Vec::new(), shifts: Vec::new() }
     }
 }
 
@@ -104,10 +105,21 @@ impl Fluid {
         }
     }
 
+    /// How much farther neighbours are looked for, in units of the reach, because they move until the next search. At the
+    /// border of its support the weight of the density's kernel is next to nothing; grains are hard.
+    fn margin(&self) -> f32 {
+        match self.params.mode {
+            FluidMode::Density => 0.0,
+            FluidMode::Granular => 0.25,
+        }
+    }
+
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
-        sorted.sort(&self.particles, particles, Vec2::ZERO, SUPPORT * self.params.spacing);
+        let reach = SUPPORT * self.params.spacing;
+        sorted.sort(&self.particles, particles, Vec2::ZERO, [reach, 0.0]);
+        sorted.read(particles, reach);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
             let compression = density::sum(group, &sorted.sources).compression(rest_density);
@@ -118,81 +130,96 @@ impl Fluid {
 }
 
 impl Workspace {
-    /// One iteration of a fluid's density constraint (or of its grains' contacts) in a room of this size, and the viscosity
-    /// of a substep of `h`.
-    pub(crate) fn project(&mut self, fluid: &Fluid, particles: &mut Particles, size: Vec2, h: f32, dispatch: Dispatch) {
-        let (Fluid { params, is_enclosed, particles: indices }, reach) = (fluid, fluid.reach());
-        self.sorted.sort(indices, particles, size, reach);
-        self.sums.resize(self.sorted.groups.len(), Sums::default());
-        self.shifts.resize(self.sorted.groups.len(), Default::default());
-        let viscosity = params.viscosity * h / (1.0 + params.viscosity * h);
-        match params.mode {
-            FluidMode::Density => {
-                self.find_multipliers(dispatch);
-                // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
-                let spacing = if *is_enclosed { 0.25 } else { 0.0 };
-                self.find_density_shifts(Shares { viscosity, spacing }, dispatch);
-            }
-            FluidMode::Granular => self.find_granular_shifts(viscosity, dispatch),
-        }
-        for (group, [shift_x, shift_y]) in self.sorted.groups.iter().zip(&self.shifts) {
-            for (l, &k) in self.sorted.order()[group.members.clone()].iter().enumerate() {
-                let i = indices[k as usize] as usize;
-                particles.x[i] += shift_x[l] * reach;
-                particles.y[i] += shift_y[l] * reach;
-            }
+    /// Finds the neighbours of all particles for the step that begins, in a room of this size.
+    pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, size: Vec2) {
+        self.sorted.resize_with(fluids.len(), Sorted::default);
+        for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
+            sorted.sort(&fluid.particles, particles, size, [fluid.reach(), fluid.margin()]);
         }
     }
 
-    fn find_multipliers(&mut self, dispatch: Dispatch) {
-        let Self { sorted: Sorted { groups, sources, walls, .. }, sums, rest_density, .. } = self;
-        parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
-            dispatch.run(
-                #[inline(always)]
-                || {
-                    for (group, sums) in groups.iter().zip(sums) {
-                        *sums = density::sum(group, sources);
-                        sums.add_walls(group, sources, walls);
+    /// One iteration of all fluids' density constraints (or of their grains' contacts), and the viscosity of a substep of
+    /// `h`.
+    pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
+        let Self { rest_density, sorted, sums, shifts } = self;
+        for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
+            let reach = fluid.reach();
+            sorted.read(particles, reach);
+            sums.resize(sorted.groups.len(), Sums::default());
+            shifts.resize(sorted.groups.len(), Default::default());
+            let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
+            match fluid.params.mode {
+                FluidMode::Density => {
+                    find_multipliers(sorted, sums, *rest_density, dispatch);
+                    let shifts = (sums.as_slice(), shifts.as_mut_slice());
+                    // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
+                    if fluid.is_enclosed {
+                        find_density_shifts(sorted, shifts, viscosity, density::keep_spacing, dispatch);
+                    } else {
+                        find_density_shifts(sorted, shifts, viscosity, density::keep_no_spacing, dispatch);
                     }
-                },
-            );
-        });
-        for (group, sums) in groups.iter().zip(sums) {
-            let multipliers = sums.multipliers(*rest_density);
-            for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(multipliers) {
-                source.multiplier = multiplier;
+                }
+                FluidMode::Granular => find_granular_shifts(sorted, shifts, viscosity, dispatch),
             }
+            sorted.shift(shifts, reach, particles);
         }
     }
+}
 
-    fn find_density_shifts(&mut self, shares: Shares, dispatch: Dispatch) {
-        let Self { sorted: Sorted { groups, sources, .. }, sums, shifts, .. } = self;
-        let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
-        parallel::for_each(portions, |((groups, shifts), sums)| {
-            dispatch.run(
-                #[inline(always)]
-                || {
-                    for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
-                        *shifts = density::shifts(group, sources, sums, shares);
-                    }
-                },
-            );
-        });
+fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, dispatch: Dispatch) {
+    let Sorted { groups, sources, walls, .. } = sorted;
+    parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for (group, sums) in groups.iter().zip(sums) {
+                    *sums = density::sum(group, sources);
+                    sums.add_walls(group, sources, walls);
+                    sums.find_multipliers(rest_density);
+                }
+            },
+        );
+    });
+    for (group, sums) in groups.iter().zip(sums) {
+        for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(sums.multiplier) {
+            source.multiplier = multiplier;
+        }
     }
+}
 
-    fn find_granular_shifts(&mut self, viscosity: f32, dispatch: Dispatch) {
-        let Self { sorted: Sorted { groups, sources, .. }, shifts, .. } = self;
-        parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
-            dispatch.run(
-                #[inline(always)]
-                || {
-                    for (group, shifts) in groups.iter().zip(shifts) {
-                        *shifts = granular::shifts(group, sources, viscosity);
-                    }
-                },
-            );
-        });
-    }
+fn find_density_shifts(
+    sorted: &Sorted,
+    (sums, shifts): (&[Sums], &mut [[Lanes; 2]]),
+    viscosity: f32,
+    added: impl Fn(f32, f32) -> f32 + Copy + Sync + Send,
+    dispatch: Dispatch,
+) {
+    let Sorted { groups, sources, .. } = sorted;
+    let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
+    parallel::for_each(portions, |((groups, shifts), sums)| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
+                    *shifts = density::shifts(group, sources, sums, viscosity, added);
+                }
+            },
+        );
+    });
+}
+
+fn find_granular_shifts(sorted: &Sorted, shifts: &mut [[Lanes; 2]], viscosity: f32, dispatch: Dispatch) {
+    let Sorted { groups, sources, .. } = sorted;
+    parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for (group, shifts) in groups.iter().zip(shifts) {
+                    *shifts = granular::shifts(group, sources, viscosity);
+                }
+            },
+        );
+    });
 }
 
 /// Groups and what is found for them, some at a time.
@@ -227,7 +254,13 @@ mod tests {
     fn project(fluid: &Fluid, particles: &mut Particles) {
         particles.prev_x.clone_from(&particles.x);
         particles.prev_y.clone_from(&particles.y);
-        Workspace::default().project(fluid, particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+        project_in(Vec2::INFINITY, fluid, particles);
+    }
+
+    fn project_in(size: Vec2, fluid: &Fluid, particles: &mut Particles) {
+        let (fluids, mut workspace) = (std::slice::from_ref(fluid), Workspace::default());
+        workspace.find_neighbours(fluids, particles, size);
+        workspace.project(fluids, particles, 1.0 / 480.0, Dispatch::default());
     }
 
     fn centre(particles: &Particles) -> Vec2 {
@@ -260,7 +293,7 @@ mod tests {
             moved.y.iter_mut().for_each(|y| *y -= lower);
             moved.prev_x.clone_from(&moved.x);
             moved.prev_y.clone_from(&moved.y);
-            Workspace::default().project(fluid, &mut moved, Vec2::splat(1e4), 1.0 / 480.0, Dispatch::default());
+            project_in(Vec2::splat(1e4), fluid, &mut moved);
             moved.y[10] - (at_rest.y[10] - lower)
         };
         assert!(shift(&fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&fluid, 0.0));
@@ -302,7 +335,7 @@ mod tests {
                     particles.prev_x[i] = still.x[i];
                     (particles.x[i], particles.y[i]) = (still.x[i] + way, still.y[i]);
                 }
-                Workspace::default().project(&fluid, &mut particles, Vec2::INFINITY, 1.0 / 480.0, Dispatch::default());
+                project_in(Vec2::INFINITY, &fluid, &mut particles);
                 (0..200).map(|i| particles.x[i] - still.x[i]).collect()
             };
             let (free, viscous) = (ways_taken(0.0), ways_taken(1000.0));

@@ -8,7 +8,7 @@
 //!
 //! Lanes are the eight particles A to H; each of them meets the same candidates one after the other and keeps its own sums.
 //! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the reach drops the candidates that
-//! are not neighbours. Cells are as high as the reach and half as wide.
+//! are not neighbours. Cells are as high as the reach and [`COLUMN_WIDTH`] wide.
 
 use crate::collision::grid::Grid;
 use crate::particle::Particles;
@@ -20,6 +20,8 @@ use std::ops::Range;
 const NOWHERE: Vec2 = Vec2::splat(-1e9);
 /// Nearer than this, in units of the reach, there is no direction between two particles.
 const CONTACT: f32 = 1e-6;
+/// Width of a cell, in units of the reach: about as many cells as particles.
+const COLUMN_WIDTH: f32 = 0.25;
 
 /// A value for each particle of a group.
 pub(super) type Lanes = [f32; LANES];
@@ -48,12 +50,16 @@ pub(super) struct Group {
 #[derive(Debug, Default)]
 pub(super) struct Sorted {
     grid: Grid,
-    /// In the order of the fluid.
-    unsorted: Vec<Source>,
+    /// Where they were, in the order of the fluid.
+    found: Vec<Vec2>,
+    /// In cell order.
+    pub particles: Vec<u32>,
     /// In cell order, and some that are nowhere so that eight can be read from anywhere.
     pub sources: Vec<Source>,
     pub groups: Vec<Group>,
     pub walls: Walls,
+    /// Place in the world from which sources count.
+    low: Vec2,
 }
 
 /// The room, as the sources see it.
@@ -63,7 +69,7 @@ pub(super) struct Walls {
     pub high: Vec2,
 }
 
-/// Sorted anew in each substep: a clone starts without.
+/// Sorted anew in each step: a clone starts without.
 impl Clone for Sorted {
     fn clone(&self) -> Self {
         Self::default()
@@ -71,49 +77,57 @@ impl Clone for Sorted {
 }
 
 impl Sorted {
-    /// Sorts particles in a room of this size for searches within `reach`.
-    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, reach: f32) {
-        let (low, high) = bounds(indices, particles);
+    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `reach`, in units of it.
+    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, [reach, margin]: [f32; 2]) {
         let inverse = 1.0 / reach;
-        self.unsorted.clear();
-        self.unsorted.extend(indices.iter().map(|&i| source(particles, i as usize, low, inverse)));
+        self.found.clear();
+        self.found.extend(indices.iter().map(|&i| particles.position(i as usize)));
+        let (low, high) = bounds(&self.found);
+        self.low = low;
         self.walls = Walls { low: -low * inverse, high: (size - low) * inverse };
-        let extent = (high - low) * inverse;
-        self.grid.fill(Vec2::ZERO, extent, Vec2::new(0.5, 1.0), self.unsorted.len(), |k| self.unsorted[k].position());
-        self.sources.clear();
-        self.sources.extend(self.grid.order().iter().map(|&k| self.unsorted[k as usize]));
-        separate_coincident(&mut self.sources);
+        let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * reach;
+        self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
+        self.particles.clear();
+        self.particles.extend(self.grid.order().iter().map(|&k| indices[k as usize]));
+        self.find_groups((1.0 + margin) * reach);
+    }
+
+    /// Reads where the particles are now, and how far they have moved in this substep.
+    pub(super) fn read(&mut self, particles: &Particles, reach: f32) {
+        let inverse = 1.0 / reach;
+        let Self { particles: sorted, sources, low, .. } = self;
+        sources.clear();
+        sources.extend(sorted.iter().map(|&i| source(particles, i as usize, *low, inverse)));
+        separate_coincident(sources);
         let nowhere = Source { x: NOWHERE.x, y: NOWHERE.y, ..Source::default() };
-        self.sources.resize(indices.len() + LANES, nowhere);
-        self.find_groups();
+        sources.resize(sorted.len() + LANES, nowhere);
     }
 
-    /// Places in the fluid of the particles in cell order.
-    pub(super) fn order(&self) -> &[u32] {
-        self.grid.order()
+    /// Moves the members of each group, in units of the reach.
+    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], reach: f32, particles: &mut Particles) {
+        for (group, [shift_x, shift_y]) in self.groups.iter().zip(shifts) {
+            for (l, &i) in self.particles[group.members.clone()].iter().enumerate() {
+                particles.x[i as usize] += shift_x[l] * reach;
+                particles.y[i as usize] += shift_y[l] * reach;
+            }
+        }
     }
 
-    fn find_groups(&mut self) {
-        let Self { grid, sources, groups, .. } = self;
-        let span = grid.columns_within(1.0);
+    fn find_groups(&mut self, distance: f32) {
+        let Self { grid, groups, .. } = self;
+        let span = grid.columns_within(distance);
         groups.clear();
         for row in 0..grid.rows() {
             let members = grid.row_range(row, 0..grid.columns());
             for first in members.clone().step_by(LANES) {
                 let last = (first + LANES).min(members.end) - 1;
-                let column = |k: usize| grid.cell_of(sources[k].position()).0;
+                let column = |k: usize| grid.column_at(row, k);
                 let columns = column(first).saturating_sub(span)..column(last) + span + 1;
                 let window = |row: usize| grid.row_range(row, columns.clone());
                 let below = if row > 0 { window(row - 1) } else { 0..0 };
                 groups.push(Group { members: first..last + 1, windows: [below, window(row), window(row + 1)] });
             }
         }
-    }
-}
-
-impl Source {
-    fn position(&self) -> Vec2 {
-        Vec2::new(self.x, self.y)
     }
 }
 
@@ -144,18 +158,18 @@ pub(super) fn positive(value: f32) -> f32 {
     if value > 0.0 { value } else { 0.0 }
 }
 
-fn bounds(indices: &[u32], particles: &Particles) -> (Vec2, Vec2) {
+fn bounds(positions: &[Vec2]) -> (Vec2, Vec2) {
     let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-    for position in indices.iter().map(|&i| particles.position(i as usize)).filter(|position| position.is_finite()) {
-        low = low.min(position);
-        high = high.max(position);
+    for position in positions.iter().filter(|position| position.is_finite()) {
+        (low, high) = (low.min(*position), high.max(*position));
     }
     if low.x <= high.x { (low, high) } else { (Vec2::ZERO, Vec2::ZERO) }
 }
 
 fn source(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Source {
-    let position = particles.position(i);
-    let at = if position.is_finite() { (position - low) * inverse } else { NOWHERE };
+    let at = (particles.position(i) - low) * inverse;
+    let is_somewhere = at.x.abs() < -NOWHERE.x && at.y.abs() < -NOWHERE.y;
+    let at = if is_somewhere { at } else { NOWHERE };
     let moved_x = (particles.x[i] - particles.prev_x[i]) * inverse;
     let moved_y = (particles.y[i] - particles.prev_y[i]) * inverse;
     Source { x: at.x, y: at.y, moved_x, moved_y, multiplier: 0.0 }
@@ -163,11 +177,40 @@ fn source(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Source {
 
 /// Particles in the very same place would never come apart: gives them different ones.
 fn separate_coincident(sources: &mut [Source]) {
+    let is_same = |a: &Source, b: &Source| a.x == b.x && a.y == b.y;
     for k in 1..sources.len() {
-        let (here, before) = (sources[k].position(), &sources[k.saturating_sub(4)..k]);
-        if before.iter().any(|other| other.x == here.x) {
-            let same = before.iter().filter(|other| other.position() == here).count();
-            sources[k].x += same as f32 * 1e-3;
+        // Those of a cell lie side by side.
+        let (before, here) = sources.split_at_mut(k);
+        let same = before.iter().rev().take(4).filter(|other| is_same(other, &here[0])).count();
+        if same > 0 {
+            here[0].x += same as f32 * 1e-3;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+    use crate::solver::testing::disc;
+
+    #[test]
+    fn every_neighbour_is_in_a_window() {
+        let mut rng = Rng::new(4, 2);
+        let mut particles = Particles::default();
+        let mut place = || Vec2::new(rng.range(0.0, 30.0), rng.range(0.0, 12.0));
+        let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
+        for [reach, margin] in [[2.0, 0.0], [1.0, 0.25]] {
+            let mut sorted = Sorted::default();
+            sorted.sort(&indices, &particles, Vec2::INFINITY, [reach, margin]);
+            for group in &sorted.groups {
+                let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
+                for &member in &sorted.particles[group.members.clone()] {
+                    let way = |other: u32| particles.between(member as usize, other as usize).length();
+                    let near = indices.iter().filter(|&&other| way(other) < reach * (1.0 + margin));
+                    assert!(near.copied().all(|other| seen.contains(&other)));
+                }
+            }
         }
     }
 }
