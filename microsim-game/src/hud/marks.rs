@@ -30,6 +30,7 @@ pub struct Style<'a> {
 /// size that the player has, a barred one where there is no room.
 pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
     let unit = pen.line(Size::Body);
+    let mut taken = Vec::new();
     for target in targets {
         let readiness = match target.readiness {
             Readiness::NoRoom if style.is_classic => Readiness::Ready,
@@ -39,6 +40,7 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
         let (at, reach) = (style.camera.to_screen(target.at), target.reach * style.camera.scale());
         let tip = Vec2::new(at.x, (at.y - reach - 0.25 * unit).max(BELOW_STATUS * unit));
         let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all() && tip.y < at.y + reach;
+        let tip = if is_seen { free_place(&mut taken, tip, Vec2::new(2.4, 2.5) * unit) } else { tip };
         match readiness {
             Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
             Readiness::Ready => draw_at_edge(pen, at, unit),
@@ -54,6 +56,16 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
             }
         }
     }
+}
+
+/// A place for a mark that takes up `room`: where it belongs, or below the marks that stand there already.
+fn free_place(taken: &mut Vec<Vec2>, mut place: Vec2, room: Vec2) -> Vec2 {
+    // Less than the room, which rounding may take a little from.
+    while let Some(other) = taken.iter().find(|&&other| (place - other).abs().cmplt(0.99 * room).all()) {
+        place.y = other.y + room.y;
+    }
+    taken.push(place);
+    place
 }
 
 /// A hollow arrow that is filled as far as the player has grown.
@@ -168,15 +180,12 @@ impl Gains {
     /// Draws them where they were gained; they rise unless nothing may move.
     pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
         let unit = pen.line(Size::Body);
-        let mut places: Vec<Vec2> = Vec::new();
+        let mut taken = Vec::new();
         for (gain, age) in &self.0 {
-            // Several at once stand below each other, and none rises out of the picture.
+            // None rises out of the picture.
             let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
             place.y = place.y.max(3.0 * unit);
-            while places.iter().any(|other| (place - *other).abs().cmplt(Vec2::new(2.8, 1.2) * unit).all()) {
-                place.y += 1.25 * unit;
-            }
-            places.push(place);
+            let place = free_place(&mut taken, place, Vec2::new(2.8, 1.25) * unit);
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
             let at = place - Vec2::new(0.0, rise);
             pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
@@ -214,6 +223,16 @@ mod tests {
         assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the seed");
+    }
+
+    #[test]
+    fn marks_at_one_place_stand_apart() {
+        let target = Target { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 5.0, readiness: Readiness::Ready };
+        let lowest = |count| {
+            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &vec![target; count]), false);
+            pen.canvas().corners().map(|(at, ..)| at.y).fold(0.0, f32::max)
+        };
+        assert!(lowest(3) > lowest(1) + 4.0 * Pen::bare().line(Size::Body));
     }
 
     #[test]
