@@ -206,12 +206,12 @@ impl App {
         self.shot.finish(path, view)
     }
 
-    /// Draws all screens that are seen, and the message.
+    /// Draws the topmost screen over the scene that it belongs to, and the message.
     fn draw(&mut self) {
         clear_background(crate::draw::palette::INK);
         let first = self.screens.iter().rposition(|screen| !screen.is_overlay()).unwrap_or(0);
         let top = self.screens.len() - 1;
-        for (k, screen) in self.screens.iter_mut().enumerate().skip(first) {
+        for (k, screen) in self.screens.iter_mut().enumerate().filter(|(k, _)| *k == first || *k == top) {
             self.context.is_top = k == top;
             screen.draw(&mut self.context);
             self.context.pen.flush();
