@@ -3,6 +3,7 @@
 use crate::input::device::Device;
 use crate::input::script::Script;
 use crate::input::{Action, Input};
+use crate::scenery::Effort;
 use crate::screen::play::Play;
 use crate::screen::sandbox::Sandbox;
 use crate::screen::title::Title;
@@ -46,6 +47,8 @@ pub struct Plan {
     pub size: (u32, u32),
     /// Name of the way of looking, in place of the one in the settings.
     pub sight: Option<String>,
+    /// How much of the machine pictures may take, in place of what the settings say.
+    pub effort: Option<Effort>,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
@@ -77,7 +80,8 @@ impl App {
     pub fn new(opening: Opening, mut context: Context, plan: Plan) -> Self {
         context.pen.fit(view_size(&plan), context.settings.text_factor());
         context.pace.is_exact = plan.is_exact();
-        context.settings.sight = plan.sight.clone().unwrap_or(std::mem::take(&mut context.settings.sight));
+        plan.sight.iter().for_each(|sight| context.settings.sight.clone_from(sight));
+        context.settings.effort = plan.effort.unwrap_or(context.settings.effort);
         let first: Box<dyn Screen> = match opening {
             Opening::Sandbox(stage) => Box::new(Sandbox::new(*stage, &context)),
             Opening::Title => Box::new(Title::new(&context)),
@@ -202,12 +206,12 @@ impl App {
         self.shot.finish(path, view)
     }
 
-    /// Draws all screens that are seen, and the message.
+    /// Draws the topmost screen over the scene that it belongs to, and the message.
     fn draw(&mut self) {
         clear_background(crate::draw::palette::INK);
         let first = self.screens.iter().rposition(|screen| !screen.is_overlay()).unwrap_or(0);
         let top = self.screens.len() - 1;
-        for (k, screen) in self.screens.iter_mut().enumerate().skip(first) {
+        for (k, screen) in self.screens.iter_mut().enumerate().filter(|(k, _)| *k == first || *k == top) {
             self.context.is_top = k == top;
             screen.draw(&mut self.context);
             self.context.pen.flush();

@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::scenery::Sight;
+use crate::scenery::{Effort, Sight};
 use microsim_core::scenario;
 use std::fmt;
 use std::fs;
@@ -24,6 +24,7 @@ USAGE: microsim-game [NAME | FILE.toml]... [OPTIONS]
   --size WxH         size of the window, 160x90 to 7680x4320 (1280x720 unless told)
   --script FILE      take the player's input from a file instead of mouse and keyboard
   --optics NAME      how the world is seen: phase-contrast, dic, ..., or drawn, for slow graphics
+  --quality NAME     how much of the machine pictures may take: automatic, high, medium, low
   --timings          say at the end how long steps and frames took
   -h, --help         this text
   -V, --version      the version
@@ -75,6 +76,8 @@ pub struct Options {
     pub script: Option<PathBuf>,
     /// Name of the way of looking, in place of the one in the settings.
     pub sight: Option<String>,
+    /// How much of the machine pictures may take, in place of what the settings say.
+    pub effort: Option<Effort>,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
@@ -99,6 +102,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Str
             "--size" => options.size = Some(size(&value("a size such as 640x360")?)?),
             "--script" => options.script = Some(value("a file")?.into()),
             "--optics" => options.sight = Some(sight(&value("a name")?)?),
+            "--quality" => options.effort = Some(effort(&value("a name")?)?),
             "--timings" => options.timings = true,
             other if other.starts_with('-') => return Err(format!("unknown option {other}; --help lists all")),
             other => options.scenes.push(Scene::named(other)),
@@ -159,6 +163,12 @@ fn sight(text: &str) -> Result<String, String> {
         .ok_or_else(|| format!("--optics {text}: not one of {}", names()))
 }
 
+fn effort(text: &str) -> Result<Effort, String> {
+    let names = || Effort::ALL.map(Effort::name).join(", ");
+    let known = Effort::ALL.into_iter().find(|effort| effort.name() == text);
+    known.ok_or_else(|| format!("--quality {text}: not one of {}", names()))
+}
+
 fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("--seed {text}: not a whole number from 0 on"))
 }
@@ -201,6 +211,7 @@ mod tests {
         let shot = options("demo --screenshot a.png --size 640x360");
         assert_eq!((shot.frames, shot.size), (Some(SCREENSHOT_FRAMES), Some((640, 360))));
         assert_eq!(options("--screenshot a.png --frames 7").frames, Some(7));
+        assert_eq!(options("demo --quality low").effort, Some(Effort::Low));
         let game = options("--play --set game.time=10 --seed 3");
         assert!(game.plays && game.seed == Some(3));
         assert_eq!(game.overrides, [("game.time".to_owned(), "10".to_owned())]);
@@ -208,9 +219,17 @@ mod tests {
 
     #[test]
     fn mistakes_are_named() {
-        for line in
-            ["--size 10x10", "--size big", "--frames 0", "--frames", "--wrong", "--set x", "--seed -1", "--optics x"]
-        {
+        for line in [
+            "--size 10x10",
+            "--size big",
+            "--frames 0",
+            "--frames",
+            "--wrong",
+            "--set x",
+            "--seed -1",
+            "--optics x",
+            "--quality x",
+        ] {
             assert!(parsed(line).is_err(), "{line}");
         }
         assert!(matches!(parsed("--help"), Ok(Command::Say(text)) if text == HELP));

@@ -95,7 +95,7 @@ impl Start {
 
 fn prepare(options: Options) -> Result<Start, String> {
     let script = read_script(&options)?;
-    let Options { scenes, plays, overrides, seed, screenshot, frames, size, timings, sight, .. } = options;
+    let Options { scenes, plays, overrides, seed, screenshot, frames, size, timings, sight, effort, .. } = options;
     let builtin = Scene::Builtin(GAME.to_owned());
     let named = scenes.first().filter(|_| plays).cloned();
     let files = scenes.iter().filter(|scene| matches!(scene, Scene::File(_))).cloned().collect();
@@ -114,7 +114,7 @@ fn prepare(options: Options) -> Result<Start, String> {
     if is_for_game {
         game.check()?;
     }
-    let plan = Plan { script, frames, screenshot, size: size.unwrap_or(SIZE), sight, timings };
+    let plan = Plan { script, frames, screenshot, size: size.unwrap_or(SIZE), sight, effort, timings };
     Ok(Start { opening, game, files, plan })
 }
 

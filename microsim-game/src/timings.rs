@@ -30,12 +30,12 @@ impl Timings {
 
 impl fmt::Display for Timings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} frames; median and 95 % ms:", self.frames)?;
+        write!(f, "{} frames; least, median and 95 % ms:", self.frames)?;
         for (name, times) in ["step", "view", "submit"].into_iter().zip(&self.parts) {
             let mut sorted = times.clone();
             sorted.sort_by(f32::total_cmp);
             let at = |share: f32| sorted.get((share * sorted.len() as f32) as usize).copied().unwrap_or(0.0);
-            write!(f, " {name} {:.2} {:.2}", at(0.5), at(0.95))?;
+            write!(f, " {name} {:.2} {:.2} {:.2}", at(0.0), at(0.5), at(0.95))?;
         }
         Ok(())
     }

@@ -108,6 +108,18 @@ impl<'a> OrganismView<'a> {
         self.organism.particles().map(move |i| self.particle(i))
     }
 
+    /// Lower left and upper right corner of the smallest upright box around the discs of all its particles, fluid included,
+    /// units. What is drawn beyond them is not in it.
+    #[must_use]
+    pub fn bounds(self) -> (Vec2, Vec2) {
+        let radii = &self.view.world.particles.radius;
+        let nothing = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        self.organism.particles().fold(nothing, |(low, high), i| {
+            let (at, radius) = (self.view.position(i), radii[i as usize]);
+            (low.min(at - radius), high.max(at + radius))
+        })
+    }
+
     /// Centres of its outline, counter-clockwise; empty if it has none.
     pub fn outline(self) -> impl ExactSizeIterator<Item = Vec2> + 'a {
         self.organism.outline_particles().map(move |i| self.view.position(i))
@@ -257,7 +269,7 @@ impl<'a> OrganismView<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Placement, PlateletSpec, WorldConfig};
+    use crate::{AmoeboidCellSpec, Inputs, Intent, Placement, PlateletSpec, WorldConfig};
 
     #[test]
     fn t52_the_surface_is_the_outline_pushed_out_by_the_discs_radius() {
@@ -271,5 +283,30 @@ mod tests {
             assert!((pushed - expected).length() < 1e-3 && radius > 0.0, "{node} -> {pushed}");
         }
         assert!(platelet.nucleus().is_some());
+    }
+
+    #[test]
+    fn bounds_hold_every_disc_and_every_side_touches_one() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
+        let mut inputs = Inputs::new();
+        inputs.set(id, Intent::toward(Vec2::new(90.0, 50.0)).unwrap());
+        (0..60).for_each(|_| world.step(&inputs));
+        let before = world.moment();
+        world.step(&inputs);
+        let checked = |view: View<'_>| {
+            let cell = view.organism(id).unwrap();
+            let (low, high) = cell.bounds();
+            let discs: Vec<(Vec2, f32)> = cell.particles().map(|disc| (disc.position, disc.radius)).collect();
+            assert!(discs.iter().all(|(at, r)| (*at - *r).cmpge(low).all() && (*at + *r).cmple(high).all()));
+            for axis in 0..2 {
+                assert!(discs.iter().any(|(at, r)| at[axis] - r == low[axis]));
+                assert!(discs.iter().any(|(at, r)| at[axis] + r == high[axis]));
+            }
+            low
+        };
+        let moments = [world.view_since(&before, 0.0), world.view_since(&before, 0.5), world.view()];
+        let [first, between, last] = moments.map(checked);
+        assert!(first.x < between.x && between.x < last.x, "they are of the moment that is viewed");
     }
 }

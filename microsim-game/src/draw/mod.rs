@@ -99,12 +99,7 @@ fn draw_organism(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<
 
 /// Whether any of it may lie in the picture.
 fn is_seen(frame: &Frame<'_>, organism: OrganismView<'_>) -> bool {
-    let (camera, margin) = (frame.camera, 12.0);
-    let (mut low, mut high) = (Vec2::MAX, Vec2::MIN);
-    for particle in organism.particles() {
-        low = low.min(particle.position - particle.radius);
-        high = high.max(particle.position + particle.radius);
-    }
+    let (camera, margin, (low, high)) = (frame.camera, 12.0, organism.bounds());
     let (upper_left, lower_right) =
         (camera.to_screen(Vec2::new(low.x, high.y)), camera.to_screen(Vec2::new(high.x, low.y)));
     lower_right.cmpgt(Vec2::splat(-margin)).all() && upper_left.cmplt(camera.screen() + margin).all()

@@ -26,10 +26,28 @@ pub struct Style<'a> {
     pub key: &'a str,
 }
 
+/// Where marks stand already: the middle of each, and half its size.
+#[derive(Clone, Debug, Default)]
+pub struct Taken(Vec<[Vec2; 2]>);
+
+impl Taken {
+    /// A place for a mark: where it belongs, or below those that stand there.
+    fn place(&mut self, mut middle: Vec2, half: Vec2) -> Vec2 {
+        // Less than both need, which rounding may take a little from.
+        let overlap = |middle: Vec2, [other, size]: [Vec2; 2]| (middle - other).abs().cmplt(0.99 * (half + size)).all();
+        while let Some(&[other, size]) = self.0.iter().find(|&&other| overlap(middle, other)) {
+            middle.y = other.y + half.y + size.y;
+        }
+        self.0.push([middle, half]);
+        middle
+    }
+}
+
 /// Arrows over rigid cells (T69, T75): a full one where the cell can be taken in now, a hollow one with the share of the
 /// size that the player has, a barred one where there is no room.
-pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
+pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, targets: &[Target]) {
     let unit = pen.line(Size::Body);
+    let half = Vec2::new(1.2, 1.25) * unit;
     for target in targets {
         let readiness = match target.readiness {
             Readiness::NoRoom if style.is_classic => Readiness::Ready,
@@ -39,6 +57,8 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, targets: &[Target]) {
         let (at, reach) = (style.camera.to_screen(target.at), target.reach * style.camera.scale());
         let tip = Vec2::new(at.x, (at.y - reach - 0.25 * unit).max(BELOW_STATUS * unit));
         let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all() && tip.y < at.y + reach;
+        let down = Vec2::new(0.0, half.y);
+        let tip = if is_seen { taken.place(tip - down, half) + down } else { tip };
         match readiness {
             Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
             Readiness::Ready => draw_at_edge(pen, at, unit),
@@ -93,7 +113,7 @@ fn arrow(pen: &mut Pen, tip: Vec2, way: Vec2, unit: f32, colour: Color) {
 }
 
 /// Rings around what is touched (T29), marks at what is inside with the key that digests it (T71).
-pub fn draw_held(pen: &mut Pen, style: &Style<'_>, held: &[Held]) {
+pub fn draw_held(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, held: &[Held]) {
     let unit = pen.line(Size::Body);
     let mut highest: Option<(Vec2, bool)> = None;
     for held in held {
@@ -118,6 +138,7 @@ pub fn draw_held(pen: &mut Pen, style: &Style<'_>, held: &[Held]) {
     }
     // One key digests all of it.
     if let Some((tip, is_down)) = highest {
+        taken.place(tip - Vec2::new(0.0, 0.8 * unit), Vec2::splat(0.8 * unit));
         draw_key(pen, tip, style.key, is_down);
     }
 }
@@ -166,17 +187,13 @@ impl Gains {
     }
 
     /// Draws them where they were gained; they rise unless nothing may move.
-    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
+    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>, taken: &mut Taken) {
         let unit = pen.line(Size::Body);
-        let mut places: Vec<Vec2> = Vec::new();
         for (gain, age) in &self.0 {
-            // Several at once stand below each other, and none rises out of the picture.
+            // None rises out of the picture.
             let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
             place.y = place.y.max(3.0 * unit);
-            while places.iter().any(|other| (place - *other).abs().cmplt(Vec2::new(2.8, 1.2) * unit).all()) {
-                place.y += 1.25 * unit;
-            }
-            places.push(place);
+            let place = taken.place(place, Vec2::new(1.4, 0.63) * unit);
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
             let at = place - Vec2::new(0.0, rise);
             pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
@@ -205,7 +222,9 @@ mod tests {
     fn t69_t75_the_green_arrow_is_for_what_can_be_taken_in() {
         let arrows = |readiness, at, is_classic| {
             let target = Target { prey: prey(), at, reach: 5.0, readiness };
-            drawn(|pen, style| draw_targets(pen, style, &[target]), is_classic).canvas().count(READY)
+            drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), is_classic)
+                .canvas()
+                .count(READY)
         };
         let (seen, outside) = (Vec2::new(80.0, 45.0), Vec2::new(400.0, 45.0));
         let arrow = arrows(Readiness::Ready, seen, false);
@@ -217,11 +236,22 @@ mod tests {
     }
 
     #[test]
+    fn marks_at_one_place_stand_apart() {
+        let target = Target { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 5.0, readiness: Readiness::Ready };
+        let lowest = |count| {
+            let pen =
+                &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &vec![target; count]), false);
+            pen.canvas().corners().map(|(at, ..)| at.y).fold(0.0, f32::max)
+        };
+        assert!(lowest(3) > lowest(1) + 4.0 * Pen::bare().line(Size::Body));
+    }
+
+    #[test]
     fn marks_leave_the_status_line_free() {
         for height in 60..90 {
             let at = Vec2::new(80.0, height as f32);
             let target = Target { prey: prey(), at, reach: 5.0, readiness: Readiness::TooLarge(0.5) };
-            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &[target]), false);
+            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), false);
             let free = 2.0 * pen.line(Size::Body);
             assert!(pen.canvas().corners().all(|(at, ..)| at.y > free), "{height}");
             assert!(height > 75 || pen.canvas().corners().count() > 0, "{height}");
@@ -232,7 +262,7 @@ mod tests {
     fn t71_the_key_cap_stands_at_what_is_inside_and_lights_up_while_it_is_digested() {
         let held = |state| {
             let held = Held { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 2.0, state };
-            drawn(|pen, style| draw_held(pen, style, &[held]), false)
+            drawn(|pen, style| draw_held(pen, style, &mut Taken::default(), &[held]), false)
         };
         let cap = |state, face| held(state).canvas().count(face);
         assert_eq!(cap(State::Entering, INK), 0, "no key yet");
@@ -246,13 +276,16 @@ mod tests {
         let mut gains = Gains::default();
         let gain = Gain { kind: Kind::Agar, points: 10, at: Vec2::new(80.0, 45.0) };
         gains.add(&[gain; 4]);
-        let panels = |gains: &Gains| drawn(|pen, style| gains.draw(pen, style), false).canvas().corners().count() / 4;
+        let panels = |gains: &Gains| {
+            drawn(|pen, style| gains.draw(pen, style, &mut Taken::default()), false).canvas().corners().count() / 4
+        };
         assert_eq!(panels(&gains), 4);
-        let heights: std::collections::BTreeSet<i32> = drawn(|pen, style| gains.draw(pen, style), false)
-            .canvas()
-            .corners()
-            .map(|(at, ..)| at.y.round() as i32)
-            .collect();
+        let heights: std::collections::BTreeSet<i32> =
+            drawn(|pen, style| gains.draw(pen, style, &mut Taken::default()), false)
+                .canvas()
+                .corners()
+                .map(|(at, ..)| at.y.round() as i32)
+                .collect();
         assert_eq!(heights.len(), 8, "upper and lower edges of four panels");
         gains.pass(GAIN_TIME + 0.1);
         assert_eq!(panels(&gains), 0);

@@ -109,10 +109,6 @@ fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> State {
 }
 
 fn reach(organism: OrganismView<'_>) -> f32 {
-    let (mut low, mut high) = (Vec2::MAX, Vec2::MIN);
-    for particle in organism.particles() {
-        low = low.min(particle.position - particle.radius);
-        high = high.max(particle.position + particle.radius);
-    }
-    (0.5 * (high - low).max_element()).max(0.0)
+    let (low, high) = organism.bounds();
+    0.5 * (high - low).max_element()
 }

@@ -14,6 +14,7 @@ pub mod title;
 
 use crate::args::Scene;
 use crate::draw::Frame;
+use crate::draw::palette::{HALO, INK, fade};
 use crate::input::Input;
 use crate::scenery::{Scenery, Sight};
 use crate::store::files::Store;
@@ -26,8 +27,11 @@ use std::fmt;
 
 /// File of the last round that was played to its end: a replay, which `microsim replay` reads too.
 const LAST_GAME: &str = "last-game.replay";
-/// How long a message is shown, s.
+/// How long a message is shown at least, and for each of its bytes, s.
 const MESSAGE_TIME: f32 = 4.0;
+const READING_TIME: f32 = 0.04;
+/// Most lines of a message.
+const MESSAGE_LINES: usize = 10;
 
 /// What the program is showing.
 pub trait Screen: fmt::Debug {
@@ -37,7 +41,7 @@ pub trait Screen: fmt::Debug {
     /// Draws.
     fn draw(&mut self, context: &mut Context);
 
-    /// Whether the screen below is still seen.
+    /// Whether the scene below is still seen; other menus in between are not.
     fn is_overlay(&self) -> bool {
         true
     }
@@ -142,7 +146,9 @@ impl Context {
 
     /// Shows a message for a while.
     pub fn tell(&mut self, text: impl Into<String>) {
-        self.message = Some((text.into(), self.time + MESSAGE_TIME));
+        let text = text.into();
+        let time = MESSAGE_TIME.max(READING_TIME * text.len() as f32);
+        self.message = Some((text, self.time + time));
     }
 
     /// Keeps the settings.
@@ -174,10 +180,17 @@ impl Context {
     /// Draws the message, if there is one.
     pub(crate) fn draw_message(&mut self) {
         let Some((text, _)) = self.message.as_ref().filter(|(_, until)| self.time < *until) else { return };
-        let (screen, line) = (self.pen.screen(), self.pen.line(Size::Small));
-        for (k, text) in text.lines().take(8).enumerate() {
-            let at = Vec2::new(0.5 * screen.x, 0.8 * screen.y + 1.25 * line * k as f32);
-            self.pen.label(at, Size::Small, Align::Centre, crate::draw::palette::HALO, text);
+        let pen = &mut self.pen;
+        let (screen, line) = (pen.screen(), pen.line(Size::Small));
+        let lines: Vec<String> = pen.wrap(Size::Small, text, 0.94 * screen.x).into_iter().take(MESSAGE_LINES).collect();
+        let widest = lines.iter().map(|text| pen.width(Size::Small, text)).fold(0.0, f32::max);
+        let size = Vec2::new(widest + 0.8 * line, line * (lines.len() as f32 + 0.2));
+        let low = Vec2::new(0.5 * (screen.x - size.x), (0.78 * screen.y).min(screen.y - size.y - 0.3 * line));
+        // Menus do not shine through.
+        pen.canvas().rectangle(low, low + size, fade(INK, 0.95));
+        for (k, text) in lines.iter().enumerate() {
+            let at = Vec2::new(0.5 * screen.x, low.y + line * (k as f32 + 0.6));
+            pen.write(at, Size::Small, Align::Centre, HALO, text);
         }
     }
 }

@@ -162,9 +162,10 @@ impl Screen for Play {
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };
         let advice = self.advice(&hints, context);
         let pen = &mut context.pen;
-        marks::draw_held(pen, &style, &hints.held);
-        marks::draw_targets(pen, &style, &hints.targets);
-        self.gains.draw(pen, &style);
+        let mut taken = marks::Taken::default();
+        marks::draw_held(pen, &style, &mut taken, &hints.held);
+        self.gains.draw(pen, &style, &mut taken);
+        marks::draw_targets(pen, &style, &mut taken, &hints.targets);
         let referee = self.round.referee();
         let note = match (self.round.is_replay(), self.round.mismatch()) {
             (false, _) => "",

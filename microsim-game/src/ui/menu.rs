@@ -185,7 +185,7 @@ impl Menu {
 
     fn draw_item(&self, pen: &mut Pen, place: &Place, low: Vec2, item: &Item, has_focus: bool) {
         let high = low + place.item - Vec2::new(0.0, 2.0);
-        let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.66), HALO) };
+        let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.76), HALO) };
         pen.canvas().rectangle(low, high, back);
         let middle = 0.5 * (low.y + high.y);
         let inset = 0.4 * place.item.y;

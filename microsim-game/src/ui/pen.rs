@@ -136,13 +136,19 @@ impl Pen {
 
     /// A dark panel.
     pub fn panel(&mut self, low: Vec2, high: Vec2) {
-        self.canvas.rectangle(low, high, fade(INK, 0.72));
+        self.canvas.rectangle(low, high, fade(INK, 0.82));
     }
 
     /// Width of text, drawing units.
     #[must_use]
     pub fn width(&self, size: Size, text: &str) -> f32 {
         self.font.as_ref().map_or(0.0, |(_, glyphs)| glyphs.width(size, text))
+    }
+
+    /// Text in lines that are no wider than this, drawing units, where its words are not.
+    #[must_use]
+    pub fn wrap(&self, size: Size, text: &str, width: f32) -> Vec<String> {
+        wrap(text, |line| self.width(size, line) <= width)
     }
 
     /// Draws what has been collected: what comes later lies above it.
@@ -169,6 +175,24 @@ pub(super) fn font() -> Option<fontdue::Font> {
     fontdue::Font::from_bytes(epaint_default_fonts::UBUNTU_LIGHT, fontdue::FontSettings::default()).ok()
 }
 
+/// Text in lines that fit; a word that does not has a line of its own.
+fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let mut lines = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split_whitespace() {
+            let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+            if line.is_empty() || fits(&longer) {
+                line = longer;
+            } else {
+                lines.push(std::mem::replace(&mut line, word.to_owned()));
+            }
+        }
+        lines.push(line);
+    }
+    lines
+}
+
 /// Size of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
@@ -180,6 +204,12 @@ fn factor(screen: Vec2) -> f32 {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
+
+    #[test]
+    fn long_lines_are_broken_between_words() {
+        let lines = wrap("a.toml:\nline 5: unknown field, incomprehensibilities\n", |line| line.len() <= 14);
+        assert_eq!(lines, ["a.toml:", "line 5:", "unknown field,", "incomprehensibilities"]);
+    }
 
     #[test]
     fn text_comes_in_few_sizes_and_is_never_tiny() {

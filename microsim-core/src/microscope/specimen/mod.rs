@@ -22,8 +22,8 @@ use spot::{Spot, Thread};
 
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
-/// Farthest that anything of an organism reaches beyond the box around its particles: share of the box's longer side, and
-/// micrometres. Fibres and cilia do, and outlines that are made uneven.
+/// Farthest that anything of an organism reaches beyond its bounds: share of their longer side, and micrometres. Fibres and
+/// cilia do, and outlines that are made uneven.
 const BEYOND: [f32; 2] = [0.25, 6.0];
 /// Pixels over which small things are spread.
 const BLUR: f32 = 3.0;
@@ -108,10 +108,7 @@ impl Specimen {
 
 /// Whether anything of an organism may lie on a grid.
 fn may_be_on(grid: &Grid, organism: OrganismView<'_>) -> bool {
-    let nothing = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-    let (low, high) = organism.particles().fold(nothing, |(low, high), particle| {
-        (low.min(particle.position - particle.radius), high.max(particle.position + particle.radius))
-    });
+    let (low, high) = organism.bounds();
     let beyond = BEYOND[0] * (high - low).max_element() + BEYOND[1] + BLUR * grid.pixel;
     let (lower_left, upper_right) = grid.bounds();
     !((high + beyond).cmplt(lower_left).any() || (low - beyond).cmpgt(upper_right).any())

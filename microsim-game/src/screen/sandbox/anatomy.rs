@@ -96,6 +96,8 @@ fn draw_legend(pen: &mut Pen) {
         "thin: distance, rope",
         "bold: anchor, membrane",
         "square: front  bar: rear",
+        "dot: left  ring: right",
+        "tint: chemical",
         "amber: contact",
     ];
     let widest = entries.iter().map(|entry| pen.width(Size::Small, entry)).fold(0.0, f32::max);

@@ -192,10 +192,13 @@ impl Screen for Sandbox {
     fn draw(&mut self, context: &mut Context) {
         let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
         context.paint(&Frame { view, camera, time: context.time });
-        let pen = &mut context.pen;
         if self.shows.anatomy {
-            anatomy::draw(pen, view, camera);
+            anatomy::draw(&mut context.pen, view, camera);
         }
+        if !context.is_top {
+            return;
+        }
+        let pen = &mut context.pen;
         self.tools.draw(pen, view, camera);
         if self.shows.plots {
             self.plots.draw(pen);
