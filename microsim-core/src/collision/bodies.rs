@@ -171,13 +171,6 @@ impl Bodies {
     }
 }
 
-/// Found anew in each step: a clone starts without.
-impl Clone for Bodies {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
 impl Layer {
     fn sort(&mut self, found: &[Body], size: Vec2) {
         let Self { bodies, grid, extent } = self;

@@ -46,13 +46,6 @@ pub(super) struct Crowd {
     reach: f32,
 }
 
-/// Found anew in each step: a clone starts without.
-impl Clone for Crowd {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
 impl Crowd {
     /// Sorts what was found.
     pub(super) fn sort(&mut self, size: Vec2) {
