@@ -8,7 +8,7 @@
 //! [`crowd`]: super::crowd
 
 use super::bodies::Bodies;
-use super::crowd::{Crowd, Disc};
+use super::crowd::{Crowd, Disc, Store};
 use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
@@ -112,9 +112,9 @@ impl BroadPhase {
         membranes.found.clear();
         fluid.found.clear();
         bodies.collect(blocks, p, reach);
+        let store = Store::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for i in loose.filter(|&i| p.groups[i].memberships != 0) {
-            let disc = Disc::of(p, i, reach);
+        for (i, disc) in loose.filter_map(|i| store.disc(i, reach).map(|disc| (i, disc))) {
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
