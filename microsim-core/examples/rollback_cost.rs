@@ -27,19 +27,21 @@ const TURNS: usize = 100;
 #[derive(Clone, Copy)]
 enum Way {
     Plain,
-    /// Before each step `clone_from` into the oldest of the ring.
-    Saving,
-    /// Before each step a `clone` that takes the place of the oldest.
-    Cloning,
-    /// Saving, and each eighth step is the first one after going back seven.
+    /// Before each step `clone_from` into the oldest of so many.
+    Saving(usize),
+    /// Before each step a `clone` that takes the place of the oldest of so many.
+    Cloning(usize),
+    /// Saving into the ring, and after each time round `clone_from` what was saved first.
     GoingBack,
 }
 
-const WAYS: [(Way, &str); 4] = [
+const WAYS: [(Way, &str); 6] = [
     (Way::Plain, "step"),
-    (Way::Saving, "clone_from, in a ring of 8"),
-    (Way::Cloning, "clone, in place of the oldest of 8"),
-    (Way::GoingBack, "clone_from 8 steps back, each 8 steps"),
+    (Way::Saving(1), "clone_from, one world"),
+    (Way::Saving(RING), "clone_from, ring of 8"),
+    (Way::Cloning(1), "clone, one world"),
+    (Way::Cloning(RING), "clone, ring of 8"),
+    (Way::GoingBack, "back by clone_from, every 8 steps"),
 ];
 
 /// Times of one turn, µs.
@@ -62,8 +64,8 @@ fn turn(way: Way, world: &mut World, ring: &mut [World]) -> Turn {
         let oldest = k % RING;
         match way {
             Way::Plain => {}
-            Way::Saving => timed(&mut || ring[oldest].clone_from(world)),
-            Way::Cloning => timed(&mut || drop(replace(&mut ring[oldest], world.clone()))),
+            Way::Saving(count) => timed(&mut || ring[k % count].clone_from(world)),
+            Way::Cloning(count) => timed(&mut || drop(replace(&mut ring[k % count], world.clone()))),
             Way::GoingBack if oldest == 0 && k > 0 => timed(&mut || world.clone_from(&ring[0])),
             Way::GoingBack => ring[oldest].clone_from(world),
         }
@@ -105,7 +107,7 @@ fn main() {
     let text = builtin(&name).expect("a built-in scenario").text;
     let mut world = Scenario::parse(text, &overrides).unwrap().build().unwrap().world;
     (0..WARM_UP).for_each(|_| world.step(&Inputs::new()));
-    let bodies = world.census().particles;
+    let bodies = world.census().bodies;
     let (mut ring, bytes) = ring_of(&mut world);
     println!("{name}: {bodies} bodies; each world of a ring takes {:.1} bytes per body", bytes as f64 / bodies as f64);
     let start = world.clone();
@@ -120,11 +122,11 @@ fn main() {
     }
     let plain: Vec<f64> = turns[0].iter().map(|turn| turn.whole).collect();
     let share = |times: Vec<f64>| 100.0 * median(times.iter().zip(&plain).map(|(time, step)| time / step).collect());
-    println!("{:<40} {:>8.1} us", WAYS[0].1, median(plain.clone()));
+    println!("{:<34} {:>6.1} us", WAYS[0].1, median(plain.clone()));
     for ((_, name), turns) in WAYS.iter().zip(&turns).skip(1) {
         let extra = || turns.iter().map(|turn| turn.extra).collect::<Vec<_>>();
         let whole = turns.iter().map(|turn| turn.whole).collect();
         let (micros, of_step, more) = (median(extra()), share(extra()), share(whole) - 100.0);
-        println!("{name:<40} {micros:>8.1} us, {of_step:>6.2} % of a step; steps with it take {more:>6.2} % longer");
+        println!("{name:<34} {micros:>6.1} us, {of_step:>5.2} % of a step; steps with it {more:>5.2} % longer");
     }
 }
