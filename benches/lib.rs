@@ -44,6 +44,18 @@ pub fn time_of_steps(start: &World, steps: u64) -> Duration {
     })
 }
 
+/// The same with each step saved in a ring of eight worlds before.
+#[must_use]
+pub fn time_of_saved_steps(start: &World, steps: u64) -> Duration {
+    let mut ring = vec![start.clone(); 8];
+    in_stretches(start, steps, |world| {
+        let begin = Instant::now();
+        ring[world.step_index() as usize % 8].clone_from(world);
+        world.step(&Inputs::new());
+        begin.elapsed()
+    })
+}
+
 /// Time of one phase in so many steps from this state.
 #[must_use]
 pub fn time_of_phase(start: &World, steps: u64, phase: Phase) -> Duration {

@@ -52,6 +52,7 @@ pub mod replay;
 mod rng;
 #[cfg(feature = "scenario")]
 pub mod scenario;
+mod shared;
 #[cfg(feature = "snapshot")]
 pub mod snapshot;
 mod solver;

@@ -117,7 +117,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     scratch.contractions.clear();
     constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
-    for (_, organism) in organisms.iter_mut() {
+    for (_, organism) in organisms.iter_mut(|organism| organism.body.membrane().is_some()) {
         organism.relax_membrane(particles, fluids, config.dt);
     }
 }

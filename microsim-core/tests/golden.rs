@@ -86,6 +86,31 @@ fn a_clone_has_the_same_future() {
     }
 }
 
+#[test]
+fn a_clone_in_the_place_of_another_world_has_the_same_future_and_answers_alike() {
+    let answers = |world: &World| {
+        let contacts: Vec<_> = world.view().contacts().collect();
+        (world.digest(), format!("{:?} {:?}", world.quality(), world.census()), contacts)
+    };
+    let mut place = build("dam-break", None);
+    (0..10).for_each(|_| place.step(&Inputs::new()));
+    for name in ["demo", "empty", "platelets", "hunt"] {
+        let mut world = build(name, None);
+        (0..60).for_each(|_| world.step(&Inputs::new()));
+        place.clone_from(&world);
+        let (then, mut future) = (answers(&world), Vec::new());
+        for _ in 0..30 {
+            world.step(&Inputs::new());
+            future.push(answers(&world));
+        }
+        assert!(answers(&place) == then, "{name}: what the original does shows in its clone");
+        for (step, expected) in future.iter().enumerate() {
+            place.step(&Inputs::new());
+            assert!(answers(&place) == *expected, "{name}, {step} steps after");
+        }
+    }
+}
+
 /// Most nodes that the largest prey in the demonstration needs around it, as a fold and then as a phagosome.
 const NODES_OF_A_FOLD: usize = 40;
 

@@ -30,10 +30,8 @@ pub(crate) fn steer_organisms(
     events: &mut Vec<Event>,
 ) {
     drives.clear();
-    for (id, organism) in organisms.iter_mut() {
-        if organism.is_quarantined || organism.locomotion == Locomotion::None {
-            continue;
-        }
+    let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
+    for (id, organism) in organisms.iter_mut(can_move) {
         let body = Body::of(organism, particles);
         let senses = body.senses(id, organism, surroundings);
         let own = decide(organism, &senses);

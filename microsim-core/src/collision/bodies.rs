@@ -5,7 +5,7 @@
 //! in a coarse one, and large ones also look through the fine one.
 
 use super::bounds::Bounds;
-use super::crowd::{Crowd, Disc};
+use super::crowd::{Crowd, Disc, Store};
 use super::grid::Grid;
 use crate::parallel;
 use crate::particle::{BlockRange, LANES, Particles};
@@ -51,6 +51,7 @@ impl Bodies {
     /// Makes a body of each instance in some blocks, in place of all there were.
     pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, reach: f32) {
         let Self { discs, boxes, found, .. } = self;
+        let store = Store::of(particles);
         let len = blocks.iter().map(BlockRange::len).sum();
         discs.resize(len, Disc::default());
         boxes.resize(len, Bounds::EMPTY);
@@ -69,9 +70,9 @@ impl Bodies {
             for (block, lane) in blocks.iter().flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
                 let (first, mut bounds) = (end, Bounds::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
-                    if particles.groups[i].memberships != 0 {
-                        discs[end] = Disc::of(particles, i, reach);
-                        boxes[end] = discs[end].bounds();
+                    if let Some(disc) = store.disc(i, reach) {
+                        discs[end] = disc;
+                        boxes[end] = disc.bounds();
                         bounds = bounds.join(boxes[end]);
                         end += 1;
                     }
@@ -168,13 +169,6 @@ impl Bodies {
     fn discs_meeting(&self, body: &Body, bounds: Bounds) -> impl Iterator<Item = &Disc> {
         let discs = self.boxes[body.discs.clone()].iter().zip(self.discs_of(body));
         discs.filter(move |(disc, _)| disc.meets(bounds)).map(|(_, disc)| disc)
-    }
-}
-
-/// Found anew in each step: a clone starts without.
-impl Clone for Bodies {
-    fn clone(&self) -> Self {
-        Self::default()
     }
 }
 

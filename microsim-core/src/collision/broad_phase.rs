@@ -8,21 +8,22 @@
 //! [`crowd`]: super::crowd
 
 use super::bodies::Bodies;
-use super::crowd::{Crowd, Disc};
+use super::crowd::{Crowd, Disc, Store};
 use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, Contacts, ObstacleContact};
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
+use crate::shared::Shared;
 use glam::Vec2;
 use parry2d::bounding_volume::BoundingVolume;
 
 /// The pairs of this step, and what found them.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct BroadPhase {
-    pub contacts: Contacts,
+    pub contacts: Shared<Contacts>,
     pub obstacle_contacts: Vec<ObstacleContact>,
-    pub ring_contacts: RingContacts,
+    pub ring_contacts: Shared<RingContacts>,
     bodies: Bodies,
     membranes: Crowd,
     fluid: Crowd,
@@ -46,11 +47,26 @@ pub(crate) struct Surroundings<'a> {
     pub reach: f32,
 }
 
+/// A clone shares the pairs, which are asked for between steps; the rest is found anew.
+impl Clone for BroadPhase {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.contacts.clone_from(&source.contacts);
+        self.ring_contacts.clone_from(&source.ring_contacts);
+    }
+}
+
 impl BroadPhase {
     /// Finds the pairs of the step that begins.
     pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>) {
         self.sort(around);
         let Self { contacts, bodies, membranes, fluid, .. } = self;
+        let contacts = contacts.renew(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
         let may_meet = |a: u32, b: u32| a != b && !around.exemptions.contains(a, b);
@@ -77,7 +93,9 @@ impl BroadPhase {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
         let Surroundings { particles, exemptions, homes, rings, reach, .. } = around;
         let crowds = [&*membranes, &*fluid];
-        ring_contacts.find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach });
+        ring_contacts
+            .renew(|_| RingContacts::default())
+            .find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach });
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -94,9 +112,9 @@ impl BroadPhase {
         membranes.found.clear();
         fluid.found.clear();
         bodies.collect(blocks, p, reach);
+        let store = Store::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for i in loose.filter(|&i| p.groups[i].memberships != 0) {
-            let disc = Disc::of(p, i, reach);
+        for (i, disc) in loose.filter_map(|i| store.disc(i, reach).map(|disc| (i, disc))) {
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),

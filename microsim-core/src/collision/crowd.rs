@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::grid::Grid;
-use crate::particle::Particles;
+use crate::particle::{CollisionGroups, Particles};
 use glam::Vec2;
 
 /// What the search for pairs has to know of a particle.
@@ -16,11 +16,35 @@ pub(super) struct Disc {
     pub index: u32,
 }
 
-impl Disc {
-    pub(super) fn of(particles: &Particles, i: usize, reach: f32) -> Self {
-        Self { at: particles.position(i), reach: particles.radius[i] + reach, index: i as u32 }
+/// The columns that discs are made from, looked up once and not for each of them.
+#[derive(Clone, Copy)]
+pub(super) struct Store<'a> {
+    origin_x: &'a [f32],
+    origin_y: &'a [f32],
+    x: &'a [f32],
+    y: &'a [f32],
+    radius: &'a [f32],
+    groups: &'a [CollisionGroups],
+}
+
+impl<'a> Store<'a> {
+    pub(super) fn of(particles: &'a Particles) -> Self {
+        let Particles { origin_x, origin_y, x, y, radius, groups, .. } = particles;
+        Self { origin_x, origin_y, x, y, radius, groups }
     }
 
+    /// Particle `i`, if it collides with anything.
+    #[inline(always)]
+    pub(super) fn disc(&self, i: usize, reach: f32) -> Option<Disc> {
+        let disc = || {
+            let at = Vec2::new(self.origin_x[i] + self.x[i], self.origin_y[i] + self.y[i]);
+            Disc { at, reach: self.radius[i] + reach, index: i as u32 }
+        };
+        (self.groups[i].memberships != 0).then(disc)
+    }
+}
+
+impl Disc {
     /// The box around what it can reach in the step.
     #[inline(always)]
     pub(super) fn bounds(&self) -> Bounds {
@@ -44,13 +68,6 @@ pub(super) struct Crowd {
     grid: Grid,
     /// The largest reach of a disc.
     reach: f32,
-}
-
-/// Found anew in each step: a clone starts without.
-impl Clone for Crowd {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
 }
 
 impl Crowd {

@@ -52,6 +52,12 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
+    /// Empty lists with room for as many, and some more.
+    fn blank(&self) -> Self {
+        let list = |list: &Vec<_>| Vec::with_capacity(list.len() + list.len() / 8);
+        Self { strips: self.strips.iter().map(list).collect(), others: list(&self.others) }
+    }
+
     fn clear(&mut self) {
         self.strips.iter_mut().for_each(Vec::clear);
         self.others.clear();

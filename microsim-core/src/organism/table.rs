@@ -5,10 +5,11 @@ use crate::collision::filter::Home;
 use crate::collision::ring::Ring;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Phagosome};
+use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 
 /// Slots of organisms, in the order of their index.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Organisms {
     slots: Vec<Slot>,
     /// Indices of the organisms that have a membrane, ascending: few among many, and asked for in every substep.
@@ -19,10 +20,36 @@ pub(crate) struct Organisms {
 }
 
 /// An empty one is small, however many a file says there are.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Slot {
     generation: u32,
-    organism: Option<Box<Organism>>,
+    organism: Option<Shared<Organism>>,
+}
+
+impl Clone for Organisms {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self { slots, with_membrane, free } = source;
+        self.slots.clone_from(slots);
+        self.with_membrane.clone_from(with_membrane);
+        self.free.clone_from(free);
+    }
+}
+
+impl Clone for Slot {
+    fn clone(&self) -> Self {
+        Self { generation: self.generation, organism: self.organism.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.generation = source.generation;
+        self.organism.clone_from(&source.organism);
+    }
 }
 
 impl Organisms {
@@ -43,7 +70,7 @@ impl Organisms {
         {
             self.with_membrane.insert(at, id.index);
         }
-        self.slots[id.index as usize].organism = Some(Box::new(organism));
+        self.slots[id.index as usize].organism = Some(Shared::new(organism));
         id
     }
 
@@ -60,7 +87,7 @@ impl Organisms {
         slot.generation = slot.generation.wrapping_add(1);
         self.free.push(id.index);
         self.with_membrane.retain(|&index| index != id.index);
-        slot.organism.take().map(|organism| *organism)
+        slot.organism.take().map(Shared::into_inner)
     }
 
     pub(crate) fn get(&self, id: OrganismId) -> Option<&Organism> {
@@ -87,10 +114,15 @@ impl Organisms {
         })
     }
 
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
-        self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
+    /// Those that are `wanted`, by index, to be changed; the others stay shared with clones.
+    pub(crate) fn iter_mut(
+        &mut self,
+        wanted: impl Fn(&Organism) -> bool,
+    ) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
+        self.slots.iter_mut().zip(0u32..).filter_map(move |(slot, index)| {
             let id = OrganismId { index, generation: slot.generation };
-            slot.organism.as_deref_mut().map(|organism| (id, organism))
+            let organism = slot.organism.as_mut().filter(|organism| wanted(organism))?;
+            Some((id, &mut **organism))
         })
     }
 

@@ -18,6 +18,7 @@
 
 mod columns;
 
+use crate::shared::Shared;
 pub(crate) use columns::Columns;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -131,12 +132,12 @@ impl Particle {
     }
 }
 
-/// The store: one column per property, all of the same length.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+/// The store: one column per property, all of the same length. Clones share the columns that seldom change.
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Particles {
     /// Origin that the owner's particles share, whole length units.
-    pub origin_x: Vec<f32>,
-    pub origin_y: Vec<f32>,
+    pub origin_x: Shared<Vec<f32>>,
+    pub origin_y: Shared<Vec<f32>>,
     /// Position relative to the origin, length units.
     pub x: Vec<f32>,
     pub y: Vec<f32>,
@@ -149,19 +150,69 @@ pub(crate) struct Particles {
     pub vx: Vec<f32>,
     pub vy: Vec<f32>,
     /// 1 / mass; 0 for what nothing can move.
-    pub inv_mass: Vec<f32>,
-    pub radius: Vec<f32>,
-    pub groups: Vec<CollisionGroups>,
-    pub material: Vec<Material>,
-    pub role: Vec<u8>,
+    pub inv_mass: Shared<Vec<f32>>,
+    pub radius: Shared<Vec<f32>>,
+    pub groups: Shared<Vec<CollisionGroups>>,
+    pub material: Shared<Vec<Material>>,
+    pub role: Shared<Vec<u8>>,
     /// The following node of the membrane that it is in, or [`NO_OWNER`]. Membranes collide with themselves.
-    pub next_in_ring: Vec<u32>,
-    pub owner: Vec<u32>,
-    pub fluid: Vec<u32>,
+    pub next_in_ring: Shared<Vec<u32>>,
+    pub owner: Shared<Vec<u32>>,
+    pub fluid: Shared<Vec<u32>>,
     /// Freed loose indices, the last freed first.
     free: Vec<u32>,
     #[serde(skip)]
     live_count: usize,
+}
+
+impl Clone for Particles {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self {
+            origin_x,
+            origin_y,
+            x,
+            y,
+            prev_x,
+            prev_y,
+            vx,
+            vy,
+            inv_mass,
+            radius,
+            groups,
+            material,
+            role,
+            next_in_ring,
+            owner,
+            fluid,
+            free,
+            live_count,
+        } = source;
+        self.origin_x.clone_from(origin_x);
+        self.origin_y.clone_from(origin_y);
+        self.x.clone_from(x);
+        self.y.clone_from(y);
+        // Set anew before anyone reads them.
+        self.prev_x.resize(prev_x.len(), 0.0);
+        self.prev_y.resize(prev_y.len(), 0.0);
+        self.vx.clone_from(vx);
+        self.vy.clone_from(vy);
+        self.inv_mass.clone_from(inv_mass);
+        self.radius.clone_from(radius);
+        self.groups.clone_from(groups);
+        self.material.clone_from(material);
+        self.role.clone_from(role);
+        self.next_in_ring.clone_from(next_in_ring);
+        self.owner.clone_from(owner);
+        self.fluid.clone_from(fluid);
+        self.free.clone_from(free);
+        self.live_count = *live_count;
+    }
 }
 
 impl Particles {

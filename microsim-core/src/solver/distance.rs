@@ -81,9 +81,8 @@ mod tests {
 
     #[test]
     fn damping_resists_motion_along_the_line() {
-        let mut free = line(2.0, [1.0, 1.0]);
-        free.prev_x[1] = 1.9;
-        let mut damped = free.clone();
+        let [mut free, mut damped] = [(); 2].map(|()| line(2.0, [1.0, 1.0]));
+        (free.prev_x[1], damped.prev_x[1]) = (1.9, 1.9);
         let soft = Distance { rest_length: 2.0, ..constraint(1e-4) };
         project(&[soft], Span::LOOSE, &mut free.columns(), 0.01);
         project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped.columns(), 0.01);

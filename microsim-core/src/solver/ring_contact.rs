@@ -231,7 +231,7 @@ mod tests {
             size: Vec2::ONE,
             reach: 50.0,
         });
-        (p, broad_phase.ring_contacts, nodes)
+        (p, broad_phase.ring_contacts.into_inner(), nodes)
     }
 
     fn square() -> Vec<Vec2> {

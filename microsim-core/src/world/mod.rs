@@ -40,6 +40,7 @@ use crate::inputs::Inputs;
 use crate::kind::Kind;
 use crate::organism::table::Organisms;
 use crate::particle::{Material, Particles};
+use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
@@ -57,18 +58,36 @@ use touching::Touching;
 /// Obstacles that every world has: its four walls.
 const WALLS: usize = 4;
 
-/// A room with organisms in it. Cloning it is a snapshot: the clone has the same future.
+/// A room with organisms in it. Cloning it is a snapshot: the clone has the same future and answers every question alike.
+///
+/// A clone shares with its original what neither has changed since; positions and velocities are copied. To save often
+/// and go back now and then, as rollback does, keep a ring of worlds and use `clone_from` both ways: it copies into the
+/// memory that is there.
+///
+/// ```
+/// # use microsim_core::{AgarSpec, Inputs, Placement, World, WorldConfig};
+/// # let mut world = World::new(WorldConfig::default())?;
+/// # world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0))?;
+/// let mut ring = vec![world.clone(); 8];
+/// for step in 0..20 {
+///     ring[step % 8].clone_from(&world);
+///     world.step(&Inputs::new());
+/// }
+/// world.clone_from(&ring[15 % 8]);
+/// assert_eq!(world.step_index(), 15);
+/// # Ok::<(), microsim_core::Error>(())
+/// ```
 ///
 /// Serialised, it is its whole state but the shapes of obstacles, for which a digest stands; feature `snapshot` keeps those
 /// too.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Debug, Serialize)]
 pub struct World {
     pub(crate) step_index: u64,
     pub(crate) config: WorldConfig,
     pub(crate) particles: Particles,
     pub(crate) organisms: Organisms,
-    pub(crate) templates: Vec<Template>,
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) templates: Shared<Vec<Template>>,
+    pub(crate) blocks: Shared<Vec<Block>>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) chemicals: Vec<Chemical>,
     pub(crate) exemptions: Exemptions,
@@ -78,7 +97,7 @@ pub struct World {
     /// Of each obstacle, see [`digest::of_obstacle`].
     obstacle_digests: Vec<u64>,
     #[serde(skip)]
-    pub(crate) obstacles: Vec<Obstacle>,
+    pub(crate) obstacles: Shared<Vec<Obstacle>>,
     #[serde(skip)]
     pub(crate) scratch: Scratch,
     #[serde(skip)]
@@ -94,14 +113,59 @@ pub(crate) struct Guard {
     pub net_fired: u64,
 }
 
-/// What a step works with and the next one does not need.
-#[derive(Clone, Debug, Default)]
+/// What a step works with and the next one does not need; a clone has only the pairs of it.
+#[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
+}
+
+impl Clone for World {
+    fn clone(&self) -> Self {
+        let mut clone = Self::of(self.config.clone(), self.obstacles.clone());
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self {
+            step_index,
+            config,
+            particles,
+            organisms,
+            templates,
+            blocks,
+            fluids,
+            chemicals,
+            exemptions,
+            touching,
+            events,
+            guard,
+            obstacle_digests,
+            obstacles,
+            scratch,
+            dispatch,
+        } = source;
+        self.step_index = *step_index;
+        self.config.clone_from(config);
+        self.particles.clone_from(particles);
+        self.organisms.clone_from(organisms);
+        self.templates.clone_from(templates);
+        self.blocks.clone_from(blocks);
+        self.fluids.clone_from(fluids);
+        self.chemicals.clone_from(chemicals);
+        self.exemptions.clone_from(exemptions);
+        self.touching.clone_from(touching);
+        self.events.clone_from(events);
+        self.guard = *guard;
+        self.obstacle_digests.clone_from(obstacle_digests);
+        self.obstacles.clone_from(obstacles);
+        self.scratch.broad_phase.clone_from(&scratch.broad_phase);
+        self.dispatch = *dispatch;
+    }
 }
 
 impl World {
@@ -111,13 +175,19 @@ impl World {
     /// Names the field of `config` that is out of range.
     pub fn new(config: WorldConfig) -> Result<Self, Error> {
         config.validate()?;
-        Ok(Self {
-            obstacles: walls(&config),
+        let walls = walls(&config);
+        Ok(Self::of(config, Shared::new(walls)))
+    }
+
+    /// A room with these obstacles.
+    fn of(config: WorldConfig, obstacles: Shared<Vec<Obstacle>>) -> Self {
+        Self {
+            obstacles,
             config,
             particles: Particles::default(),
-            templates: Vec::new(),
+            templates: Shared::default(),
             obstacle_digests: Vec::new(),
-            blocks: Vec::new(),
+            blocks: Shared::default(),
             fluids: Vec::new(),
             chemicals: Vec::new(),
             exemptions: Exemptions::default(),
@@ -128,7 +198,7 @@ impl World {
             guard: Guard::default(),
             scratch: Scratch::default(),
             dispatch: Dispatch::default(),
-        })
+        }
     }
 
     /// Advances the world by [`WorldConfig::dt`]. Cannot fail and does not panic.
@@ -266,4 +336,29 @@ fn walls(config: &WorldConfig) -> Vec<Obstacle> {
         slab(along, Vec2::new(-0.5 * thickness, half.y)),
         slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Controller, Placement, PlateletSpec, ProbeSpec};
+
+    #[test]
+    fn a_step_leaves_shared_with_clones_what_it_does_not_change() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
+        let to = Controller::patrol(vec![Vec2::new(60.0, 40.0)], false);
+        let probe = world.spawn(&ProbeSpec::default().into(), Placement::at(30.0, 40.0).steered_by(to)).unwrap();
+        let clone = world.clone();
+        (0..10).for_each(|_| world.step(&Inputs::new()));
+        let (p, q) = (&world.particles, &clone.particles);
+        let is_shared = |a: &Shared<Vec<f32>>, b: &Shared<Vec<f32>>| std::ptr::eq(&**a, &**b);
+        assert!(is_shared(&p.origin_x, &q.origin_x) && is_shared(&p.inv_mass, &q.inv_mass));
+        assert!(is_shared(&p.radius, &q.radius) && std::ptr::eq(&*p.groups, &*q.groups));
+        assert!(std::ptr::eq(&*p.owner, &*q.owner) && std::ptr::eq(&*p.next_in_ring, &*q.next_in_ring));
+        assert!(std::ptr::eq(&*world.blocks, &*clone.blocks) && std::ptr::eq(&*world.templates, &*clone.templates));
+        let organism = |world: &World, id| std::ptr::from_ref(world.organisms.get(id).unwrap());
+        assert_eq!(organism(&world, platelet), organism(&clone, platelet));
+        assert_ne!(organism(&world, probe), organism(&clone, probe), "it has chosen a goal");
+    }
 }

@@ -3,6 +3,7 @@
 use super::World;
 use super::view::View;
 use crate::particle::NO_OWNER;
+use crate::shared::Shared;
 use glam::Vec2;
 
 /// Where everything was at one moment, see [`World::view_since`].
@@ -10,7 +11,7 @@ use glam::Vec2;
 pub struct Moment {
     time: f64,
     positions: Vec<Vec2>,
-    owners: Vec<u32>,
+    owners: Shared<Vec<u32>>,
 }
 
 impl World {

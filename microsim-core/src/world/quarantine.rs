@@ -3,6 +3,7 @@
 use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
+use crate::organism::Organism;
 use crate::particle::Particles;
 use glam::Vec2;
 
@@ -36,15 +37,14 @@ impl World {
         let Self { particles, organisms, events, config, fluids, .. } = self;
         let is_sane = |i: u32| is_sane(particles, i as usize, config.size);
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
-        for (id, organism) in organisms.iter_mut().filter(|(_, organism)| !organism.is_quarantined) {
-            if !organism.particles().all(is_sane) {
-                organism.is_quarantined = true;
-                organism.fluid = None;
-                organism.goal = None;
-                frozen.push(id);
-                events.push(Event::Quarantined { organism: id });
-                lost.extend(organism.particles().map(|i| (i, organism.home)));
-            }
+        let is_lost = |organism: &Organism| !organism.is_quarantined && !organism.particles().all(is_sane);
+        for (id, organism) in organisms.iter_mut(is_lost) {
+            organism.is_quarantined = true;
+            organism.fluid = None;
+            organism.goal = None;
+            frozen.push(id);
+            events.push(Event::Quarantined { organism: id });
+            lost.extend(organism.particles().map(|i| (i, organism.home)));
         }
         for (i, home) in lost {
             let last = particles.last_position(i as usize);

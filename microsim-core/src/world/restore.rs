@@ -9,6 +9,7 @@ use crate::config::WorldConfig;
 use crate::event::Event;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
+use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::template::Template;
@@ -54,8 +55,8 @@ impl World {
         world.step_index = state.step_index;
         world.particles = state.particles;
         world.organisms = state.organisms;
-        world.templates = state.templates;
-        world.blocks = state.blocks;
+        world.templates = Shared::new(state.templates);
+        world.blocks = Shared::new(state.blocks);
         world.fluids = state.fluids;
         world.exemptions = state.exemptions;
         world.touching = state.touching;

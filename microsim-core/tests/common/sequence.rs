@@ -67,6 +67,8 @@ struct Sequence<'a> {
     choices: Choices<'a>,
     world: World,
     saved: World,
+    /// Digest of `saved` when it was saved.
+    digest_saved: u64,
     handles: Vec<OrganismId>,
     templates: Vec<TemplateId>,
     chemicals: Vec<ChemicalId>,
@@ -86,6 +88,7 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
     let mut sequence = Sequence {
         choices,
         saved: world.clone(),
+        digest_saved: world.digest(),
         world,
         handles,
         templates,
@@ -107,6 +110,9 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
             if before != sequence.world.digest() {
                 return Err(format!("call {calls}, {name}, was refused and has changed the world: {outcome:?}"));
             }
+        }
+        if sequence.saved.digest() != sequence.digest_saved {
+            return Err(format!("call {calls}, {name}, has changed a clone"));
         }
         sequence.tally.organisms = sequence.tally.organisms.max(sequence.world.organisms().count());
     }
@@ -339,12 +345,19 @@ impl Sequence<'_> {
 
     /// Keeps the world as it is, or returns to the one that was kept, which must go on as it did.
     fn save_or_restore(&mut self) -> Result<(), Error> {
+        let mut clones = [self.world.clone(), self.saved.clone()];
+        clones[1].clone_from(&self.world);
+        assert_eq!(
+            answers(&clones[1]),
+            answers(&self.world),
+            "a clone in the place of another world answers otherwise"
+        );
         if self.choices.is_so() {
-            self.saved = self.world.clone();
+            self.saved.clone_from(&self.world);
         } else {
-            std::mem::swap(&mut self.world, &mut self.saved);
+            self.world.clone_from(&self.saved);
         }
-        let mut clones = [self.world.clone(), self.world.clone()];
+        self.digest_saved = self.world.digest();
         clones.iter_mut().for_each(|clone| clone.step(&self.inputs));
         assert_eq!(clones[0].digest(), clones[1].digest(), "two clones have two futures");
         Ok(())
@@ -375,4 +388,10 @@ impl Sequence<'_> {
         self.world.set_instruction_set(set);
         Ok(())
     }
+}
+
+/// What depends on the last step's search, and some of the rest.
+fn answers(world: &World) -> (u64, Vec<u64>, Vec<[Vec2; 2]>) {
+    let measures = Measure::ALL.iter().map(|measure| measure.of(world).to_bits()).collect();
+    (world.digest(), measures, world.view().contacts().collect())
 }

@@ -75,7 +75,7 @@ pub(crate) struct Fluid {
 }
 
 /// What fluids are projected with; nothing in it outlasts a step.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Workspace {
     rest_density: f32,
     /// Of each fluid, found once per step.

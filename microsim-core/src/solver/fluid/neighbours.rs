@@ -69,13 +69,6 @@ pub(super) struct Walls {
     pub high: Vec2,
 }
 
-/// Sorted anew in each step: a clone starts without.
-impl Clone for Sorted {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
 impl Sorted {
     /// Sorts particles in a room of this size, for searches as far as `margin` beyond `reach`, in units of it.
     pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, [reach, margin]: [f32; 2]) {

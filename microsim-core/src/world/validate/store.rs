@@ -32,7 +32,7 @@ pub(super) fn check(world: &World) -> Check {
 
 pub(super) fn check_columns(p: &Particles) -> Check {
     let floats = [&p.origin_x, &p.origin_y, &p.x, &p.y, &p.prev_x, &p.prev_y, &p.vx, &p.vy, &p.inv_mass, &p.radius];
-    let words = [&p.next_in_ring, &p.owner, &p.fluid];
+    let words: [&Vec<u32>; 3] = [&p.next_in_ring, &p.owner, &p.fluid];
     let others = [p.groups.len(), p.material.len(), p.role.len()];
     let lengths = floats.map(Vec::len).into_iter().chain(words.map(Vec::len)).chain(others);
     let mut wrong = lengths.filter(|&length| length != p.len());
