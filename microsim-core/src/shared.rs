@@ -5,7 +5,7 @@ use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
 /// A value of its own, to whoever looks: the first change after a clone copies it. For what seldom changes, so that a
-/// snapshot need not copy it.
+/// snapshot need not copy it. A mutable borrow counts as a change, and asks each time whether the value is shared.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Shared<T>(Arc<T>);
@@ -24,9 +24,7 @@ impl<T: Clone> Shared<T> {
         }
         self
     }
-}
 
-impl<T: Clone> Shared<T> {
     pub(crate) fn into_inner(self) -> T {
         Arc::unwrap_or_clone(self.0)
     }
@@ -37,7 +35,7 @@ impl<T> Clone for Shared<T> {
         Self(Arc::clone(&self.0))
     }
 
-    /// Counts nothing where both share already.
+    /// Leaves the counter alone where both share already, as most do from one snapshot to the next.
     fn clone_from(&mut self, source: &Self) {
         if !Arc::ptr_eq(&self.0, &source.0) {
             self.0 = Arc::clone(&source.0);

@@ -47,21 +47,13 @@ pub(crate) struct Surroundings<'a> {
     pub reach: f32,
 }
 
-/// A clone shares the pairs, which are asked for between steps; the rest is found anew.
-impl Clone for BroadPhase {
-    fn clone(&self) -> Self {
-        let mut clone = Self::default();
-        clone.clone_from(self);
-        clone
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.contacts.clone_from(&source.contacts);
-        self.ring_contacts.clone_from(&source.ring_contacts);
-    }
-}
-
 impl BroadPhase {
+    /// Takes over what is asked for between steps.
+    pub(crate) fn share_pairs_of(&mut self, other: &Self) {
+        self.contacts.clone_from(&other.contacts);
+        self.ring_contacts.clone_from(&other.ring_contacts);
+    }
+
     /// Finds the pairs of the step that begins.
     pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>) {
         self.sort(around);

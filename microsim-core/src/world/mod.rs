@@ -113,7 +113,7 @@ pub(crate) struct Guard {
     pub net_fired: u64,
 }
 
-/// What a step works with and the next one does not need; a clone has only the pairs of it.
+/// What a step works with and the next one does not need. Of it, a clone has the pairs that were found.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
@@ -163,7 +163,7 @@ impl Clone for World {
         self.guard = *guard;
         self.obstacle_digests.clone_from(obstacle_digests);
         self.obstacles.clone_from(obstacles);
-        self.scratch.broad_phase.clone_from(&scratch.broad_phase);
+        self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
         self.dispatch = *dispatch;
     }
 }
