@@ -2,7 +2,7 @@
 //! goals anywhere, to digest or not, to divide, to fuse. The whole state is validated after every step, and memory is
 //! watched: what the process has allocated, to the byte, and what it has of the machine.
 //!
-//! `cargo run --release -p microsim-core --features scenario --example soak -- [STEPS] [SEED]`
+//! `cargo run --release -p microsim-core --features scenario,snapshot --example soak -- [STEPS] [SEED]`
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_types,
@@ -114,10 +114,12 @@ fn resident_kb() -> u64 {
     line.and_then(|line| line.split_whitespace().next()).and_then(|kb| kb.parse().ok()).unwrap_or(0)
 }
 
-/// What a world of this state takes that has no history, bytes: a copy that has taken a step.
+/// What a world of this state takes that has no history, bytes: one that was read from a snapshot (a clone would share) and
+/// has taken a step.
 fn needed(world: &World) -> usize {
+    let snapshot = world.to_snapshot().expect("all shapes are known");
     let before = ALLOCATOR.allocated();
-    let mut copy = world.clone();
+    let mut copy = World::from_snapshot(&snapshot).expect("a sound world");
     copy.step(&Inputs::new());
     ALLOCATOR.allocated() - before
 }
