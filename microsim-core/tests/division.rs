@@ -155,6 +155,20 @@ fn t84_division_and_fusion_of_100_seeds() {
 }
 
 #[test]
+fn dividing_before_a_fusion_has_rounded_off_leaves_no_nodes_behind() {
+    let (mut world, mut cell) = cell_in_room(AmoeboidCellSpec::default());
+    let nodes = outline(&world, cell).len();
+    for turn in 0..3 {
+        let daughter = divide(&mut world, cell, &format!("turn {turn}"));
+        fuse(&mut world, cell, daughter, &format!("turn {turn}"));
+        cell = if world.kind(cell).is_some() { cell } else { daughter };
+        assert!(outline(&world, cell).len() > nodes + 5, "the next turn begins while the membrane is too long");
+    }
+    run(&mut world, &Inputs::new(), 600);
+    assert_eq!(outline(&world, cell).len(), nodes);
+}
+
+#[test]
 fn both_lobes_live_on_with_random_numbers_of_their_own() {
     let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
     let daughter = divide(&mut world, cell, "live on");

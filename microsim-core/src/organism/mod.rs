@@ -385,24 +385,25 @@ impl Organism {
         self.fluid_particles.len() as f32 + eaten / each
     }
 
-    /// Remembers how many nodes its membrane has for its content, so that it can have as many again; not while it is still on
-    /// its way to a number, or each fusion would leave it more.
-    pub(crate) fn note_settled_nodes(&mut self, fluids: &[Fluid]) {
-        if self.divider.as_ref().is_some_and(|divider| divider.wanted_nodes.is_none()) {
-            self.note_nodes(fluids);
-        }
-    }
-
-    fn note_nodes(&mut self, fluids: &[Fluid]) {
-        let nodes_per_root = self.outline.len() as f32 / self.content(fluids).sqrt();
-        self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
-    }
-
-    /// The same, unless it remembers a number already.
+    /// Remembers how many nodes its membrane has for its content, so that it can have as many again, unless it remembers a
+    /// number already: that of a membrane on its way, or rounded to whole nodes, would grow with each division and fusion.
     pub(crate) fn note_first_nodes(&mut self, fluids: &[Fluid]) {
         if self.divider.as_ref().is_some_and(|divider| divider.nodes_per_root.is_none()) {
-            self.note_nodes(fluids);
+            self.note_nodes(self.outline.len() as u32, fluids);
         }
+    }
+
+    /// Takes nodes that it was given for more than its content asks for.
+    pub(crate) fn keep_added_nodes(&mut self, added: u32, fluids: &[Fluid]) {
+        let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
+        divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
+        let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
+        self.note_nodes(nodes, fluids);
+    }
+
+    fn note_nodes(&mut self, nodes: u32, fluids: &[Fluid]) {
+        let nodes_per_root = nodes as f32 / self.content(fluids).sqrt();
+        self.divider.iter_mut().for_each(|divider| divider.nodes_per_root = Some(nodes_per_root));
     }
 
     /// Sends its membrane on the way to the number of nodes that suits its content.

@@ -132,7 +132,8 @@ impl Particle {
     }
 }
 
-/// The store: one column per property, all of the same length. Clones share the columns that seldom change.
+/// The store: one column per property, all of the same length. Clones share the columns that seldom change; positions at the
+/// start of a substep mean nothing in them before the next one.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Particles {
     /// Origin that the owner's particles share, whole length units.

@@ -7,8 +7,8 @@ use crate::parallel;
 use crate::particle::{Columns, Particles};
 use glam::Vec2;
 
-/// Particles of a stretch, a fixed number whatever the number of threads: few take less time than waking a thread.
-const STRETCH: usize = 131_072;
+/// Particles of a stretch, a fixed number whatever the number of threads.
+const STRETCH: usize = 8192;
 
 /// Does the same to all particles, a stretch at a time.
 pub(crate) fn in_stretches(p: &mut Particles, dispatch: Dispatch, kernel: impl Fn(&mut Columns<'_>) + Send + Sync) {

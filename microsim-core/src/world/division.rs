@@ -95,7 +95,7 @@ impl World {
             Ok(furrow) => {
                 let Self { organisms, fluids, .. } = self;
                 let Some(organism) = organisms.get_mut(id) else { return };
-                organism.note_settled_nodes(fluids);
+                organism.note_first_nodes(fluids);
                 let Some(divider) = organism.divider.as_mut() else { return };
                 divider.furrow = Some(furrow);
                 divider.wanted_nodes = None;

@@ -190,7 +190,7 @@ impl World {
         engulfer.pending_growth -= each;
         let nodes = organism.missing_nodes();
         // A world that is full, or a cell that is gone, does not grow.
-        let _ = self.grow(id, nodes, 1);
+        let _ = self.enlarge(id, nodes, 1);
     }
 
     /// The discs of an organism that can move.

@@ -27,6 +27,14 @@ impl World {
     /// When the handle is stale, the organism has no membrane, the membrane could not go round so much cytoplasm, or the
     /// world would hold too many particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
+        self.enlarge(id, nodes, particles)?;
+        let grown = self.organisms.get_mut(id);
+        grown.into_iter().for_each(|organism| organism.keep_added_nodes(nodes, &self.fluids));
+        Ok(())
+    }
+
+    /// The same, with nodes that the content asks for.
+    pub(super) fn enlarge(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
@@ -39,9 +47,6 @@ impl World {
         check_room(organism, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
-        }
-        if let Some(wanted) = organism.divider.as_mut().and_then(|divider| divider.wanted_nodes.as_mut()) {
-            *wanted += nodes;
         }
         let fluid = &mut self.fluids[fluid as usize];
         let added = inject(organism, particles, fluid.params.spacing, &mut self.particles);

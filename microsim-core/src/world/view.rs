@@ -109,7 +109,8 @@ impl<'a> OrganismView<'a> {
     }
 
     /// Lower left and upper right corner of the smallest upright box around the discs of all its particles, fluid included,
-    /// units. What is drawn beyond them is not in it.
+    /// units. What is drawn beyond them is not in it. Without particles it is empty: its corners are infinite, the wrong way
+    /// round.
     #[must_use]
     pub fn bounds(self) -> (Vec2, Vec2) {
         let radii = &self.view.world.particles.radius;

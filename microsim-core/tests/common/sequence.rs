@@ -343,23 +343,18 @@ impl Sequence<'_> {
         builder.build()
     }
 
-    /// Keeps the world as it is, or returns to the one that was kept, which must go on as it did.
+    /// Keeps the world as it is, or returns to the one that was kept: either way what was put in the place of another world
+    /// answers as its original does, and goes on as it.
     fn save_or_restore(&mut self) -> Result<(), Error> {
-        let mut clones = [self.world.clone(), self.saved.clone()];
-        clones[1].clone_from(&self.world);
-        assert_eq!(
-            answers(&clones[1]),
-            answers(&self.world),
-            "a clone in the place of another world answers otherwise"
-        );
-        if self.choices.is_so() {
-            self.saved.clone_from(&self.world);
-        } else {
-            self.world.clone_from(&self.saved);
-        }
-        self.digest_saved = self.world.digest();
+        let is_saved = self.choices.is_so();
+        let Self { world, saved, .. } = self;
+        let (from, into) = if is_saved { (&*world, saved) } else { (&*saved, world) };
+        into.clone_from(from);
+        assert_eq!(answers(into), answers(from), "a clone in the place of another world answers otherwise");
+        let mut clones = [from.clone(), into.clone()];
+        self.digest_saved = into.digest();
         clones.iter_mut().for_each(|clone| clone.step(&self.inputs));
-        assert_eq!(clones[0].digest(), clones[1].digest(), "two clones have two futures");
+        assert_eq!(clones[0].digest(), clones[1].digest(), "a clone in the place of another world goes on otherwise");
         Ok(())
     }
 

@@ -33,7 +33,8 @@ pub enum FluidMode {
     Granular,
 }
 
-/// A kind of fluid.
+/// A kind of fluid. Neighbours are found once per step: what comes nearer than its reach within a step, because it moves by
+/// more than its spacing against others, is seen from the next one on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidParams {
     /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
@@ -342,6 +343,33 @@ mod tests {
             let taken_back: f32 = (0..200).map(|i| (free[i] - viscous[i]) * ways[i]).sum();
             let all: f32 = ways.iter().map(|way| way * way).sum();
             assert!(taken_back > 0.2 * all && taken_back < all, "{mode:?}: {taken_back} of {all}");
+        }
+    }
+
+    #[test]
+    fn neighbours_found_at_the_start_of_a_step_do_until_the_next() {
+        for (mode, spacing) in [(FluidMode::Density, 0.8), (FluidMode::Granular, 0.8)] {
+            // Eight substeps of shear and push, with a search before the first or before each; a workspace that has seen others.
+            let after = |searches: usize| {
+                let (fluid, mut particles) = block(mode, spacing);
+                let (fluids, mut workspace) = ([Fluid::new(fluid.params, true), fluid], Workspace::default());
+                workspace.find_neighbours(&fluids[1..], &particles, Vec2::INFINITY);
+                for substep in 0..8 {
+                    for i in 0..200 {
+                        (particles.prev_x[i], particles.prev_y[i]) = (particles.x[i], particles.y[i]);
+                        particles.x[i] += 0.005 * (particles.y[i] - 50.0);
+                    }
+                    if substep < searches {
+                        workspace.find_neighbours(&fluids, &particles, Vec2::INFINITY);
+                    }
+                    workspace.project(&fluids, &mut particles, 1.0 / 480.0, Dispatch::default());
+                }
+                let gap = |i: usize, j: usize| (particles.position(i) - particles.position(j)).length();
+                let least = |i: usize| (0..200).filter(|&j| j != i).map(|j| gap(i, j)).fold(f32::INFINITY, f32::min);
+                (fluids[1].mean_compression(&particles), (0..200).map(least).sum::<f32>() / 200.0)
+            };
+            let (once, each) = (after(1), after(8));
+            assert!((once.0 - each.0).abs() < 0.005 && (once.1 - each.1).abs() < 0.005, "{mode:?}: {once:?} {each:?}");
         }
     }
 
