@@ -7,6 +7,11 @@ use serde::{Deserialize, Serialize};
 /// Without protection of its membranes a world lets things move so many times faster than its speed limit.
 const UNPROTECTED: f32 = 15.0;
 
+/// A body that is as slow as this, units/s, for so long, s, falls asleep. On a screen with ten pixels to a unit that is a
+/// pixel in five seconds.
+const CALM_SPEED: f32 = 0.02;
+const PATIENCE: f32 = 0.5;
+
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldConfig {
@@ -29,6 +34,9 @@ pub struct WorldConfig {
     /// Whether membranes are protected from leaking: contacts with links that know their side, strain limit, displacement
     /// clamp, ray-cast net. Without it they are the seed's chain of discs, which leaks; for comparison only.
     pub protects_membranes: bool,
+    /// Whether bodies that lie still are left out of the step until something that moves comes near. Membranes and fluid never
+    /// are. Without it, everything costs its full share in every step.
+    pub sleeps: bool,
     /// Most particles that the world accepts, 1 to 4 000 000.
     pub max_particles: u32,
 }
@@ -44,6 +52,7 @@ impl Default for WorldConfig {
             max_speed: 20.0,
             seed: 0,
             protects_membranes: true,
+            sleeps: true,
             max_particles: 500_000,
         }
     }
@@ -77,6 +86,18 @@ impl WorldConfig {
     /// Largest speed that a particle keeps in a substep.
     pub(crate) fn speed_limit(&self) -> f32 {
         if self.protects_membranes { self.max_speed } else { UNPROTECTED * self.max_speed }
+    }
+
+    /// Steps for which a body has to be calm before it sleeps.
+    pub(crate) fn patience(&self) -> u16 {
+        (PATIENCE / self.dt) as u16
+    }
+
+    /// A body is calm when none of its particles is faster than this, units/s. Never so fast as half of what it would be that
+    /// has fallen freely through the medium for as long as a body is given to fall asleep.
+    pub(crate) fn calm_speed(&self) -> f32 {
+        let fall = self.gravity.length() * PATIENCE / (1.0 + self.damping * PATIENCE);
+        if fall > 0.0 && 0.5 * fall < CALM_SPEED { 0.5 * fall } else { CALM_SPEED }
     }
 
     /// Farthest that a particle moves in one step.

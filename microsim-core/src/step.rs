@@ -11,13 +11,14 @@ use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
 use crate::world::World;
+use glam::Vec2;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found, and the neighbours of fluid.
+    /// Pairs that may touch before the next step are found, who sleeps in this one, and the neighbours of fluid.
     FindPairs,
     /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
@@ -80,6 +81,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     finished(Phase::SteerOrganisms);
     find_pairs(world);
     find_neighbours(world);
+    quieten_sleepers(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for _ in 0..world.config.substeps {
@@ -109,7 +111,8 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
-    let World { config, particles, organisms, fluids, obstacles, chemicals, events, scratch, .. } = world;
+    let World { config, particles, organisms, blocks, sleep, fluids, obstacles, chemicals, events, scratch, .. } =
+        world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
     let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
@@ -120,29 +123,32 @@ fn steer(world: &mut World, inputs: &Inputs) {
     for (_, organism) in organisms.iter_mut(|organism| organism.body.membrane().is_some()) {
         organism.relax_membrane(particles, fluids, config.dt);
     }
+    // What wants to move does not sleep, even where it cannot.
+    for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
+        let owner = organisms.id_at(particles.owner[drive.particle as usize]);
+        let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
+        lane.into_iter().for_each(|(block, lane)| sleep.disturb(block, lane));
+    }
 }
 
 pub(crate) fn find_pairs(world: &mut World) {
-    let World { config, particles, blocks, organisms, obstacles, exemptions, scratch, .. } = world;
+    let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, config.reach());
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
     let (rings, homes) = (rings.as_slice(), &organisms.homes());
     let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    scratch.broad_phase.find_pairs(Surroundings {
-        particles,
-        blocks,
-        obstacles,
-        exemptions,
-        rings,
-        homes,
-        size,
-        reach,
-    });
+    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
+    scratch.broad_phase.find_pairs(around, sleep, config.patience());
 }
 
 fn find_neighbours(world: &mut World) {
     let World { config, particles, fluids, scratch, .. } = world;
     scratch.fluid.find_neighbours(fluids, particles, config.size);
+}
+
+fn quieten_sleepers(world: &mut World) {
+    let World { particles, blocks, sleep, .. } = world;
+    sleep.quieten(blocks.iter().map(Block::range), particles);
 }
 
 fn predict_positions(world: &mut World, h: f32) {
@@ -166,9 +172,10 @@ fn project_fluids(world: &mut World, h: f32) {
 }
 
 fn project_constraints(world: &mut World, h: f32) {
-    let World { config, particles, templates, blocks, organisms, scratch, dispatch, .. } = world;
+    let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
     block::predict_and_project(
         blocks,
+        sleep,
         #[inline(always)]
         |block| integrate::predict_positions(block, config.gravity, config.speed_limit(), h),
         |template| templates[template as usize].constraints(),
@@ -202,9 +209,11 @@ fn project_contacts(world: &mut World) {
 }
 
 fn update_velocities(world: &mut World, h: f32) {
-    let World { config, particles, organisms, guard, scratch, dispatch, .. } = world;
+    let World { config, particles, blocks, sleep, organisms, guard, scratch, dispatch, .. } = world;
+    let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
     integrate::in_stretches(
         particles,
+        awake,
         *dispatch,
         #[inline(always)]
         |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
@@ -234,8 +243,13 @@ fn diffuse_chemicals(world: &mut World) {
 }
 
 fn conclude(world: &mut World) {
-    let World { particles, organisms, touching, events, scratch, .. } = world;
-    touching.update(scratch.broad_phase.touched(), particles, organisms, events);
+    let World { config, particles, blocks, sleep, organisms, touching, events, scratch, .. } = world;
+    let lane = |id| organisms.get(id)?.body.lane(blocks);
+    let is_asleep = |id| lane(id).is_some_and(|(block, _)| sleep.is_asleep(block));
+    touching.update(scratch.broad_phase.touched(), is_asleep, particles, organisms, events);
+    if config.sleeps {
+        sleep.note(blocks.iter().map(Block::range), particles, config.calm_speed(), config.patience());
+    }
     world.quarantine();
     world.rebase();
 }

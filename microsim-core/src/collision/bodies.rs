@@ -8,6 +8,7 @@ use super::bounds::Bounds;
 use super::crowd::{Crowd, Disc, Store};
 use super::grid::Grid;
 use crate::parallel;
+use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
@@ -20,9 +21,13 @@ const PORTION: usize = 16;
 /// A body: its discs, and the box around what they can reach in the step.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    bounds: Bounds,
+    pub bounds: Bounds,
     /// Of all its discs.
     owner: u32,
+    /// Its block, or [`NO_BLOCK`].
+    pub block: u32,
+    /// Whether it has moved in the last step.
+    is_restless: bool,
     discs: Range<usize>,
 }
 
@@ -49,7 +54,7 @@ pub(super) struct Bodies {
 
 impl Bodies {
     /// Makes a body of each instance in some blocks, in place of all there were.
-    pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, reach: f32) {
+    pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, sleep: &Sleep, reach: f32) {
         let Self { discs, boxes, found, .. } = self;
         let store = Store::of(particles);
         let len = blocks.iter().map(BlockRange::len).sum();
@@ -57,17 +62,18 @@ impl Bodies {
         boxes.resize(len, Bounds::EMPTY);
         let (mut portions, mut start) = (Vec::new(), 0);
         let mut rest = (discs.as_mut_slice(), boxes.as_mut_slice());
-        for blocks in blocks.chunks(PORTION) {
+        for (blocks, first) in blocks.chunks(PORTION).zip((0..).step_by(PORTION)) {
             let len = blocks.iter().map(BlockRange::len).sum();
             let (discs, others) = rest.0.split_at_mut(len);
             let (boxes, other_boxes) = rest.1.split_at_mut(len);
-            portions.push((blocks, start, discs, boxes));
+            portions.push((blocks, first, start, discs, boxes));
             (rest, start) = ((others, other_boxes), start + len);
         }
-        let collected = parallel::map(portions, |(blocks, start, discs, boxes)| {
+        let collected = parallel::map(portions, |(blocks, first_block, start, discs, boxes)| {
             let mut bodies = Vec::with_capacity(blocks.len() * LANES);
             let mut end = 0;
-            for (block, lane) in blocks.iter().flat_map(|block| (0..LANES).map(move |lane| (block, lane))) {
+            let lanes = blocks.iter().zip(first_block..).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
+            for ((block, index), lane) in lanes {
                 let (first, mut bounds) = (end, Bounds::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
                     if let Some(disc) = store.disc(i, reach) {
@@ -79,7 +85,8 @@ impl Bodies {
                 }
                 if end > first {
                     let owner = particles.owner[discs[first].index as usize];
-                    bodies.push(Body { bounds, owner, discs: start + first..start + end });
+                    let (is_restless, discs) = (sleep.is_restless(index, lane), start + first..start + end);
+                    bodies.push(Body { bounds, owner, block: index as u32, is_restless, discs });
                 }
             }
             bodies
@@ -91,7 +98,7 @@ impl Bodies {
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
         let (bounds, first) = (disc.bounds(), self.discs.len());
-        self.found.push(Body { bounds, owner, discs: first..first + 1 });
+        self.found.push(Body { bounds, owner, block: NO_BLOCK, is_restless: true, discs: first..first + 1 });
         self.discs.push(disc);
         self.boxes.push(bounds);
     }
@@ -127,18 +134,31 @@ impl Bodies {
         self.small.meeting(bounds).chain(self.large.meeting(bounds))
     }
 
-    /// Adds what `find` gives for each two discs that may touch, of bodies whose owners may meet: of small bodies to the lists,
-    /// strip by strip of rows, of large ones to the others.
+    /// Bodies that sleep, unless something that moves comes near.
+    pub(super) fn sleepers(&self, sleep: &Sleep) -> impl Iterator<Item = &Body> {
+        let all = self.small.bodies.iter().chain(&self.large.bodies);
+        all.filter(|body| sleep.is_asleep(body.block))
+    }
+
+    /// Whether a body near this one has moved in the last step.
+    pub(super) fn is_stirred(&self, body: &Body) -> bool {
+        self.in_box(body.bounds.low(), body.bounds.high()).any(|other| other.is_restless)
+    }
+
+    /// Adds what `find` gives for each two discs that may touch, of bodies whose owners may meet and that do not both sleep: of
+    /// small bodies to the lists, strip by strip of rows, of large ones to the others.
     pub(super) fn pairs<R: Send>(
         &self,
         may_meet: impl Fn(u32, u32) -> bool + Send + Sync,
-        find: impl Fn(&Disc, &Disc) -> Option<R> + Send + Sync,
+        find: impl Fn(&Disc, &Disc, [bool; 2]) -> Option<R> + Send + Sync,
+        sleep: &Sleep,
         strips: &mut Vec<Vec<R>>,
         others: &mut Vec<R>,
     ) {
         let between = |a: &Body, b: &Body, near: &mut Vec<Disc>, found: &mut Vec<R>| {
-            if a.bounds.meets(b.bounds) && may_meet(a.owner, b.owner) {
-                self.pairs_between(a, b, near, |a, b| found.extend(find(a, b)));
+            let asleep = [a, b].map(|body| sleep.is_asleep(body.block));
+            if a.bounds.meets(b.bounds) && asleep != [true; 2] && may_meet(a.owner, b.owner) {
+                self.pairs_between(a, b, near, |a, b| found.extend(find(a, b, asleep)));
             }
         };
         let within = |layer: &Layer, rows: Range<usize>, found: &mut Vec<R>| {

@@ -13,6 +13,7 @@ use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, Contacts, ObstacleContact};
+use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
 use crate::shared::Shared;
 use glam::Vec2;
@@ -54,15 +55,21 @@ impl BroadPhase {
         self.ring_contacts.clone_from(&other.ring_contacts);
     }
 
-    /// Finds the pairs of the step that begins.
-    pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>) {
-        self.sort(around);
+    /// Finds the pairs of the step that begins, after those that sleep in it: its blocks that have been calm for so many
+    /// steps, unless something that moves is near.
+    pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>, sleep: &mut Sleep, patience: u16) {
+        self.sort(around, sleep);
+        if sleep.fall_asleep(patience) {
+            self.wake(sleep);
+        }
+        let sleep = &*sleep;
         let Self { contacts, bodies, membranes, fluid, .. } = self;
         let contacts = contacts.renew(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
         let may_meet = |a: u32, b: u32| a != b && !around.exemptions.contains(a, b);
-        bodies.pairs(may_meet, |a, b| contact_of_bodies(a, b, around.particles), strips, others);
+        let find = |a: &_, b: &_, asleep| contact_of_bodies(a, b, asleep, around.particles);
+        bodies.pairs(may_meet, find, sleep, strips, others);
         let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, around));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
@@ -77,8 +84,21 @@ impl BroadPhase {
         if fluid.iter().any(|disc| is_of_another_fluid(disc, fluid, around.particles)) {
             fluid.pairs(consider);
         }
-        self.find_obstacle_contacts(around);
+        self.find_obstacle_contacts(around, sleep);
         self.find_ring_contacts(around);
+    }
+
+    /// Wakes the blocks of sleepers near which something moves. Membranes and fluid always count as moving.
+    fn wake(&self, sleep: &mut Sleep) {
+        let Self { bodies, membranes, fluid, .. } = self;
+        let woken = bodies.sleepers(sleep).filter(|body| {
+            let (low, high) = (body.bounds.low(), body.bounds.high());
+            let mut crowds = [membranes, fluid].into_iter();
+            bodies.is_stirred(body) || crowds.any(|crowd| crowd.in_box(low, high).next().is_some())
+        });
+        for block in woken.map(|body| body.block).collect::<Vec<_>>() {
+            sleep.wake(block);
+        }
     }
 
     fn find_ring_contacts(&mut self, around: Surroundings<'_>) {
@@ -98,12 +118,12 @@ impl BroadPhase {
     }
 
     /// Sorts the colliding particles into bodies, membranes and fluid.
-    fn sort(&mut self, around: Surroundings<'_>) {
+    fn sort(&mut self, around: Surroundings<'_>, sleep: &Sleep) {
         let Surroundings { particles: p, blocks, size, reach, .. } = around;
         let Self { bodies, membranes, fluid, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
-        bodies.collect(blocks, p, reach);
+        bodies.collect(blocks, p, sleep, reach);
         let store = Store::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
         for (i, disc) in loose.filter_map(|i| store.disc(i, reach).map(|disc| (i, disc))) {
@@ -118,7 +138,7 @@ impl BroadPhase {
         fluid.sort(size);
     }
 
-    fn find_obstacle_contacts(&mut self, around: Surroundings<'_>) {
+    fn find_obstacle_contacts(&mut self, around: Surroundings<'_>, sleep: &Sleep) {
         let Self { obstacle_contacts, bodies, membranes, fluid, .. } = self;
         obstacle_contacts.clear();
         for (obstacle, k) in around.obstacles.iter().zip(0..) {
@@ -131,7 +151,8 @@ impl BroadPhase {
                     && around.particles.inv_mass[i] > 0.0
                     && around.particles.groups[i].meets(obstacle.groups)
             };
-            let of_bodies = bodies.in_box(low, high).flat_map(|body| bodies.discs_of(body));
+            let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
+            let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
             let of_crowds = [&*membranes, &*fluid].into_iter().flat_map(|crowd| crowd.in_box(low, high));
             let near = of_bodies.chain(of_crowds).filter(is_near);
             obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
@@ -153,10 +174,10 @@ fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
 }
 
 /// The same for discs of two bodies that may meet: they are in no fluid and no ring.
-fn contact_of_bodies(a: &Disc, b: &Disc, p: &Particles) -> Option<Contact> {
+fn contact_of_bodies(a: &Disc, b: &Disc, asleep: [bool; 2], p: &Particles) -> Option<Contact> {
     let (i, j) = (a.index as usize, b.index as usize);
     let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
-    collide.then(|| Contact::new(p, i, j))
+    collide.then(|| Contact { asleep, ..Contact::new(p, i, j) })
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
@@ -217,7 +238,7 @@ mod tests {
     fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
         let mut broad = BroadPhase::default();
         let size = Vec2::new(40.0, 30.0);
-        broad.find_pairs(Surroundings {
+        let around = Surroundings {
             particles,
             blocks: &[],
             obstacles: &[],
@@ -226,7 +247,8 @@ mod tests {
             homes: &[],
             size,
             reach: 0.1,
-        });
+        };
+        broad.find_pairs(around, &mut Sleep::default(), 1);
         let mut pairs: Vec<_> = broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect();
         pairs.sort_unstable();
         pairs

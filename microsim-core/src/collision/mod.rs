@@ -26,6 +26,8 @@ pub(crate) struct Contact {
     pub restitution: f32,
     /// Touched in any substep since the pair was found.
     pub touched: bool,
+    /// Which of the two is asleep; not both are.
+    pub asleep: [bool; 2],
 }
 
 impl Contact {
@@ -39,6 +41,7 @@ impl Contact {
             friction,
             restitution,
             touched: false,
+            asleep: [false; 2],
         }
     }
 }

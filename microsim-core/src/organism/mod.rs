@@ -25,6 +25,7 @@ use crate::id::OrganismId;
 use crate::kind::Kind;
 use crate::particle::Particles;
 use crate::rng::Rng;
+use crate::solver::block::Block;
 use crate::solver::fluid::{self, Fluid, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::{Content, Membrane};
@@ -222,6 +223,14 @@ impl Body {
         match self {
             Self::Lane { first, .. } => first + node * LANES as u32,
             Self::Loose { .. } => node,
+        }
+    }
+
+    /// Its block, and its lane there.
+    pub(crate) fn lane(&self, blocks: &[Block]) -> Option<(u32, usize)> {
+        match *self {
+            Self::Lane { block, first } => Some((block, (first - blocks[block as usize].base) as usize)),
+            Self::Loose { .. } => None,
         }
     }
 

@@ -69,15 +69,18 @@ impl<'a> Columns<'a> {
         (Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }, rest)
     }
 
-    /// Stretches of `count` entries, the last one shorter.
-    pub(crate) fn chunks(self, count: usize) -> Vec<Self> {
-        let (mut chunks, mut rest) = (Vec::new(), self);
-        while rest.x.len() > count {
-            let (chunk, others) = rest.split_at(count);
-            chunks.push(chunk);
-            rest = others;
+    /// Stretches of at most `count` entries that together are these ranges, of which each lies after the one before.
+    pub(crate) fn stretches(self, ranges: impl Iterator<Item = Range<usize>>, count: usize) -> Vec<Self> {
+        let (mut stretches, mut rest, mut start) = (Vec::new(), self, 0);
+        for range in ranges {
+            for first in range.clone().step_by(count) {
+                let end = range.end.min(first + count);
+                let (_, from_first) = rest.split_at(first - start);
+                let (stretch, others) = from_first.split_at(end - first);
+                stretches.push(stretch);
+                (rest, start) = (others, end);
+            }
         }
-        chunks.push(rest);
-        chunks
+        stretches
     }
 }

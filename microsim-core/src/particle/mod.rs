@@ -17,6 +17,7 @@
 //! A dead entry (an empty lane, a freed index) has inverse mass 0, owner [`NO_OWNER`] and belongs to no collision group.
 
 mod columns;
+pub(crate) mod sleep;
 
 use crate::shared::Shared;
 pub(crate) use columns::Columns;

@@ -114,6 +114,7 @@ fn read_config(root: &mut Fields<'_>) -> (WorldConfig, Option<Vec2>) {
             max_speed: world.or("max_speed", default.max_speed),
             seed,
             protects_membranes: world.or("protects_membranes", default.protects_membranes),
+            sleeps: world.or("sleeps", default.sleeps),
             max_particles: world.or("max_particles", default.max_particles),
         };
         let table = |error: &Error| if matches!(error.field(), "dt" | "substeps") { "step" } else { "world" };

@@ -38,7 +38,7 @@
 //! | top level | `schema = 1`, `name = ""`, `description = ""`, `seed = 0`, `duration = 10.0` |
 //! | `[parameters]` | any names with a number, string or boolean each. Elsewhere the string `"$name"` stands for the value |
 //! | `[step]` | `dt`, `substeps` of [`WorldConfig`] |
-//! | `[world]` | `size` (may be left out when a `[[field]]` sizes the room), `gravity`, `damping`, `max_speed`, `protects_membranes`, `max_particles` of [`WorldConfig`] |
+//! | `[world]` | `size` (may be left out when a `[[field]]` sizes the room), `gravity`, `damping`, `max_speed`, `protects_membranes`, `sleeps`, `max_particles` of [`WorldConfig`] |
 //! | `[rigid_cell.NAME]` | [`RigidCellSpec`](crate::RigidCellSpec); `radii` is required |
 //! | `[amoeboid_cell.NAME]` | [`AmoeboidCellSpec`](crate::AmoeboidCellSpec); `radii` is required |
 //! | `[platelet.NAME]` | [`PlateletSpec`](crate::PlateletSpec); `radius` is required |

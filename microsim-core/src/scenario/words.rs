@@ -31,6 +31,7 @@ const WORDS: &[(&str, &str)] = &[
     ("world.damping", "Drag of the medium, 1/s: the share of its speed that a free particle loses per second."),
     ("world.max_speed", "Speed limit of every particle, micrometres/s."),
     ("world.protects_membranes", "Whether membranes are kept from leaking. Off is for comparison only."),
+    ("world.sleeps", "Whether what lies still is left out of the step until something that moves comes near."),
     ("world.max_particles", "Most particles that the world accepts."),
     ("rigid_cell", "Soft bodies of a fixed shape, such as paramecia."),
     ("rigid_cell.*", "A rigid cell of this name."),

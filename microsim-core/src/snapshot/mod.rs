@@ -33,7 +33,7 @@ use serde::de::DeserializeOwned;
 use std::fmt;
 
 /// Changes with every change of a type that is part of a world.
-const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 2 };
+const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 3 };
 
 /// Why bytes are no snapshot, or why there cannot be one.
 #[derive(Clone, Debug, PartialEq, Eq)]

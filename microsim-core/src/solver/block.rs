@@ -4,6 +4,7 @@ use super::ConstraintSet;
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, Span};
 use crate::parallel;
+use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
@@ -56,19 +57,22 @@ impl Block {
     }
 }
 
-/// Predicts the positions of all blocks and projects all their constraints, [`BATCH`] blocks of one template at a time: what
-/// one has loaded the other finds at hand.
+/// Predicts the positions of all blocks that are awake and projects all their constraints, [`BATCH`] blocks of one template at
+/// a time: what one has loaded the other finds at hand.
 pub(crate) fn predict_and_project<'a>(
     blocks: &[Block],
+    sleep: &Sleep,
     predict: impl Fn(&mut Columns<'_>) + Sync + Send,
     constraints: impl Fn(u32) -> &'a ConstraintSet + Sync + Send,
     particles: &mut Particles,
     h: f32,
     dispatch: Dispatch,
 ) {
-    let mut batches = Vec::with_capacity(blocks.len());
+    let awake = blocks.iter().zip(0..).filter(|(_, k)| !sleep.is_asleep(*k));
+    let awake: Vec<&Block> = awake.map(|(block, _)| block).collect();
+    let mut batches = Vec::with_capacity(awake.len());
     let (mut rest, mut start) = (particles.columns(), 0);
-    for of_template in blocks.chunk_by(|a, b| a.template == b.template) {
+    for of_template in awake.chunk_by(|a, b| a.template == b.template) {
         for batch in of_template.chunks(BATCH) {
             let end = batch.last().map_or(start, |block| block.range().end());
             let (stretch, others) = rest.split_at(end - start);
@@ -83,7 +87,7 @@ pub(crate) fn predict_and_project<'a>(
         dispatch.run(
             #[inline(always)]
             || {
-                for block in batch.iter().map(Block::range) {
+                for block in batch.iter().map(|block| block.range()) {
                     predict(&mut stretch.part(block.base - start..block.end() - start));
                 }
                 constraints.project(&spans, &mut stretch, h);
@@ -124,6 +128,7 @@ mod tests {
         for _ in 0..10 {
             predict_and_project(
                 std::slice::from_ref(&block),
+                &Sleep::default(),
                 |_| (),
                 |_| &constraints,
                 &mut in_lanes,

@@ -43,13 +43,10 @@ fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
-    let (wi, wj) = (no_heavier(p.inv_mass[i], p.inv_mass[j]), no_heavier(p.inv_mass[j], p.inv_mass[i]));
+    let (wi, wj) = weights(c, p);
     let depth = c.reach - length;
     if c.restitution > 0.0 {
-        let approach = (p.velocity(j) - p.velocity(i)).dot(normal);
-        if approach < 0.0 {
-            impacts.push(Impact { i: c.i, j: Some(c.j), normal, rebound: -c.restitution * approach });
-        }
+        impacts.extend(Impact::of(c, normal, p));
     }
     let push = normal * ratio(depth, wi + wj);
     shift(p, i, -push * wi);
@@ -58,6 +55,16 @@ fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts
     let rub = friction(slip, normal, c.friction * depth) * ratio(1.0, wi + wj);
     shift(p, i, -rub * wi);
     shift(p, j, rub * wj);
+}
+
+/// Inverse masses with which the two press on each other.
+fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
+    let (wi, wj) = (p.inv_mass[c.i as usize], p.inv_mass[c.j as usize]);
+    match c.asleep {
+        [true, _] => (0.0, wj),
+        [_, true] => (wi, 0.0),
+        _ => (no_heavier(wi, wj), no_heavier(wj, wi)),
+    }
 }
 
 /// Inverse mass with which something presses on something of inverse mass `other`, see [`HEAVIEST`].
@@ -83,6 +90,17 @@ pub(crate) fn moved(p: &Particles, i: usize) -> Vec2 {
 }
 
 impl Impact {
+    /// An impact of two discs, if they approach each other; what sleeps is as if it were static.
+    fn of(c: &Contact, normal: Vec2, p: &Particles) -> Option<Self> {
+        match c.asleep {
+            [true, _] => return Self::on_static(p, c.j, -normal, c.restitution),
+            [_, true] => return Self::on_static(p, c.i, normal, c.restitution),
+            _ => {}
+        }
+        let approach = (p.velocity(c.j as usize) - p.velocity(c.i as usize)).dot(normal);
+        (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound: -c.restitution * approach })
+    }
+
     /// An impact of particle `i` on a static surface, if it approaches it.
     pub(crate) fn on_static(p: &Particles, i: u32, normal: Vec2, restitution: f32) -> Option<Self> {
         let approach = -p.velocity(i as usize).dot(normal);

@@ -6,13 +6,19 @@ use super::ratio_limit;
 use crate::parallel;
 use crate::particle::{Columns, Particles};
 use glam::Vec2;
+use std::ops::Range;
 
 /// Particles of a stretch, a fixed number whatever the number of threads.
 const STRETCH: usize = 8192;
 
-/// Does the same to all particles, a stretch at a time.
-pub(crate) fn in_stretches(p: &mut Particles, dispatch: Dispatch, kernel: impl Fn(&mut Columns<'_>) + Send + Sync) {
-    parallel::for_each(p.columns().chunks(STRETCH), |mut stretch| {
+/// Does the same to all particles of some ranges, a stretch at a time.
+pub(crate) fn in_stretches(
+    p: &mut Particles,
+    ranges: impl Iterator<Item = Range<usize>>,
+    dispatch: Dispatch,
+    kernel: impl Fn(&mut Columns<'_>) + Send + Sync,
+) {
+    parallel::for_each(p.columns().stretches(ranges, STRETCH), |mut stretch| {
         dispatch.run(
             #[inline(always)]
             || kernel(&mut stretch),

@@ -209,6 +209,7 @@ mod tests {
     use crate::geometry::arbitrary::star_polygon;
     use crate::geometry::polygon::contains_point;
     use crate::particle::Particle;
+    use crate::particle::sleep::Sleep;
     use proptest::prelude::*;
 
     const RADIUS: f32 = 0.5;
@@ -221,7 +222,7 @@ mod tests {
         p.link_ring(&nodes);
         p.insert(&particle(at, owner));
         let mut broad_phase = BroadPhase::default();
-        broad_phase.find_pairs(Surroundings {
+        let around = Surroundings {
             particles: &p,
             blocks: &[],
             obstacles: &[],
@@ -230,7 +231,8 @@ mod tests {
             homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
             size: Vec2::ONE,
             reach: 50.0,
-        });
+        };
+        broad_phase.find_pairs(around, &mut Sleep::default(), 1);
         (p, broad_phase.ring_contacts.into_inner(), nodes)
     }
 

@@ -225,10 +225,11 @@ impl World {
     /// Sets the size of a templated organism relative to its size when spawned.
     pub(super) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
-        let Body::Lane { block, first } = organism.body else { return };
-        let block = &mut self.blocks[block as usize];
+        let Body::Lane { block: index, first } = organism.body else { return };
+        let block = &mut self.blocks[index as usize];
         let lane = (first - block.base) as usize;
         block.scale[lane] = organism.spawn_scale * factor;
+        self.sleep.disturb(index, lane);
         for (slot, node) in self.templates[block.template as usize].nodes().iter().enumerate() {
             self.particles.radius[first as usize + slot * LANES] = node.radius * block.scale[lane];
         }

@@ -23,6 +23,7 @@ mod rebase;
 #[cfg(feature = "snapshot")]
 pub(crate) mod restore;
 mod rewire;
+mod sleeping;
 mod spawn;
 pub(crate) mod touching;
 pub(crate) mod validate;
@@ -39,6 +40,8 @@ use crate::id::{ObstacleId, OrganismId, TemplateId};
 use crate::inputs::Inputs;
 use crate::kind::Kind;
 use crate::organism::table::Organisms;
+use crate::parallel;
+use crate::particle::sleep::Sleep;
 use crate::particle::{Material, Particles};
 use crate::shared::Shared;
 use crate::solver::block::Block;
@@ -88,6 +91,7 @@ pub struct World {
     pub(crate) organisms: Organisms,
     pub(crate) templates: Shared<Vec<Template>>,
     pub(crate) blocks: Shared<Vec<Block>>,
+    pub(crate) sleep: Sleep,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) chemicals: Vec<Chemical>,
     pub(crate) exemptions: Exemptions,
@@ -123,6 +127,9 @@ pub(crate) struct Scratch {
     pub impacts: Vec<Impact>,
 }
 
+/// Particles from which on threads are worth calling.
+const LARGE: usize = 8192;
+
 impl Clone for World {
     fn clone(&self) -> Self {
         let mut clone = Self::of(self.config.clone(), self.obstacles.clone());
@@ -138,6 +145,7 @@ impl Clone for World {
             organisms,
             templates,
             blocks,
+            sleep,
             fluids,
             chemicals,
             exemptions,
@@ -155,6 +163,7 @@ impl Clone for World {
         self.organisms.clone_from(organisms);
         self.templates.clone_from(templates);
         self.blocks.clone_from(blocks);
+        self.sleep.clone_from(sleep);
         self.fluids.clone_from(fluids);
         self.chemicals.clone_from(chemicals);
         self.exemptions.clone_from(exemptions);
@@ -188,6 +197,7 @@ impl World {
             templates: Shared::default(),
             obstacle_digests: Vec::new(),
             blocks: Shared::default(),
+            sleep: Sleep::default(),
             fluids: Vec::new(),
             chemicals: Vec::new(),
             exemptions: Exemptions::default(),
@@ -203,13 +213,14 @@ impl World {
 
     /// Advances the world by [`WorldConfig::dt`]. Cannot fail and does not panic.
     pub fn step(&mut self, inputs: &Inputs) {
-        step::advance(self, inputs, &mut |_| {});
+        self.step_observed(inputs, |_| {});
     }
 
     /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
     /// measuring: the core itself reads no clock.
-    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase)) {
-        step::advance(self, inputs, &mut finished);
+    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
+        let is_large = self.particles.len() > LARGE;
+        parallel::enter(is_large, || step::advance(self, inputs, &mut finished));
     }
 
     /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
@@ -295,6 +306,7 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
+        [a, b].into_iter().for_each(|id| self.disturb(id));
         Ok(())
     }
 

@@ -15,6 +15,7 @@ impl World {
         if !self.all_is_sane() {
             for id in self.freeze_insane() {
                 self.release_meals(id);
+                self.disturb_what_touches(id);
             }
         }
     }

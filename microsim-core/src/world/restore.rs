@@ -9,6 +9,7 @@ use crate::config::WorldConfig;
 use crate::event::Event;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
+use crate::particle::sleep::Sleep;
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
@@ -25,6 +26,7 @@ pub(crate) struct State {
     organisms: Organisms,
     templates: Vec<Template>,
     blocks: Vec<Block>,
+    sleep: Sleep,
     fluids: Vec<Fluid>,
     chemicals: Vec<chemical::Record>,
     exemptions: Exemptions,
@@ -57,6 +59,7 @@ impl World {
         world.organisms = state.organisms;
         world.templates = Shared::new(state.templates);
         world.blocks = Shared::new(state.blocks);
+        world.sleep = state.sleep;
         world.fluids = state.fluids;
         world.exemptions = state.exemptions;
         world.touching = state.touching;

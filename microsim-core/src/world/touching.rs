@@ -55,9 +55,11 @@ impl Touching {
     }
 
     /// Compares the pairs of particles that touched in this step with the last step's and reports what began and what ended.
+    /// Of two that are asleep nothing changes.
     pub(crate) fn update(
         &mut self,
         touched: impl Iterator<Item = (u32, u32)>,
+        is_asleep: impl Fn(OrganismId) -> bool,
         particles: &Particles,
         organisms: &Organisms,
         events: &mut Vec<Event>,
@@ -70,6 +72,7 @@ impl Touching {
                 self.now.extend(ids.0.zip(ids.1));
             }
         }
+        self.now.extend(self.pairs.iter().filter(|(a, b)| is_asleep(*a) && is_asleep(*b)));
         self.now.sort_unstable();
         self.now.dedup();
         let only = |from: &[(OrganismId, OrganismId)], other: &[_]| {

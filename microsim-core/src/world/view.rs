@@ -103,6 +103,15 @@ impl<'a> OrganismView<'a> {
         self.organism.is_quarantined
     }
 
+    /// Whether it lies still and has done so for as long as it takes to fall asleep, with all that it shares a block with. What
+    /// does is left out of every step in which nothing that moves is near ([`crate::WorldConfig::sleeps`]).
+    #[must_use]
+    pub fn is_calm(self) -> bool {
+        let World { sleep, blocks, config, .. } = self.view.world;
+        let lane = self.organism.body.lane(blocks);
+        lane.is_some_and(|(block, _)| sleep.is_calm(block, config.patience()))
+    }
+
     /// Its particles: those of the body in the order of their nodes, then its fluid.
     pub fn particles(self) -> impl Iterator<Item = ParticleView> + 'a {
         self.organism.particles().map(move |i| self.particle(i))

@@ -1,0 +1,151 @@
+//! Sleep: what lies still costs little and stays as it is to the bit, and whatever would move it wakes it first (T78).
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+
+mod common;
+
+use common::run;
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, Controller, Event, Inputs, Intent, OrganismId, Placement, PlateletSpec, ProbeSpec,
+    World, WorldConfig,
+};
+use proptest::prelude::*;
+
+/// A room with a field of platelets, three wide, in one block and a bit.
+fn field(config: WorldConfig) -> (World, Vec<OrganismId>) {
+    let mut world = World::new(config).unwrap();
+    let place = |k: u32| Placement::at(60.0 + 5.3 * (k % 3) as f32, 40.0 + 5.3 * (k / 3) as f32);
+    let platelets = (0..12).map(|k| world.spawn(&PlateletSpec::default().into(), place(k)).unwrap()).collect();
+    (world, platelets)
+}
+
+fn probe(world: &mut World, at: Vec2, to: Vec2) -> OrganismId {
+    let placement = Placement::at(at.x, at.y).steered_by(Controller::patrol(vec![to], false));
+    world.spawn(&ProbeSpec { radius: 2.0, speed: 6.0, ..ProbeSpec::default() }.into(), placement).unwrap()
+}
+
+fn are_calm(world: &World, all: &[OrganismId]) -> bool {
+    all.iter().all(|&id| world.view().organism(id).unwrap().is_calm())
+}
+
+fn positions(world: &World, id: OrganismId) -> Vec<Vec2> {
+    world.view().organism(id).unwrap().particles().map(|particle| particle.position).collect()
+}
+
+#[test]
+fn what_lies_still_stays_to_the_bit() {
+    let (mut world, platelets) = field(WorldConfig::default());
+    run(&mut world, &Inputs::new(), 300);
+    assert!(are_calm(&world, &platelets));
+    let before: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
+    run(&mut world, &Inputs::new(), 300);
+    let after: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
+    assert_eq!(before, after);
+}
+
+#[test]
+fn nothing_sleeps_where_nothing_may() {
+    let (mut world, platelets) = field(WorldConfig { sleeps: false, ..WorldConfig::default() });
+    run(&mut world, &Inputs::new(), 300);
+    assert!(!platelets.iter().any(|&id| are_calm(&world, &[id])));
+}
+
+/// How far platelets are from where they would be without sleep, after a probe has passed through them.
+fn apart_after_a_probe(from: Vec2, to: Vec2, rest: u32) -> f32 {
+    let swept = |sleeps: bool| {
+        let (mut world, platelets) = field(WorldConfig { sleeps, ..WorldConfig::default() });
+        run(&mut world, &Inputs::new(), rest);
+        assert_eq!(are_calm(&world, &platelets), sleeps && rest > 100);
+        probe(&mut world, from, to);
+        run(&mut world, &Inputs::new(), 600);
+        assert!(world.quality().penetration_max < 0.5, "{:?}", world.quality());
+        platelets.iter().map(|&id| world.centroid(id).unwrap()).collect::<Vec<_>>()
+    };
+    let apart = swept(true).into_iter().zip(swept(false)).map(|(a, b)| (a - b).length());
+    apart.fold(0.0, f32::max)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    #[test]
+    fn sleepers_wake_before_anything_reaches_them(y in 36.0f32..60.0, to in 36.0f32..60.0, rest in 200u32..260) {
+        let apart = apart_after_a_probe(Vec2::new(40.0, y), Vec2::new(90.0, to), rest);
+        prop_assert!(apart < 0.5, "a platelet is {apart} away from where it would be");
+    }
+}
+
+#[test]
+fn what_leans_on_something_falls_when_that_is_gone() {
+    let gravity = Vec2::new(0.0, -5.0);
+    let mut world = World::new(WorldConfig { gravity, ..WorldConfig::default() }).unwrap();
+    let agar = |world: &mut World, y: f32| world.spawn(&AgarSpec::default().into(), Placement::at(50.0, y)).unwrap();
+    let radius = AgarSpec::default().radius;
+    let lower = agar(&mut world, radius);
+    let upper = agar(&mut world, 3.0 * radius);
+    run(&mut world, &Inputs::new(), 240);
+    assert!(are_calm(&world, &[lower, upper]));
+    let began = |world: &World| world.events().iter().any(|event| matches!(event, Event::ContactEnded { .. }));
+    assert!((0..60).all(|_| {
+        world.step(&Inputs::new());
+        !began(&world)
+    }));
+    world.remove(lower).unwrap();
+    run(&mut world, &Inputs::new(), 120);
+    let height = world.centroid(upper).unwrap().y;
+    assert!(height < 1.1 * radius, "it hangs at {height}");
+}
+
+#[test]
+fn what_sinks_slowly_does_not_fall_asleep() {
+    let gravity = Vec2::new(0.0, -0.02);
+    let mut world = World::new(WorldConfig { gravity, damping: 2.0, ..WorldConfig::default() }).unwrap();
+    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
+    run(&mut world, &Inputs::new(), 1200);
+    let sunk = 50.0 - world.centroid(agar).unwrap().y;
+    assert!((0.17..0.21).contains(&sunk), "it has sunk by {sunk}");
+}
+
+#[test]
+fn a_push_and_a_command_wake() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
+    let still = world.spawn(&ProbeSpec::default().into(), Placement::at(90.0, 50.0)).unwrap();
+    run(&mut world, &Inputs::new(), 120);
+    assert!(are_calm(&world, &[agar, still]));
+    world.push(agar, Vec2::new(1.0, 0.0)).unwrap();
+    let mut inputs = Inputs::new();
+    inputs.set(still, Intent::toward(Vec2::new(120.0, 50.0)).unwrap());
+    run(&mut world, &inputs, 30);
+    assert!(world.centroid(agar).unwrap().x > 50.2 && world.centroid(still).unwrap().x > 90.5);
+}
+
+#[test]
+fn cells_take_sleeping_prey_in() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+    run(&mut world, &Inputs::new(), 120);
+    assert!(are_calm(&world, &[agar]));
+    let mut inputs = Inputs::new();
+    inputs.set(cell, Intent::toward(Vec2::new(80.0, 45.0)).unwrap());
+    run(&mut world, &inputs, 900);
+    assert!(world.view().organism(cell).unwrap().meals().any(|(prey, _)| prey == agar), "it lies where it was");
+    assert_eq!(world.census().leaks, 0);
+}
+
+#[test]
+fn a_clone_of_a_sleeping_world_has_the_same_future() {
+    let (mut world, platelets) = field(WorldConfig::default());
+    run(&mut world, &Inputs::new(), 300);
+    let mut clone = world.clone();
+    assert!(are_calm(&clone, &platelets));
+    for world in [&mut world, &mut clone] {
+        probe(world, Vec2::new(45.0, 42.0), Vec2::new(90.0, 55.0));
+    }
+    for _ in 0..300 {
+        world.step(&Inputs::new());
+        clone.step(&Inputs::new());
+        assert_eq!(world.digest(), clone.digest());
+    }
+}
