@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 /// Steps before measuring starts: things have met by then.
 const WARM_UP: usize = 240;
+/// Steps after which 200 platelets are still again.
+const AT_REST: usize = 2400;
 /// Steps after which a measurement starts over from the same state, so that its length does not change what is measured.
 const STRETCH: u64 = 120;
 
@@ -21,10 +23,21 @@ pub fn scene(name: &str, overrides: &[(&str, &str)]) -> World {
     warmed_up(scenario.build().expect("the scenario can be built").world)
 }
 
-/// `platelets` with this many of them.
+/// `platelets` with this many of them, all awake.
 #[must_use]
 pub fn platelets(count: u32) -> World {
-    scene("platelets", &[("count", &count.to_string())])
+    scene("platelets", &[("count", &count.to_string()), ("world.sleeps", "false")])
+}
+
+/// `platelets` with this many of them, still again after the probe has passed.
+///
+/// # Panics
+/// When the scenario cannot be built.
+#[must_use]
+pub fn platelets_at_rest(count: u32) -> World {
+    let mut world = scene("platelets", &[("count", &count.to_string())]);
+    (WARM_UP..AT_REST).for_each(|_| world.step(&Inputs::new()));
+    world
 }
 
 /// The world some seconds later.

@@ -1,7 +1,7 @@
 //! Whole steps. The platelet counts up to 200 are those of the thesis, Table 4.1.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use microsim_benches::{platelets, scene, time_of_steps};
+use microsim_benches::{platelets, platelets_at_rest, scene, time_of_steps};
 use microsim_core::World;
 
 fn measure(criterion: &mut Criterion, name: &str, world: &World) {
@@ -15,6 +15,7 @@ fn step(criterion: &mut Criterion) {
     for count in [90, 120, 150, 200, 800] {
         measure(criterion, &format!("platelets/{count}"), &platelets(count));
     }
+    measure(criterion, "platelets/200 at rest", &platelets_at_rest(200));
     measure(criterion, "demo", &scene("demo", &[]));
     measure(criterion, "dam-break", &scene("dam-break", &[]));
 }

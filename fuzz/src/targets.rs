@@ -92,7 +92,7 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 }
 
 /// Of snapshots and checkpoints.
-const SNAPSHOT_VERSION: u32 = 2;
+const SNAPSHOT_VERSION: u32 = 3;
 
 /// The scenario of replays that are made up.
 pub(crate) const ROOM: &str = r#"

@@ -102,7 +102,8 @@ fn main() {
         .filter_map(|pair| pair.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned())))
         .collect();
     if name == "platelets" && overrides.is_empty() {
-        overrides.push(("count".to_owned(), "333".to_owned()));
+        let all_awake = [("count", "333"), ("world.sleeps", "false")];
+        overrides.extend(all_awake.map(|(key, value)| (key.to_owned(), value.to_owned())));
     }
     let text = builtin(&name).expect("a built-in scenario").text;
     let mut world = Scenario::parse(text, &overrides).unwrap().build().unwrap().world;

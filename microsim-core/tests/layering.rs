@@ -90,6 +90,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "inputs",
             "kind",
             "organism",
+            "parallel",
             "particle",
             "rng",
             "shared",

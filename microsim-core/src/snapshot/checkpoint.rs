@@ -8,7 +8,7 @@ use crate::scenario::{Built, Checks, Origin, Script};
 use crate::world::World;
 
 /// Changes with every change of a type that is part of a run, but not with one of a world.
-const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 2 };
+const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 3 };
 
 /// A run of a scenario that can be resumed: it goes on as if it had not been interrupted.
 #[derive(Clone, Debug)]

@@ -47,6 +47,7 @@ fn platelet_field(field: &PlateletField) -> Microsim {
         substeps: SUBSTEPS,
         damping: scene::DAMPING,
         max_speed: 30.0 * scene::Platelet::satellite_radius(),
+        sleeps: false,
         ..WorldConfig::default()
     };
     let mut world = World::new(config).expect("the configuration is valid");
