@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::error::{Error, ErrorKind, out_of_range};
-use crate::geometry::polygon::contains_point;
+use crate::geometry::polygon::{contains_point, signed_area};
 use crate::geometry::ring::unit_vector;
 use crate::id::OrganismId;
 use crate::organism::Organism;
@@ -15,6 +15,9 @@ use glam::Vec2;
 
 /// Angle between new particles in turns of the golden ratio, radians (Vogel 1979): they never fall on one line.
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
+/// So many times as much cytoplasm as it has room for at rest a membrane takes before it has had time to stretch: more tears
+/// at it faster than the substeps of a step can pass on.
+const MOST_CROWDED: f32 = 4.0;
 /// New particles lie this share of the spacing from their common centre, times the square root of their number.
 const CROWDING: f32 = 0.3;
 
@@ -24,8 +27,9 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane, the membrane could not go round so much cytoplasm, or the
-    /// world would hold too many particles. Nothing is changed then.
+    /// When the handle is stale, the organism has no membrane, the membrane could not go round so much cytoplasm or would at
+    /// first hold more than four times what it has room for, or the world would hold too many particles. Nothing is changed
+    /// then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         self.enlarge(id, nodes, particles)?;
         let grown = self.organisms.get_mut(id);
@@ -44,7 +48,7 @@ impl World {
         let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
         };
-        check_room(organism, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
+        check_room(organism, &self.particles, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
         }
@@ -55,14 +59,18 @@ impl World {
     }
 }
 
-/// Checks that a membrane with so many more nodes goes round so much more cytoplasm without a link at its limit.
-fn check_room(organism: &Organism, spacing: f32, nodes: u32, particles: u32) -> Result<(), Error> {
+/// Checks that a membrane with so many more nodes goes round so much more cytoplasm without a link at its limit, and that
+/// what it encloses now can take it at once.
+fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, particles: u32) -> Result<(), Error> {
     let Some(membrane) = organism.body.membrane() else { return Ok(()) };
     let longest = STRAIN_LIMIT * membrane.rest_length * (organism.outline.len() as f32 + nodes as f32);
     let radius = longest / std::f32::consts::TAU - membrane.node_radius;
-    let most = std::f32::consts::PI * radius * radius / rest_area(1, spacing);
+    let stretched = std::f32::consts::PI * radius * radius;
+    let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
+    let crowded = MOST_CROWDED * signed_area(&outline);
+    let most = if stretched < crowded { stretched } else { crowded } / rest_area(1, spacing);
     let count = organism.fluid_particles.len() as f32 + particles as f32;
-    let accepted = || format!("at most {} in all with {nodes} new nodes", most as u32);
+    let accepted = || format!("at most {} in all with {nodes} new nodes, now", most as u32);
     (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
 }
 
@@ -140,10 +148,10 @@ mod tests {
                 middle.y - p.origin_y[node as usize] + 0.05 * out.y,
             );
         }
-        world.grow(cell, 30, 300).unwrap();
+        world.grow(cell, 30, 140).unwrap();
         let outline: Vec<_> = world.view().organism(cell).unwrap().outline().collect();
         let organism = world.organisms.get(cell).unwrap();
-        let added = &organism.fluid_particles[organism.fluid_particles.len() - 300..];
+        let added = &organism.fluid_particles[organism.fluid_particles.len() - 140..];
         assert!(added.iter().all(|&i| contains_point(&outline, world.particles.position(i as usize))));
     }
 
@@ -153,6 +161,8 @@ mod tests {
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
         let before = world.digest();
         assert_eq!(world.grow(cell, 0, 400).unwrap_err().field(), "particles");
+        assert_eq!(world.digest(), before);
+        assert_eq!(world.grow(cell, 400, 2000).unwrap_err().field(), "particles", "all at once");
         assert_eq!(world.digest(), before);
         world.grow(cell, 40, 400).unwrap();
         for _ in 0..300 {
