@@ -3,6 +3,7 @@
 use super::atlas::{self, Tile};
 use crate::convert;
 use crate::window;
+use macroquad::camera::{pop_camera_state, push_camera_state};
 use macroquad::color::Color;
 use macroquad::models::{Mesh, draw_mesh};
 use macroquad::texture::Texture2D;
@@ -229,6 +230,7 @@ impl Canvas {
         let is_full = self.mesh.vertices.len() + vertices > MAX_VERTICES;
         if is_full || self.mesh.indices.len() + indices > MAX_INDICES {
             self.flush();
+            submit();
         }
     }
 
@@ -240,6 +242,12 @@ impl Canvas {
     fn triangle(&mut self, a: u16, b: u16, c: u16) {
         self.mesh.indices.extend([a, b, c]);
     }
+}
+
+/// Has macroquad draw what it holds, so that its buffers need not hold all of a frame: it does when a camera comes back.
+fn submit() {
+    push_camera_state();
+    pop_camera_state();
 }
 
 /// Unit normal at a point of a line, out of a counter-clockwise outline, in picture pixels.
