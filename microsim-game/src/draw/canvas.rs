@@ -3,6 +3,7 @@
 use super::atlas::{self, Tile};
 use crate::convert;
 use crate::window;
+use macroquad::camera::{pop_camera_state, push_camera_state};
 use macroquad::color::Color;
 use macroquad::models::{Mesh, draw_mesh};
 use macroquad::texture::Texture2D;
@@ -11,6 +12,8 @@ use std::fmt;
 
 /// Pieces of a whole ring.
 const ARC_STEPS: f32 = 40.0;
+/// Least radius of a ring's hole, pixels.
+const SMALLEST_HOLE: f32 = 1.0;
 /// Points of an outline that share their vertices with the next ones.
 const RUN: usize = 256;
 /// What a mesh may hold: macroquad cuts off one that fills a draw call to the brim.
@@ -122,8 +125,11 @@ impl Canvas {
         self.quad([from - half, from + half, to + half, to - half], [colour; 4]);
     }
 
-    /// A ring in as few pieces as look round, for many small ones.
+    /// A ring in as few pieces as look round, for many small ones; a disc where its hole would be lost in the pixels.
     pub(crate) fn circle(&mut self, centre: Vec2, radius: f32, width: f32, colour: Color) {
+        if radius - 0.5 * width < SMALLEST_HOLE {
+            return self.sprite(centre, radius + 0.5 * width, Tile::Disc, colour);
+        }
         let pieces = (4.0 + 2.0 * radius.max(0.0).sqrt()).min(16.0) as u16;
         let count = 2 * pieces;
         self.reserve(count.into(), 3 * usize::from(count));
@@ -229,6 +235,7 @@ impl Canvas {
         let is_full = self.mesh.vertices.len() + vertices > MAX_VERTICES;
         if is_full || self.mesh.indices.len() + indices > MAX_INDICES {
             self.flush();
+            submit();
         }
     }
 
@@ -242,6 +249,12 @@ impl Canvas {
     }
 }
 
+/// Has macroquad draw what it holds, so that its buffers need not hold all of a frame: it does when a camera comes back.
+fn submit() {
+    push_camera_state();
+    pop_camera_state();
+}
+
 /// Unit normal at a point of a line, out of a counter-clockwise outline, in picture pixels.
 fn outward(points: &[Vec2], k: usize, is_open: bool) -> Vec2 {
     let count = points.len();
@@ -251,4 +264,22 @@ fn outward(points: &[Vec2], k: usize, is_open: bool) -> Vec2 {
         ((k + count - 1) % count, (k + 1) % count)
     };
     (points[after] - points[before]).perp().normalize_or_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use macroquad::color::WHITE;
+
+    #[test]
+    fn rings_without_a_visible_hole_are_discs_of_the_same_reach() {
+        let places = |radius| {
+            let mut canvas = Canvas::bare();
+            canvas.circle(Vec2::ZERO, radius, 1.0, WHITE);
+            canvas.corners().map(|(at, ..)| at).collect::<Vec<_>>()
+        };
+        assert_eq!(places(1.25), [(-1.75, -1.75), (1.75, -1.75), (1.75, 1.75), (-1.75, 1.75)].map(Vec2::from));
+        let ring = places(8.0);
+        assert!(ring.len() > 8 && ring.iter().all(|at| (7.49..8.51).contains(&at.length())));
+    }
 }

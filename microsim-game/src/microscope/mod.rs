@@ -162,7 +162,7 @@ impl Renderer {
             mesh.fill(card, vertices, indices);
         }
         for (k, Map { size, texels }) in recipe.maps.iter().enumerate() {
-            // Filled anew: miniquad remembers every texture that it ever made, deleted or not.
+            // Filled anew, as targets are.
             match self.maps.get(k) {
                 Some(&map) => card.texture_resize(map, size[0].into(), size[1].into(), Some(texels)),
                 None => self.maps.push(targets::sharp(card, *size, texels)),

@@ -7,7 +7,7 @@ use macroquad::miniquad::{
 use microsim_core::microscope::recipe::Target;
 use std::collections::BTreeMap;
 
-/// One for each target, as long as its size is right.
+/// One for each target, as large as its last picture.
 #[derive(Default)]
 pub(super) struct Targets(BTreeMap<Target, Held>);
 
@@ -26,15 +26,16 @@ impl Targets {
         size: [u32; 2],
         is_float: bool,
     ) -> RenderPass {
-        if let Some(held) = self.0.get(&target) {
-            if held.size == size {
-                return held.pass;
+        let [width, height] = size;
+        if let Some(held) = self.0.get_mut(&target) {
+            if held.size != size {
+                // Not made anew: miniquad remembers every texture that it ever made, deleted or not.
+                card.texture_resize(held.texture, width, height, None);
+                held.size = size;
             }
-            // Its texture goes with it.
-            card.delete_render_pass(held.pass);
+            return held.pass;
         }
         let format = if is_float { TextureFormat::RGBA16F } else { TextureFormat::RGBA8 };
-        let [width, height] = size;
         let texture = card.new_render_texture(TextureParams { width, height, format, ..TextureParams::default() });
         let pass = card.new_render_pass(texture, None);
         self.0.insert(target, Held { size, texture, pass });
