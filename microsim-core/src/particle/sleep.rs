@@ -91,7 +91,7 @@ impl Sleep {
         for ((block, calm), _) in blocks.zip(calm).zip(asleep).filter(|(_, asleep)| !**asleep) {
             let moves = moving_lanes(block, particles, speed * speed);
             for (calm, moves) in calm.iter_mut().zip(moves) {
-                *calm = if moves { 0 } else { steps.min(*calm + 1) };
+                *calm = if moves { 0 } else { steps.min(calm.saturating_add(1)) };
             }
         }
     }
@@ -162,5 +162,13 @@ mod tests {
         particles.x[3] = 2.0;
         sleep.quieten([block].into_iter(), &mut particles);
         assert!(particles.vx.iter().all(|&v| v == 0.0) && particles.prev_x[3] == 2.0);
+    }
+
+    #[test]
+    fn no_count_that_a_file_may_have_overflows() {
+        let (block, particles) = block();
+        let mut sleep = Sleep { calm: vec![[u16::MAX; LANES]], asleep: vec![false] };
+        sleep.note([block].into_iter(), &particles, 0.5, 30);
+        assert!(sleep.is_calm(0, 30) && !sleep.is_calm(0, 31));
     }
 }
