@@ -2,23 +2,30 @@
 //! otherwise one after the other; the parts are the same either way and never depend on the number of threads, so neither
 //! do results.
 
-/// Does work with parts. If there is `much` of it, it goes to the pool as a whole, unless it is on one of its threads
+#[cfg(feature = "parallel")]
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Particles from which on threads are worth their trouble.
+#[cfg(feature = "parallel")]
+const LARGE: usize = 8192;
+
+/// Does work with parts. If it is on many particles, it goes to the pool as a whole, unless it is on one of its threads
 /// already: going there and back with each part would cost more than some parts do.
-pub(crate) fn enter(much: bool, work: impl FnOnce() + Send) {
+pub(crate) fn enter(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
-    if much && !is_inside() {
+    if particles > LARGE && !is_inside() {
         return rayon::scope(|_| work());
     }
-    let _ = much;
+    let _ = particles;
     work();
 }
 
-/// Does each part.
+/// Does each part. One at a time may be taken over by another thread: fewer would leave it waiting at the end.
 pub(crate) fn for_each<T: Send>(parts: Vec<T>, work: impl Fn(T) + Send + Sync) {
     #[cfg(feature = "parallel")]
     if parts.len() > 1 && is_inside() {
         use rayon::prelude::*;
-        return parts.into_par_iter().for_each(work);
+        return parts.into_par_iter().with_max_len(1).for_each(work);
     }
     parts.into_iter().for_each(work);
 }
@@ -28,13 +35,60 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
     #[cfg(feature = "parallel")]
     if parts.len() > 1 && is_inside() {
         use rayon::prelude::*;
-        return parts.into_par_iter().map(work).collect();
+        return parts.into_par_iter().with_max_len(1).map(work).collect();
     }
     parts.into_iter().map(work).collect()
+}
+
+/// Does work that has no parts. If it is on many particles, another thread is kept from falling asleep meanwhile: to be
+/// woken takes it longer than many parts take. The work must not use the pool.
+pub(crate) fn alone(particles: usize, work: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
+    if particles > LARGE && is_inside() {
+        let is_done = AtomicBool::new(false);
+        let worker = || {
+            let _end = SetAtEnd(&is_done);
+            work();
+        };
+        // Nobody waits before the work has begun, and the work waits for nobody: whichever thread waits, it ends.
+        let waiter = || {
+            while !is_done.load(Ordering::Acquire) {
+                std::thread::yield_now();
+            }
+        };
+        rayon::join(worker, waiter);
+        return;
+    }
+    let _ = particles;
+    work();
+}
+
+/// Sets a flag when it goes, in a panic too.
+#[cfg(feature = "parallel")]
+struct SetAtEnd<'a>(&'a AtomicBool);
+
+#[cfg(feature = "parallel")]
+impl Drop for SetAtEnd<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
 }
 
 /// Whether this is a thread of a pool.
 #[cfg(feature = "parallel")]
 fn is_inside() -> bool {
     rayon::current_thread_index().is_some()
+}
+
+#[cfg(all(test, feature = "parallel"))]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    #[test]
+    fn nobody_waits_for_work_that_has_panicked() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        let panicking = AssertUnwindSafe(|| alone(LARGE + 1, || panic!("on purpose")));
+        assert!(pool.install(|| catch_unwind(panicking)).is_err());
+    }
 }

@@ -6,6 +6,7 @@ use crate::collision::broad_phase::Surroundings;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
+use crate::parallel;
 use crate::particle::{BlockRange, outside_of};
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
@@ -77,7 +78,7 @@ impl Phase {
 
 pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
-    steer(world, inputs);
+    alone(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
     find_pairs(world);
     find_neighbours(world);
@@ -85,7 +86,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for _ in 0..world.config.substeps {
-        predict_positions(world, h);
+        alone(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
@@ -93,7 +94,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         project_constraints(world, h);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        project_contacts(world);
+        alone(world, project_contacts);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
@@ -108,6 +109,11 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     conclude(world);
     finished(Phase::Conclude);
     world.step_index += 1;
+}
+
+/// Does what no other thread takes part in.
+fn alone(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
+    parallel::alone(world.particles.len(), || phase(world));
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {

@@ -13,6 +13,7 @@ use super::filter::{Exemptions, Home};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, Contacts, ObstacleContact};
+use crate::parallel;
 use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
 use crate::shared::Shared;
@@ -133,9 +134,11 @@ impl BroadPhase {
                 _ => fluid.found.push(disc),
             }
         }
-        bodies.sort(size);
-        membranes.sort(size);
-        fluid.sort(size);
+        parallel::alone(p.len(), || {
+            bodies.sort(size);
+            membranes.sort(size);
+            fluid.sort(size);
+        });
     }
 
     fn find_obstacle_contacts(&mut self, around: Surroundings<'_>, sleep: &Sleep) {

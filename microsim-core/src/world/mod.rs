@@ -127,9 +127,6 @@ pub(crate) struct Scratch {
     pub impacts: Vec<Impact>,
 }
 
-/// Particles from which on threads are worth calling.
-const LARGE: usize = 8192;
-
 impl Clone for World {
     fn clone(&self) -> Self {
         let mut clone = Self::of(self.config.clone(), self.obstacles.clone());
@@ -219,8 +216,7 @@ impl World {
     /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
     /// measuring: the core itself reads no clock.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        let is_large = self.particles.len() > LARGE;
-        parallel::enter(is_large, || step::advance(self, inputs, &mut finished));
+        parallel::enter(self.particles.len(), || step::advance(self, inputs, &mut finished));
     }
 
     /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
