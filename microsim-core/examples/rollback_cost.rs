@@ -99,7 +99,7 @@ fn main() {
     let mut arguments = std::env::args().skip(1);
     let name = arguments.next().unwrap_or_else(|| "platelets".to_owned());
     let mut overrides: Vec<_> = arguments
-        .filter_map(|pair| pair.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned())))
+        .map(|pair| pair.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned())).expect("KEY=VALUE"))
         .collect();
     if name == "platelets" && overrides.is_empty() {
         let all_awake = [("count", "333"), ("world.sleeps", "false")];
