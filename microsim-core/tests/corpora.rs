@@ -8,10 +8,10 @@ mod sequence;
 #[path = "../../fuzz/src/targets.rs"]
 mod targets;
 
-use microsim_core::replay::Recorder;
+use microsim_core::replay::{Ending, Recorder, Replay};
 use microsim_core::scenario::{Scenario, builtins};
 use microsim_core::snapshot::Checkpoint;
-use microsim_core::{Inputs, Intent, glam::Vec2};
+use microsim_core::{Inputs, Intent, World, glam::Vec2};
 use std::fs;
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -47,6 +47,21 @@ fn sequences() {
     show("api", |bytes| {
         sequence::run(bytes).unwrap();
     });
+}
+
+/// What the corpora grow from is no rubbish to the present readers.
+#[test]
+fn seeds_are_accepted() {
+    let read = |target, name: &str| fs::read(folder(target).join(name)).unwrap().split_off(1);
+    for name in ["room", "small"] {
+        let [world, content, run, run_content] = [0, 1, 2, 3].map(|kind| read("snapshot", &format!("{name}-{kind}")));
+        World::from_snapshot(&world).unwrap();
+        World::from_snapshot(&targets::sealed(*b"MSIMWRLD", &content)).unwrap();
+        Checkpoint::from_bytes(&run).unwrap();
+        Checkpoint::from_bytes(&targets::sealed(*b"MSIMRUN\0", &run_content)).unwrap();
+    }
+    assert_eq!(Replay::read(&read("replay", "whole")).unwrap().ending(), Ending::Complete);
+    Scenario::parse(&fs::read_to_string(folder("scenario").join("small")).unwrap(), &[]).unwrap();
 }
 
 /// A small world with prey, obstacles, a furrow and a command.

@@ -5,10 +5,10 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Anchor, Area, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance, Error,
-    ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle, OrganismId,
-    OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder,
-    World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance,
+    Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle,
+    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template,
+    TemplateBuilder, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -72,6 +72,11 @@ fn spec_error(spec: impl Into<OrganismSpec>) -> Error {
     spec.into().validate().unwrap_err()
 }
 
+/// A cell with a front that has no opposite.
+fn odd_cell() -> OrganismSpec {
+    RigidCellSpec { satellites: 9, ..RigidCellSpec::default() }.into()
+}
+
 /// Building two discs and something else.
 fn build(change: fn(&mut TemplateBuilder)) -> Error {
     let mut builder = Template::builder();
@@ -114,10 +119,13 @@ const CASES: &[Case] = &[
     ("OrganismSpec::validate", "OutOfRange", "mass", |_| spec_error(ProbeSpec { mass: f32::NAN, ..ProbeSpec::default() })),
     ("OrganismSpec::validate", "OutOfRange", "chord_damping", |_| spec_error(RedCellSpec { chord_damping: 11.0, ..RedCellSpec::default() })),
     ("OrganismSpec::validate", "OutOfRange", "layers", |_| spec_error(RigidCellSpec { layers: 3, ..RigidCellSpec::default() })),
-    ("OrganismSpec::validate", "Unsupported", "satellites", |_| spec_error(RigidCellSpec { satellites: 9, ..RigidCellSpec::default() })),
+    ("OrganismSpec::validate", "Unsupported", "satellites", |_| odd_cell().validate().unwrap_err()),
     ("OrganismSpec::validate", "OutOfRange", "size.y", |_| spec_error(FluidBlockSpec { size: Vec2::X * 5.0, ..FluidBlockSpec::default() })),
     ("OrganismSpec::validate", "OutOfRange", "node_radius", |_| spec_error(AmoeboidCellSpec { node_radius: 0.0, ..AmoeboidCellSpec::default() })),
     ("OrganismSpec::particle_count", "OutOfRange", "radius", |_| OrganismSpec::from(AgarSpec { radius: -1.0, ..AgarSpec::default() }).particle_count().unwrap_err()),
+    ("OrganismSpec::particle_count", "Unsupported", "satellites", |_| odd_cell().particle_count().unwrap_err()),
+    ("OrganismSpec::extent", "Unsupported", "satellites", |_| odd_cell().extent().unwrap_err()),
+    ("OrganismSpec::validate", "OutOfRange", "speed", |_| spec_error(BacillusSpec { speed: -1.0, ..BacillusSpec::default() })),
     ("OrganismSpec::extent", "OutOfRange", "radius", |_| OrganismSpec::from(AgarSpec { radius: -1.0, ..AgarSpec::default() }).extent().unwrap_err()),
     ("World::spawn", "OutOfRange", "radius", |r| r.spawn(AgarSpec { radius: 0.0, ..AgarSpec::default() }, AT(9.0, 9.0))),
     ("World::spawn", "OutOfRange", "angle", |r| r.spawn(AgarSpec::default(), AT(9.0, 9.0).turned(f32::INFINITY))),
@@ -135,6 +143,10 @@ const CASES: &[Case] = &[
     ("World::spawn_template", "BadReference", "controller.through", |r| {
         let id = r.single();
         r.world.spawn_template(id, AT(9.0, 9.0).steered_by(Controller::patrol(vec![], true))).unwrap_err()
+    }),
+    ("World::spawn_template", "Unsupported", "controller", |r| {
+        let id = r.single();
+        r.world.spawn_template(id, AT(9.0, 9.0).steered_by(Controller::thrash(1.0, 0.5))).unwrap_err()
     }),
     ("World::spawn_template", "OutsideWorld", "at", Room::spawn_wide),
     ("World::spawn_template", "Overlap", "at", |r| { let id = r.single(); r.world.spawn_template(id, AT(30.0, 30.0)).unwrap_err() }),

@@ -5,6 +5,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 #![cfg(feature = "microscope")]
 
+use microsim_core::microscope::recipe::Card;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
@@ -151,6 +152,12 @@ fn absurd_sizes_and_films_are_refused_by_name() {
     assert_eq!(refused(microscope, Field { width: -1.0, ..EVERYTHING }), "width");
     let film = Film { grain: f32::NAN, ..Film::CINE };
     assert_eq!(refused(Microscope { film, ..microscope }, EVERYTHING), "film.grain");
+    let refused = |microscope: Microscope, field: Field, card: Card| {
+        microscope.recipe(world.view(), field, card).unwrap_err().field().to_owned()
+    };
+    assert_eq!(refused(microscope, Field { width: -1.0, ..EVERYTHING }, Card::FULL), "width");
+    assert_eq!(refused(Microscope { film, ..microscope }, EVERYTHING, Card::FULL), "film.grain");
+    assert_eq!(refused(microscope, EVERYTHING, Card { detail: 0.0, ..Card::FULL }), "card.detail");
 }
 
 /// Largest change of a small patch between two pictures: 2 x 2 pixels, so that grain does not count.

@@ -8,6 +8,7 @@ use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_core::{Inputs, Intent, Kind, OrganismId, Rng, World};
 use serde::{Deserialize, Serialize};
+use std::panic::catch_unwind;
 
 /// Steps that are taken back and repeated after each step.
 const DISTANCE: usize = 8;
@@ -51,6 +52,11 @@ fn inputs(cells: &[OrganismId], told: &[Told]) -> Inputs {
 
 /// Runs `demo`; the session compares the digest of every step with those of its repetitions.
 fn synchronise(steps: u32, seed: u64) -> World {
+    synchronise_through(steps, seed, |_| {})
+}
+
+/// The same with something done to every world that is restored.
+fn synchronise_through(steps: u32, seed: u64, alter: fn(&mut World)) -> World {
     let mut world = Scenario::parse(builtin("demo").unwrap().text, &[]).unwrap().build().unwrap().world;
     let is_player = |id: &OrganismId| matches!(world.kind(*id), Some(Kind::AmoeboidCell | Kind::RigidCell));
     let cells: Vec<OrganismId> = world.organisms().filter(is_player).take(PLAYERS).collect();
@@ -71,6 +77,7 @@ fn synchronise(steps: u32, seed: u64) -> World {
                 }
                 GgrsRequest::LoadGameState { cell, .. } => {
                     world = World::from_snapshot(&cell.load().unwrap()).unwrap();
+                    alter(&mut world);
                 }
                 GgrsRequest::AdvanceFrame { inputs: given } => {
                     let given: Vec<Told> = given.into_iter().map(|(told, _)| told).collect();
@@ -80,6 +87,14 @@ fn synchronise(steps: u32, seed: u64) -> World {
         }
     }
     world
+}
+
+/// A world that goes on otherwise after it was taken back is noticed: else the other tests could not fail.
+#[test]
+fn what_is_not_taken_back_is_noticed() {
+    let altered =
+        catch_unwind(|| synchronise_through(60, 1, |world| _ = world.push(world.organisms().next().unwrap(), Vec2::X)));
+    assert!(altered.is_err());
 }
 
 #[test]

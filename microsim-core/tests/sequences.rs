@@ -1,6 +1,7 @@
 //! Random sequences of API calls: nothing panics, and the world stays valid.
 //!
-//! `MICROSIM_SEQUENCES=10000 cargo test --release -p microsim-core --test sequences` for more of them.
+//! `MICROSIM_SEQUENCES=10000 cargo test --release -p microsim-core --features snapshot --test sequences` for more of them.
+#![cfg(feature = "snapshot")]
 #![allow(clippy::disallowed_methods, reason = "how many sequences there are is asked of the environment")]
 
 #[path = "common/sequence.rs"]

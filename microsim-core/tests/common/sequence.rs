@@ -1,16 +1,17 @@
 //! Random sequences of calls of the public API, spelt by bytes: for property tests and for fuzzing.
 //!
 //! Whatever the bytes are, no call panics, the world is valid after each, a call that is refused has changed nothing, and
-//! what was stepped from a clone can be had again.
+//! what was stepped from a clone or read from a snapshot can be had again.
 #![allow(dead_code, reason = "each user needs its part")]
 
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Error, Exchange,
-    FluidBlockSpec, FluidMode, FluidParams, IngestionWay, Inputs, InstructionSet, Intent, Measure, Node, Obstacle,
-    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Template, TemplateId,
-    World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, AvoidanceParams, BacillusSpec, BrownianParams, ChemicalId, ChemicalSpec,
+    ChemotaxisParams, CoccusSpec, Controller, Error, Exchange, FleeParams, FluidBlockSpec, FluidMode, FluidParams,
+    IngestionWay, Inputs, InstructionSet, Intent, Measure, Node, Obstacle, OrganismId, OrganismSpec,
+    PersistentWalkParams, Placement, PlateletSpec, ProbeSpec, PursueParams, RedCellSpec, RigidCellSpec,
+    RunAndTumbleParams, Template, TemplateId, World, WorldConfig,
 };
 
 /// Most calls and steps of a sequence.
@@ -150,7 +151,11 @@ impl Sequence<'_> {
             24 => ("queries", self.ask()),
             25 => ("push", self.push()),
             26 => ("set_exchange", self.set_exchange()),
-            _ => ("set_instruction_set", self.set_instruction_set()),
+            _ => match self.choices.below(8) {
+                which @ 0..=3 => ("set_instruction_set", self.set_instruction_set(which % 2 == 1)),
+                4..=5 => ("snapshot", self.write_and_read()),
+                _ => ("set_controller", self.set_controller()),
+            },
         }
     }
 
@@ -378,8 +383,50 @@ impl Sequence<'_> {
         Ok(())
     }
 
-    fn set_instruction_set(&mut self) -> Result<(), Error> {
-        let set = if self.choices.is_so() { InstructionSet::Best } else { InstructionSet::Baseline };
+    /// Goes on with what is read of what the world is written as.
+    fn write_and_read(&mut self) -> Result<(), Error> {
+        let bytes = self.world.to_snapshot().expect("all obstacles have a record");
+        let mut read = World::from_snapshot(&bytes).expect("what was written can be read");
+        assert_eq!(read.digest(), self.world.digest(), "what was read is not what was written");
+        [&mut read, &mut self.world].into_iter().for_each(|world| world.step(&self.inputs));
+        assert_eq!(read.digest(), self.world.digest(), "what was read goes on otherwise");
+        self.world = read;
+        Ok(())
+    }
+
+    fn set_controller(&mut self) -> Result<(), Error> {
+        let (Some(id), chemical) = (self.handle(), self.chemicals.first().copied()) else { return Ok(()) };
+        let c = &mut self.choices;
+        let seconds = [c.number(0.05, 0.5), c.number(0.5, 1.0)];
+        let controller = match (c.below(8), chemical) {
+            (0, _) => Controller::persistent_walk(PersistentWalkParams { persistence: seconds[0] }),
+            (1, _) => Controller::brownian(BrownianParams { diffusion: c.number(0.1, 50.0), interval: seconds[0] }),
+            (2, _) => Controller::avoidance(AvoidanceParams { back: seconds, ..AvoidanceParams::default() }),
+            (3, _) => Controller::run_and_tumble(RunAndTumbleParams {
+                run: seconds[0],
+                tumble: seconds[1],
+                chemical,
+                ..RunAndTumbleParams::default()
+            }),
+            (4, _) => {
+                Controller::flee(FleeParams { within: c.number(1.0, 30.0), ..FleeParams::default() }, Controller::Still)
+            }
+            (5, _) => Controller::pursue(
+                PursueParams { within: c.number(1.0, 30.0), ..PursueParams::default() },
+                Controller::Still,
+            ),
+            (6, Some(chemical)) => Controller::chemotaxis(ChemotaxisParams {
+                noise: c.number(0.0, 1.0),
+                interval: seconds[0],
+                ..ChemotaxisParams::towards(chemical)
+            }),
+            _ => Controller::wander(seconds, 0.5),
+        };
+        self.world.set_controller(id, controller)
+    }
+
+    fn set_instruction_set(&mut self, best: bool) -> Result<(), Error> {
+        let set = if best { InstructionSet::Best } else { InstructionSet::Baseline };
         self.world.set_instruction_set(set);
         Ok(())
     }
