@@ -4,9 +4,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::particle::Particles;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, Event, FluidBlockSpec, IngestionWay, Inputs, Intent,
-    OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
-    World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Event, FluidBlockSpec, IngestionWay, Inputs,
+    Intent, Node, OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, RedCellSpec,
+    RigidCellSpec, Template, World, WorldConfig, glam::Vec2,
 };
 
 type Poison = fn(&mut Particles, usize);
@@ -27,6 +27,15 @@ const POISONS: [(&str, Poison, bool); 11] = [
     ("radius negative", |p, i| p.radius[i] = -1.0, false),
 ];
 
+/// Two linked discs, of a template that the library does not know.
+fn spawn_custom(world: &mut World, x: f32, y: f32) {
+    let mut builder = Template::builder();
+    let [a, b] = [-1.0, 1.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.6)));
+    builder.link(a, b, 0.0);
+    let template = world.add_template(builder.build().unwrap());
+    world.spawn_template(template, Placement::at(x, y)).unwrap();
+}
+
 /// One of each kind, near enough to touch each other soon, all on the move.
 fn crowd() -> World {
     let mut world = World::new(WorldConfig::default()).unwrap();
@@ -42,7 +51,9 @@ fn crowd() -> World {
     spawn(ProbeSpec::default().into(), 60.0, 28.0);
     spawn(RedCellSpec::default().into(), 76.0, 31.0);
     spawn(CoccusSpec::default().into(), 74.0, 38.0);
+    spawn(BacillusSpec::default().into(), 46.5, 45.0);
     spawn(FluidBlockSpec { size: Vec2::splat(8.0), ..FluidBlockSpec::default() }.into(), 100.0, 45.0);
+    spawn_custom(&mut world, 49.0, 54.0);
     (0..30).for_each(|_| world.step(&Inputs::new()));
     world
 }
@@ -82,6 +93,42 @@ fn every_kind_with_every_number_broken() {
             for k in [0, 40] {
                 let what = format!("{:?}, particle {k}", sound.kind(id).unwrap());
                 break_and_step(&mut sound.clone(), id, k, poison, &what);
+            }
+        }
+    }
+}
+
+/// One of each kind that can sleep, and a second platelet in the block of the first, all asleep.
+fn dormitory() -> World {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let sleepers: [OrganismSpec; 8] = [
+        PlateletSpec::default().into(),
+        PlateletSpec::default().into(),
+        RigidCellSpec::default().into(),
+        AgarSpec::default().into(),
+        ProbeSpec::default().into(),
+        RedCellSpec::default().into(),
+        CoccusSpec::default().into(),
+        BacillusSpec::default().into(),
+    ];
+    for (k, spec) in sleepers.iter().enumerate() {
+        world.spawn(spec, Placement::at(20.0 + 15.0 * k as f32, 45.0)).unwrap();
+    }
+    spawn_custom(&mut world, 140.0, 45.0);
+    (0..300).for_each(|_| world.step(&Inputs::new()));
+    world
+}
+
+#[test]
+fn every_sleeper_with_every_number_broken() {
+    let sound = dormitory();
+    for id in sound.organisms() {
+        let kind = sound.kind(id).unwrap();
+        let lane = sound.organisms.get(id).unwrap().body.lane(&sound.blocks);
+        assert!(lane.is_some_and(|(block, _)| sound.sleep.is_asleep(block)), "{kind:?} is awake");
+        for poison in POISONS {
+            for k in [0, 40] {
+                break_and_step(&mut sound.clone(), id, k, poison, &format!("{kind:?} asleep, particle {k}"));
             }
         }
     }

@@ -137,3 +137,6 @@ fn check_pairs(world: &World) -> Check {
     let wrong = touching.iter().find(|(a, b)| a.index >= b.index || !was_given(*a) || !was_given(*b));
     wrong.map_or(Ok(()), |pair| Err(none.violation(format!("{pair:?} touch, which are not two organisms"))))
 }
+
+#[cfg(test)]
+mod tests;
