@@ -2,17 +2,19 @@
 
 use crate::console::stdout;
 use crate::failure::Failure;
-use crate::saved::{Saved, play};
+use crate::saved::{Playing, Saved};
 use microsim_core::World;
-use microsim_core::replay::Player;
+use microsim_core::snapshot::Checkpoint;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `diff`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Two replays are played side by side up to the first step after which their worlds differ; a replay and a snapshot or\n\
-checkpoint are compared at the step of the latter. The exit code is 0 if nothing differs and 1 if something does."
+checkpoint are compared at the step of the latter. Of two checkpoints the player, names, script and checks are compared\n\
+too, but not the texts of their scenarios. The exit code is 0 if nothing differs and 1 if something does, or if a replay\n\
+is not the run that was recorded: its first digest that differs is named on stderr."
 )]
 pub(crate) struct DiffArgs {
     /// A snapshot, a checkpoint or a replay
@@ -23,44 +25,82 @@ pub(crate) struct DiffArgs {
     pub other: PathBuf,
 }
 
+/// What came of a comparison.
+#[derive(Debug)]
+struct Outcome {
+    difference: Option<String>,
+    /// In what nothing differs, if nothing does.
+    compared: &'static str,
+    /// Where replays are not what was recorded.
+    mismatches: Vec<String>,
+}
+
 /// Compares two files and says where they differ.
 pub(crate) fn diff(args: &DiffArgs) -> Result<(), Failure> {
-    let (one, other) = (Saved::read(&args.one)?, Saved::read(&args.other)?);
-    let found = match (&one, &other) {
-        (Saved::Replay(a), Saved::Replay(b)) => compare_runs(&mut play(a, &args.one)?, &mut play(b, &args.other)?),
-        _ => {
-            let step = one.step().or(other.step()).unwrap_or_default();
-            compare(&one.world_at(step, &args.one)?, &other.world_at(step, &args.other)?)
+    let outcome = match (Saved::read(&args.one)?, Saved::read(&args.other)?) {
+        (Saved::Replay(one), Saved::Replay(other)) => {
+            compare_replays(Playing::start(&one, &args.one)?, Playing::start(&other, &args.other)?)
         }
+        (Saved::Run(one), Saved::Run(other)) => compare_checkpoints(&one, &other),
+        (one, other) => compare_worlds((one, args.one.as_path()), (other, args.other.as_path()))?,
     };
-    let mut out = stdout();
-    writeln!(out, "{}", found.as_deref().unwrap_or("no difference"))?;
-    out.flush()?;
-    // What differs is a result, on stdout; the exit code says that something does.
-    found.map_or(Ok(()), |_| Err(Failure::Broken(Vec::new())))
+    outcome.tell()
+}
+
+impl Outcome {
+    /// What differs is a result, on stdout; the exit code says that something does, or that a replay is not what it was.
+    fn tell(self) -> Result<(), Failure> {
+        let Self { difference, compared, mismatches } = self;
+        let is_equal = difference.is_none() && mismatches.is_empty();
+        let as_played = if mismatches.is_empty() { "" } else { ", as played now" };
+        let mut out = stdout();
+        writeln!(out, "{}", difference.unwrap_or_else(|| format!("no difference{compared}{as_played}")))?;
+        out.flush()?;
+        if is_equal { Ok(()) } else { Err(Failure::Broken(mismatches)) }
+    }
+}
+
+fn compare_replays(mut one: Playing<'_>, mut other: Playing<'_>) -> Outcome {
+    let difference = first_difference_of_runs(&mut one, &mut other);
+    let mismatches = [one, other].iter().filter_map(Playing::mismatch).collect();
+    Outcome { difference, compared: "", mismatches }
+}
+
+fn compare_checkpoints(one: &Checkpoint, other: &Checkpoint) -> Outcome {
+    let world = &one.run.world;
+    let beside = || Some(format!("step {}: not the same {}", world.step_index(), one.difference_beside_worlds(other)?));
+    let difference = first_difference(world, &other.run.world).or_else(beside);
+    Outcome { difference, compared: " in world, player, names, script and checks", mismatches: Vec::new() }
+}
+
+/// Compares the worlds of two files at the step of the one that has a single step.
+fn compare_worlds(one: (Saved, &Path), other: (Saved, &Path)) -> Result<Outcome, Failure> {
+    let step = one.0.step().or(other.0.step()).unwrap_or_default();
+    let (one, mismatch) = one.0.world_at(step, one.1)?;
+    let (other, mismatch_of_other) = other.0.world_at(step, other.1)?;
+    let mismatches = mismatch.into_iter().chain(mismatch_of_other).collect();
+    Ok(Outcome { difference: first_difference(&one, &other), compared: " in the world", mismatches })
 }
 
 /// The first difference between two worlds, with the step.
-fn compare(one: &World, other: &World) -> Option<String> {
+fn first_difference(one: &World, other: &World) -> Option<String> {
     let difference = one.first_difference(other)?;
     Some(format!("step {}: {difference}", one.step_index()))
 }
 
 /// Plays two replays side by side, up to the first difference.
-fn compare_runs(one: &mut Player, other: &mut Player) -> Option<String> {
+fn first_difference_of_runs(one: &mut Playing<'_>, other: &mut Playing<'_>) -> Option<String> {
     loop {
         if one.world().digest() != other.world().digest() {
-            return compare(one.world(), other.world());
+            return first_difference(one.world(), other.world());
         }
-        match (one.next(), other.next()) {
-            (Some(_), Some(_)) => {}
-            (None, None) => return None,
-            (longer, _) => {
-                let ended = if longer.is_some() { "second" } else { "first" };
-                return Some(format!(
-                    "step {}: the {ended} replay ends",
-                    one.world().step_index().min(other.world().step_index())
-                ));
+        match (one.step(), other.step()) {
+            (true, true) => {}
+            (false, false) => return None,
+            (is_longer, _) => {
+                let ended = if is_longer { "second" } else { "first" };
+                let step = one.world().step_index().min(other.world().step_index());
+                return Some(format!("step {step}: the {ended} replay ends"));
             }
         }
     }

@@ -4,10 +4,10 @@ use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::saved::{play, read_replay};
-use microsim_core::replay::{Ending, Player, Replay};
+use microsim_core::replay::{Ending, Mismatch, Player, Replay};
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `replay`.
 #[derive(Debug, clap::Args)]
@@ -45,7 +45,7 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
         bar.inc(1);
         if let Err(mismatch) = played {
             bar.finish_and_clear();
-            return Err(Failure::Broken(vec![format!("{}: {mismatch}{}", args.file.display(), recorded_by(&replay))]));
+            return Err(Failure::Broken(vec![in_words(&mismatch, &replay, &args.file)]));
         }
         if interrupt::is_asked() {
             return Err(Failure::Interrupted);
@@ -64,6 +64,11 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
             Err(Failure::Message(text))
         }
     }
+}
+
+/// Where a replay is not what was recorded.
+pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> String {
+    format!("{}: {mismatch}{}", path.display(), recorded_by(replay))
 }
 
 /// A hint where another version has recorded it.

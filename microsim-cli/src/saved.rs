@@ -2,9 +2,10 @@
 
 use crate::checkpoint;
 use crate::failure::Failure;
+use crate::replay::in_words;
 use crate::source::Source;
 use microsim_core::World;
-use microsim_core::replay::{Player, Replay, ReplayError};
+use microsim_core::replay::{Mismatch, Player, Replay, ReplayError};
 use microsim_core::snapshot::{Checkpoint, SnapshotError};
 use std::fs;
 use std::path::Path;
@@ -46,17 +47,48 @@ impl Saved {
         }
     }
 
-    /// Its world; that of a replay after so many steps, or at its end.
-    pub(crate) fn world_at(self, step: u64, path: &Path) -> Result<World, Failure> {
+    /// Its world; that of a replay after so many steps, or at its end, and where it was not what was recorded until then.
+    pub(crate) fn world_at(self, step: u64, path: &Path) -> Result<(World, Option<String>), Failure> {
         match self {
-            Self::World(world) => Ok(*world),
-            Self::Run(checkpoint) => Ok(checkpoint.run.world),
+            Self::World(world) => Ok((*world, None)),
+            Self::Run(checkpoint) => Ok((checkpoint.run.world, None)),
             Self::Replay(replay) => {
-                let mut player = play(&replay, path)?;
-                while player.world().step_index() < step && player.next().is_some() {}
-                Ok(player.world().clone())
+                let mut playing = Playing::start(&replay, path)?;
+                while playing.world().step_index() < step && playing.step() {}
+                Ok((playing.world().clone(), playing.mismatch()))
             }
         }
+    }
+}
+
+/// A replay that is played to its end, also where it is not what was recorded.
+#[derive(Debug)]
+pub(crate) struct Playing<'a> {
+    player: Player,
+    replay: &'a Replay,
+    path: &'a Path,
+    first: Option<Mismatch>,
+}
+
+impl<'a> Playing<'a> {
+    pub(crate) fn start(replay: &'a Replay, path: &'a Path) -> Result<Self, Failure> {
+        Ok(Self { player: play(replay, path)?, replay, path, first: None })
+    }
+
+    pub(crate) fn world(&self) -> &World {
+        self.player.world()
+    }
+
+    /// Takes a step; `false` at the end.
+    pub(crate) fn step(&mut self) -> bool {
+        let played = self.player.next();
+        self.first = self.first.or(played.and_then(Result::err));
+        played.is_some()
+    }
+
+    /// Where it first was not what was recorded.
+    pub(crate) fn mismatch(&self) -> Option<String> {
+        self.first.map(|mismatch| in_words(&mismatch, self.replay, self.path))
     }
 }
 

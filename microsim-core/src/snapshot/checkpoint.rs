@@ -45,4 +45,21 @@ impl Checkpoint {
         let script = script.ok_or_else(|| invalid("the scenario has other organisms to come".to_owned()))?;
         Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game } })
     }
+
+    /// What two runs do not share beside their worlds, if anything, in a word: the player, the names of organisms, the
+    /// script with the organisms that are to come, or the checks. What the scenarios were read from is not compared.
+    #[must_use]
+    pub fn difference_beside_worlds(&self, other: &Self) -> Option<&'static str> {
+        let parts = |Built { player, named, script, checks, .. }: &Built| {
+            let supplies: Vec<_> = script.supply_states().collect();
+            [
+                ("player", encode(player)),
+                ("names", encode(named)),
+                ("script", encode(&(script, supplies))),
+                ("checks", encode(checks)),
+            ]
+        };
+        let mut pairs = parts(&self.run).into_iter().zip(parts(&other.run));
+        pairs.find(|(one, other)| one != other).map(|((name, _), _)| name)
+    }
 }
