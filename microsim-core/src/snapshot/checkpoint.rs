@@ -8,7 +8,11 @@ use crate::scenario::{Built, Checks, Origin, Script};
 use crate::world::World;
 
 /// Changes with every change of a type that is part of a run, but not with one of a world.
-const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 3 };
+pub(super) const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 3 };
+
+/// What a checkpoint holds; the world as a snapshot.
+pub(super) type Content =
+    (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SupplyState>, Checks, Vec<u8>);
 
 /// A run of a scenario that can be resumed: it goes on as if it had not been interrupted.
 #[derive(Clone, Debug)]
@@ -35,8 +39,6 @@ impl Checkpoint {
     /// # Errors
     /// As for [`World::from_snapshot`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        type Content =
-            (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SupplyState>, Checks, Vec<u8>);
         let (origin, player, named, script, supplies, checks, world): Content = decode(RUN.open(bytes)?)?;
         let world = World::from_snapshot(&world)?;
         let built = origin.scenario().and_then(|scenario| scenario.build());

@@ -35,6 +35,9 @@ use std::fmt;
 /// Changes with every change of a type that is part of a world.
 const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 3 };
 
+/// What a snapshot of a world holds.
+type Content = (Vec<ObstacleRecord>, State);
+
 /// Why bytes are no snapshot, or why there cannot be one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -112,7 +115,7 @@ impl World {
     /// When the bytes are not what [`World::to_snapshot`] wrote, see [`SnapshotError`]. Nothing in them is trusted: what is
     /// returned can be stepped.
     pub fn from_snapshot(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        let (records, state): (Vec<ObstacleRecord>, State) = decode(WORLD.open(bytes)?)?;
+        let (records, state): Content = decode(WORLD.open(bytes)?)?;
         let obstacle = |(k, record): (usize, ObstacleRecord)| {
             record.restore().ok_or_else(|| invalid(format!("obstacles[{k}]: no shape")))
         };
@@ -133,6 +136,10 @@ fn decode<T: DeserializeOwned>(content: &[u8]) -> Result<T, SnapshotError> {
     }
 }
 
+#[cfg(test)]
+mod busy;
+#[cfg(test)]
+mod layout;
 #[cfg(test)]
 mod tests;
 

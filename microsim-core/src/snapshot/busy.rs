@@ -1,0 +1,125 @@
+//! A world in the midst of what its organisms do: the state that most of them do not have most of the time.
+
+use crate::capability::phagocytosis::MealPhase;
+use crate::{
+    AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
+    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, Kind, Node, Obstacle, OrganismId,
+    PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, World,
+    WorldConfig,
+};
+use glam::Vec2;
+use parry2d::math::Pose;
+use parry2d::shape::SharedShape;
+
+/// Meals in every phase, a furrow, orders, all controllers, an exchange, and everything that can happen in a step.
+pub(super) fn world() -> World {
+    let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
+    let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
+    steer(&mut world, chemical);
+    cage(&mut world, chemical);
+    roped(&mut world);
+    let cells = [(24.0, 30.0), (64.0, 30.0), (104.0, 30.0), (140.0, 30.0)].map(|(x, y)| cell(&mut world, x, y));
+    let [eater, taker, toucher, divider] = cells;
+    dine(&mut world, cells);
+    world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
+    world.divide_along(toucher, Vec2::X).unwrap();
+    world.fuse(taker, divider).unwrap();
+    world.events = events(eater, divider);
+    world
+}
+
+/// A cell that is large enough for a cup.
+fn cell(world: &mut World, x: f32, y: f32) -> OrganismId {
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(10.0), ..AmoeboidCellSpec::default() };
+    world.spawn(&spec.into(), Placement::at(x, y)).unwrap()
+}
+
+/// One small organism for each controller.
+fn steer(world: &mut World, chemical: ChemicalId) {
+    let run = RunAndTumbleParams { chemical: Some(chemical), ..RunAndTumbleParams::default() };
+    let controllers = [
+        Controller::wander([0.1, 0.2], 0.3),
+        Controller::patrol(vec![Vec2::splat(9.0), Vec2::splat(60.0)], true),
+        Controller::thrash(0.2, 0.5),
+        Controller::ram(0.3, 0.3, 12.0),
+        Controller::persistent_walk(PersistentWalkParams::default()),
+        Controller::run_and_tumble(run),
+        Controller::brownian(BrownianParams::default()),
+        Controller::avoidance(AvoidanceParams::default()),
+        Controller::flee(FleeParams::default(), Controller::Still),
+        Controller::pursue(PursueParams::default(), Controller::Still),
+    ];
+    let place = |k: usize| Placement::at(10.0 + 10.0 * k as f32, 70.0);
+    let mut spawn = |(k, controller): (usize, Controller)| {
+        world.spawn(&CoccusSpec::default().into(), place(k).steered_by(controller)).unwrap()
+    };
+    let ids: Vec<_> = controllers.into_iter().enumerate().map(&mut spawn).collect();
+    world.set_exempt(ids[0], ids[1], true).unwrap();
+}
+
+/// One that smells something and is stuck.
+fn cage(world: &mut World, chemical: ChemicalId) {
+    let [a, b] = [Vec2::new(4.3, 2.8), Vec2::new(4.3, -2.8)];
+    let bars = SharedShape::polyline(vec![a, b, -a, -b], Some(vec![[0, 1], [1, 2], [2, 3], [3, 0]]));
+    world.add_obstacle(Obstacle::new(bars, Pose::translation(140.0, 75.0))).unwrap();
+    let nose = ChemotaxisParams { threshold: 0.0, ..ChemotaxisParams::towards(chemical) };
+    let spec = RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() };
+    world.spawn(&spec.into(), Placement::at(140.0, 75.0).steered_by(Controller::chemotaxis(nose))).unwrap();
+}
+
+/// A body of an embedder's own.
+fn roped(world: &mut World) {
+    let mut builder = Template::builder();
+    let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    builder.rope(Rope { a, b, max_length: 3.0 });
+    let template = world.add_template(builder.build().unwrap());
+    world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
+}
+
+/// Lets cells eat until the first one digests, the next one takes in, the third one touches and the last one divides.
+fn dine(world: &mut World, [eater, taker, toucher, divider]: [OrganismId; 4]) {
+    let agar = AgarSpec::default().into();
+    let mut inputs = Inputs::new();
+    let serve = |world: &mut World, inputs: &mut Inputs, cell: OrganismId| {
+        let at = world.centroid(cell).unwrap();
+        world.spawn(&agar, Placement::at(at.x + 13.0, at.y)).unwrap();
+        inputs.set(cell, Intent::toward(at + 40.0 * Vec2::X).unwrap());
+    };
+    serve(world, &mut inputs, eater);
+    step_until(world, &inputs, |world| phase(world, eater) == Some(MealPhase::Ingested));
+    serve(world, &mut inputs, taker);
+    world.divide(divider).unwrap();
+    step_until(world, &inputs, |world| matches!(phase(world, taker), Some(MealPhase::Ingesting(_))));
+    serve(world, &mut inputs, toucher);
+    inputs.set(eater, Intent::REST.digesting(true));
+    step_until(world, &inputs, |world| matches!(phase(world, toucher), Some(MealPhase::Touching(_))));
+}
+
+fn step_until(world: &mut World, inputs: &Inputs, is_so: impl Fn(&World) -> bool) {
+    assert!((0..400).any(|_| (world.step(inputs), is_so(world)).1));
+}
+
+fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
+    world.organisms.get(cell)?.engulfer.as_ref()?.meals.first().map(|meal| meal.phase)
+}
+
+/// One of each kind.
+fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
+    let reason = Refusal::FurrowOpen;
+    vec![
+        Event::ContactBegan { a, b },
+        Event::ContactEnded { a, b },
+        Event::FrontSwitched { organism: a },
+        Event::IngestionBegan { engulfer: a, prey: b },
+        Event::Ingested { engulfer: a, prey: b },
+        Event::Released { engulfer: a, prey: b },
+        Event::Consumed { engulfer: a, prey: b, kind: Kind::Agar },
+        Event::DivisionBegan { organism: a },
+        Event::DivisionRefused { organism: a, reason },
+        Event::DivisionAbandoned { organism: a, reason },
+        Event::Divided { parent: a, daughter: b },
+        Event::FusionRefused { organism: a, with: b, reason },
+        Event::Fused { into: a, from: b },
+        Event::Quarantined { organism: a },
+    ]
+}
