@@ -121,7 +121,7 @@ fn checkpoints_of_equal_worlds_may_differ_in_what_goes_with_them() {
         ("names", "", named),
         ("script", named, "[[command]]\nof = \"diver\"\nat = 9.0\nrest = true\n"),
         ("script", "", "[[spawn]]\nof = \"food\"\nfrom = 9.0\n"),
-        ("checks", "", "[invariants]\norganisms = 4\n"),
+        ("checks", "", "[invariants]\norganisms = 5\n"),
     ];
     for (index, (part, both, one)) in cases.into_iter().enumerate() {
         let without = saved_with(&folder, &format!("{index}-without"), both);

@@ -92,8 +92,11 @@ fn synchronise_through(steps: u32, seed: u64, alter: fn(&mut World)) -> World {
 /// A world that goes on otherwise after it was taken back is noticed: else the other tests could not fail.
 #[test]
 fn what_is_not_taken_back_is_noticed() {
-    let altered =
-        catch_unwind(|| synchronise_through(60, 1, |world| _ = world.push(world.organisms().next().unwrap(), Vec2::X)));
+    let push = |world: &mut World| {
+        let first = world.organisms().next().unwrap();
+        world.push(first, Vec2::X).unwrap();
+    };
+    let altered = catch_unwind(|| synchronise_through(60, 1, push));
     assert!(altered.is_err());
 }
 
