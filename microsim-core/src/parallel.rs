@@ -53,7 +53,7 @@ pub(crate) fn alone(particles: usize, work: impl FnOnce() + Send) {
         // Nobody waits before the work has begun, and the work waits for nobody: whichever thread waits, it ends.
         let waiter = || {
             while !is_done.load(Ordering::Acquire) {
-                std::thread::yield_now();
+                std::hint::spin_loop();
             }
         };
         rayon::join(worker, waiter);

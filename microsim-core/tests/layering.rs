@@ -69,6 +69,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "event",
             "inputs",
             "organism",
+            "parallel",
             "particle",
             "solver",
             "world",
