@@ -6,7 +6,7 @@ use super::round::Round;
 use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::{Scenario, builtin};
-use microsim_core::{Event, Intent, Kind, Role};
+use microsim_core::{Event, Inputs, Intent, Kind, Role};
 
 fn scenario(seed: u64, time: f32) -> Scenario {
     let text = builtin("game").unwrap().text;
@@ -123,7 +123,10 @@ fn t67_t69_growth_enables_larger_prey() {
     assert!(share > 0.1 && share < 1.0);
     let player = round.player();
     let mut world = round.world().clone();
-    world.grow(player, 60, 400).unwrap();
+    for _ in 0..8 {
+        world.grow(player, 8, 50).unwrap();
+        (0..30).for_each(|_| world.step(&Inputs::new()));
+    }
     assert_eq!(Hints::of(world.view(), player).targets[0].readiness, Readiness::Ready);
     round.step(Intent::REST);
     assert!(matches!(readiness(&round), Readiness::TooLarge(_)));
