@@ -247,6 +247,19 @@ fn who_cannot_divide_says_why() {
 }
 
 #[test]
+fn a_cell_does_not_grow_while_it_divides() {
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    world.divide(cell).unwrap();
+    run(&mut world, &Inputs::new(), 1);
+    assert_eq!(world.events(), [Event::DivisionBegan { organism: cell }]);
+    let before = world.digest();
+    assert_eq!(world.grow(cell, 1, 1).unwrap_err().field(), "organism");
+    assert_eq!(world.digest(), before);
+    assert!(matches!(finish(&mut world, "no growth"), Some(Event::Divided { .. })));
+    world.grow(cell, 1, 1).unwrap();
+}
+
+#[test]
 fn a_furrow_that_cannot_close_in_time_is_abandoned() {
     let division = DivisionParams { time_limit: 1.0, ..DivisionParams::default() };
     let (mut world, cell) = cell_in_room(AmoeboidCellSpec { division, ..AmoeboidCellSpec::default() });

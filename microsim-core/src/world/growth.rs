@@ -27,10 +27,13 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane, the membrane could not go round so much cytoplasm or would at
-    /// first hold more than four times what it has room for, or the world would hold too many particles. Nothing is changed
-    /// then.
+    /// When the handle is stale, the organism has no membrane or is dividing, the membrane could not go round so much
+    /// cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
+    /// many particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
+        if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
+            return Err(Error::unsupported("organism", "an organism that is not dividing"));
+        }
         self.enlarge(id, nodes, particles)?;
         let grown = self.organisms.get_mut(id);
         grown.into_iter().for_each(|organism| organism.keep_added_nodes(nodes, &self.fluids));
@@ -66,12 +69,17 @@ fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, part
     let longest = STRAIN_LIMIT * membrane.rest_length * (organism.outline.len() as f32 + nodes as f32);
     let radius = longest / std::f32::consts::TAU - membrane.node_radius;
     let stretched = std::f32::consts::PI * radius * radius;
-    let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
-    let crowded = MOST_CROWDED * signed_area(&outline);
-    let most = if stretched < crowded { stretched } else { crowded } / rest_area(1, spacing);
+    let (stretched, crowded) = (stretched / rest_area(1, spacing), MOST_CROWDED * room(organism, p, spacing));
+    let most = if stretched < crowded { stretched } else { crowded };
     let count = organism.fluid_particles.len() as f32 + particles as f32;
     let accepted = || format!("at most {} in all with {nodes} new nodes, now", most as u32);
     (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
+}
+
+/// How many particles of cytoplasm find room, at rest, in what a membrane encloses now.
+fn room(organism: &Organism, p: &Particles, spacing: f32) -> f32 {
+    let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
+    signed_area(&outline) / rest_area(1, spacing)
 }
 
 /// Puts new cytoplasm near the centroid and returns its particles.
