@@ -6,7 +6,7 @@ use crate::simulate::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Its name in the folder of the run.
 pub(crate) const FILE: &str = "checkpoint";
@@ -66,8 +66,10 @@ pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
     bytes.starts_with(b"{").then(|| &bytes[end + 1..])
 }
 
-/// Removes what only an unfinished run needs.
-pub(crate) fn remove(folder: &Path) {
-    // It does no harm where it cannot be removed: `run.json` says that the run is finished.
-    let _ = fs::remove_file(folder.join(FILE));
+/// Removes what only an unfinished run needs: the checkpoint first, which cannot be resumed without the `others`.
+pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
+    for path in std::iter::once(folder.join(FILE)).chain(others) {
+        // It does no harm where it cannot be removed: `run.json` says that the run is finished.
+        let _ = fs::remove_file(path);
+    }
 }

@@ -153,9 +153,9 @@ impl<'o> Session<'o> {
         let failures = self.broken.into_iter().chain(refusals).collect();
         let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.tally) };
         if let (Some(recorder), Some(outputs)) = (self.recorder, self.outputs) {
-            recorder.finish(&built.world)?;
+            let waiting = recorder.finish(&built.world)?;
             write_description(outputs, &self.prepared, &report, &self.digest_at_start)?;
-            checkpoint::remove(outputs.folder());
+            checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }
         print(&report, is_json)?;

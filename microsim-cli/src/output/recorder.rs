@@ -15,6 +15,7 @@ use microsim_core::scenario::{Built, OutputPlan, TableFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::PathBuf;
 
 /// Longer side of the picture of the end, pixels.
 const FRAME: u32 = 1200;
@@ -82,7 +83,8 @@ impl<'o> Recorder<'o> {
             for step in moments.until(built.world.step_index()).collect::<Vec<_>>() {
                 let path = outputs.folder().join(moment_name(step));
                 let raw = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
-                moments.add(Picture::from_raw(&raw).unwrap_or_default());
+                let broken = || Failure::Message(format!("{}: no picture; run the scenario anew", path.display()));
+                moments.add(Picture::from_raw(&raw).ok_or_else(broken)?);
             }
         }
         Ok(recorder)
@@ -170,24 +172,21 @@ impl<'o> Recorder<'o> {
         self.events.map_or(Ok(()), |events| events.0.leave())
     }
 
-    /// Gives all files their names.
-    pub(crate) fn finish(self, world: &World) -> Result<(), Failure> {
+    /// Gives all files their names. Returns those that only an unfinished run needs, for [`crate::checkpoint::remove`].
+    pub(crate) fn finish(self, world: &World) -> Result<Vec<PathBuf>, Failure> {
         let outputs = self.outputs;
         self.measures.map_or(Ok(()), |measures| measures.table.finish(outputs))?;
         self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.finish(outputs))?;
         self.events.map_or(Ok(()), |events| outputs.finish(events.0))?;
         let Some(moments) = self.moments else {
-            return Ok(());
+            return Ok(Vec::new());
         };
         let drawing = draw::draw(world);
         outputs.write("frame.svg", svg::write(&drawing, FRAME).as_bytes())?;
         outputs.write("frame.png", &Picture::of(&drawing, FRAME).encoded()?)?;
         outputs.write("frames.png", &moments.sheet().encoded()?)?;
-        for step in moments.until(u64::MAX).filter(|_| self.is_resumable) {
-            // What is left does no harm.
-            let _ = fs::remove_file(outputs.folder().join(moment_name(step)));
-        }
-        Ok(())
+        let waiting = moments.until(u64::MAX).filter(|_| self.is_resumable);
+        Ok(waiting.map(|step| outputs.folder().join(moment_name(step))).collect())
     }
 }
 
