@@ -9,7 +9,7 @@ use glam::Vec2;
 use std::ops::Range;
 
 /// Particles of a stretch, a fixed number whatever the number of threads.
-const STRETCH: usize = 8192;
+const STRETCH: usize = 2048;
 
 /// Does the same to all particles of some ranges, a stretch at a time.
 pub(crate) fn in_stretches(

@@ -4,8 +4,13 @@ use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::Organism;
+use crate::parallel;
 use crate::particle::Particles;
 use glam::Vec2;
+use std::ops::Range;
+
+/// Particles that are looked at in one go, a fixed number whatever the number of threads.
+const STRETCH: usize = 2048;
 
 impl World {
     /// Freezes every organism with a particle of which a number is not finite or that has left the room by more than the
@@ -22,15 +27,15 @@ impl World {
 
     /// The same as asking each organism, column by column and without asking whose the particles are.
     fn all_is_sane(&self) -> bool {
-        let p = &self.particles;
-        let is_near = |origins: &[f32], offsets: &[f32], size: f32| {
-            let places = origins.iter().zip(offsets).map(|(origin, offset)| origin + offset);
-            places.fold(true, |all, at| all & (at > -size) & (at < 2.0 * size))
+        let (p, size) = (&self.particles, self.config.size);
+        let stretches = (0..p.len()).step_by(STRETCH).map(|first| first..p.len().min(first + STRETCH));
+        let is_sane = |at: Range<usize>| {
+            are_near(&p.origin_x[at.clone()], &p.x[at.clone()], size.x)
+                && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], size.y)
+                && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].iter().all(|column| are_within(&column[at.clone()], -f32::MAX))
+                && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
         };
-        is_near(&p.origin_x, &p.x, self.config.size.x)
-            && is_near(&p.origin_y, &p.y, self.config.size.y)
-            && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].into_iter().all(|column| are_within(column, -f32::MAX))
-            && [&p.inv_mass, &p.radius].into_iter().all(|column| are_within(column, 0.0))
+        parallel::map(stretches.collect(), is_sane).into_iter().all(|is_sane| is_sane)
     }
 
     /// Freezes them and returns which.
@@ -55,6 +60,12 @@ impl World {
         }
         frozen
     }
+}
+
+/// Whether all places, each an origin and an offset, are less than a room's size away from the room.
+fn are_near(origins: &[f32], offsets: &[f32], size: f32) -> bool {
+    let places = origins.iter().zip(offsets).map(|(origin, offset)| origin + offset);
+    places.fold(true, |all, at| all & (at > -size) & (at < 2.0 * size))
 }
 
 /// Whether all numbers of a column are finite and not below a least one.
