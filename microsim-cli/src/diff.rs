@@ -1,7 +1,8 @@
 //! `diff`: the first step and the first field in which two worlds differ.
 
-use crate::console::stdout;
+use crate::console::{Console, stdout};
 use crate::failure::Failure;
+use crate::replay::lost;
 use crate::saved::{Playing, Saved};
 use microsim_core::World;
 use microsim_core::snapshot::Checkpoint;
@@ -36,8 +37,14 @@ struct Outcome {
 }
 
 /// Compares two files and says where they differ.
-pub(crate) fn diff(args: &DiffArgs) -> Result<(), Failure> {
-    let outcome = match (Saved::read(&args.one)?, Saved::read(&args.other)?) {
+pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
+    let (one, other) = (Saved::read(&args.one)?, Saved::read(&args.other)?);
+    for (saved, path) in [(&one, &args.one), (&other, &args.other)] {
+        if let Saved::Replay(replay) = saved {
+            lost(replay, path).iter().for_each(|text| console.note(text));
+        }
+    }
+    let outcome = match (one, other) {
         (Saved::Replay(one), Saved::Replay(other)) => {
             compare_replays(Playing::start(&one, &args.one)?, Playing::start(&other, &args.other)?)
         }

@@ -60,7 +60,7 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::Run(args) => run::run(args, console),
         Verb::Resume(args) => resume::resume(args, console),
         Verb::Replay(args) => replay::replay(args, console),
-        Verb::Diff(args) => diff::diff(args),
+        Verb::Diff(args) => diff::diff(args, console),
         Verb::Inspect(args) => inspect::inspect(args),
         Verb::Render(args) => render::render(args, console),
         Verb::Sweep(verb) => sweep::sweep(verb, console),

@@ -53,16 +53,20 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
     }
     bar.finish_and_clear();
     print(&replay, &player, args.json)?;
+    match lost(&replay, &args.file) {
+        Some(text) if matches!(replay.ending(), Ending::Damaged { .. }) => return Err(Failure::Message(text)),
+        text => text.iter().for_each(|text| console.note(text)),
+    }
+    Ok(())
+}
+
+/// What is lost of a replay, if anything is.
+pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
+    let path = path.display();
     match replay.ending() {
-        Ending::Complete => Ok(()),
-        Ending::CutOff => {
-            console.note(&format!("{}: cut off, played to its last whole record", args.file.display()));
-            Ok(())
-        }
-        Ending::Damaged { at } => {
-            let text = format!("{}: damaged at byte {at}, played to the last whole record", args.file.display());
-            Err(Failure::Message(text))
-        }
+        Ending::Complete => None,
+        Ending::CutOff => Some(format!("{path}: cut off, played to its last whole record")),
+        Ending::Damaged { at } => Some(format!("{path}: damaged at byte {at}, played to the last whole record")),
     }
 }
 

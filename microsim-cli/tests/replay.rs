@@ -160,6 +160,8 @@ fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
     assert!(stderr(&output).contains("cut off"), "{}", stderr(&output));
+    let output = run(&["diff", &record, &cut]);
+    assert!(stderr(&output).contains("cut.replay: cut off"), "{}", stderr(&output));
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! The program: a loop of input, screens and a drawn frame.
 
+use crate::args::Scene;
 use crate::input::device::Device;
 use crate::input::script::Script;
 use crate::input::{Action, Input};
-use crate::scenery::Effort;
 use crate::screen::play::Play;
 use crate::screen::sandbox::Sandbox;
 use crate::screen::title::Title;
-use crate::screen::{Change, Context, Screen};
+use crate::screen::{Asked, Change, Context, Screen};
 use crate::shot::Shot;
 use crate::stage::Stage;
 use crate::timings::Timings;
@@ -45,10 +45,8 @@ pub struct Plan {
     pub screenshot: Option<PathBuf>,
     /// Size of that picture, pixels.
     pub size: (u32, u32),
-    /// Name of the way of looking, in place of the one in the settings.
-    pub sight: Option<String>,
-    /// How much of the machine pictures may take, in place of what the settings say.
-    pub effort: Option<Effort>,
+    /// What pictures shall be like, in place of what the settings say.
+    pub asked: Asked,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
@@ -80,8 +78,7 @@ impl App {
     pub fn new(opening: Opening, mut context: Context, plan: Plan) -> Self {
         context.pen.fit(view_size(&plan), context.settings.text_factor());
         context.pace.is_exact = plan.is_exact();
-        plan.sight.iter().for_each(|sight| context.settings.sight.clone_from(sight));
-        context.settings.effort = plan.effort.unwrap_or(context.settings.effort);
+        context.asked = plan.asked;
         let first: Box<dyn Screen> = match opening {
             Opening::Sandbox(stage) => Box::new(Sandbox::new(*stage, &context)),
             Opening::Title => Box::new(Title::new(&context)),
@@ -138,7 +135,8 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
-        context.scenery.pass(context.pace);
+        let news = context.scenery.pass(context.pace, context.effort());
+        news.into_iter().for_each(|news| context.tell(news));
         let screen = view_size(&self.plan);
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
@@ -153,6 +151,30 @@ impl App {
 
     /// Returns whether the program goes on.
     fn update(&mut self, input: &Input) -> bool {
+        if !self.screens.last().is_some_and(|screen| screen.waits_for_key()) {
+            self.press(input);
+        }
+        let context = &mut self.context;
+        let change = self.screens.last_mut().map_or(Change::Quit, |screen| screen.update(input, context));
+        for change in [change].into_iter().chain(self.open_dropped(input)) {
+            match change {
+                Change::Stay => {}
+                Change::Push(screen) => self.screens.push(screen),
+                Change::Pop => drop(self.screens.pop()),
+                Change::Reset(screen) => self.screens = vec![screen],
+                Change::Quit => return false,
+            }
+        }
+        let context = &mut self.context;
+        if !self.plan.is_exact() && context.settings.full_screen != self.is_full {
+            self.is_full = context.settings.full_screen;
+            set_fullscreen(self.is_full);
+        }
+        !self.screens.is_empty()
+    }
+
+    /// Keys that do the same on every screen.
+    fn press(&mut self, input: &Input) {
         let context = &mut self.context;
         context.wants_picture |= input.presses(Action::Screenshot);
         if input.presses(Action::Optics) {
@@ -162,19 +184,20 @@ impl App {
             context.settings.full_screen ^= true;
             context.save_settings();
         }
-        let change = self.screens.last_mut().map_or(Change::Quit, |screen| screen.update(input, context));
-        match change {
-            Change::Stay => {}
-            Change::Push(screen) => self.screens.push(screen),
-            Change::Pop => drop(self.screens.pop()),
-            Change::Reset(screen) => self.screens = vec![screen],
-            Change::Quit => return false,
+    }
+
+    /// A scenario file that is dropped on the window is shown; where that would end a round, it only comes into the list.
+    fn open_dropped(&mut self, input: &Input) -> Option<Change> {
+        let scene = Scene::File(input.dropped.first()?.clone());
+        let is_at_stake = self.screens.iter().any(|screen| screen.is_at_stake());
+        let change = Sandbox::open(&scene, &mut self.context);
+        if !is_at_stake {
+            return Some(change);
         }
-        if !self.plan.is_exact() && context.settings.full_screen != self.is_full {
-            self.is_full = context.settings.full_screen;
-            set_fullscreen(self.is_full);
+        if matches!(change, Change::Reset(_)) {
+            self.context.tell(format!("{scene} is in the list of simulations now."));
         }
-        !self.screens.is_empty()
+        None
     }
 
     /// Draws the frame to the window, and into a file if one is wanted.
@@ -185,12 +208,12 @@ impl App {
         }
         if std::mem::take(&mut self.context.wants_picture) {
             let name = self.screens.last().map_or_else(String::new, |screen| screen.name());
-            let path = format!("microsim-{name}.png");
+            let path = free_path(&format!("microsim-{name}"));
             let size = if self.plan.is_exact() { self.plan.size } else { physical_size() };
-            let taken = self.take(Path::new(&path), size);
+            let taken = self.take(&path, size);
             self.context.tell(match taken {
-                Ok(()) => format!("wrote {path}"),
-                Err(error) => format!("cannot write {path}: {error}"),
+                Ok(()) => format!("wrote {}", path.display()),
+                Err(error) => format!("cannot write {}: {error}", path.display()),
             });
         } else if self.plan.screenshot.is_none() {
             // Of a planned picture nobody sees what comes before it.
@@ -226,6 +249,13 @@ impl App {
             std::thread::sleep(Duration::from_secs_f32(SHORTEST_FRAME - elapsed));
         }
     }
+}
+
+/// Where a picture of this name goes, so that none that is there is lost.
+fn free_path(name: &str) -> PathBuf {
+    let numbered = (2..).map(|number| PathBuf::from(format!("{name}-{number}.png")));
+    let mut paths = [PathBuf::from(format!("{name}.png"))].into_iter().chain(numbered);
+    paths.find(|path| !path.exists()).unwrap_or_else(|| PathBuf::from(format!("{name}.png")))
 }
 
 /// Drawing units: those of the window, or the pixels of the planned picture.

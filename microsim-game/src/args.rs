@@ -74,8 +74,8 @@ pub struct Options {
     pub size: Option<(u32, u32)>,
     /// Input to play back.
     pub script: Option<PathBuf>,
-    /// Name of the way of looking, in place of the one in the settings.
-    pub sight: Option<String>,
+    /// The way of looking, in place of the one in the settings.
+    pub sight: Option<Sight>,
     /// How much of the machine pictures may take, in place of what the settings say.
     pub effort: Option<Effort>,
     /// Whether to say how long everything took.
@@ -154,19 +154,14 @@ fn pair(text: &str) -> Result<(String, String), String> {
     pair.filter(|(key, _)| !key.is_empty()).ok_or(format!("--set {text}: not KEY=VALUE"))
 }
 
-fn sight(text: &str) -> Result<String, String> {
-    let known = || Sight::all().map(Sight::name);
-    let names = || known().collect::<Vec<_>>().join(", ");
-    known()
-        .find(|name| *name == text)
-        .map(str::to_owned)
-        .ok_or_else(|| format!("--optics {text}: not one of {}", names()))
+fn sight(text: &str) -> Result<Sight, String> {
+    let names = || Sight::all().map(Sight::name).collect::<Vec<_>>().join(", ");
+    Sight::all().find(|sight| sight.name() == text).ok_or_else(|| format!("--optics {text}: not one of {}", names()))
 }
 
 fn effort(text: &str) -> Result<Effort, String> {
     let names = || Effort::ALL.map(Effort::name).join(", ");
-    let known = Effort::ALL.into_iter().find(|effort| effort.name() == text);
-    known.ok_or_else(|| format!("--quality {text}: not one of {}", names()))
+    Effort::named(text).ok_or_else(|| format!("--quality {text}: not one of {}", names()))
 }
 
 fn seed(text: &str) -> Result<u64, String> {

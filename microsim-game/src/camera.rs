@@ -94,6 +94,12 @@ impl Camera {
         self.clamp();
     }
 
+    /// Moves by some units, walls permitting.
+    pub fn shift(&mut self, by: Vec2) {
+        self.centre += by;
+        self.clamp();
+    }
+
     /// Shows everything `factor` times as large; the point under `pixel` stays where it is, walls permitting.
     pub fn zoom(&mut self, factor: f32, pixel: Vec2) {
         let fixed = self.to_room(pixel);

@@ -34,7 +34,7 @@ mod window;
 use app::{App, Opening, Plan};
 use args::{Command, Options, Scene};
 use input::script::Script;
-use screen::{Context, GameChoice};
+use screen::{Asked, Context, GameChoice};
 use stage::Stage;
 use std::process::ExitCode;
 use store::files::Store;
@@ -114,7 +114,8 @@ fn prepare(options: Options) -> Result<Start, String> {
     if is_for_game {
         game.check()?;
     }
-    let plan = Plan { script, frames, screenshot, size: size.unwrap_or(SIZE), sight, effort, timings };
+    let asked = Asked { sight, effort };
+    let plan = Plan { script, frames, screenshot, size: size.unwrap_or(SIZE), asked, timings };
     Ok(Start { opening, game, files, plan })
 }
 

@@ -56,7 +56,7 @@ impl Sight {
 
 /// How much of the machine pictures may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", from = "String")]
 pub enum Effort {
     /// As much as leaves the picture fluent.
     #[default]
@@ -67,6 +67,13 @@ pub enum Effort {
     Medium,
     /// A quarter of the pixels.
     Low,
+}
+
+/// One that another version may have is the usual one.
+impl From<String> for Effort {
+    fn from(name: String) -> Self {
+        Self::named(&name).unwrap_or_default()
+    }
 }
 
 impl Effort {
@@ -84,11 +91,17 @@ impl Effort {
         }
     }
 
-    /// The next one.
+    /// The one of this name.
     #[must_use]
-    pub fn next(self) -> Self {
-        let at = Self::ALL.iter().position(|&effort| effort == self).unwrap_or(0);
-        Self::ALL[(at + 1) % Self::ALL.len()]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effort| effort.name() == name)
+    }
+
+    /// The next one, or the one before.
+    #[must_use]
+    pub fn next(self, is_back: bool) -> Self {
+        let (at, count) = (Self::ALL.iter().position(|&effort| effort == self).unwrap_or(0), Self::ALL.len());
+        Self::ALL[(at + if is_back { count - 1 } else { 1 }) % count]
     }
 }
 
@@ -106,7 +119,13 @@ pub struct Scenery {
     submitting: Duration,
 }
 
-const STEPS_DOWN: [Option<Quality>; 4] = [Some(Quality::High), Some(Quality::Medium), Some(Quality::Low), None];
+/// What automatic effort comes down to, one after the other.
+const STEPS_DOWN: [(&str, Option<Quality>); 4] = [
+    ("high", Some(Quality::High)),
+    ("medium", Some(Quality::Medium)),
+    ("low", Some(Quality::Low)),
+    ("that of the drawn view", None),
+];
 
 impl Scenery {
     /// Makes textures and programs. Needs an open window.
@@ -116,16 +135,24 @@ impl Scenery {
         Self { painter, renderer, given_up: 0, slow: 0.0, submitting: Duration::ZERO }
     }
 
-    /// Lowers automatic effort when frames stay slow.
-    pub fn pass(&mut self, pace: Pace) {
+    /// Lowers automatic effort when frames stay slow, and says so.
+    pub fn pass(&mut self, pace: Pace, effort: Effort) -> Option<String> {
         let elapsed = pace.elapsed.min(0.5);
         let is_slow = !pace.is_exact && elapsed > SLOW_FRAME;
         self.slow = if is_slow { self.slow + elapsed } else { (self.slow - elapsed).max(0.0) };
-        if self.slow > PATIENCE {
-            self.slow = 0.0;
-            let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
-            self.given_up = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
+        if self.slow <= PATIENCE {
+            return None;
         }
+        self.slow = 0.0;
+        let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
+        let lower = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
+        let is_news = std::mem::replace(&mut self.given_up, lower) != lower && effort == Effort::Automatic;
+        is_news.then(|| format!("Pictures are slow. Quality is {} now; see the settings.", STEPS_DOWN[lower].0))
+    }
+
+    /// Begins anew with the best that automatic effort gives.
+    pub fn take_heart(&mut self) {
+        (self.given_up, self.slow) = (0, 0.0);
     }
 
     /// Time that went into telling the graphics card what to do since this was last asked.
@@ -136,7 +163,7 @@ impl Scenery {
     /// Draws a frame.
     pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
         let quality = match effort {
-            Effort::Automatic => STEPS_DOWN[self.given_up],
+            Effort::Automatic => STEPS_DOWN[self.given_up].1,
             Effort::High => Some(Quality::High),
             Effort::Medium => Some(Quality::Medium),
             Effort::Low => Some(Quality::Low),

@@ -11,7 +11,8 @@ use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 
-/// Meals in every phase, a furrow, orders, all controllers, an exchange, and everything that can happen in a step.
+/// Meals in every phase, a furrow, orders, all controllers, an exchange, places that
+/// nothing takes any more, and everything that can happen in a step.
 pub(super) fn world() -> World {
     let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
@@ -25,6 +26,8 @@ pub(super) fn world() -> World {
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
     world.events = events(eater, divider);
+    let gone = cell(&mut world, 24.0, 55.0);
+    world.remove(gone).unwrap();
     world
 }
 

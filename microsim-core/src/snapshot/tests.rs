@@ -59,20 +59,22 @@ fn menagerie() -> World {
 }
 
 /// One of every shape that snapshots know.
-fn shapes(corners: Vec<Vec2>) -> [SharedShape; 9] {
+fn shapes(corners: Vec<Vec2>) -> Vec<SharedShape> {
     let [a, b, c] = [corners[0], corners[1], corners[2]];
-    let part = |at: f32| (Pose::translation(at, 0.0), SharedShape::triangle(a, b, c));
-    [
+    let simple = [
         SharedShape::ball(1.0),
         SharedShape::cuboid(1.0, 2.0),
         SharedShape::round_cuboid(1.0, 2.0, 0.2),
         SharedShape::capsule(a, b, 0.5),
         SharedShape::segment(a, b),
         SharedShape::round_triangle(a, b, c, 0.1),
+        SharedShape::triangle(a, b, c),
         SharedShape::convex_polyline(corners.clone()).unwrap(),
-        SharedShape::polyline(corners, Some(vec![[0, 1], [1, 2]])),
-        SharedShape::compound(vec![part(0.0), part(2.0)]),
-    ]
+    ];
+    let parts = simple.iter().zip(0_u8..).map(|(shape, k)| (Pose::translation(k.into(), 0.0), shape.clone()));
+    let compound = SharedShape::compound(parts.collect());
+    let polyline = SharedShape::polyline(corners, Some(vec![[0, 1], [1, 2]]));
+    simple.into_iter().chain([polyline, compound]).collect()
 }
 
 /// Together they hold nearly everything that a world can hold, as a test in `layout.rs` sees to.

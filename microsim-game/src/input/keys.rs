@@ -85,8 +85,16 @@ const USABLE: &[KeyCode] = {
 
 /// The keys of all actions, by name; that is how they are kept in the settings.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
+#[serde(from = "BTreeMap<String, String>")]
 pub struct Keys(BTreeMap<Action, String>);
+
+/// Actions that another version may have are left out.
+impl From<BTreeMap<String, String>> for Keys {
+    fn from(names: BTreeMap<String, String>) -> Self {
+        let of = |action: Action| Some((action, names.get(action.name())?.clone()));
+        Self(Action::ALL.into_iter().filter_map(of).collect())
+    }
+}
 
 impl Default for Keys {
     fn default() -> Self {

@@ -10,10 +10,12 @@
 //! 90  up consume
 //! 90  press pause      # a key for one frame: an action, or enter, escape, up, down, left, right
 //! 95  click 0.5 0.4
+//! 99  drop a.toml      # a file on the window, by a name without spaces
 //! ```
 
 use super::{Action, Input, Move};
 use microsim_core::glam::Vec2;
+use std::path::PathBuf;
 
 /// A list of cues by frame.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,7 +27,7 @@ pub struct Script {
     held: Vec<Action>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Cue {
     Hold(Vec2),
     Move(Vec2),
@@ -35,6 +37,7 @@ enum Cue {
     Up(Action),
     Press(Action),
     Step(Move),
+    Drop(PathBuf),
 }
 
 impl Script {
@@ -62,7 +65,7 @@ impl Script {
     /// The input of a frame, for a picture of `screen` units. Frames are asked for in order.
     pub fn input(&mut self, frame: u32, screen: Vec2) -> Input {
         let mut input = Input::default();
-        while let Some(&(_, cue)) = self.cues.get(self.next).filter(|(at, _)| *at <= frame) {
+        while let Some((_, cue)) = self.cues.get(self.next).filter(|(at, _)| *at <= frame).cloned() {
             self.next += 1;
             self.act(cue, &mut input);
         }
@@ -89,6 +92,7 @@ impl Script {
             Cue::Up(action) => self.held.retain(|&held| held != action),
             Cue::Press(action) => input.pressed.push(action),
             Cue::Step(step) => input.step = Some(step),
+            Cue::Drop(file) => input.dropped.push(file),
         }
     }
 }
@@ -102,6 +106,7 @@ fn cue(words: &[&str]) -> Option<(u32, Cue)> {
         ["move", x, y] => Cue::Move(place(x, y)?),
         ["click", x, y] => Cue::Click(place(x, y)?),
         ["release"] => Cue::Release,
+        ["drop", file] => Cue::Drop(file.into()),
         ["down", name] => Cue::Down(action(name)?),
         ["up", name] => Cue::Up(action(name)?),
         ["press", name] => match Move::ALL.into_iter().find(|(_, known)| *known == name) {

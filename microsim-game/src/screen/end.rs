@@ -25,6 +25,7 @@ const DELAY: f32 = 0.7;
 pub struct End {
     points: u32,
     tallies: Vec<(Kind, Tally)>,
+    /// The best ones of the same game; none after a replay, which may be of another one.
     best: Vec<Score>,
     place: Option<usize>,
     menu: Menu,
@@ -35,18 +36,19 @@ impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
     #[must_use]
     pub fn new(round: &Round, context: &mut Context) -> Self {
-        let (name, referee) = (round.name(), round.referee());
+        let (game, referee) = (context.game.label(), round.referee());
         let time = referee.game().time;
         let count = |is_rigid: bool| {
             let of_kind = referee.tallies().iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
             of_kind.map(|(_, tally)| tally.count).sum()
         };
         let score =
-            Score { game: name.to_owned(), time, points: referee.score(), small: count(false), rigid: count(true) };
-        let mut place = None;
+            Score { game: game.clone(), time, points: referee.score(), small: count(false), rigid: count(true) };
+        let (mut place, mut best) = (None, Vec::new());
         if let Some(record) = round.record() {
             let (found, kept) = context.scores.add(score, &context.store);
             place = found;
+            best = context.scores.of(&game, time).take(5).cloned().collect();
             if let Err(error) = kept.and(context.store.write(LAST_GAME, &record)) {
                 context.tell(format!("cannot keep the game: {error}"));
             }
@@ -56,7 +58,7 @@ impl End {
         Self {
             points: referee.score(),
             tallies: referee.tallies().to_vec(),
-            best: context.scores.of(name, time).take(5).cloned().collect(),
+            best,
             place,
             menu: Menu::new(items.into()),
             since: 0.0,
@@ -117,7 +119,7 @@ impl Screen for End {
             pen.write(below, Size::Body, Align::Centre, READY, &text);
         }
         self.draw_tallies(pen, 0.28 * screen.y + line);
-        draw_table(pen, [0.68 * screen.x, 0.28 * screen.y], &self.best, self.place);
+        draw_table(pen, [0.68 * screen.x, 0.28 * screen.y], MENU_TOP * screen.y, &self.best, self.place);
         self.menu.draw(pen, &Place::middle(pen, MENU_TOP));
     }
 

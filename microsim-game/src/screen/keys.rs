@@ -67,4 +67,8 @@ impl Screen for KeysMenu {
     fn name(&self) -> String {
         "keys".to_owned()
     }
+
+    fn waits_for_key(&self) -> bool {
+        self.waiting.is_some()
+    }
 }

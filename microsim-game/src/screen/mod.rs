@@ -13,15 +13,17 @@ pub mod settings;
 pub mod title;
 
 use crate::args::Scene;
+use crate::camera::Camera;
 use crate::draw::Frame;
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::Input;
-use crate::scenery::{Scenery, Sight};
+use crate::scenery::{Effort, Scenery, Sight};
 use crate::store::files::Store;
 use crate::store::scores::Scores;
 use crate::store::settings::{self as kept, Settings};
 use crate::ui::pen::{Align, Pen, Size};
 use crate::viewer::Pace;
+use microsim_core::View;
 use microsim_core::glam::Vec2;
 use std::fmt;
 
@@ -48,6 +50,16 @@ pub trait Screen: fmt::Debug {
 
     /// What pictures of it are called.
     fn name(&self) -> String;
+
+    /// Whether it waits for a key, which then does nothing else.
+    fn waits_for_key(&self) -> bool {
+        false
+    }
+
+    /// Whether leaving it would lose something: a round that is being played.
+    fn is_at_stake(&self) -> bool {
+        false
+    }
 }
 
 /// What happens to the stack of screens.
@@ -88,6 +100,15 @@ pub struct GameChoice {
     pub seed: Option<u64>,
 }
 
+/// How pictures shall be as long as the player chooses nothing else.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked {
+    /// The way of looking.
+    pub sight: Option<Sight>,
+    /// How much of the machine pictures may take.
+    pub effort: Option<Effort>,
+}
+
 /// What all screens share.
 #[derive(Debug)]
 pub struct Context {
@@ -115,6 +136,8 @@ pub struct Context {
     pub is_top: bool,
     /// Whether a picture is wanted.
     pub wants_picture: bool,
+    /// Ways of looking for this run only, in place of the ones in the settings.
+    pub asked: Asked,
     message: Option<(String, f32)>,
 }
 
@@ -138,6 +161,7 @@ impl Context {
             last_game,
             is_top: true,
             wants_picture: false,
+            asked: Asked::default(),
             message: None,
         };
         problem.or(other_problem).into_iter().for_each(|problem| context.tell(problem));
@@ -158,20 +182,49 @@ impl Context {
         }
     }
 
+    /// The present way of looking.
+    #[must_use]
+    pub fn sight(&self) -> Sight {
+        self.asked.sight.unwrap_or_else(|| Sight::named(&self.settings.sight))
+    }
+
+    /// How much of the machine pictures may take.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        self.asked.effort.unwrap_or(self.settings.effort)
+    }
+
     /// Draws a scene as the player wants to see it.
-    pub fn paint(&mut self, frame: &Frame<'_>) {
-        self.scenery.paint(frame, Sight::named(&self.settings.sight), self.settings.effort);
+    pub fn paint(&mut self, view: View<'_>, camera: &Camera) {
+        let time = self.motion().unwrap_or(0.0);
+        self.scenery.paint(&Frame { view, camera, time }, self.sight(), self.effort());
     }
 
     /// Another way of looking.
     pub fn change_sight(&mut self, is_back: bool) {
-        let sight = Sight::named(&self.settings.sight).next(is_back);
+        let sight = self.sight().next(is_back);
         sight.name().clone_into(&mut self.settings.sight);
+        self.asked.sight = None;
+        self.scenery.take_heart();
         self.save_settings();
         self.tell(sight.name());
     }
 
-    /// Time for what moves in marks; `None` if the player wants less motion.
+    /// More or less of the machine for pictures.
+    pub fn change_effort(&mut self, is_back: bool) {
+        self.settings.effort = self.effort().next(is_back);
+        self.asked.effort = None;
+        self.scenery.take_heart();
+        self.save_settings();
+    }
+
+    /// Puts a scenario file into the list of simulations.
+    pub fn list(&mut self, file: Scene) {
+        self.files.retain(|known| *known != file);
+        self.files.insert(0, file);
+    }
+
+    /// Time for what moves of itself in marks and background; `None` if the player wants less motion.
     #[must_use]
     pub fn motion(&self) -> Option<f32> {
         (!self.settings.reduced_motion).then_some(self.time)

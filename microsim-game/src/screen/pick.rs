@@ -5,7 +5,6 @@ use super::sandbox::Sandbox;
 use super::{Change, Context, Screen};
 use crate::args::Scene;
 use crate::input::{Input, Move};
-use crate::stage::Stage;
 use crate::ui::menu::{Choice, Item};
 use microsim_core::scenario;
 
@@ -34,13 +33,7 @@ impl Screen for Pick {
             return Change::Pop;
         }
         let Some(Choice::Pick(item)) = self.page.update(input, &context.pen) else { return Change::Stay };
-        match Stage::open(&self.scenes[item].0, &[]) {
-            Ok(stage) => Change::reset(Sandbox::new(stage, context)),
-            Err(problem) => {
-                context.tell(problem);
-                Change::Stay
-            }
-        }
+        Sandbox::open(&self.scenes[item].0, context)
     }
 
     fn draw(&mut self, context: &mut Context) {

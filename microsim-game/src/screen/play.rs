@@ -3,7 +3,6 @@
 use super::end::End;
 use super::pause::Pause;
 use super::{Change, Context, GameChoice, Screen};
-use crate::draw::Frame;
 use crate::hud::{self, Status, marks};
 use crate::input::{Action, Input, Move};
 use crate::rules::hint::Hints;
@@ -39,11 +38,18 @@ impl GameChoice {
         Ok(scenario)
     }
 
-    /// Name and time of the game, if it is one.
+    /// What scores are kept under: the scenario and what was changed of it.
     #[must_use]
-    pub fn rules(&self) -> Option<(String, f32)> {
-        let scenario = self.scenario(1).ok()?;
-        Some((scenario.name().to_owned(), scenario.game()?.time))
+    pub fn label(&self) -> String {
+        let seed = self.seed.map(|seed| ("seed".to_owned(), seed.to_string()));
+        let changes = self.overrides.iter().chain(&seed).map(|(key, value)| format!(", {key} = {value}"));
+        format!("{}{}", self.scene, changes.collect::<String>())
+    }
+
+    /// Time of the game, s, if it is one.
+    #[must_use]
+    pub fn time(&self) -> Option<f32> {
+        Some(self.scenario(1).ok()?.game()?.time)
     }
 
     /// Whether it can be played.
@@ -59,7 +65,8 @@ impl Play {
     /// A new round in place of all other screens.
     pub fn start(context: &mut Context) -> Change {
         // Every round is another one, but for pictures that must come out the same.
-        let seed = if context.pace.is_exact { 1 } else { miniquad::date::now() as u64 };
+        let milliseconds = 1000.0 * miniquad::date::now();
+        let seed = if context.pace.is_exact { 1 } else { milliseconds as u64 };
         let round = context.game.scenario(seed).and_then(|scenario| Round::new(&scenario));
         Self::open(round, context)
     }
@@ -114,7 +121,8 @@ impl Play {
         self.viewer.camera.zoom(self.grown / step, 0.5 * context.pen.screen());
         self.grown = step;
         let at = self.viewer.place_of(self.round.world(), Some(self.round.player()));
-        let cursor = (input.is_held && !self.round.is_replay()).then_some(input.cursor);
+        let looks_ahead = input.is_held && !self.round.is_replay() && context.motion().is_some();
+        let cursor = looks_ahead.then_some(input.cursor);
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
     }
 
@@ -153,7 +161,7 @@ impl Screen for Play {
 
     fn draw(&mut self, context: &mut Context) {
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
-        context.paint(&Frame { view, camera, time: context.time });
+        context.paint(view, camera);
         if !context.is_top {
             return;
         }
@@ -182,6 +190,12 @@ impl Screen for Play {
     }
 
     fn name(&self) -> String {
-        format!("{}-{}-{}", self.round.name(), self.round.world().step_index(), self.round.referee().score())
+        let what = if self.round.is_replay() { "replay-of-" } else { "" };
+        let (step, score) = (self.round.world().step_index(), self.round.referee().score());
+        format!("{what}{}-{step}-{score}", self.round.name())
+    }
+
+    fn is_at_stake(&self) -> bool {
+        !self.round.is_replay() && !self.round.is_over()
     }
 }

@@ -19,11 +19,10 @@ impl ScoreList {
     /// The present list.
     #[must_use]
     pub fn new(context: &Context) -> Self {
-        let rules = context.game.rules();
-        let (game, time) = rules.as_ref().map_or(("game", 90.0), |(name, time)| (name.as_str(), *time));
+        let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         Self {
             game: format!("High scores: {game}, {time:.0} s"),
-            scores: context.scores.of(game, time).cloned().collect(),
+            scores: context.scores.of(&game, time).cloned().collect(),
         }
     }
 }
@@ -41,21 +40,22 @@ impl Screen for ScoreList {
         if self.scores.is_empty() {
             pen.write(0.5 * screen, Size::Body, Align::Centre, HALO, "None yet. Play!");
         }
-        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], &self.scores, None);
+        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.9 * screen.y, &self.scores, None);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
         pen.write(at, Size::Small, Align::Centre, HALO, "Enter or a click: back");
     }
 
     fn name(&self) -> String {
-        "scores".to_owned()
+        let best = self.scores.first().map_or(0, |score| score.points);
+        format!("scores-{}-{best}", self.scores.len())
     }
 }
 
-/// Draws scores as a table below the middle of its upper edge, one of them marked.
-pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], scores: &[Score], marked: Option<usize>) {
+/// Draws scores as a table from the middle of its upper edge down to `bottom`, one of them marked.
+pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, scores: &[Score], marked: Option<usize>) {
     let line = pen.line(Size::Body);
     let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
-    let room = ((0.9 * pen.screen().y - top) / line) as usize;
+    let room = ((bottom - top) / line) as usize;
     let heads = ["", "points", "small", "cells"];
     if !scores.is_empty() {
         for (x, head) in columns.into_iter().zip(heads) {

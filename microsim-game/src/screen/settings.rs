@@ -4,8 +4,6 @@ use super::keys::KeysMenu;
 use super::page::Page;
 use super::{Change, Context, Screen};
 use crate::input::{Input, Move};
-use crate::scenery::Sight;
-use crate::store::settings::Settings;
 use crate::ui::menu::{Choice, Item};
 
 /// The menu of settings.
@@ -26,14 +24,15 @@ impl SettingsMenu {
     /// The present settings.
     #[must_use]
     pub fn new(context: &Context) -> Self {
-        Self { page: Page::new("Settings", items(&context.settings)) }
+        Self { page: Page::new("Settings", items(context)) }
     }
 }
 
-fn items(settings: &Settings) -> Vec<Item> {
+fn items(context: &Context) -> Vec<Item> {
+    let settings = &context.settings;
     vec![
-        Item::with("Optics", Sight::named(&settings.sight).name()),
-        Item::with("Quality", settings.effort.name()),
+        Item::with("Optics", context.sight().name()),
+        Item::with("Quality", context.effort().name()),
         Item::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
         Item::switch("Reduced motion", settings.reduced_motion),
         Item::switch("Classic arrows", settings.classic_arrows),
@@ -53,7 +52,8 @@ impl Screen for SettingsMenu {
         match choice {
             Choice::Pick(SIGHT) => context.change_sight(false),
             Choice::Less(SIGHT) => context.change_sight(true),
-            Choice::Pick(EFFORT) | Choice::Less(EFFORT) => settings.effort = settings.effort.next(),
+            Choice::Pick(EFFORT) => context.change_effort(false),
+            Choice::Less(EFFORT) => context.change_effort(true),
             Choice::Pick(TEXT) => settings.change_text_size(1),
             Choice::Less(TEXT) => settings.change_text_size(-1),
             Choice::Pick(MOTION) | Choice::Less(MOTION) => settings.reduced_motion ^= true,
@@ -62,7 +62,7 @@ impl Screen for SettingsMenu {
             Choice::Pick(KEYS) => return Change::push(KeysMenu::new(context)),
             _ => return Change::Pop,
         }
-        self.page.menu.items = items(&context.settings);
+        self.page.menu.items = items(context);
         context.save_settings();
         Change::Stay
     }

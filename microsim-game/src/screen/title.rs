@@ -5,13 +5,12 @@ use super::play::Play;
 use super::scores::ScoreList;
 use super::settings::SettingsMenu;
 use super::{Change, Context, Screen};
-use crate::draw::Frame;
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
 use crate::ui::glyphs::TITLE;
-use crate::ui::menu::{Choice, Item, Menu, Place};
+use crate::ui::menu::{Choice, Item, Menu, Place, title_lines};
 use crate::ui::pen::{Align, Size};
 use crate::viewer::{Viewer, first_view};
 use microsim_core::glam::Vec2;
@@ -70,10 +69,12 @@ impl Scene {
         Some(Self { stage, bot: Bot::new(Policy::Greedy, 1), viewer })
     }
 
+    /// Goes on, unless the player wants less motion.
     fn run(&mut self, context: &Context) {
         self.viewer.camera.resize(context.pen.screen());
         let bot = &mut self.bot;
-        self.viewer.run(context.pace, 1.0, &mut self.stage, |stage| {
+        let speed = if context.motion().is_some() { 1.0 } else { 0.0 };
+        self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
             if let Some(player) = stage.player() {
                 let intent = bot.intent(stage.world(), player);
                 stage.steer(intent);
@@ -107,7 +108,7 @@ impl Screen for Title {
     fn draw(&mut self, context: &mut Context) {
         if let Some(scene) = &self.scene {
             let view = scene.viewer.view(scene.stage.world());
-            context.paint(&Frame { view, camera: &scene.viewer.camera, time: context.time });
+            context.paint(view, &scene.viewer.camera);
         }
         if !context.is_top {
             return;
@@ -120,8 +121,9 @@ impl Screen for Title {
         let wide = (left + 1.6 * place.item.x).min(screen.x);
         pen.canvas()
             .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
-        pen.write(Vec2::new(left, 0.13 * screen.y + 0.3 * line), Size::Huge, Align::Left, HALO, TITLE);
-        let motto = Vec2::new(left + 0.05 * line, 0.13 * screen.y + 0.95 * line);
+        let [title, below, _] = title_lines(pen);
+        pen.write(Vec2::new(left, title), Size::Huge, Align::Left, HALO, TITLE);
+        let motto = Vec2::new(left + 0.05 * line, below);
         pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
         self.menu.draw(pen, &place);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));

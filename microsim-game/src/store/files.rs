@@ -37,18 +37,15 @@ impl Store {
     pub fn load<T: DeserializeOwned + Default>(&self, name: &str) -> (T, Option<String>) {
         let Some(path) = self.folder.as_ref().map(|folder| folder.join(name)) else { return (T::default(), None) };
         let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return (T::default(), None),
-            Err(error) => return (T::default(), Some(format!("cannot read {}: {error}", path.display()))),
+            text => text.map_err(|error| error.to_string()),
         };
-        match toml::from_str(&text) {
+        let first_line = |error: toml::de::Error| error.message().lines().next().unwrap_or_default().to_owned();
+        match text.and_then(|text| toml::from_str(&text).map_err(first_line)) {
             Ok(value) => (value, None),
-            Err(error) => {
-                let aside = path.with_extension("broken");
-                let kept =
-                    fs::rename(&path, &aside).map_or(String::new(), |()| format!("; kept as {}", aside.display()));
-                let line = error.message().lines().next().unwrap_or_default().to_owned();
-                (T::default(), Some(format!("{name} makes no sense: {line}{kept}")))
+            Err(problem) => {
+                let kept = put_aside(&path).map_or(String::new(), |aside| format!("; kept as {}", aside.display()));
+                (T::default(), Some(format!("{name} makes no sense: {problem}{kept}")))
             }
         }
     }
@@ -86,6 +83,14 @@ impl Store {
         }
         result
     }
+}
+
+/// Gives a file another name, one that no file has yet: what it was would be overwritten otherwise.
+fn put_aside(path: &Path) -> io::Result<PathBuf> {
+    let numbered = (2..).map(|number| path.with_extension(format!("broken-{number}")));
+    let mut names = [path.with_extension("broken")].into_iter().chain(numbered);
+    let aside = names.find(|name| !name.exists()).ok_or(io::ErrorKind::AlreadyExists)?;
+    fs::rename(path, &aside).map(|()| aside)
 }
 
 #[cfg(test)]
@@ -127,10 +132,12 @@ pub(crate) mod tests {
     fn a_broken_file_is_put_aside() {
         let folder = Folder::new("broken");
         fs::create_dir_all(&folder.0).unwrap();
-        fs::write(folder.0.join("a.toml"), "x = [").unwrap();
-        let (table, problem) = Store::at(&folder.0).load::<Table>("a.toml");
-        assert!(table.is_empty() && problem.unwrap().contains("a.broken"));
-        assert_eq!(fs::read_to_string(folder.0.join("a.broken")).unwrap(), "x = [");
+        for (bytes, aside) in [(&b"x = ["[..], "a.broken"), (b"x = 1 # \xff", "a.broken-2")] {
+            fs::write(folder.0.join("a.toml"), bytes).unwrap();
+            let (table, problem) = Store::at(&folder.0).load::<Table>("a.toml");
+            assert!(table.is_empty() && problem.unwrap().ends_with(aside));
+            assert_eq!(fs::read(folder.0.join(aside)).unwrap(), bytes);
+        }
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub const KEPT: usize = 10;
 /// One score.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Score {
-    /// Name of the scenario.
+    /// What was played: the scenario, and what was changed of it.
     pub game: String,
     /// Time that it lasted, s: scores of different lengths are not compared.
     pub time: f32,
@@ -42,6 +42,7 @@ impl Scores {
     /// # Errors
     /// When the file cannot be written; the score counts all the same until the program ends.
     pub fn add(&mut self, score: Score, store: &Store) -> (Option<usize>, io::Result<()>) {
+        self.join(Self::load(store).0);
         let is_same_game = |other: &Score| other.game == score.game && other.time == score.time;
         let place = self.score.iter().filter(|other| is_same_game(other) && other.points >= score.points).count();
         if place >= KEPT || score.points == 0 {
@@ -56,6 +57,17 @@ impl Scores {
             !is_same_game || rank <= KEPT
         });
         (Some(place), store.save(FILE, self))
+    }
+
+    /// Takes over what another window has kept since.
+    fn join(&mut self, kept: Self) {
+        let count = |scores: &[Score], wanted: &Score| scores.iter().filter(|score| *score == wanted).count();
+        for score in kept.score.iter().filter(|score| score.points > 0) {
+            if count(&self.score, score) < count(&kept.score, score) {
+                let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
+                self.score.insert(at, score.clone());
+            }
+        }
     }
 
     /// The best ones of a game, the best first.
@@ -92,5 +104,17 @@ mod tests {
         let points: Vec<u32> = again.of("game", 90.0).map(|score| score.points).collect();
         assert_eq!(points, [140, 130, 120, 110, 100, 100, 90, 80, 70, 60]);
         assert_eq!(again.of("game", 10.0).count(), 1);
+    }
+
+    #[test]
+    fn two_windows_lose_no_score_of_each_other() {
+        let folder = Folder::new("windows");
+        let store = Store::at(&folder.0);
+        let mut windows = [Scores::default(), Scores::default()];
+        for (points, window) in [(30, 0), (50, 1), (40, 0), (50, 1)] {
+            windows[window].add(score(points, 90.0), &store).1.unwrap();
+        }
+        let points: Vec<u32> = Scores::load(&store).0.of("game", 90.0).map(|score| score.points).collect();
+        assert_eq!(points, [50, 50, 40, 30]);
     }
 }

@@ -64,16 +64,22 @@ impl Place {
         let item =
             Vec2::new((22.0 * pen.line(Size::Body)).min(0.86 * screen.x).min(460.0), 1.55 * pen.line(Size::Body));
         let corner = Vec2::new(0.5 * (screen.x - item.x), top * screen.y);
-        let visible = (((0.95 * screen.y - corner.y) / item.y) as usize).max(2);
-        Self { corner, item, visible, size: Size::Body }
+        Self::of_height(corner, item, 0.95 * screen.y, Size::Body)
+    }
+
+    /// As many items as there is room for above `bottom`, but some in any case.
+    fn of_height(corner: Vec2, item: Vec2, bottom: f32, size: Size) -> Self {
+        let visible = (((bottom - corner.y) / item.y) as usize).max(2);
+        Self { corner, item, visible, size }
     }
 
     /// Below the title.
     #[must_use]
     pub fn title(pen: &Pen) -> Self {
         let line = pen.line(Size::Body);
-        let corner = Vec2::new(0.06 * pen.screen().x, 0.36 * pen.screen().y);
-        Self { corner, item: Vec2::new(11.5 * line, 1.55 * line), visible: 8, size: Size::Body }
+        let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]);
+        let corner = Vec2::new(0.06 * pen.screen().x, top);
+        Self::of_height(corner, Vec2::new(11.5 * line, 1.55 * line), 0.95 * pen.screen().y, Size::Body)
     }
 
     /// At the left edge.
@@ -81,8 +87,7 @@ impl Place {
     pub fn side(pen: &Pen, top: f32) -> Self {
         let item = Vec2::new(12.5 * pen.line(Size::Small), 1.4 * pen.line(Size::Small));
         let corner = Vec2::new(0.5 * item.y, top);
-        let visible = (((pen.screen().y - corner.y - 0.3 * item.y) / item.y) as usize).max(3);
-        Self { corner, item, visible, size: Size::Small }
+        Self::of_height(corner, item, pen.screen().y - 0.3 * item.y, Size::Small)
     }
 
     /// The item at a point, counted from the first that is seen.
@@ -92,6 +97,12 @@ impl Place {
         let row = (from.y / self.item.y) as usize;
         (!is_beside && row < self.visible).then_some(row)
     }
+}
+
+/// Where the title and the line below it are, and where they end, drawing units from the upper edge.
+pub fn title_lines(pen: &Pen) -> [f32; 3] {
+    let (top, line) = (0.13 * pen.screen().y, pen.line(Size::Huge));
+    [top + 0.3 * line, top + 0.95 * line, top + 0.95 * line + 0.6 * pen.line(Size::Body)]
 }
 
 /// A menu.
@@ -177,7 +188,7 @@ impl Menu {
         let end = place.corner.y + place.item.y * place.visible.min(self.items.len()) as f32;
         for (is_more, y) in [(above, place.corner.y - 0.2 * place.item.y), (below, end + 0.2 * place.item.y)] {
             if is_more {
-                let at = Vec2::new(place.corner.x + 0.5 * place.item.x, y);
+                let at = Vec2::new(place.corner.x + place.item.x - 0.6 * place.item.y, y);
                 pen.label(at, Size::Small, Align::Centre, HALO, "...");
             }
         }

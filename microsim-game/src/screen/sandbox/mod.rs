@@ -8,7 +8,6 @@ mod tools;
 use super::pause::Pause;
 use super::{Change, Context, Screen};
 use crate::args::Scene;
-use crate::draw::Frame;
 use crate::draw::palette::HALO;
 use crate::input::{Action, Input, Move};
 use crate::stage::Stage;
@@ -95,7 +94,9 @@ impl Sandbox {
 
     /// One step, while time stands still.
     fn step(&mut self) {
+        let tools = &self.tools;
         self.viewer.step(&mut self.stage, |stage| {
+            tools.before_step(stage);
             stage.step();
             stage.world()
         });
@@ -122,13 +123,13 @@ impl Sandbox {
         self.plots.push(self.viewer.step_ms(), area);
     }
 
-    fn open_dropped(&self, input: &Input, context: &mut Context) -> Change {
-        let Some(path) = input.dropped.first() else { return Change::Stay };
-        let scene = Scene::File(path.clone());
-        match Stage::open(&scene, &[]) {
+    /// A scenario in place of all other screens, or a word on what is wrong with it. A file comes into the list.
+    pub fn open(scene: &Scene, context: &mut Context) -> Change {
+        match Stage::open(scene, &[]) {
             Ok(stage) => {
-                context.files.retain(|known| *known != scene);
-                context.files.insert(0, scene);
+                if matches!(scene, Scene::File(_)) {
+                    context.list(scene.clone());
+                }
                 Change::reset(Self::new(stage, context))
             }
             Err(problem) => {
@@ -182,16 +183,18 @@ impl Screen for Sandbox {
         let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel);
         problem.into_iter().for_each(|problem| context.tell(problem));
         self.run(context);
-        let at = self.viewer.place_of(self.stage.world(), self.stage.player());
+        let looks_around = self.tools.look_around(&mut self.viewer.camera);
+        let at = self.viewer.place_of(self.stage.world(), self.stage.player()).filter(|_| !looks_around);
         let wheel = if is_on_panel { 0.0 } else { input.wheel };
-        self.viewer.look(input.zoom(), wheel, at, None, context.pace.elapsed);
+        let pivot = looks_around.then_some(input.cursor);
+        self.viewer.look(input.zoom(), wheel, at, pivot, context.pace.elapsed);
         self.panel.items = panel::items(self);
-        self.open_dropped(input, context)
+        Change::Stay
     }
 
     fn draw(&mut self, context: &mut Context) {
         let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
-        context.paint(&Frame { view, camera, time: context.time });
+        context.paint(view, camera);
         if self.shows.anatomy {
             anatomy::draw(&mut context.pen, view, camera);
         }

@@ -7,8 +7,8 @@ use crate::stage::Stage;
 use crate::ui::pen::{Pen, Size};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec, Placement,
-    PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec,
+    Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
 };
 
 /// How near the cursor must be to something, pixels.
@@ -32,10 +32,12 @@ pub(super) enum Tool {
     Spawn,
     Remove,
     Follow,
+    Look,
 }
 
 impl Tool {
-    pub(super) const ALL: [Self; 6] = [Self::Steer, Self::Drag, Self::Push, Self::Spawn, Self::Remove, Self::Follow];
+    pub(super) const ALL: [Self; 7] =
+        [Self::Steer, Self::Drag, Self::Push, Self::Spawn, Self::Remove, Self::Follow, Self::Look];
 
     pub(super) fn label(self) -> &'static str {
         match self {
@@ -45,6 +47,7 @@ impl Tool {
             Self::Spawn => "Put in",
             Self::Remove => "Remove",
             Self::Follow => "Follow",
+            Self::Look => "Look around",
         }
     }
 }
@@ -53,9 +56,10 @@ impl Tool {
 type Make = fn() -> OrganismSpec;
 
 /// What can be put into the room.
-const SPAWNS: [(&str, Make); 8] = [
+const SPAWNS: [(&str, Make); 9] = [
     ("agar", || AgarSpec::default().into()),
     ("coccus", || CoccusSpec::default().into()),
+    ("bacillus", || BacillusSpec::default().into()),
     ("rigid cell", || RigidCellSpec::default().into()),
     ("amoeboid", || AmoeboidCellSpec::default().into()),
     ("platelet", || PlateletSpec::default().into()),
@@ -72,6 +76,8 @@ pub(super) struct Tools {
     grasped: Option<OrganismId>,
     /// Where the cursor is in the room while the button is down.
     hand: Option<Vec2>,
+    /// What point of the room it took hold of, to look around.
+    grip: Option<Vec2>,
 }
 
 impl Tools {
@@ -129,6 +135,18 @@ impl Tools {
         world.spawn(&spec(), placement).map(drop).map_err(|error| format!("{name}: {error}"))
     }
 
+    /// Moves the view with the hand, if that is the tool; nobody is followed then.
+    pub(super) fn look_around(&mut self, camera: &mut Camera) -> bool {
+        if self.tool != Tool::Look {
+            return false;
+        }
+        match self.hand {
+            Some(hand) => camera.shift(*self.grip.get_or_insert(hand) - hand),
+            None => self.grip = None,
+        }
+        true
+    }
+
     /// What the tool does to the world before each step.
     pub(super) fn before_step(&self, stage: &mut Stage) {
         let Some(hand) = self.hand else { return };
@@ -159,7 +177,7 @@ impl Tools {
 fn controller(name: &str) -> Controller {
     match name {
         "rigid cell" | "amoeboid" => Controller::wander([1.0, 5.0], 0.2),
-        "coccus" => Controller::wander([0.05, 0.3], 0.0),
+        "coccus" | "bacillus" => Controller::wander([0.05, 0.3], 0.0),
         _ => Controller::Still,
     }
 }
@@ -226,6 +244,22 @@ mod tests {
             stage.world_mut().remove(id).unwrap();
             assert_eq!(stage.world().organisms().count(), 0);
         }
+    }
+
+    #[test]
+    fn looking_around_holds_the_room_under_the_cursor() {
+        let (mut stage, mut tools) = (stage(), Tools { tool: Tool::Look, ..Tools::default() });
+        let size = stage.world().config().size;
+        let mut camera = Camera::around(0.5 * size, 30.0, size, Vec2::new(640.0, 360.0));
+        let grip = camera.to_room(Vec2::new(300.0, 200.0));
+        for (x, is_clicked) in [(300.0, true), (330.0, false), (360.0, false)] {
+            let input = Input { cursor: Vec2::new(x, 190.0), is_clicked, is_held: true, ..Input::default() };
+            let input = if is_clicked { Input { cursor: Vec2::new(x, 200.0), ..input } } else { input };
+            assert_eq!(tools.use_on(&mut stage, &camera, &input, false), None);
+            assert!(tools.look_around(&mut camera));
+            assert!((camera.to_room(input.cursor) - grip).length() < 1e-3, "{x}");
+        }
+        assert!(!Tools::default().look_around(&mut camera));
     }
 
     #[test]
