@@ -27,6 +27,16 @@ const POISONS: [(&str, Poison, bool); 11] = [
     ("radius negative", |p, i| p.radius[i] = -1.0, false),
 ];
 
+/// Looked at where a step ends, also what the next one would set anew or push back.
+const AT_THE_END: [Poison; 6] = [
+    |p, i| p.x[i] -= 400.0,
+    |p, i| p.y[i] -= 300.0,
+    |p, i| p.vy[i] = f32::INFINITY,
+    |p, i| p.prev_x[i] = f32::NAN,
+    |p, i| p.prev_y[i] = f32::NEG_INFINITY,
+    |p, i| p.origin_y[i] = f32::NAN,
+];
+
 /// Two linked discs, of a template that the library does not know.
 fn spawn_custom(world: &mut World, x: f32, y: f32) {
     let mut builder = Template::builder();
@@ -225,5 +235,20 @@ fn what_is_frozen_can_be_asked_anything() {
         world.step(&Inputs::new());
         world.validate().unwrap_or_else(|violation| panic!("{name}, removed: {violation}"));
         assert_eq!(world.census().particles, 0);
+    }
+}
+
+#[test]
+fn every_number_is_looked_at_where_a_step_ends() {
+    let crowd = crowd();
+    for (k, poison) in AT_THE_END.into_iter().enumerate() {
+        for id in crowd.organisms() {
+            let mut world = crowd.clone();
+            let last = world.organisms.get(id).unwrap().particles().last().unwrap();
+            poison(&mut world.particles, last as usize);
+            world.events.clear();
+            world.quarantine();
+            assert_eq!(world.events(), [Event::Quarantined { organism: id }], "{k}");
+        }
     }
 }
