@@ -135,7 +135,7 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
-        let news = context.scenery.pass(context.pace, context.effort());
+        let news = context.scenery.pass(context.pace, context.effort(), context.sight());
         news.into_iter().for_each(|news| context.tell(news));
         let screen = view_size(&self.plan);
         if screen.min_element() >= 1.0 {
@@ -251,8 +251,9 @@ impl App {
     }
 }
 
-/// Where a picture of this name goes, so that none that is there is lost.
+/// Where a picture of this name goes, so that none that is there is lost. Scenarios may have any name.
 fn free_path(name: &str) -> PathBuf {
+    let name = name.replace(|letter: char| !letter.is_alphanumeric() && !"-_.".contains(letter), "-");
     let numbered = (2..).map(|number| PathBuf::from(format!("{name}-{number}.png")));
     let mut paths = [PathBuf::from(format!("{name}.png"))].into_iter().chain(numbered);
     paths.find(|path| !path.exists()).unwrap_or_else(|| PathBuf::from(format!("{name}.png")))

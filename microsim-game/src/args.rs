@@ -95,7 +95,10 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Str
             "-h" | "--help" => return Ok(Command::Say(HELP.to_owned())),
             "-V" | "--version" => return Ok(Command::Say(format!("microsim-game {}", env!("CARGO_PKG_VERSION")))),
             "--play" => options.plays = true,
-            "--set" => options.overrides.push(pair(&value("KEY=VALUE")?)?),
+            "--set" => match pair(&value("KEY=VALUE")?)? {
+                (key, value) if key == "seed" => options.seed = Some(seed(&value)?),
+                change => options.overrides.push(change),
+            },
             "--seed" => options.seed = Some(seed(&value("a number")?)?),
             "--screenshot" => options.screenshot = Some(value("a file")?.into()),
             "--frames" => options.frames = Some(count(&value("a number")?)?),
@@ -207,6 +210,7 @@ mod tests {
         assert_eq!((shot.frames, shot.size), (Some(SCREENSHOT_FRAMES), Some((640, 360))));
         assert_eq!(options("--screenshot a.png --frames 7").frames, Some(7));
         assert_eq!(options("demo --quality low").effort, Some(Effort::Low));
+        assert_eq!(options("--set seed=5"), options("--seed 5"));
         let game = options("--play --set game.time=10 --seed 3");
         assert!(game.plays && game.seed == Some(3));
         assert_eq!(game.overrides, [("game.time".to_owned(), "10".to_owned())]);

@@ -101,7 +101,8 @@ fn prepare(options: Options) -> Result<Start, String> {
     let files = scenes.iter().filter(|scene| matches!(scene, Scene::File(_))).cloned().collect();
     let is_for_game = plays || scenes.is_empty();
     let game_overrides = if is_for_game { overrides.clone() } else { Vec::new() };
-    let game = GameChoice { scene: named.unwrap_or(builtin), overrides: game_overrides, seed };
+    let game =
+        GameChoice { scene: named.unwrap_or(builtin), overrides: game_overrides, seed: seed.filter(|_| is_for_game) };
     let opening = match scenes.first() {
         _ if plays => Opening::Play,
         Some(scene) => {

@@ -136,7 +136,7 @@ impl Scenery {
     }
 
     /// Lowers automatic effort when frames stay slow, and says so.
-    pub fn pass(&mut self, pace: Pace, effort: Effort) -> Option<String> {
+    pub fn pass(&mut self, pace: Pace, effort: Effort, sight: Sight) -> Option<String> {
         let elapsed = pace.elapsed.min(0.5);
         let is_slow = !pace.is_exact && elapsed > SLOW_FRAME;
         self.slow = if is_slow { self.slow + elapsed } else { (self.slow - elapsed).max(0.0) };
@@ -146,8 +146,10 @@ impl Scenery {
         self.slow = 0.0;
         let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
         let lower = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
-        let is_news = std::mem::replace(&mut self.given_up, lower) != lower && effort == Effort::Automatic;
-        is_news.then(|| format!("Pictures are slow. Quality is {} now; see the settings.", STEPS_DOWN[lower].0))
+        let is_lower = std::mem::replace(&mut self.given_up, lower) != lower;
+        let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
+        (is_lower && is_seen)
+            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", STEPS_DOWN[lower].0))
     }
 
     /// Begins anew with the best that automatic effort gives.

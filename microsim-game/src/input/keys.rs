@@ -88,11 +88,18 @@ const USABLE: &[KeyCode] = {
 #[serde(from = "BTreeMap<String, String>")]
 pub struct Keys(BTreeMap<Action, String>);
 
-/// Actions that another version may have are left out.
+/// Actions and keys that another version may have are left out, and no key gets two meanings.
 impl From<BTreeMap<String, String>> for Keys {
     fn from(names: BTreeMap<String, String>) -> Self {
-        let of = |action: Action| Some((action, names.get(action.name())?.clone()));
-        Self(Action::ALL.into_iter().filter_map(of).collect())
+        let mut keys = Self::default();
+        for action in Action::ALL {
+            let wanted = names.get(action.name());
+            let known = USABLE.iter().find(|key| wanted.is_some_and(|wanted| name(**key) == *wanted));
+            if let Some(key) = known {
+                keys.set(action, *key);
+            }
+        }
+        keys
     }
 }
 

@@ -3,6 +3,7 @@
 use super::end::End;
 use super::pause::Pause;
 use super::{Change, Context, GameChoice, Screen};
+use crate::args::Scene;
 use crate::hud::{self, Status, marks};
 use crate::input::{Action, Input, Move};
 use crate::rules::hint::Hints;
@@ -43,7 +44,11 @@ impl GameChoice {
     pub fn label(&self) -> String {
         let seed = self.seed.map(|seed| ("seed".to_owned(), seed.to_string()));
         let changes = self.overrides.iter().chain(&seed).map(|(key, value)| format!(", {key} = {value}"));
-        format!("{}{}", self.scene, changes.collect::<String>())
+        let scene = match &self.scene {
+            Scene::File(path) => path.canonicalize().unwrap_or_else(|_| path.clone()).display().to_string(),
+            builtin => builtin.to_string(),
+        };
+        scene + &changes.collect::<String>()
     }
 
     /// Time of the game, s, if it is one.

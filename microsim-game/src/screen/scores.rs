@@ -21,7 +21,7 @@ impl ScoreList {
     pub fn new(context: &Context) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         Self {
-            game: format!("High scores: {game}, {time:.0} s"),
+            game: format!("High scores: {}, {time:.0} s", context.game.scene),
             scores: context.scores.of(&game, time).cloned().collect(),
         }
     }

@@ -44,6 +44,8 @@ fn items(context: &Context) -> Vec<Item> {
 
 impl Screen for SettingsMenu {
     fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+        // Keys change some of them too.
+        self.page.menu.items = items(context);
         if input.step == Some(Move::Back) {
             return Change::Pop;
         }

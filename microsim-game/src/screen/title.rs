@@ -17,6 +17,8 @@ use microsim_core::glam::Vec2;
 
 /// Height of the picture behind the menu, units.
 const VIEW: f32 = 42.0;
+/// The menu covers the middle: the hunter is seen beside it.
+const BESIDE: Vec2 = Vec2::new(0.36 * VIEW, 0.0);
 /// The scene behind the menu begins anew after this time, s: by then most of the prey is eaten.
 const SCENE_TIME: f64 = 90.0;
 
@@ -64,7 +66,8 @@ impl Title {
 impl Scene {
     fn new(screen: Vec2) -> Option<Self> {
         let stage = Stage::builtin("hunt")?;
-        let camera = first_view(stage.world(), stage.player(), VIEW, screen);
+        let mut camera = first_view(stage.world(), stage.player(), VIEW, screen);
+        camera.shift(-BESIDE);
         let viewer = Viewer::new(stage.world(), camera);
         Some(Self { stage, bot: Bot::new(Policy::Greedy, 1), viewer })
     }
@@ -83,9 +86,7 @@ impl Scene {
             stage.world()
         });
         let at = self.viewer.place_of(self.stage.world(), self.stage.player());
-        // The menu covers the middle: the hunter is seen beside it.
-        let beside = Vec2::new(0.36 * VIEW, 0.0);
-        self.viewer.look(0.0, 0.0, at.map(|at| at - beside), None, context.pace.elapsed);
+        self.viewer.look(0.0, 0.0, at.map(|at| at - BESIDE), None, context.pace.elapsed);
     }
 }
 

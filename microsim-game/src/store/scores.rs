@@ -49,14 +49,19 @@ impl Scores {
             return (None, Ok(()));
         }
         let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
-        let mut rank = 0;
-        self.score.insert(at, score.clone());
-        self.score.retain(|other| {
-            let is_same_game = other.game == score.game && other.time == score.time;
-            rank += usize::from(is_same_game);
-            !is_same_game || rank <= KEPT
-        });
+        self.score.insert(at, score);
+        self.trim();
         (Some(place), store.save(FILE, self))
+    }
+
+    /// Leaves the best ones of each game.
+    fn trim(&mut self) {
+        let all = std::mem::take(&mut self.score);
+        for score in all {
+            if self.of(&score.game, score.time).count() < KEPT {
+                self.score.push(score);
+            }
+        }
     }
 
     /// Takes over what another window has kept since.
@@ -68,6 +73,7 @@ impl Scores {
                 self.score.insert(at, score.clone());
             }
         }
+        self.trim();
     }
 
     /// The best ones of a game, the best first.

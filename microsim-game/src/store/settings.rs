@@ -76,11 +76,11 @@ mod tests {
 
     #[test]
     fn files_of_other_versions_are_read() {
-        let text = "text_size = 99\nunknown = 1\neffort = \"heroic\"\n[keys]\npause = \"M\"\ndance = \"T\"";
+        let text = "text_size = 99\nunknown = 1\neffort = \"heroic\"\n[keys]\npause = \"Q\"\ndance = \"T\"";
         let settings: Settings = toml::from_str(text).unwrap();
         assert_eq!(settings.text_factor(), TEXT_SIZES[3]);
         assert_eq!(settings.effort, Effort::default());
-        assert_eq!(settings.keys.of(Action::Pause), KeyCode::M);
-        assert_eq!(settings.keys.of(Action::Consume), KeyCode::Q);
+        assert_eq!(settings.keys.of(Action::Pause), KeyCode::Q);
+        assert_eq!(settings.keys.of(Action::Consume), KeyCode::Space, "no key has two meanings");
     }
 }

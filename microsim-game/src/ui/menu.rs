@@ -77,9 +77,10 @@ impl Place {
     #[must_use]
     pub fn title(pen: &Pen) -> Self {
         let line = pen.line(Size::Body);
-        let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]);
-        let corner = Vec2::new(0.06 * pen.screen().x, top);
-        Self::of_height(corner, Vec2::new(11.5 * line, 1.55 * line), 0.95 * pen.screen().y, Size::Body)
+        let (item, bottom) = (Vec2::new(11.5 * line, 1.55 * line), 0.95 * pen.screen().y);
+        // Below the title, but where two items have room.
+        let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]).min(bottom - 2.0 * item.y).max(0.0);
+        Self::of_height(Vec2::new(0.06 * pen.screen().x, top), item, bottom, Size::Body)
     }
 
     /// At the left edge.
@@ -140,7 +141,8 @@ impl Menu {
             self.focus =
                 self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
         }
-        self.first = self.first.clamp((self.focus + 1).saturating_sub(place.visible), self.focus);
+        let last_first = self.items.len().saturating_sub(place.visible);
+        self.first = self.first.clamp((self.focus + 1).saturating_sub(place.visible), self.focus).min(last_first);
         choice
     }
 

@@ -138,6 +138,7 @@ impl Tools {
     /// Moves the view with the hand, if that is the tool; nobody is followed then.
     pub(super) fn look_around(&mut self, camera: &mut Camera) -> bool {
         if self.tool != Tool::Look {
+            self.grip = None;
             return false;
         }
         match self.hand {
