@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::replay::lost;
 use crate::saved::{Playing, Saved};
 use microsim_core::World;
+use microsim_core::replay::Ending;
 use microsim_core::snapshot::Checkpoint;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,7 +16,8 @@ use std::path::{Path, PathBuf};
     after_help = "Two replays are played side by side up to the first step after which their worlds differ; a replay and a snapshot or\n\
 checkpoint are compared at the step of the latter. Of two checkpoints the player, names, script and checks are compared\n\
 too, but not the texts of their scenarios. The exit code is 0 if nothing differs and 1 if something does, or if a replay\n\
-is not the run that was recorded: its first digest that differs is named on stderr."
+is not the run that was recorded: its first digest that differs is named on stderr. It is 2 for a damaged replay in which\n\
+nothing differs up to the damage."
 )]
 pub(crate) struct DiffArgs {
     /// A snapshot, a checkpoint or a replay
@@ -39,9 +41,12 @@ struct Outcome {
 /// Compares two files and says where they differ.
 pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
     let (one, other) = (Saved::read(&args.one)?, Saved::read(&args.other)?);
+    let mut damage = None;
     for (saved, path) in [(&one, &args.one), (&other, &args.other)] {
-        if let Saved::Replay(replay) = saved {
-            lost(replay, path).iter().for_each(|text| console.note(text));
+        let Saved::Replay(replay) = saved else { continue };
+        match lost(replay, path) {
+            text @ Some(_) if matches!(replay.ending(), Ending::Damaged { .. }) => damage = text,
+            text => text.iter().for_each(|text| console.note(text)),
         }
     }
     let outcome = match (one, other) {
@@ -51,7 +56,8 @@ pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
         (Saved::Run(one), Saved::Run(other)) => compare_checkpoints(&one, &other),
         (one, other) => compare_worlds((one, args.one.as_path()), (other, args.other.as_path()))?,
     };
-    outcome.tell()
+    outcome.tell()?;
+    damage.map_or(Ok(()), |text| Err(Failure::Message(text)))
 }
 
 impl Outcome {

@@ -34,6 +34,23 @@ pub(crate) struct Recording {
 }
 
 impl KeepArgs {
+    /// Refuses files that would take each other's place, or that of something in the folder of the results.
+    pub(crate) fn check(&self, out: Option<&Path>) -> Result<(), Failure> {
+        let whole = |path: &Path| std::path::absolute(path).map_err(|error| Failure::file("write", path, &error));
+        let (record, save) =
+            (self.record.as_deref().map(whole).transpose()?, self.save.as_deref().map(whole).transpose()?);
+        if let Some(path) = record.as_ref().filter(|record| Some(*record) == save.as_ref()) {
+            return Err(Failure::Message(format!("--record and --save are both {}", path.display())));
+        }
+        let out = out.map(whole).transpose()?;
+        let is_inside = |path: &&PathBuf| out.as_ref().is_some_and(|out| path.starts_with(out));
+        match [&record, &save].into_iter().flatten().find(is_inside) {
+            Some(path) => Err(Failure::Message(format!("{} is in the folder of --out", path.display()))),
+            // Before the run, not after it.
+            None => self.save.as_deref().map_or(Ok(()), |save| Outputs::beside(save).map(drop)),
+        }
+    }
+
     /// Begins the record, if one is asked for.
     pub(crate) fn start(&self, origin: Origin) -> Result<Option<Recording>, Failure> {
         self.record.as_deref().map(|path| Recording::start(path, origin, self.digest_every)).transpose()

@@ -120,6 +120,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
         return estimate(&prepared, steps);
     }
     interrupt::listen();
+    args.keep.check(args.out.as_deref())?;
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
     Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
 }

@@ -148,6 +148,36 @@ fn a_damaged_record_is_played_as_far_as_it_goes_and_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
     assert!(stderr(&output).contains("damaged at byte"), "{}", stderr(&output));
+
+    let mut bytes = fs::read(&record).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    let damaged = folder.file("damaged-end.replay", &bytes);
+    let output = run(&["diff", &record, &damaged]);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), "no difference\n"));
+    assert!(stderr(&output).contains("damaged at byte"), "{}", stderr(&output));
+}
+
+#[test]
+fn files_that_would_take_the_place_of_something_are_refused() {
+    let folder = Folder::new("replay-places");
+    let (one, out) = (folder.path("one"), folder.path("out"));
+    let inside = format!("{out}/run.json");
+    let mut cases = vec![
+        (vec!["--record", &one, "--save", &one], "--record and --save are both"),
+        (vec!["--out", &out, "--record", &inside], "is in the folder of --out"),
+        (vec!["--out", &out, "--save", &inside], "is in the folder of --out"),
+    ];
+    let socket = folder.path("socket");
+    #[cfg(unix)]
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    #[cfg(unix)]
+    cases.extend([(vec!["--save", &socket], "not a regular file"), (vec!["--record", &socket], "not a regular file")]);
+    for (options, problem) in cases {
+        let output = run(&[&["run", "empty", "--steps", "2"], &options[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(stderr(&output).contains(problem), "{options:?}: {}", stderr(&output));
+    }
+    assert!(!std::path::Path::new(&one).exists());
 }
 
 #[test]
@@ -161,6 +191,7 @@ fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
     assert!(stderr(&output).contains("cut off"), "{}", stderr(&output));
     let output = run(&["diff", &record, &cut]);
+    assert_eq!(output.status.code(), Some(1), "it is shorter");
     assert!(stderr(&output).contains("cut.replay: cut off"), "{}", stderr(&output));
 }
 

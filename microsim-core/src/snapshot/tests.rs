@@ -124,17 +124,18 @@ fn a_shape_that_is_not_known_is_refused_when_writing() {
 fn the_digest_covers_everything_that_is_written() {
     for (k, world) in worlds().into_iter().enumerate() {
         let (content, digest) = (content(&world), world.digest());
+        let (mut accepted, mut tried) = (0, 0);
         // A prime stride: over the columns it meets every byte of a number.
         for at in (0..content.len()).step_by(31) {
             let mut changed = content.clone();
             changed[at] ^= 1;
-            let restored = World::from_snapshot(&WORLD.seal(&changed));
-            assert!(
-                restored.is_err() || restored.unwrap().digest() != digest,
-                "world {k}, byte {at} of {}",
-                content.len()
-            );
+            tried += 1;
+            if let Ok(restored) = World::from_snapshot(&WORLD.seal(&changed)) {
+                accepted += 1;
+                assert_ne!(restored.digest(), digest, "world {k}, byte {at} of {}", content.len());
+            }
         }
+        assert!(2 * accepted > tried, "world {k}: only {accepted} of {tried} can be compared");
     }
 }
 

@@ -28,7 +28,8 @@ const POISONS: [(&str, Poison, bool); 11] = [
 ];
 
 /// Looked at where a step ends, also what the next one would set anew or push back.
-const AT_THE_END: [Poison; 6] = [
+const AT_THE_END: [Poison; 7] = [
+    |p, i| p.vx[i] = f32::NAN,
     |p, i| p.x[i] -= 400.0,
     |p, i| p.y[i] -= 300.0,
     |p, i| p.vy[i] = f32::INFINITY,
@@ -250,5 +251,22 @@ fn every_number_is_looked_at_where_a_step_ends() {
             world.quarantine();
             assert_eq!(world.events(), [Event::Quarantined { organism: id }], "{k}");
         }
+    }
+}
+
+#[test]
+fn every_stretch_is_looked_at() {
+    let mut field = World::new(WorldConfig { size: Vec2::new(400.0, 200.0), ..WorldConfig::default() }).unwrap();
+    let places = (0..200).map(|k| Placement::at(10.0 + 15.0 * (k % 25) as f32, 10.0 + 15.0 * (k / 25) as f32));
+    let ids: Vec<_> = places.map(|at| field.spawn(&PlateletSpec::default().into(), at).unwrap()).collect();
+    assert!(field.particles.len() > 2 * super::STRETCH);
+    let edges = [0, super::STRETCH - 1, super::STRETCH, field.particles.len() - 1];
+    for id in ids {
+        let mut found = field.organisms.get(id).unwrap().particles();
+        let Some(i) = found.find(|i| edges.contains(&(*i as usize))) else { continue };
+        let mut world = field.clone();
+        world.particles.x[i as usize] = f32::NAN;
+        world.quarantine();
+        assert_eq!(world.events(), [Event::Quarantined { organism: id }], "particle {i}");
     }
 }
