@@ -89,10 +89,14 @@ fn compare_checkpoints(one: &Checkpoint, other: &Checkpoint) -> Outcome {
 /// Compares the worlds of two files at the step of the one that has a single step.
 fn compare_worlds(one: (Saved, &Path), other: (Saved, &Path)) -> Result<Outcome, Failure> {
     let step = one.0.step().or(other.0.step()).unwrap_or_default();
+    let are_played = [&one.0, &other.0].map(|saved| matches!(saved, Saved::Replay(_)));
     let (one, mismatch) = one.0.world_at(step, one.1)?;
     let (other, mismatch_of_other) = other.0.world_at(step, other.1)?;
     let mismatches = mismatch.into_iter().chain(mismatch_of_other).collect();
-    Ok(Outcome { difference: first_difference(&one, &other), compared: " in the world", mismatches })
+    let ends = are_played.into_iter().zip([&one, &other]).filter(|(is_played, _)| *is_played);
+    let end = ends.map(|(_, world)| world.step_index()).find(|end| *end < step);
+    let difference = end.map(|end| format!("step {end}: the replay ends")).or_else(|| first_difference(&one, &other));
+    Ok(Outcome { difference, compared: " in the world", mismatches })
 }
 
 /// The first difference between two worlds, with the step.

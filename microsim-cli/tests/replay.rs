@@ -183,7 +183,7 @@ fn files_that_would_take_the_place_of_something_are_refused() {
 #[test]
 fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
     let folder = Folder::new("replay-cut");
-    let (record, _) = keep(&folder, "a", &[]);
+    let (record, saved) = keep(&folder, "a", &[]);
     let bytes = fs::read(&record).unwrap();
     let cut = folder.file("cut.replay", &bytes[..bytes.len() - 15]);
     let output = run(&["replay", &cut]);
@@ -192,6 +192,8 @@ fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
     assert!(stderr(&output).contains("cut off"), "{}", stderr(&output));
     let output = run(&["diff", &record, &cut]);
     assert_eq!(output.status.code(), Some(1), "it is shorter");
+    let with_end = run(&["diff", &cut, &saved]);
+    assert_eq!((with_end.status.code(), stdout(&with_end).as_str()), (Some(1), "step 20: the replay ends\n"));
     assert!(stderr(&output).contains("cut.replay: cut off"), "{}", stderr(&output));
 }
 
