@@ -104,4 +104,9 @@ impl WorldConfig {
     pub(crate) fn reach(&self) -> f32 {
         self.max_speed * self.dt
     }
+
+    /// Farthest that a particle moves in one substep.
+    pub(crate) fn substep_reach(&self) -> f32 {
+        self.speed_limit() * self.substep()
+    }
 }

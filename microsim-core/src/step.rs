@@ -3,6 +3,7 @@
 use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
 use crate::capability::controller::senses;
 use crate::collision::broad_phase::Surroundings;
+use crate::collision::leeway::Reach;
 use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
@@ -85,13 +86,13 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     quieten_sleepers(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
-    for _ in 0..world.config.substeps {
+    for substep in 0..world.config.substeps {
         alone(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
         finished(Phase::ProjectFluids);
-        project_constraints(world, h);
+        project_constraints(world, h, substep > 0);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
         alone(world, project_contacts);
@@ -126,9 +127,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     scratch.contractions.clear();
     constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
-    for (_, organism) in organisms.iter_mut(|organism| organism.body.membrane().is_some()) {
-        organism.relax_membrane(particles, fluids, config.dt);
-    }
+    organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
     // What wants to move does not sleep, even where it cannot.
     for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
         let owner = organisms.id_at(particles.owner[drive.particle as usize]);
@@ -139,7 +138,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
 
 pub(crate) fn find_pairs(world: &mut World) {
     let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
-    let (size, reach) = (config.size, config.reach());
+    let (size, reach) = (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
     let (rings, homes) = (rings.as_slice(), &organisms.homes());
     let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
@@ -177,13 +176,19 @@ fn project_fluids(world: &mut World, h: f32) {
     scratch.fluid.project(fluids, particles, h, *dispatch);
 }
 
-fn project_constraints(world: &mut World, h: f32) {
+fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
+    let leeways = scratch.broad_phase.leeway.blocks_mut();
+    let awake = blocks.iter().zip(leeways).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     block::predict_and_project(
-        blocks,
-        sleep,
+        awake,
         #[inline(always)]
-        |block| integrate::predict_positions(block, config.gravity, config.speed_limit(), h),
+        |block, leeway| {
+            if has_moved {
+                block::note_way(block, leeway);
+            }
+            integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
+        },
         |template| templates[template as usize].constraints(),
         particles,
         h,
@@ -202,8 +207,9 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
-    let World { config, particles, obstacles, organisms, guard, scratch, .. } = world;
+    let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
+    broad_phase.widen(particles, exemptions, sleep, config.substep_reach());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, &mut scratch.impacts);
     }

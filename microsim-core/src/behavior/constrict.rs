@@ -24,7 +24,7 @@ pub(crate) fn draw_furrows(
     drives: &mut Vec<Drive>,
     contractions: &mut Vec<Contraction>,
 ) {
-    for (_, organism) in organisms.iter().filter(|(_, organism)| !organism.is_quarantined) {
+    for (_, organism) in organisms.with_membrane().filter(|(_, organism)| !organism.is_quarantined) {
         draw_furrow(organism, particles, contractions);
         clear_furrow(organism, organisms, particles, drives);
     }

@@ -79,7 +79,7 @@ pub(crate) fn drive_lips(
     drives: &mut Vec<Drive>,
     contractions: &mut Vec<Contraction>,
 ) {
-    for (_, organism) in organisms.iter() {
+    for (_, organism) in organisms.with_membrane() {
         let Some(engulfer) = organism.engulfer.as_ref() else { continue };
         let taken_in = engulfer.meals.iter().filter(|meal| meal.is_in_cup());
         for prey in taken_in.filter_map(|meal| organisms.get(meal.prey)) {

@@ -58,7 +58,7 @@ fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
 pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives: &mut Vec<Drive>) {
-    for (_, organism) in organisms.iter() {
+    for (_, organism) in organisms.with_membrane() {
         let Some(engulfer) = &organism.engulfer else { continue };
         let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
         for meal in taken_in {

@@ -4,9 +4,12 @@
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
 
+use super::Contact;
 use super::bounds::Bounds;
 use super::crowd::{Crowd, Disc, Store};
+use super::filter::Exemptions;
 use super::grid::Grid;
+use super::leeway::{self, Leeway, Reach};
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
@@ -24,8 +27,11 @@ pub(super) struct Body {
     pub bounds: Bounds,
     /// Of all its discs.
     owner: u32,
-    /// Its block, or [`NO_BLOCK`].
+    /// Its block, or [`NO_BLOCK`], and its lane there.
     pub block: u32,
+    lane: usize,
+    /// How much farther it can get in the step than it is expected to.
+    slack: f32,
     /// Whether it has moved in the last step.
     is_restless: bool,
     discs: Range<usize>,
@@ -38,6 +44,14 @@ struct Layer {
     grid: Grid,
     /// The largest width or height.
     extent: f32,
+}
+
+/// What decides whether two bodies meet.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting<'a> {
+    pub particles: &'a Particles,
+    pub exemptions: &'a Exemptions,
+    pub sleep: &'a Sleep,
 }
 
 /// All bodies.
@@ -53,8 +67,15 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Makes a body of each instance in some blocks, in place of all there were.
-    pub(super) fn collect(&mut self, blocks: &[BlockRange], particles: &Particles, sleep: &Sleep, reach: f32) {
+    /// Makes a body of each instance in some blocks, in place of all there were, and grants it its leeway.
+    pub(super) fn collect(
+        &mut self,
+        blocks: &[BlockRange],
+        particles: &Particles,
+        sleep: &Sleep,
+        reach: Reach,
+        leeway: &mut Leeway,
+    ) {
         let Self { discs, boxes, found, .. } = self;
         let store = Store::of(particles);
         let len = blocks.iter().map(BlockRange::len).sum();
@@ -62,21 +83,23 @@ impl Bodies {
         boxes.resize(len, Bounds::EMPTY);
         let (mut portions, mut start) = (Vec::new(), 0);
         let mut rest = (discs.as_mut_slice(), boxes.as_mut_slice());
-        for (blocks, first) in blocks.chunks(PORTION).zip((0..).step_by(PORTION)) {
+        let leeways = leeway.renew(blocks.len()).chunks_mut(PORTION);
+        for ((blocks, first), leeways) in blocks.chunks(PORTION).zip((0..).step_by(PORTION)).zip(leeways) {
             let len = blocks.iter().map(BlockRange::len).sum();
             let (discs, others) = rest.0.split_at_mut(len);
             let (boxes, other_boxes) = rest.1.split_at_mut(len);
-            portions.push((blocks, first, start, discs, boxes));
+            portions.push((blocks, first, start, discs, boxes, leeways));
             (rest, start) = ((others, other_boxes), start + len);
         }
-        let collected = parallel::map(portions, |(blocks, first_block, start, discs, boxes)| {
+        let collected = parallel::map(portions, |(blocks, first_block, start, discs, boxes, leeways)| {
+            leeways.iter_mut().zip(blocks).for_each(|(left, block)| *left = leeway::grant(block, particles, reach));
             let mut bodies = Vec::with_capacity(blocks.len() * LANES);
             let mut end = 0;
             let lanes = blocks.iter().zip(first_block..).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
             for ((block, index), lane) in lanes {
                 let (first, mut bounds) = (end, Bounds::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
-                    if let Some(disc) = store.disc(i, reach) {
+                    if let Some(disc) = store.disc(i, reach.step) {
                         discs[end] = disc;
                         boxes[end] = disc.bounds();
                         bounds = bounds.join(boxes[end]);
@@ -86,7 +109,8 @@ impl Bodies {
                 if end > first {
                     let owner = particles.owner[discs[first].index as usize];
                     let (is_restless, discs) = (sleep.is_restless(index, lane), start + first..start + end);
-                    bodies.push(Body { bounds, owner, block: index as u32, is_restless, discs });
+                    let slack = reach.step - leeways[index - first_block][lane];
+                    bodies.push(Body { bounds, owner, block: index as u32, lane, slack, is_restless, discs });
                 }
             }
             bodies
@@ -98,7 +122,8 @@ impl Bodies {
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
         let (bounds, first) = (disc.bounds(), self.discs.len());
-        self.found.push(Body { bounds, owner, block: NO_BLOCK, is_restless: true, discs: first..first + 1 });
+        let (lane, slack, is_restless, discs) = (0, 0.0, true, first..first + 1);
+        self.found.push(Body { bounds, owner, block: NO_BLOCK, lane, slack, is_restless, discs });
         self.discs.push(disc);
         self.boxes.push(bounds);
     }
@@ -145,23 +170,18 @@ impl Bodies {
         self.in_box(body.bounds.low(), body.bounds.high()).any(|other| other.is_restless)
     }
 
-    /// Adds what `find` gives for each two discs that may touch, of bodies whose owners may meet and that do not both sleep: of
-    /// small bodies to the lists, strip by strip of rows, of large ones to the others.
-    pub(super) fn pairs<R: Send>(
-        &self,
-        may_meet: impl Fn(u32, u32) -> bool + Send + Sync,
-        find: impl Fn(&Disc, &Disc, [bool; 2]) -> Option<R> + Send + Sync,
-        sleep: &Sleep,
-        strips: &mut Vec<Vec<R>>,
-        others: &mut Vec<R>,
-    ) {
-        let between = |a: &Body, b: &Body, near: &mut Vec<Disc>, found: &mut Vec<R>| {
-            let asleep = [a, b].map(|body| sleep.is_asleep(body.block));
-            if a.bounds.meets(b.bounds) && asleep != [true; 2] && may_meet(a.owner, b.owner) {
-                self.pairs_between(a, b, near, |a, b| found.extend(find(a, b, asleep)));
+    /// Adds the contacts of discs that may touch, if they move no farther than expected: of small bodies to the lists, strip by
+    /// strip of rows, of large ones to the others.
+    pub(super) fn pairs(&self, meeting: Meeting<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
+        let between = |a: &Body, b: &Body, near: &mut Vec<Disc>, found: &mut Vec<Contact>| {
+            let slack = a.slack + b.slack;
+            if a.bounds.less(slack).meets(b.bounds)
+                && let Some(asleep) = meeting.of(a, b)
+            {
+                self.pairs_between(a, b, slack, near, |a, b| found.extend(meeting.contact(a, b, asleep)));
             }
         };
-        let within = |layer: &Layer, rows: Range<usize>, found: &mut Vec<R>| {
+        let within = |layer: &Layer, rows: Range<usize>, found: &mut Vec<Contact>| {
             let mut near = Vec::new();
             layer.grid.pairs(rows, |a, b| between(&layer.bodies[a], &layer.bodies[b], &mut near, found));
         };
@@ -177,11 +197,36 @@ impl Bodies {
         }
     }
 
-    fn pairs_between(&self, a: &Body, b: &Body, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
+    /// Adds the contacts that were left out because a body was not expected to move as far as it may have when everything has
+    /// moved by `next` more.
+    pub(super) fn widen(&self, meeting: Meeting<'_>, leeway: &mut Leeway, next: f32, found: &mut Vec<Contact>) {
+        let mut near = Vec::new();
+        let all = self.small.bodies.iter().chain(&self.large.bodies);
+        for body in all.filter(|body| body.block != NO_BLOCK) {
+            if leeway.left(body.block, body.lane) >= next {
+                continue;
+            }
+            for other in self.in_box(body.bounds.low(), body.bounds.high()) {
+                let Some(asleep) = meeting.of(body, other) else { continue };
+                let is_lifted = other.block != NO_BLOCK && leeway.left(other.block, other.lane).is_infinite();
+                let slack = if is_lifted { 0.0 } else { other.slack };
+                self.pairs_between(body, other, slack, &mut near, |a, b| {
+                    if !a.is_within(b, body.slack + slack) {
+                        found.extend(meeting.contact(a, b, asleep));
+                    }
+                });
+            }
+            leeway.lift(body.block, body.lane);
+        }
+    }
+
+    /// Calls `visit` for each two discs of two bodies that may touch even if both together move by so much less than they
+    /// can.
+    fn pairs_between(&self, a: &Body, b: &Body, slack: f32, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
         near.clear();
-        near.extend(self.discs_meeting(b, a.bounds));
-        for disc in self.discs_meeting(a, b.bounds) {
-            near.iter().filter(|other| disc.is_near(other)).for_each(|other| visit(disc, other));
+        near.extend(self.discs_meeting(b, a.bounds.less(slack)));
+        for disc in self.discs_meeting(a, b.bounds.less(slack)) {
+            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(disc, other));
         }
     }
 
@@ -189,6 +234,22 @@ impl Bodies {
     fn discs_meeting(&self, body: &Body, bounds: Bounds) -> impl Iterator<Item = &Disc> {
         let discs = self.boxes[body.discs.clone()].iter().zip(self.discs_of(body));
         discs.filter(move |(disc, _)| disc.meets(bounds)).map(|(_, disc)| disc)
+    }
+}
+
+impl Meeting<'_> {
+    /// Which of two bodies sleep, if they meet at all.
+    fn of(self, a: &Body, b: &Body) -> Option<[bool; 2]> {
+        let asleep = [a, b].map(|body| self.sleep.is_asleep(body.block));
+        let meets = asleep != [true; 2] && a.owner != b.owner && !self.exemptions.contains(a.owner, b.owner);
+        meets.then_some(asleep)
+    }
+
+    /// The contact of a disc of one with a disc of the other, if they collide; neither is in fluid or a ring.
+    fn contact(self, a: &Disc, b: &Disc, asleep: [bool; 2]) -> Option<Contact> {
+        let (p, i, j) = (self.particles, a.index as usize, b.index as usize);
+        let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
+        collide.then(|| Contact { asleep, ..Contact::new(p, i, j) })
     }
 }
 

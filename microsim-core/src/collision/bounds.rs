@@ -26,6 +26,12 @@ impl Bounds {
         (self.low() + self.high()) * 0.5
     }
 
+    /// The box without a rim of this width.
+    #[inline(always)]
+    pub(super) fn less(self, rim: f32) -> Self {
+        Self(self.0 - rim)
+    }
+
     /// The larger one of width and height.
     pub(super) fn extent(self) -> f32 {
         let Vec2 { x, y } = self.high() - self.low();

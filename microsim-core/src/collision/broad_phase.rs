@@ -2,14 +2,16 @@
 //!
 //! Nothing moves farther in a step than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can
 //! touch. They are looked for in the way that suits them: soft bodies and single discs by their boxes first ([`bodies`]),
-//! membranes and fluid disc by disc ([`crowd`]).
+//! membranes and fluid disc by disc ([`crowd`]). Two soft bodies are at first expected to move much less far ([`leeway`]).
 //!
 //! [`bodies`]: super::bodies
 //! [`crowd`]: super::crowd
+//! [`leeway`]: super::leeway
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, Meeting};
 use super::crowd::{Crowd, Disc, Store};
 use super::filter::{Exemptions, Home};
+use super::leeway::{Leeway, Reach};
 use super::obstacle::Obstacle;
 use super::ring::{Nearby, Ring, RingContacts};
 use super::{Contact, Contacts, ObstacleContact};
@@ -26,6 +28,7 @@ pub(crate) struct BroadPhase {
     pub contacts: Shared<Contacts>,
     pub obstacle_contacts: Vec<ObstacleContact>,
     pub ring_contacts: Shared<RingContacts>,
+    pub leeway: Leeway,
     bodies: Bodies,
     membranes: Crowd,
     fluid: Crowd,
@@ -45,8 +48,7 @@ pub(crate) struct Surroundings<'a> {
     pub homes: &'a [Home],
     /// Upper right corner of the room.
     pub size: Vec2,
-    /// Farthest that a particle moves in one step.
-    pub reach: f32,
+    pub reach: Reach,
 }
 
 impl BroadPhase {
@@ -68,9 +70,7 @@ impl BroadPhase {
         let contacts = contacts.renew(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
-        let may_meet = |a: u32, b: u32| a != b && !around.exemptions.contains(a, b);
-        let find = |a: &_, b: &_, asleep| contact_of_bodies(a, b, asleep, around.particles);
-        bodies.pairs(may_meet, find, sleep, strips, others);
+        bodies.pairs(Meeting { particles: around.particles, exemptions: around.exemptions, sleep }, strips, others);
         let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, around));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
@@ -87,6 +87,14 @@ impl BroadPhase {
         }
         self.find_obstacle_contacts(around, sleep);
         self.find_ring_contacts(around);
+    }
+
+    /// Finds what only bodies that move farther than expected may touch, before everything moves by `next` more.
+    pub(crate) fn widen(&mut self, particles: &Particles, exemptions: &Exemptions, sleep: &Sleep, next: f32) {
+        let Self { contacts, bodies, leeway, .. } = self;
+        if leeway.ends_within(next) {
+            bodies.widen(Meeting { particles, exemptions, sleep }, leeway, next, &mut contacts.others);
+        }
     }
 
     /// Wakes the blocks of sleepers near which something moves. Membranes and fluid always count as moving.
@@ -108,7 +116,7 @@ impl BroadPhase {
         let crowds = [&*membranes, &*fluid];
         ring_contacts
             .renew(|_| RingContacts::default())
-            .find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach });
+            .find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach.step });
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -121,13 +129,13 @@ impl BroadPhase {
     /// Sorts the colliding particles into bodies, membranes and fluid.
     fn sort(&mut self, around: Surroundings<'_>, sleep: &Sleep) {
         let Surroundings { particles: p, blocks, size, reach, .. } = around;
-        let Self { bodies, membranes, fluid, .. } = self;
+        let Self { bodies, membranes, fluid, leeway, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
-        bodies.collect(blocks, p, sleep, reach);
+        bodies.collect(blocks, p, sleep, reach, leeway);
         let store = Store::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for (i, disc) in loose.filter_map(|i| store.disc(i, reach).map(|disc| (i, disc))) {
+        for (i, disc) in loose.filter_map(|i| store.disc(i, reach.step).map(|disc| (i, disc))) {
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
@@ -176,13 +184,6 @@ fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
     (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| Contact::new(p, i, j))
 }
 
-/// The same for discs of two bodies that may meet: they are in no fluid and no ring.
-fn contact_of_bodies(a: &Disc, b: &Disc, asleep: [bool; 2], p: &Particles) -> Option<Contact> {
-    let (i, j) = (a.index as usize, b.index as usize);
-    let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
-    collide.then(|| Contact { asleep, ..Contact::new(p, i, j) })
-}
-
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
 fn is_for_rings(p: &Particles, a: usize, b: usize) -> bool {
     let in_ring = [a, b].map(|i| p.next_in_ring[i] != NO_OWNER);
@@ -208,9 +209,11 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particle::CollisionGroups;
+    use crate::particle::{CollisionGroups, LANES};
     use crate::rng::Rng;
+    use crate::solver::block::note_way;
     use crate::solver::testing::disc;
+    use std::collections::BTreeSet;
 
     #[test]
     fn nodes_of_a_membrane_collide_unless_a_link_joins_them() {
@@ -249,12 +252,10 @@ mod tests {
             rings: &[],
             homes: &[],
             size,
-            reach: 0.1,
+            reach: Reach { step: 0.1, substep: 0.1, dt: 0.01 },
         };
         broad.find_pairs(around, &mut Sleep::default(), 1);
-        let mut pairs: Vec<_> = broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect();
-        pairs.sort_unstable();
-        pairs
+        pairs_of(&broad).into_iter().collect()
     }
 
     #[test]
@@ -276,6 +277,92 @@ mod tests {
             assert_eq!(found(&particles, &exemptions), expected, "seed {seed}");
             assert!(!expected.is_empty());
         }
+    }
+
+    const LEEWAY: Reach = Reach { step: 0.8, substep: 0.1, dt: 0.02 };
+
+    /// Bodies of four discs in blocks, somewhere, some of them fast.
+    fn random_blocks(rng: &mut Rng, count: u32) -> (Particles, Vec<BlockRange>) {
+        let mut p = Particles::default();
+        let ranges = (0..count).map(|_| BlockRange { base: p.extend(4 * LANES) as usize, slots: 4 });
+        let ranges: Vec<_> = ranges.collect();
+        for (block, k) in ranges.iter().zip(0..) {
+            for lane in 0..LANES {
+                let (at, speed) =
+                    (Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 15.0)), rng.range(-9.0, 9.0).max(0.0));
+                for slot in 0..4 {
+                    let place = at + Vec2::new(0.5 * slot as f32, rng.range(-0.2, 0.2));
+                    let velocity = Vec2::new(0.0, speed);
+                    let owner = 8 * k + lane as u32;
+                    let particle = crate::particle::Particle { owner, radius: 0.3, velocity, ..disc(place, 1.0) };
+                    p.set(block.entry(slot, lane), &particle);
+                }
+            }
+        }
+        (p, ranges)
+    }
+
+    /// Moves half of the bodies as far as they can in a substep, the others a little, to either side, and notes how far.
+    fn move_all(p: &mut Particles, blocks: &[BlockRange], broad: &mut BroadPhase, rng: &mut Rng) {
+        for (block, left) in blocks.iter().zip(broad.leeway.blocks_mut()) {
+            for lane in 0..LANES {
+                let way = if lane < 4 { LEEWAY.substep } else { rng.range(0.0, 0.03) };
+                let way = if lane % 2 == 0 { way } else { -way };
+                for i in (0..4).map(|slot| block.entry(slot, lane)) {
+                    (p.prev_x[i], p.prev_y[i]) = (p.x[i], p.y[i]);
+                    p.x[i] += way;
+                }
+            }
+            note_way(&p.columns().part(block.base..block.end()), left);
+        }
+    }
+
+    #[test]
+    fn bodies_that_get_faster_than_expected_miss_nobody() {
+        let (mut widened, mut missed_at_first) = (0, 0);
+        for seed in 0..20 {
+            let mut rng = Rng::new(seed, 1);
+            let (mut p, blocks) = random_blocks(&mut rng, 12);
+            let (exemptions, sleep) = (Exemptions::default(), &mut Sleep::default());
+            let mut broad = BroadPhase::default();
+            let size = Vec2::new(20.0, 15.0);
+            let surroundings = Surroundings {
+                particles: &p,
+                blocks: &blocks,
+                obstacles: &[],
+                exemptions: &exemptions,
+                rings: &[],
+                homes: &[],
+                size,
+                reach: LEEWAY,
+            };
+            broad.find_pairs(surroundings, sleep, 1);
+            let at_first = pairs_of(&broad);
+            for substep in 0..8 {
+                move_all(&mut p, &blocks, &mut broad, &mut rng);
+                let known = pairs_of(&broad);
+                assert_eq!(known.len(), broad.contacts.iter().count(), "a pair was found twice");
+                for pair in overlapping(&p) {
+                    missed_at_first += usize::from(!at_first.contains(&pair));
+                    assert!(known.contains(&pair), "seed {seed}, substep {substep}: {pair:?}");
+                }
+                broad.widen(&p, &exemptions, sleep, LEEWAY.substep);
+                widened += broad.contacts.iter().count() - known.len();
+            }
+        }
+        assert!(widened > 100 && missed_at_first > 10, "{widened} {missed_at_first}");
+    }
+
+    fn pairs_of(broad: &BroadPhase) -> BTreeSet<(u32, u32)> {
+        broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect()
+    }
+
+    /// Discs of different owners that overlap, by brute force.
+    fn overlapping(p: &Particles) -> Vec<(u32, u32)> {
+        let touch = |i: usize, j: usize| p.between(i, j).length() < p.radius[i] + p.radius[j];
+        let pairs = (0..p.len()).flat_map(|i| (i + 1..p.len()).map(move |j| (i, j)));
+        let of_two = pairs.filter(|&(i, j)| p.owner[i] != p.owner[j] && touch(i, j));
+        of_two.map(|(i, j)| (i as u32, j as u32)).collect()
     }
 
     #[test]

@@ -54,7 +54,13 @@ impl Disc {
     /// Whether the two may touch during the step.
     #[inline(always)]
     pub(super) fn is_near(&self, other: &Self) -> bool {
-        let reach = self.reach + other.reach;
+        self.is_within(other, 0.0)
+    }
+
+    /// The same even if both together move by so much less than they can.
+    #[inline(always)]
+    pub(super) fn is_within(&self, other: &Self, slack: f32) -> bool {
+        let reach = self.reach + other.reach - slack;
         (other.at - self.at).length_squared() < reach * reach
     }
 }

@@ -6,6 +6,7 @@ pub(crate) mod broad_phase;
 mod crowd;
 pub(crate) mod filter;
 pub(crate) mod grid;
+pub(crate) mod leeway;
 pub(crate) mod obstacle;
 pub(crate) mod ring;
 pub(crate) mod shape;

@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Organisms {
     slots: Vec<Slot>,
-    /// Indices of the organisms that have a membrane, ascending: few among many, and asked for in every substep.
+    /// Indices of the organisms that have a membrane, ascending: few among many, and asked for in every substep. Nobody else
+    /// takes others in or divides.
     #[serde(skip)]
     with_membrane: Vec<u32>,
     /// Indices of empty slots, the last freed first.
@@ -134,6 +135,14 @@ impl Organisms {
         })
     }
 
+    /// The same, to be changed.
+    pub(crate) fn for_each_with_membrane(&mut self, mut change: impl FnMut(&mut Organism)) {
+        for &index in &self.with_membrane {
+            let slot = self.slots.get_mut(index as usize);
+            slot.and_then(|slot| slot.organism.as_deref_mut()).into_iter().for_each(&mut change);
+        }
+    }
+
     /// The membranes of all organisms that move, and those of their phagosomes.
     pub(crate) fn rings(&self) -> impl Iterator<Item = Ring<'_>> {
         let moving = self.with_membrane().filter(|(_, organism)| !organism.is_quarantined);
@@ -150,7 +159,7 @@ impl Organisms {
     /// On which side of the membranes each organism is at home.
     pub(crate) fn homes(&self) -> Vec<Home> {
         let mut homes = vec![Home::Free; self.slots.len()];
-        for (id, organism) in self.iter() {
+        for (id, organism) in self.with_membrane() {
             let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
             // Another organism may live in the place of prey that was removed.
             for meal in meals.filter(|meal| self.get(meal.prey).is_some()) {

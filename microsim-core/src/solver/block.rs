@@ -2,9 +2,8 @@
 
 use super::ConstraintSet;
 use super::instruction_set::Dispatch;
-use super::lanes::{LANES, Span};
+use super::lanes::{LANES, Span, each, load};
 use crate::parallel;
-use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
@@ -57,43 +56,56 @@ impl Block {
     }
 }
 
-/// Predicts the positions of all blocks that are awake and projects all their constraints, [`BATCH`] blocks of one template at
-/// a time: what one has loaded the other finds at hand.
-pub(crate) fn predict_and_project<'a>(
-    blocks: &[Block],
-    sleep: &Sleep,
-    predict: impl Fn(&mut Columns<'_>) + Sync + Send,
+/// Predicts the positions of some blocks and projects all their constraints, [`BATCH`] blocks of one template at a time: what
+/// one has loaded the other finds at hand. `predict` gets a block, and what came with it.
+pub(crate) fn predict_and_project<'a, T: Send>(
+    blocks: impl Iterator<Item = (&'a Block, T)>,
+    predict: impl Fn(&mut Columns<'_>, &mut T) + Sync + Send,
     constraints: impl Fn(u32) -> &'a ConstraintSet + Sync + Send,
     particles: &mut Particles,
     h: f32,
     dispatch: Dispatch,
 ) {
-    let awake = blocks.iter().zip(0..).filter(|(_, k)| !sleep.is_asleep(*k));
-    let awake: Vec<&Block> = awake.map(|(block, _)| block).collect();
-    let mut batches = Vec::with_capacity(awake.len());
+    let mut blocks: Vec<(&Block, T)> = blocks.collect();
+    let mut batches = Vec::with_capacity(blocks.len());
     let (mut rest, mut start) = (particles.columns(), 0);
-    for of_template in awake.chunk_by(|a, b| a.template == b.template) {
-        for batch in of_template.chunks(BATCH) {
-            let end = batch.last().map_or(start, |block| block.range().end());
+    for of_template in blocks.chunk_by_mut(|a, b| a.0.template == b.0.template) {
+        for batch in of_template.chunks_mut(BATCH) {
+            let end = batch.last().map_or(start, |(block, _)| block.range().end());
             let (stretch, others) = rest.split_at(end - start);
             batches.push((batch, start, stretch));
             (rest, start) = (others, end);
         }
     }
     parallel::for_each(batches, |(batch, start, mut stretch)| {
-        let live = batch.iter().filter(|block| !block.is_empty());
-        let spans: Vec<_> = live.map(|block| block.span(start)).collect();
-        let constraints = constraints(batch[0].template);
+        let live = batch.iter().filter(|(block, _)| !block.is_empty());
+        let spans: Vec<_> = live.map(|(block, _)| block.span(start)).collect();
+        let constraints = constraints(batch[0].0.template);
         dispatch.run(
             #[inline(always)]
             || {
-                for block in batch.iter().map(|block| block.range()) {
-                    predict(&mut stretch.part(block.base - start..block.end() - start));
+                for (block, with_it) in batch {
+                    let place = block.range();
+                    predict(&mut stretch.part(place.base - start..place.end() - start), with_it);
                 }
                 constraints.project(&spans, &mut stretch, h);
             },
         );
     });
+}
+
+/// Takes from what is left to each body of a block how far the farthest of its particles has moved in the last substep.
+#[inline(always)]
+pub(crate) fn note_way(block: &Columns<'_>, left: &mut [f32; LANES]) {
+    let mut farthest = [0.0; LANES];
+    for at in (0..block.x.len()).step_by(LANES) {
+        let (x, y) = (load::<LANES>(block.x, at), load::<LANES>(block.y, at));
+        let (from_x, from_y) = (load::<LANES>(block.prev_x, at), load::<LANES>(block.prev_y, at));
+        let (dx, dy) = (each::<LANES>(|l| x[l] - from_x[l]), each::<LANES>(|l| y[l] - from_y[l]));
+        let squared = each::<LANES>(|l| dx[l] * dx[l] + dy[l] * dy[l]);
+        farthest = each::<LANES>(|l| if squared[l] > farthest[l] { squared[l] } else { farthest[l] });
+    }
+    *left = each::<LANES>(|l| left[l] - farthest[l].sqrt());
 }
 
 #[cfg(test)]
@@ -127,9 +139,8 @@ mod tests {
         }
         for _ in 0..10 {
             predict_and_project(
-                std::slice::from_ref(&block),
-                &Sleep::default(),
-                |_| (),
+                std::iter::once((&block, ())),
+                |_, ()| (),
                 |_| &constraints,
                 &mut in_lanes,
                 0.01,
@@ -143,6 +154,18 @@ mod tests {
                 assert_eq!(in_lanes.position(i), loose.position(slot as usize), "slot {slot} lane {lane}");
             }
         }
+    }
+
+    #[test]
+    fn the_way_of_a_body_is_that_of_its_farthest_particle() {
+        let mut particles = Particles::default();
+        let block = Block::new(0, 3, &mut particles);
+        particles.prev_x[block.particle(1, 4) as usize] = 3.0;
+        particles.y[block.particle(1, 4) as usize] = -4.0;
+        particles.x[block.particle(2, 4) as usize] = 1.0;
+        let mut left = [6.0; LANES];
+        note_way(&particles.columns(), &mut left);
+        assert_eq!(left, [6.0, 6.0, 6.0, 6.0, 1.0, 6.0, 6.0, 6.0]);
     }
 
     #[test]

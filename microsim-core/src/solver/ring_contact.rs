@@ -206,6 +206,7 @@ mod tests {
     use super::*;
     use crate::collision::broad_phase::{BroadPhase, Surroundings};
     use crate::collision::filter::{Exemptions, Home};
+    use crate::collision::leeway::Reach;
     use crate::geometry::arbitrary::star_polygon;
     use crate::geometry::polygon::contains_point;
     use crate::particle::Particle;
@@ -230,7 +231,7 @@ mod tests {
             rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
             homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
             size: Vec2::ONE,
-            reach: 50.0,
+            reach: Reach { step: 50.0, substep: 50.0, dt: 1.0 },
         };
         broad_phase.find_pairs(around, &mut Sleep::default(), 1);
         (p, broad_phase.ring_contacts.into_inner(), nodes)

@@ -58,7 +58,7 @@ impl World {
     /// One step of all cells that divide, fuse, or adapt their membrane to what they hold since.
     pub(crate) fn divide_and_fuse(&mut self) {
         let dt = self.config.dt;
-        let cells = self.organisms.iter().filter(|(_, organism)| organism.divider.is_some());
+        let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
         for id in cells.map(|(id, _)| id).collect::<Vec<_>>() {
             match self.divider_mut(id).and_then(|divider| divider.order.take()) {
                 Some(Order::Divide { axis }) => self.begin_division(id, axis),

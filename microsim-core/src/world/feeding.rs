@@ -28,7 +28,7 @@ impl World {
         self.regrow_free_prey();
         let engulfers: Vec<OrganismId> = self
             .organisms
-            .iter()
+            .with_membrane()
             .filter(|(_, o)| o.engulfer.is_some() && !o.is_quarantined)
             .map(|(id, _)| id)
             .collect();

@@ -84,3 +84,55 @@ impl Touching {
         std::mem::swap(&mut self.pairs, &mut self.now);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, WorldConfig};
+    use glam::Vec2;
+    use std::collections::BTreeSet;
+
+    /// Rows of small discs at rest, platelets behind them and a cell before them, with gaps that only something fast closes in a step.
+    fn rows() -> (World, OrganismId) {
+        let mut world = World::new(WorldConfig { sleeps: false, ..WorldConfig::default() }).unwrap();
+        for k in 0..200 {
+            let at = Vec2::new(46.0 + 2.2 * (k % 20) as f32, 34.0 + 2.15 * (k / 20) as f32);
+            world.spawn(&AgarSpec::default().into(), Placement::at(at.x, at.y)).unwrap();
+        }
+        for y in [35.0, 40.0, 45.5, 51.0] {
+            world.spawn(&PlateletSpec::default().into(), Placement::at(95.0, y)).unwrap();
+        }
+        let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(30.0, 46.0)).unwrap();
+        (world, cell)
+    }
+
+    /// Pairs of particles of different owners that overlap, by brute force.
+    fn overlapping(p: &Particles) -> impl Iterator<Item = (u32, u32)> {
+        let all = (0..p.len()).filter(|&i| p.is_live(i) && p.groups[i].memberships != 0 && p.inv_mass[i] > 0.0);
+        let all: Vec<usize> = all.collect();
+        let pairs = (0..all.len()).flat_map(move |k| all[k + 1..].iter().map(|&j| (all[k], j)).collect::<Vec<_>>());
+        let touch = |i: usize, j: usize| p.between(i, j).length() < p.radius[i] + p.radius[j];
+        let overlap = pairs.filter(move |&(i, j)| p.owner[i] != p.owner[j] && touch(i, j));
+        overlap.map(|(i, j)| (i as u32, j as u32))
+    }
+
+    #[test]
+    fn whatever_overlaps_after_a_step_was_looked_for() {
+        let (mut world, cell) = rows();
+        let mut overlaps = 0;
+        for step in 0..240 {
+            // The cell is thrown into others that rest, and throws them on within the step.
+            let at = world.centroid(cell).unwrap();
+            world
+                .push(cell, Vec2::new(20.0 * if step / 60 % 2 == 0 { 1.0 } else { -1.0 }, 0.2 * (45.0 - at.y)))
+                .unwrap();
+            world.step(&Inputs::new());
+            let known: BTreeSet<_> = world.near_pairs().map(|pair| (pair.i.min(pair.j), pair.i.max(pair.j))).collect();
+            for pair in overlapping(&world.particles) {
+                overlaps += 1;
+                assert!(known.contains(&pair), "step {step}: {pair:?}");
+            }
+        }
+        assert!(overlaps > 100, "{overlaps}");
+    }
+}
