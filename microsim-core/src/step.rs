@@ -20,7 +20,7 @@ use glam::Vec2;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that may touch before the next step are found, who sleeps in this one, and the neighbours of fluid.
+    /// Pairs that are expected to touch before the next step are found, who sleeps in this one, and the neighbours of fluid.
     FindPairs,
     /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
@@ -28,7 +28,7 @@ pub enum Phase {
     ProjectFluids,
     /// Blocks in lanes, their positions predicted and their constraints projected; then constraints of loose bodies.
     ProjectConstraints,
-    /// Discs and obstacles push each other apart.
+    /// Pairs of bodies that got faster than expected are found; discs and obstacles push each other apart.
     ProjectContacts,
     /// What has moved gets the velocity of its move; restitution.
     UpdateVelocities,

@@ -109,7 +109,7 @@ impl Bodies {
                 if end > first {
                     let owner = particles.owner[discs[first].index as usize];
                     let (is_restless, discs) = (sleep.is_restless(index, lane), start + first..start + end);
-                    let slack = reach.step - leeways[index - first_block][lane];
+                    let slack = reach.slack(leeways[index - first_block][lane]);
                     bodies.push(Body { bounds, owner, block: index as u32, lane, slack, is_restless, discs });
                 }
             }
@@ -198,7 +198,7 @@ impl Bodies {
     }
 
     /// Adds the contacts that were left out because a body was not expected to move as far as it may have when everything has
-    /// moved by `next` more.
+    /// moved by `next` more than was noted.
     pub(super) fn widen(&self, meeting: Meeting<'_>, leeway: &mut Leeway, next: f32, found: &mut Vec<Contact>) {
         let mut near = Vec::new();
         let all = self.small.bodies.iter().chain(&self.large.bodies);

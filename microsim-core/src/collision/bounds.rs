@@ -2,6 +2,9 @@
 
 use glam::{Vec2, Vec4, Vec4Swizzles};
 
+/// Some units in the last place.
+const ROUNDING: f32 = 1e-6;
+
 /// A box, as `(-low, high)`: two boxes meet if four sums are positive, which is one comparison of four lanes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Bounds(Vec4);
@@ -26,10 +29,10 @@ impl Bounds {
         (self.low() + self.high()) * 0.5
     }
 
-    /// The box without a rim of this width.
+    /// The box without a rim of this width, or with a little of it: rounding takes nothing away that is inside.
     #[inline(always)]
     pub(super) fn less(self, rim: f32) -> Self {
-        Self(self.0 - rim)
+        Self(self.0 - rim + self.0.abs() * ROUNDING)
     }
 
     /// The larger one of width and height.

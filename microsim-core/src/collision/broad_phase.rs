@@ -1,8 +1,8 @@
-//! Broad phase, once per step: pairs that may touch before the next one.
+//! Broad phase, once per step: pairs that may touch before the next one; of bodies that get faster than expected, once more.
 //!
 //! Nothing moves farther in a step than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can
 //! touch. They are looked for in the way that suits them: soft bodies and single discs by their boxes first ([`bodies`]),
-//! membranes and fluid disc by disc ([`crowd`]). Two soft bodies are at first expected to move much less far ([`leeway`]).
+//! membranes and fluid disc by disc ([`crowd`]). Between two soft bodies the margin is less at first ([`leeway`]).
 //!
 //! [`bodies`]: super::bodies
 //! [`crowd`]: super::crowd
@@ -89,7 +89,8 @@ impl BroadPhase {
         self.find_ring_contacts(around);
     }
 
-    /// Finds what only bodies that move farther than expected may touch, before everything moves by `next` more.
+    /// Finds what only bodies that move farther than expected may touch until everything has moved by `next` more than was
+    /// noted: up to the end of a substep, if noted up to its beginning.
     pub(crate) fn widen(&mut self, particles: &Particles, exemptions: &Exemptions, sleep: &Sleep, next: f32) {
         let Self { contacts, bodies, leeway, .. } = self;
         if leeway.ends_within(next) {
@@ -281,7 +282,7 @@ mod tests {
 
     const LEEWAY: Reach = Reach { step: 0.8, substep: 0.1, dt: 0.02 };
 
-    /// Bodies of four discs in blocks, somewhere, some of them fast.
+    /// Bodies of four discs in blocks, somewhere, some of them fast, those of the first block large.
     fn random_blocks(rng: &mut Rng, count: u32) -> (Particles, Vec<BlockRange>) {
         let mut p = Particles::default();
         let ranges = (0..count).map(|_| BlockRange { base: p.extend(4 * LANES) as usize, slots: 4 });
@@ -290,11 +291,13 @@ mod tests {
             for lane in 0..LANES {
                 let (at, speed) =
                     (Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 15.0)), rng.range(-9.0, 9.0).max(0.0));
+                let size = if k == 0 { 4.0 } else { 1.0 };
                 for slot in 0..4 {
-                    let place = at + Vec2::new(0.5 * slot as f32, rng.range(-0.2, 0.2));
+                    let place = at + Vec2::new(0.5 * size * slot as f32, rng.range(-0.2, 0.2));
                     let velocity = Vec2::new(0.0, speed);
                     let owner = 8 * k + lane as u32;
-                    let particle = crate::particle::Particle { owner, radius: 0.3, velocity, ..disc(place, 1.0) };
+                    let particle =
+                        crate::particle::Particle { owner, radius: 0.3 * size, velocity, ..disc(place, 1.0) };
                     p.set(block.entry(slot, lane), &particle);
                 }
             }

@@ -93,8 +93,8 @@ mod tests {
     use std::collections::BTreeSet;
 
     /// Rows of small discs at rest, platelets behind them and a cell before them, with gaps that only something fast closes in a step.
-    fn rows() -> (World, OrganismId) {
-        let mut world = World::new(WorldConfig { sleeps: false, ..WorldConfig::default() }).unwrap();
+    fn rows(substeps: u32) -> (World, OrganismId) {
+        let mut world = World::new(WorldConfig { sleeps: false, substeps, ..WorldConfig::default() }).unwrap();
         for k in 0..200 {
             let at = Vec2::new(46.0 + 2.2 * (k % 20) as f32, 34.0 + 2.15 * (k / 20) as f32);
             world.spawn(&AgarSpec::default().into(), Placement::at(at.x, at.y)).unwrap();
@@ -118,21 +118,24 @@ mod tests {
 
     #[test]
     fn whatever_overlaps_after_a_step_was_looked_for() {
-        let (mut world, cell) = rows();
-        let mut overlaps = 0;
-        for step in 0..240 {
-            // The cell is thrown into others that rest, and throws them on within the step.
-            let at = world.centroid(cell).unwrap();
-            world
-                .push(cell, Vec2::new(20.0 * if step / 60 % 2 == 0 { 1.0 } else { -1.0 }, 0.2 * (45.0 - at.y)))
-                .unwrap();
-            world.step(&Inputs::new());
-            let known: BTreeSet<_> = world.near_pairs().map(|pair| (pair.i.min(pair.j), pair.i.max(pair.j))).collect();
-            for pair in overlapping(&world.particles) {
-                overlaps += 1;
-                assert!(known.contains(&pair), "step {step}: {pair:?}");
+        for substeps in [1, 3, 8] {
+            let (mut world, cell) = rows(substeps);
+            let mut overlaps = 0;
+            for step in 0..240 {
+                // The cell is thrown into others that rest, and throws them on within the step.
+                let at = world.centroid(cell).unwrap();
+                let speed = 20.0 * if step / 60 % 2 == 0 { 1.0 } else { -1.0 };
+                world.push(cell, Vec2::new(speed, 0.2 * (45.0 - at.y))).unwrap();
+                world.step(&Inputs::new());
+                let known = world.near_pairs().map(|pair| (pair.i.min(pair.j), pair.i.max(pair.j)));
+                let known: BTreeSet<_> = known.collect();
+                assert_eq!(known.len(), world.near_pairs().count(), "a pair was found twice");
+                for pair in overlapping(&world.particles) {
+                    overlaps += 1;
+                    assert!(known.contains(&pair), "{substeps} substeps, step {step}: {pair:?}");
+                }
             }
+            assert!(overlaps > 100, "{overlaps}");
         }
-        assert!(overlaps > 100, "{overlaps}");
     }
 }
