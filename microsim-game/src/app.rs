@@ -69,6 +69,8 @@ pub struct App {
     shot: Shot,
     frame: u32,
     is_full: bool,
+    /// What input and steps took in the last frame, s.
+    updating: f32,
     timings: Timings,
 }
 
@@ -95,6 +97,7 @@ impl App {
             shot: Shot::default(),
             frame: 0,
             is_full: false,
+            updating: 0.0,
             timings: Timings::default(),
         }
     }
@@ -111,6 +114,7 @@ impl App {
                 break;
             }
             let updated = Instant::now();
+            self.updating = (updated - began).as_secs_f32();
             self.frame += 1;
             let is_last = self.plan.frames.is_some_and(|frames| self.frame >= frames);
             self.show(is_last)?;
@@ -135,7 +139,9 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
-        let news = context.scenery.pass(context.pace, context.effort(), context.sight());
+        // Less detail does not help where steps are what takes long.
+        let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };
+        let news = context.scenery.pass(drawing, context.effort(), context.sight());
         news.into_iter().for_each(|news| context.tell(news));
         let screen = view_size(&self.plan);
         if screen.min_element() >= 1.0 {
@@ -186,18 +192,23 @@ impl App {
         }
     }
 
-    /// A scenario file that is dropped on the window is shown; where that would end a round, it only comes into the list.
+    /// Of scenario files that are dropped on the window the first is shown, and the others come into the list; where that
+    /// would end a round, all do.
     fn open_dropped(&mut self, input: &Input) -> Option<Change> {
-        let scene = Scene::File(input.dropped.first()?.clone());
         let is_at_stake = self.screens.iter().any(|screen| screen.is_at_stake());
-        let change = Sandbox::open(&scene, &mut self.context);
-        if !is_at_stake {
-            return Some(change);
+        let scenes: Vec<Scene> = input.dropped.iter().rev().cloned().map(Scene::File).collect();
+        let opened = scenes.iter().map(|scene| (scene, Sandbox::open(scene, &mut self.context)));
+        let mut opened: Vec<_> = opened.filter(|(_, change)| matches!(change, Change::Reset(_))).collect();
+        let are_good = opened.len() == scenes.len();
+        let shown = opened.pop_if(|_| !is_at_stake).map(|(_, change)| change);
+        match opened.as_slice() {
+            // What is wrong with one of them, which was said already, matters more.
+            _ if !are_good => {}
+            [] => {}
+            [(scene, _)] => self.context.tell(format!("{scene} is in the list of simulations now.")),
+            more => self.context.tell(format!("{} files are in the list of simulations now.", more.len())),
         }
-        if matches!(change, Change::Reset(_)) {
-            self.context.tell(format!("{scene} is in the list of simulations now."));
-        }
-        None
+        shown
     }
 
     /// Draws the frame to the window, and into a file if one is wanted.

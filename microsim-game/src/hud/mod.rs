@@ -43,10 +43,13 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     }
 }
 
-/// A line of advice above the lower edge.
+/// Advice above the lower edge.
 pub fn draw_advice(pen: &mut Pen, text: &str) {
     let (screen, line) = (pen.screen(), pen.line(Size::Body));
-    pen.label(Vec2::new(0.5 * screen.x, screen.y - 0.9 * line), Size::Body, Align::Centre, HALO, text);
+    for (k, text) in pen.wrap(Size::Body, text, 0.9 * screen.x).iter().rev().enumerate() {
+        let at = Vec2::new(0.5 * screen.x, screen.y - (0.9 + 1.12 * k as f32) * line);
+        pen.label(at, Size::Body, Align::Centre, HALO, text);
+    }
 }
 
 /// Time as minutes and seconds, a started second counting as a whole one.

@@ -23,6 +23,7 @@ const DELAY: f32 = 0.7;
 /// The end of a round.
 #[derive(Debug)]
 pub struct End {
+    heading: String,
     points: u32,
     tallies: Vec<(Kind, Tally)>,
     /// The best ones of the same game; none after a replay, which may be of another one.
@@ -55,7 +56,9 @@ impl End {
             context.last_game = Some(record);
         }
         let items = ["Play again", "Watch it again", "Title"].map(Item::new);
+        let doubt = if round.mismatch().is_some() { ", not as it was played" } else { "" };
         Self {
+            heading: format!("{} points{doubt}", referee.score()),
             points: referee.score(),
             tallies: referee.tallies().to_vec(),
             best,
@@ -112,14 +115,14 @@ impl Screen for End {
         draw_shade(pen);
         let (screen, line) = (pen.screen(), pen.line(Size::Body));
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
-        pen.write(heading, Size::Large, Align::Centre, HALO, &format!("{} points", self.points));
+        pen.write(heading, Size::Large, Align::Centre, HALO, &self.heading);
         if let Some(place) = self.place {
             let text = if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) };
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(Size::Large));
             pen.write(below, Size::Body, Align::Centre, READY, &text);
         }
         self.draw_tallies(pen, 0.28 * screen.y + line);
-        draw_table(pen, [0.68 * screen.x, 0.28 * screen.y], MENU_TOP * screen.y, &self.best, self.place);
+        draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], MENU_TOP * screen.y, &self.best, self.place);
         self.menu.draw(pen, &Place::middle(pen, MENU_TOP));
     }
 

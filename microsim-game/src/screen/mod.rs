@@ -29,11 +29,13 @@ use std::fmt;
 
 /// File of the last round that was played to its end: a replay, which `microsim replay` reads too.
 const LAST_GAME: &str = "last-game.replay";
-/// How long a message is shown at least, and for each of its bytes, s.
+/// How long a message is shown: at least, for each of its bytes, and at most, s.
 const MESSAGE_TIME: f32 = 4.0;
 const READING_TIME: f32 = 0.04;
-/// Most lines of a message.
+const LONGEST_TIME: f32 = 20.0;
+/// Most lines and letters of a message.
 const MESSAGE_LINES: usize = 10;
+const MESSAGE_LETTERS: usize = 700;
 
 /// What the program is showing.
 pub trait Screen: fmt::Debug {
@@ -120,6 +122,8 @@ pub struct Context {
     pub store: Store,
     /// What the player has chosen.
     pub settings: Settings,
+    /// The same when it was last read or kept.
+    kept_settings: Settings,
     /// High scores.
     pub scores: Scores,
     /// How time passes in this frame.
@@ -152,6 +156,7 @@ impl Context {
             scenery: Scenery::new(),
             pen: Pen::new(),
             store,
+            kept_settings: settings.clone(),
             settings,
             scores,
             pace: Pace { elapsed: 0.0, is_exact: false },
@@ -164,19 +169,31 @@ impl Context {
             asked: Asked::default(),
             message: None,
         };
-        problem.or(other_problem).into_iter().for_each(|problem| context.tell(problem));
+        let problems: Vec<String> = problem.into_iter().chain(other_problem).collect();
+        if !problems.is_empty() {
+            context.tell(problems.join("\n"));
+        }
         context
     }
 
     /// Shows a message for a while.
     pub fn tell(&mut self, text: impl Into<String>) {
-        let text = text.into();
-        let time = MESSAGE_TIME.max(READING_TIME * text.len() as f32);
+        let mut text = text.into();
+        if let Some((end, _)) = text.char_indices().nth(MESSAGE_LETTERS) {
+            text.truncate(end);
+            text.push_str(" ...");
+        }
+        let time = (READING_TIME * text.len() as f32).clamp(MESSAGE_TIME, LONGEST_TIME);
         self.message = Some((text, self.time + time));
     }
 
-    /// Keeps the settings.
+    /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.
     pub fn save_settings(&mut self) {
+        let kept = self.store.read(kept::FILE).and_then(|bytes| toml::from_slice::<Settings>(&bytes).ok());
+        if let Some(kept) = kept {
+            self.settings = self.settings.clone().over(&self.kept_settings, kept);
+        }
+        self.kept_settings = self.settings.clone();
         if let Err(error) = self.store.save(kept::FILE, &self.settings) {
             self.tell(format!("cannot keep the settings: {error}"));
         }
@@ -235,7 +252,8 @@ impl Context {
         let Some((text, _)) = self.message.as_ref().filter(|(_, until)| self.time < *until) else { return };
         let pen = &mut self.pen;
         let (screen, line) = (pen.screen(), pen.line(Size::Small));
-        let lines: Vec<String> = pen.wrap(Size::Small, text, 0.94 * screen.x).into_iter().take(MESSAGE_LINES).collect();
+        let most = ((screen.y / line - 1.0) as usize).clamp(1, MESSAGE_LINES);
+        let lines: Vec<String> = pen.wrap(Size::Small, text, 0.94 * screen.x).into_iter().take(most).collect();
         let widest = lines.iter().map(|text| pen.width(Size::Small, text)).fold(0.0, f32::max);
         let size = Vec2::new(widest + 0.8 * line, line * (lines.len() as f32 + 0.2));
         let low = Vec2::new(0.5 * (screen.x - size.x), (0.78 * screen.y).min(screen.y - size.y - 0.3 * line));

@@ -34,10 +34,13 @@ impl Page {
         self.menu.draw(pen, &Place::middle(pen, TOP));
     }
 
-    /// Writes a line between the heading and the menu.
+    /// Writes a note between the heading and the menu.
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
-        let at = Vec2::new(0.5, TOP - 0.05) * pen.screen();
-        pen.write(at, Size::Small, Align::Centre, HALO, text);
+        let (screen, line) = (pen.screen(), pen.line(Size::Small));
+        for (k, text) in pen.wrap(Size::Small, text, 0.94 * screen.x).iter().rev().enumerate() {
+            let at = Vec2::new(0.5 * screen.x, (TOP - 0.05) * screen.y - k as f32 * line);
+            pen.write(at, Size::Small, Align::Centre, HALO, text);
+        }
     }
 }
 
@@ -51,5 +54,7 @@ pub(super) fn draw_shade(pen: &mut Pen) {
 pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
     draw_shade(pen);
     let at = Vec2::new(0.5, HEADING) * pen.screen();
-    pen.write(at, Size::Large, Align::Centre, HALO, text);
+    let fits = |size: &Size| pen.width(*size, text) <= 0.96 * pen.screen().x;
+    let size = [Size::Large, Size::Body].into_iter().find(fits).unwrap_or(Size::Small);
+    pen.write(at, size, Align::Centre, HALO, text);
 }

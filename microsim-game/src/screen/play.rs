@@ -1,7 +1,7 @@
 //! The game: 90 seconds to eat.
 
 use super::end::End;
-use super::pause::Pause;
+use super::pause::{Over, Pause};
 use super::{Change, Context, GameChoice, Screen};
 use crate::args::Scene;
 use crate::hud::{self, Status, marks};
@@ -101,6 +101,10 @@ impl Play {
         Change::reset(Self { round, viewer, gains: marks::Gains::default(), first_area, grown: 1.0 })
     }
 
+    fn kind(&self) -> Over {
+        if self.round.is_replay() { Over::Replay } else { Over::Round }
+    }
+
     fn intent(&self, input: &Input) -> Intent {
         let goal = input.is_held.then(|| self.viewer.camera.to_room(input.cursor));
         let moving = goal.and_then(|goal| Intent::toward(goal).ok()).unwrap_or(Intent::REST);
@@ -148,13 +152,12 @@ impl Play {
 
 impl Screen for Play {
     fn update(&mut self, input: &Input, context: &mut Context) -> Change {
-        self.viewer.camera.resize(context.pen.screen());
         let pauses = input.has_lost_focus || input.presses(Action::Pause) || input.step == Some(Move::Back);
         if pauses {
-            return Change::push(Pause::new(true));
+            return Change::push(Pause::new(self.kind()));
         }
         if input.presses(Action::Restart) {
-            return Self::start(context);
+            return self.kind().restart(context);
         }
         self.run(input, context);
         self.look(input, context);
@@ -165,6 +168,7 @@ impl Screen for Play {
     }
 
     fn draw(&mut self, context: &mut Context) {
+        self.viewer.camera.resize(context.pen.screen());
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
         context.paint(view, camera);
         if !context.is_top {

@@ -74,7 +74,6 @@ impl Scene {
 
     /// Goes on, unless the player wants less motion.
     fn run(&mut self, context: &Context) {
-        self.viewer.camera.resize(context.pen.screen());
         let bot = &mut self.bot;
         let speed = if context.motion().is_some() { 1.0 } else { 0.0 };
         self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
@@ -107,7 +106,8 @@ impl Screen for Title {
     }
 
     fn draw(&mut self, context: &mut Context) {
-        if let Some(scene) = &self.scene {
+        if let Some(scene) = &mut self.scene {
+            scene.viewer.camera.resize(context.pen.screen());
             let view = scene.viewer.view(scene.stage.world());
             context.paint(view, &scene.viewer.camera);
         }
@@ -122,10 +122,12 @@ impl Screen for Title {
         let wide = (left + 1.6 * place.item.x).min(screen.x);
         pen.canvas()
             .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
-        let [title, below, _] = title_lines(pen);
+        let [title, below, end] = title_lines(pen);
         pen.write(Vec2::new(left, title), Size::Huge, Align::Left, HALO, TITLE);
-        let motto = Vec2::new(left + 0.05 * line, below);
-        pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
+        if place.corner.y >= end {
+            let motto = Vec2::new(left + 0.05 * line, below);
+            pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
+        }
         self.menu.draw(pen, &place);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
         let corner = screen - 0.8 * pen.line(Size::Small);

@@ -44,6 +44,24 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// These settings where they differ from an earlier state of theirs, and otherwise others.
+    #[must_use]
+    pub fn over(self, earlier: &Self, others: Self) -> Self {
+        fn newer<T: PartialEq>(own: T, earlier: &T, other: T) -> T {
+            if own == *earlier { other } else { own }
+        }
+        let Self { text_size, reduced_motion, classic_arrows, sight, effort, full_screen, keys } = earlier;
+        Self {
+            text_size: newer(self.text_size, text_size, others.text_size),
+            reduced_motion: newer(self.reduced_motion, reduced_motion, others.reduced_motion),
+            classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
+            sight: newer(self.sight, sight, others.sight),
+            effort: newer(self.effort, effort, others.effort),
+            full_screen: newer(self.full_screen, full_screen, others.full_screen),
+            keys: newer(self.keys, keys, others.keys),
+        }
+    }
+
     /// Size of text relative to the usual one.
     #[must_use]
     pub fn text_factor(&self) -> f32 {
@@ -72,6 +90,16 @@ mod tests {
         assert!(settings.keys.set(Action::Consume, KeyCode::E));
         store.save(FILE, &settings).unwrap();
         assert_eq!(store.load::<Settings>(FILE), (settings, None));
+    }
+
+    #[test]
+    fn of_two_windows_each_keeps_what_it_has_changed() {
+        let earlier = Settings::default();
+        let mut others = Settings { reduced_motion: true, text_size: 2, ..Settings::default() };
+        assert!(others.keys.set(Action::Consume, KeyCode::E));
+        let own = Settings { sight: "dic".to_owned(), text_size: 0, ..Settings::default() };
+        let both = own.over(&earlier, others.clone());
+        assert_eq!(both, Settings { sight: "dic".to_owned(), text_size: 0, ..others });
     }
 
     #[test]

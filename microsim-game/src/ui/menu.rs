@@ -43,6 +43,10 @@ pub enum Choice {
     Less(usize),
 }
 
+/// Where the arrow that steps back is, and where the place for it begins and ends: shares of an item's width.
+const BACK: f32 = 0.56;
+const BACK_PLACE: std::ops::Range<f32> = 0.5..0.62;
+
 /// Where a menu lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
@@ -61,10 +65,11 @@ impl Place {
     #[must_use]
     pub fn middle(pen: &Pen, top: f32) -> Self {
         let screen = pen.screen();
-        let item =
-            Vec2::new((22.0 * pen.line(Size::Body)).min(0.86 * screen.x).min(460.0), 1.55 * pen.line(Size::Body));
-        let corner = Vec2::new(0.5 * (screen.x - item.x), top * screen.y);
-        Self::of_height(corner, item, 0.95 * screen.y, Size::Body)
+        let (line, bottom) = (pen.line(Size::Body), 0.95 * screen.y);
+        let item = Vec2::new((18.0 * line).min(0.86 * screen.x), 1.55 * line);
+        // Where two items have room.
+        let top = (top * screen.y).min(bottom - 2.0 * item.y).max(0.0);
+        Self::of_height(Vec2::new(0.5 * (screen.x - item.x), top), item, bottom, Size::Body)
     }
 
     /// As many items as there is room for above `bottom`, but some in any case.
@@ -152,9 +157,9 @@ impl Menu {
             return None;
         }
         self.focus = item;
-        // The arrow before the value steps back; everything else steps forward.
+        // The left arrow steps back; everything else steps forward.
         let from = (input.cursor.x - place.corner.x) / place.item.x;
-        let is_back = self.items[item].value.is_some() && (0.5..0.62).contains(&from);
+        let is_back = self.items[item].value.is_some() && BACK_PLACE.contains(&from);
         let pick = if is_back { Choice::Less(item) } else { Choice::Pick(item) };
         input.is_clicked.then_some(pick)
     }
@@ -207,8 +212,11 @@ impl Menu {
         let label = format!("{mark}{}", item.label);
         pen.write(Vec2::new(low.x + inset, middle), place.size, Align::Left, ink, &label);
         if let Some(value) = &item.value {
-            let text = if has_focus { format!("< {value} >") } else { value.clone() };
+            let text = if has_focus { format!("{value} >") } else { value.clone() };
             pen.write(Vec2::new(high.x - inset, middle), place.size, Align::Right, ink, &text);
+            if has_focus {
+                pen.write(Vec2::new(low.x + BACK * place.item.x, middle), place.size, Align::Centre, ink, "<");
+            }
         }
     }
 }
@@ -256,6 +264,11 @@ mod tests {
         for (x, y) in [(99.0, 75.0), (301.0, 75.0), (150.0, 49.0), (150.0, 111.0)] {
             assert_eq!(menu.update(&click(x, y), &PLACE), None);
         }
+        assert_eq!(
+            menu.update(&click(100.0 + BACK * 200.0, 75.0), &PLACE),
+            Some(Choice::Less(1)),
+            "where the arrow is"
+        );
         assert!(Menu::default().update(&click(150.0, 75.0), &PLACE).is_none());
     }
 }

@@ -5,7 +5,7 @@ mod panel;
 mod plots;
 mod tools;
 
-use super::pause::Pause;
+use super::pause::{Over, Pause};
 use super::{Change, Context, Screen};
 use crate::args::Scene;
 use crate::draw::palette::HALO;
@@ -162,9 +162,8 @@ impl Sandbox {
 
 impl Screen for Sandbox {
     fn update(&mut self, input: &Input, context: &mut Context) -> Change {
-        self.viewer.camera.resize(context.pen.screen());
         if input.step == Some(Move::Back) {
-            return Change::push(Pause::new(false));
+            return Change::push(Pause::new(Over::Simulation));
         }
         if input.presses(Action::Restart) {
             return self.restart(context);
@@ -193,6 +192,7 @@ impl Screen for Sandbox {
     }
 
     fn draw(&mut self, context: &mut Context) {
+        self.viewer.camera.resize(context.pen.screen());
         let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
         context.paint(view, camera);
         if self.shows.anatomy {

@@ -1,6 +1,6 @@
 //! The panel of a simulation: everything that keys do, for the mouse.
 
-use super::super::pause::Pause;
+use super::super::pause::{Over, Pause};
 use super::super::pick::Pick;
 use super::super::{Change, Context};
 use super::tools::Tool;
@@ -69,7 +69,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: Choice, context: &mut Contex
         PLOTS => sandbox.shows.plots ^= true,
         RESTART => return sandbox.restart(context),
         SCENARIOS => return Change::push(Pick::new(context)),
-        _ => return Change::push(Pause::new(false)),
+        _ => return Change::push(Pause::new(Over::Simulation)),
     }
     Change::Stay
 }
