@@ -34,11 +34,18 @@ impl Page {
         self.menu.draw(pen, &Place::middle(pen, TOP));
     }
 
-    /// Writes a note between the heading and the menu.
+    /// Writes a note between the heading and the menu, as much of it as there is room for.
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
         let (screen, line) = (pen.screen(), pen.line(Size::Small));
-        for (k, text) in pen.wrap(Size::Small, text, 0.94 * screen.x).iter().rev().enumerate() {
-            let at = Vec2::new(0.5 * screen.x, (TOP - 0.05) * screen.y - k as f32 * line);
+        let mut lines = pen.wrap(Size::Small, text, 0.9 * screen.x);
+        let room = (TOP - HEADING) * screen.y - 0.5 * pen.line(Size::Large);
+        let most = (room / line) as usize;
+        if most < lines.len() {
+            lines.truncate(most);
+            lines.last_mut().into_iter().for_each(|last| last.push_str(" ..."));
+        }
+        for (k, text) in lines.iter().rev().enumerate() {
+            let at = Vec2::new(0.5 * screen.x, TOP * screen.y - (k as f32 + 0.7) * line);
             pen.write(at, Size::Small, Align::Centre, HALO, text);
         }
     }
