@@ -5,6 +5,8 @@
 #[cfg(feature = "parallel")]
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Particles that are worked on in one go, a fixed number whatever the number of threads.
+pub(crate) const STRETCH: usize = 2048;
 /// Particles from which on threads are worth their trouble.
 #[cfg(feature = "parallel")]
 const LARGE: usize = 8192;

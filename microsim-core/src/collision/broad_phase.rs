@@ -213,7 +213,7 @@ mod tests {
     use crate::particle::{CollisionGroups, LANES};
     use crate::rng::Rng;
     use crate::solver::block::note_way;
-    use crate::solver::testing::disc;
+    use crate::solver::testing::{disc, overlapping};
     use std::collections::BTreeSet;
 
     #[test]
@@ -358,14 +358,6 @@ mod tests {
 
     fn pairs_of(broad: &BroadPhase) -> BTreeSet<(u32, u32)> {
         broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect()
-    }
-
-    /// Discs of different owners that overlap, by brute force.
-    fn overlapping(p: &Particles) -> Vec<(u32, u32)> {
-        let touch = |i: usize, j: usize| p.between(i, j).length() < p.radius[i] + p.radius[j];
-        let pairs = (0..p.len()).flat_map(|i| (i + 1..p.len()).map(move |j| (i, j)));
-        let of_two = pairs.filter(|&(i, j)| p.owner[i] != p.owner[j] && touch(i, j));
-        of_two.map(|(i, j)| (i as u32, j as u32)).collect()
     }
 
     #[test]

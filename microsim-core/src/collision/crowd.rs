@@ -116,3 +116,27 @@ impl Crowd {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+
+    #[test]
+    fn boxes_of_discs_that_are_near_enough_meet_however_they_are_rounded() {
+        let (mut rng, mut near) = (Rng::new(1, 1), 0);
+        for _ in 0..100_000 {
+            let disc = |at, reach| Disc { at, reach, index: 0 };
+            let a = disc(Vec2::new(rng.range(0.0, 20_000.0), rng.range(0.0, 200.0)), rng.range(0.2, 2.0));
+            let (reach, slack) = (rng.range(0.2, 2.0), rng.range(0.0, 0.3));
+            // Beside it, as far away as it may be and still be near.
+            let b = disc(a.at + Vec2::new(a.reach + reach - slack, 0.0), reach);
+            if a.is_within(&b, slack) {
+                near += 1;
+                assert!(a.bounds().less(slack).meets(b.bounds()), "{a:?} {b:?} {slack}");
+                assert!(b.bounds().less(slack).meets(a.bounds()), "{b:?} {a:?} {slack}");
+            }
+        }
+        assert!(near > 10_000, "{near}");
+    }
+}

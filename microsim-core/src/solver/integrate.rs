@@ -3,13 +3,10 @@
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, each, load, store};
 use super::ratio_limit;
-use crate::parallel;
+use crate::parallel::{self, STRETCH};
 use crate::particle::{Columns, Particles};
 use glam::Vec2;
 use std::ops::Range;
-
-/// Particles of a stretch, a fixed number whatever the number of threads.
-const STRETCH: usize = 2048;
 
 /// Does the same to all particles of some ranges, a stretch at a time.
 pub(crate) fn in_stretches(

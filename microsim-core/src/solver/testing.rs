@@ -65,3 +65,15 @@ pub(crate) fn assert_pair_laws(violated: &[f32], target: f32, project: impl Fn(&
     project(&mut coincident);
     assert!(coincident.position(0).is_finite() && coincident.position(1).is_finite(), "coincident particles");
 }
+
+/// Pairs of discs of different owners that overlap, of those that collide and can move, by brute force.
+pub(crate) fn overlapping(p: &Particles) -> Vec<(u32, u32)> {
+    let all: Vec<usize> = p.live().filter(|&i| p.groups[i].memberships != 0 && p.inv_mass[i] > 0.0).collect();
+    let touch = |i: usize, j: usize| p.between(i, j).length() < p.radius[i] + p.radius[j];
+    let mut found = Vec::new();
+    for (k, &i) in all.iter().enumerate() {
+        let others = all[k + 1..].iter().filter(|&&j| p.owner[i] != p.owner[j] && touch(i, j));
+        found.extend(others.map(|&j| (i as u32, j as u32)));
+    }
+    found
+}

@@ -4,13 +4,10 @@ use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::Organism;
-use crate::parallel;
+use crate::parallel::{self, STRETCH};
 use crate::particle::Particles;
 use glam::Vec2;
 use std::ops::Range;
-
-/// Particles that are looked at in one go, a fixed number whatever the number of threads.
-const STRETCH: usize = 2048;
 
 impl World {
     /// Freezes every organism with a particle of which a number is not finite or that has left the room by more than the

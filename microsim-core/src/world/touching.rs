@@ -88,11 +88,13 @@ impl Touching {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::testing::overlapping;
     use crate::{AgarSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, WorldConfig};
     use glam::Vec2;
     use std::collections::BTreeSet;
 
-    /// Rows of small discs at rest, platelets behind them and a cell before them, with gaps that only something fast closes in a step.
+    /// Rows of small discs at rest, platelets behind them and a cell before them, with gaps that only something fast closes
+    /// in a step.
     fn rows(substeps: u32) -> (World, OrganismId) {
         let mut world = World::new(WorldConfig { sleeps: false, substeps, ..WorldConfig::default() }).unwrap();
         for k in 0..200 {
@@ -104,16 +106,6 @@ mod tests {
         }
         let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(30.0, 46.0)).unwrap();
         (world, cell)
-    }
-
-    /// Pairs of particles of different owners that overlap, by brute force.
-    fn overlapping(p: &Particles) -> impl Iterator<Item = (u32, u32)> {
-        let all = (0..p.len()).filter(|&i| p.is_live(i) && p.groups[i].memberships != 0 && p.inv_mass[i] > 0.0);
-        let all: Vec<usize> = all.collect();
-        let pairs = (0..all.len()).flat_map(move |k| all[k + 1..].iter().map(|&j| (all[k], j)).collect::<Vec<_>>());
-        let touch = |i: usize, j: usize| p.between(i, j).length() < p.radius[i] + p.radius[j];
-        let overlap = pairs.filter(move |&(i, j)| p.owner[i] != p.owner[j] && touch(i, j));
-        overlap.map(|(i, j)| (i as u32, j as u32))
     }
 
     #[test]
