@@ -140,9 +140,9 @@ pub(crate) fn find_pairs(world: &mut World) {
     let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
     let (size, reach) = (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
-    let (rings, homes) = (rings.as_slice(), &organisms.homes());
+    let (rings, containments) = (rings.as_slice(), &organisms.containments());
     let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
+    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, containments, size, reach };
     scratch.broad_phase.find_pairs(around, sleep, config.patience());
 }
 

@@ -7,7 +7,7 @@
 use super::Contact;
 use super::bounds::Bounds;
 use super::crowd::{Crowd, Disc, Store};
-use super::filter::Exemptions;
+use super::exemptions::Exemptions;
 use super::grid::Grid;
 use super::leeway::{self, Leeway, Reach};
 use crate::parallel;

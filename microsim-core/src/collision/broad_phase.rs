@@ -10,10 +10,10 @@
 
 use super::bodies::{Bodies, Meeting};
 use super::crowd::{Crowd, Disc, Store};
-use super::filter::{Exemptions, Home};
+use super::exemptions::Exemptions;
 use super::leeway::{Leeway, Reach};
 use super::obstacle::Obstacle;
-use super::ring::{Nearby, Ring, RingContacts};
+use super::ring::{Containment, Ring, RingContacts, RingQuery};
 use super::{Contact, Contacts, ObstacleContact};
 use crate::parallel;
 use crate::particle::sleep::Sleep;
@@ -44,8 +44,8 @@ pub(crate) struct Surroundings<'a> {
     pub exemptions: &'a Exemptions,
     /// Rings whose links collide. Without any, ring nodes collide as discs.
     pub rings: &'a [Ring<'a>],
-    /// On which sides of them owners stay, by owner.
-    pub homes: &'a [Home],
+    /// Which of them holds each owner, by owner.
+    pub containments: &'a [Containment],
     /// Upper right corner of the room.
     pub size: Vec2,
     pub reach: Reach,
@@ -113,11 +113,11 @@ impl BroadPhase {
 
     fn find_ring_contacts(&mut self, around: Surroundings<'_>) {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
-        let Surroundings { particles, exemptions, homes, rings, reach, .. } = around;
+        let Surroundings { particles, exemptions, containments, rings, reach, .. } = around;
         let crowds = [&*membranes, &*fluid];
         ring_contacts
             .renew(|_| RingContacts::default())
-            .find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach.step });
+            .find(rings, RingQuery { particles, exemptions, containments, bodies, crowds, margin: 2.0 * reach.step });
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -251,7 +251,7 @@ mod tests {
             obstacles: &[],
             exemptions,
             rings: &[],
-            homes: &[],
+            containments: &[],
             size,
             reach: Reach { step: 0.1, substep: 0.1, dt: 0.01 },
         };
@@ -335,7 +335,7 @@ mod tests {
                 obstacles: &[],
                 exemptions: &exemptions,
                 rings: &[],
-                homes: &[],
+                containments: &[],
                 size,
                 reach: LEEWAY,
             };

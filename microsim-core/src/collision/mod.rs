@@ -4,7 +4,7 @@ mod bodies;
 mod bounds;
 pub(crate) mod broad_phase;
 mod crowd;
-pub(crate) mod filter;
+pub(crate) mod exemptions;
 pub(crate) mod grid;
 pub(crate) mod leeway;
 pub(crate) mod obstacle;

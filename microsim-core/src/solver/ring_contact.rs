@@ -14,8 +14,7 @@
 
 use super::contact::{friction, moved, no_heavier, shift};
 use super::lanes::ratio;
-use crate::collision::filter::Side;
-use crate::collision::ring::{Link, Ring, RingContact, RingContacts};
+use crate::collision::ring::{Link, Ring, RingContact, RingContacts, Side};
 use crate::geometry::polygon::contains_point;
 use crate::particle::Particles;
 use glam::Vec2;
@@ -205,8 +204,9 @@ mod tests {
     use super::super::testing::{disc, momentum};
     use super::*;
     use crate::collision::broad_phase::{BroadPhase, Surroundings};
-    use crate::collision::filter::{Exemptions, Home};
+    use crate::collision::exemptions::Exemptions;
     use crate::collision::leeway::Reach;
+    use crate::collision::ring::Containment;
     use crate::geometry::arbitrary::star_polygon;
     use crate::geometry::polygon::contains_point;
     use crate::particle::Particle;
@@ -229,7 +229,7 @@ mod tests {
             obstacles: &[],
             exemptions: &Exemptions::default(),
             rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
-            homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
+            containments: &[Containment::Free, Containment::Free, Containment::Inside(0), Containment::Passing(0)],
             size: Vec2::ONE,
             reach: Reach { step: 50.0, substep: 50.0, dt: 1.0 },
         };

@@ -31,7 +31,7 @@ pub(crate) mod view;
 
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
-use crate::collision::filter::Exemptions;
+use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};

@@ -3,7 +3,7 @@
 
 use super::{Guard, World, validate};
 use crate::chemical;
-use crate::collision::filter::Exemptions;
+use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::event::Event;
