@@ -5,7 +5,7 @@
 //! in a coarse one, and large ones also look through the fine one.
 
 use super::Contact;
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::crowd::{Crowd, Disc, Store};
 use super::exemptions::Exemptions;
 use super::grid::Grid;
@@ -24,7 +24,7 @@ const PORTION: usize = 16;
 /// A body: its discs, and the box around what they can reach in the step.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    pub bounds: Bounds,
+    pub aabb: Aabb,
     /// Of all its discs.
     owner: u32,
     /// Its block, or [`NO_BLOCK`], and its lane there.
@@ -60,7 +60,7 @@ pub(super) struct Bodies {
     /// Body by body; what lies between two bodies means nothing.
     discs: Vec<Disc>,
     /// The box of each disc.
-    boxes: Vec<Bounds>,
+    aabbs: Vec<Aabb>,
     found: Vec<Body>,
     small: Layer,
     large: Layer,
@@ -76,33 +76,33 @@ impl Bodies {
         reach: Reach,
         leeway: &mut Leeway,
     ) {
-        let Self { discs, boxes, found, .. } = self;
+        let Self { discs, aabbs, found, .. } = self;
         let store = Store::of(particles);
         let len = blocks.iter().map(BlockRange::len).sum();
         discs.resize(len, Disc::default());
-        boxes.resize(len, Bounds::EMPTY);
+        aabbs.resize(len, Aabb::EMPTY);
         let (mut portions, mut start) = (Vec::new(), 0);
-        let mut rest = (discs.as_mut_slice(), boxes.as_mut_slice());
+        let mut rest = (discs.as_mut_slice(), aabbs.as_mut_slice());
         let leeways = leeway.renew(blocks.len()).chunks_mut(PORTION);
         for ((blocks, first), leeways) in blocks.chunks(PORTION).zip((0..).step_by(PORTION)).zip(leeways) {
             let len = blocks.iter().map(BlockRange::len).sum();
             let (discs, others) = rest.0.split_at_mut(len);
-            let (boxes, other_boxes) = rest.1.split_at_mut(len);
-            portions.push((blocks, first, start, discs, boxes, leeways));
-            (rest, start) = ((others, other_boxes), start + len);
+            let (aabbs, other_aabbs) = rest.1.split_at_mut(len);
+            portions.push((blocks, first, start, discs, aabbs, leeways));
+            (rest, start) = ((others, other_aabbs), start + len);
         }
-        let collected = parallel::map(portions, |(blocks, first_block, start, discs, boxes, leeways)| {
+        let collected = parallel::map(portions, |(blocks, first_block, start, discs, aabbs, leeways)| {
             leeways.iter_mut().zip(blocks).for_each(|(left, block)| *left = leeway::grant(block, particles, reach));
             let mut bodies = Vec::with_capacity(blocks.len() * LANES);
             let mut end = 0;
             let lanes = blocks.iter().zip(first_block..).flat_map(|block| (0..LANES).map(move |lane| (block, lane)));
             for ((block, index), lane) in lanes {
-                let (first, mut bounds) = (end, Bounds::EMPTY);
+                let (first, mut aabb) = (end, Aabb::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
                     if let Some(disc) = store.disc(i, reach.step) {
                         discs[end] = disc;
-                        boxes[end] = disc.bounds();
-                        bounds = bounds.join(boxes[end]);
+                        aabbs[end] = disc.aabb();
+                        aabb = aabb.union(aabbs[end]);
                         end += 1;
                     }
                 }
@@ -110,7 +110,7 @@ impl Bodies {
                     let owner = particles.owner[discs[first].index as usize];
                     let (is_restless, discs) = (sleep.is_restless(index, lane), start + first..start + end);
                     let slack = reach.slack(leeways[index - first_block][lane]);
-                    bodies.push(Body { bounds, owner, block: index as u32, lane, slack, is_restless, discs });
+                    bodies.push(Body { aabb, owner, block: index as u32, lane, slack, is_restless, discs });
                 }
             }
             bodies
@@ -121,18 +121,18 @@ impl Bodies {
 
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
-        let (bounds, first) = (disc.bounds(), self.discs.len());
+        let (aabb, first) = (disc.aabb(), self.discs.len());
         let (lane, slack, is_restless, discs) = (0, 0.0, true, first..first + 1);
-        self.found.push(Body { bounds, owner, block: NO_BLOCK, lane, slack, is_restless, discs });
+        self.found.push(Body { aabb, owner, block: NO_BLOCK, lane, slack, is_restless, discs });
         self.discs.push(disc);
-        self.boxes.push(bounds);
+        self.aabbs.push(aabb);
     }
 
     /// Sorts the bodies for the search.
     pub(super) fn sort(&mut self, size: Vec2) {
         let Self { found, small, large, .. } = self;
-        let mean = found.iter().map(|body| body.bounds.extent()).sum::<f32>() / found.len() as f32;
-        let larger = found.extract_if(.., |body| body.bounds.extent() > 2.0 * mean).collect::<Vec<_>>();
+        let mean = found.iter().map(|body| body.aabb.extent()).sum::<f32>() / found.len() as f32;
+        let larger = found.extract_if(.., |body| body.aabb.extent() > 2.0 * mean).collect::<Vec<_>>();
         small.sort(found, size);
         large.sort(&larger, size);
     }
@@ -145,18 +145,18 @@ impl Bodies {
     /// Calls `visit` once for each disc of a body and each disc of a crowd that may touch.
     pub(super) fn pairs_with(&self, crowd: &Crowd, mut visit: impl FnMut(&Disc, &Disc)) {
         for body in self.small.bodies.iter().chain(&self.large.bodies) {
-            let near_body = crowd.in_box(body.bounds.low(), body.bounds.high());
-            for other in near_body.filter(|other| other.bounds().meets(body.bounds)) {
+            let near_body = crowd.in_box(body.aabb.low(), body.aabb.high());
+            for other in near_body.filter(|other| other.aabb().overlaps(body.aabb)) {
                 let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
                 near.for_each(|disc| visit(disc, other));
             }
         }
     }
 
-    /// Bodies whose boxes meet this one.
+    /// Bodies whose boxes overlap this one.
     pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Body> {
-        let bounds = Bounds::new(low, high);
-        self.small.meeting(bounds).chain(self.large.meeting(bounds))
+        let aabb = Aabb::new(low, high);
+        self.small.overlapping(aabb).chain(self.large.overlapping(aabb))
     }
 
     /// Bodies that sleep, unless something that moves comes near.
@@ -167,7 +167,7 @@ impl Bodies {
 
     /// Whether a body near this one has moved in the last step.
     pub(super) fn is_stirred(&self, body: &Body) -> bool {
-        self.in_box(body.bounds.low(), body.bounds.high()).any(|other| other.is_restless)
+        self.in_box(body.aabb.low(), body.aabb.high()).any(|other| other.is_restless)
     }
 
     /// Adds the contacts of discs that may touch, if they move no farther than expected: of small bodies to the lists, strip by
@@ -175,7 +175,7 @@ impl Bodies {
     pub(super) fn pairs(&self, meeting: Meeting<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
         let between = |a: &Body, b: &Body, near: &mut Vec<Disc>, found: &mut Vec<Contact>| {
             let slack = a.slack + b.slack;
-            if a.bounds.less(slack).meets(b.bounds)
+            if a.aabb.shrunk(slack).overlaps(b.aabb)
                 && let Some(asleep) = meeting.of(a, b)
             {
                 self.pairs_between(a, b, slack, near, |a, b| found.extend(meeting.contact(a, b, asleep)));
@@ -191,7 +191,7 @@ impl Bodies {
         within(&self.large, 0..self.large.grid.rows(), others);
         let mut near = Vec::new();
         for body in &self.large.bodies {
-            for other in self.small.meeting(body.bounds) {
+            for other in self.small.overlapping(body.aabb) {
                 between(body, other, &mut near, others);
             }
         }
@@ -206,7 +206,7 @@ impl Bodies {
             if leeway.left(body.block, body.lane) >= next {
                 continue;
             }
-            for other in self.in_box(body.bounds.low(), body.bounds.high()) {
+            for other in self.in_box(body.aabb.low(), body.aabb.high()) {
                 let Some(asleep) = meeting.of(body, other) else { continue };
                 let is_lifted = other.block != NO_BLOCK && leeway.left(other.block, other.lane).is_infinite();
                 let slack = if is_lifted { 0.0 } else { other.slack };
@@ -224,16 +224,16 @@ impl Bodies {
     /// can.
     fn pairs_between(&self, a: &Body, b: &Body, slack: f32, near: &mut Vec<Disc>, mut visit: impl FnMut(&Disc, &Disc)) {
         near.clear();
-        near.extend(self.discs_meeting(b, a.bounds.less(slack)));
-        for disc in self.discs_meeting(a, b.bounds.less(slack)) {
+        near.extend(self.discs_in(b, a.aabb.shrunk(slack)));
+        for disc in self.discs_in(a, b.aabb.shrunk(slack)) {
             near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(disc, other));
         }
     }
 
     /// Discs of a body that may reach into a box.
-    fn discs_meeting(&self, body: &Body, bounds: Bounds) -> impl Iterator<Item = &Disc> {
-        let discs = self.boxes[body.discs.clone()].iter().zip(self.discs_of(body));
-        discs.filter(move |(disc, _)| disc.meets(bounds)).map(|(_, disc)| disc)
+    fn discs_in(&self, body: &Body, aabb: Aabb) -> impl Iterator<Item = &Disc> {
+        let discs = self.aabbs[body.discs.clone()].iter().zip(self.discs_of(body));
+        discs.filter(move |(disc, _)| disc.overlaps(aabb)).map(|(_, disc)| disc)
     }
 }
 
@@ -258,17 +258,17 @@ impl Layer {
         let Self { bodies, grid, extent } = self;
         *extent = found
             .iter()
-            .map(|body| body.bounds.extent())
+            .map(|body| body.aabb.extent())
             .fold(0.0, |far, extent| if extent > far { extent } else { far });
-        grid.fill(Vec2::ZERO, size, Vec2::splat(*extent), found.len(), |k| found[k].bounds.centre());
+        grid.fill(Vec2::ZERO, size, Vec2::splat(*extent), found.len(), |k| found[k].aabb.centre());
         bodies.clear();
         bodies.extend(grid.order().iter().map(|&k| found[k as usize].clone()));
     }
 
-    /// Bodies whose boxes meet this one.
-    fn meeting(&self, bounds: Bounds) -> impl Iterator<Item = &Body> {
+    /// Bodies whose boxes overlap this one.
+    fn overlapping(&self, aabb: Aabb) -> impl Iterator<Item = &Body> {
         let half = Vec2::splat(0.5 * self.extent);
-        let cells = self.grid.ranges_in_box(bounds.low() - half, bounds.high() + half);
-        cells.flat_map(|range| &self.bodies[range]).filter(move |body| body.bounds.meets(bounds))
+        let cells = self.grid.ranges_in_box(aabb.low() - half, aabb.high() + half);
+        cells.flat_map(|range| &self.bodies[range]).filter(move |body| body.aabb.overlaps(aabb))
     }
 }

@@ -102,7 +102,7 @@ impl BroadPhase {
     fn wake(&self, sleep: &mut Sleep) {
         let Self { bodies, membranes, fluid, .. } = self;
         let woken = bodies.sleepers(sleep).filter(|body| {
-            let (low, high) = (body.bounds.low(), body.bounds.high());
+            let (low, high) = (body.aabb.low(), body.aabb.high());
             let mut crowds = [membranes, fluid].into_iter();
             bodies.is_stirred(body) || crowds.any(|crowd| crowd.in_box(low, high).next().is_some())
         });
@@ -154,11 +154,11 @@ impl BroadPhase {
         let Self { obstacle_contacts, bodies, membranes, fluid, .. } = self;
         obstacle_contacts.clear();
         for (obstacle, k) in around.obstacles.iter().zip(0..) {
-            let bounds = obstacle.bounds();
-            let (low, high) = (bounds.mins, bounds.maxs);
+            let aabb = obstacle.aabb();
+            let (low, high) = (aabb.mins, aabb.maxs);
             let is_near = |disc: &&Disc| {
                 let i = disc.index as usize;
-                let near = bounds.loosened(disc.reach);
+                let near = aabb.loosened(disc.reach);
                 near.contains_local_point(disc.at)
                     && around.particles.inv_mass[i] > 0.0
                     && around.particles.groups[i].meets(obstacle.groups)

@@ -1,6 +1,6 @@
 //! Crowds: discs that are looked for one by one, in a grid. Membranes and fluid, which have many and move freely.
 
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::grid::Grid;
 use crate::particle::{CollisionGroups, Particles};
 use glam::Vec2;
@@ -47,8 +47,8 @@ impl<'a> Store<'a> {
 impl Disc {
     /// The box around what it can reach in the step.
     #[inline(always)]
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds::new(self.at - self.reach, self.at + self.reach)
+    pub(super) fn aabb(&self) -> Aabb {
+        Aabb::new(self.at - self.reach, self.at + self.reach)
     }
 
     /// Whether the two may touch during the step.
@@ -133,8 +133,8 @@ mod tests {
             let b = disc(a.at + Vec2::new(a.reach + reach - slack, 0.0), reach);
             if a.is_within(&b, slack) {
                 near += 1;
-                assert!(a.bounds().less(slack).meets(b.bounds()), "{a:?} {b:?} {slack}");
-                assert!(b.bounds().less(slack).meets(a.bounds()), "{b:?} {a:?} {slack}");
+                assert!(a.aabb().shrunk(slack).overlaps(b.aabb()), "{a:?} {b:?} {slack}");
+                assert!(b.aabb().shrunk(slack).overlaps(a.aabb()), "{b:?} {a:?} {slack}");
             }
         }
         assert!(near > 10_000, "{near}");

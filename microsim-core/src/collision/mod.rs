@@ -1,7 +1,7 @@
 //! Which particles may touch during a step: broad phase and filters. Knows no constraints.
 
+mod aabb;
 mod bodies;
-mod bounds;
 pub(crate) mod broad_phase;
 mod crowd;
 pub(crate) mod exemptions;

@@ -66,7 +66,7 @@ impl World {
             && self.discs_of(prey).all(|i| holds(&pocket, i))
             && organism.fluid_particles.iter().all(|&i| holds(&left, i as usize))
             && !p.live().filter(is_foreign).any(|i| holds(&pocket, i))
-            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.bounds().center()));
+            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.aabb().center()));
         is_clear.then_some(swap)
     }
 

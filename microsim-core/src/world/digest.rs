@@ -75,7 +75,7 @@ pub(super) fn of_obstacle(obstacle: &Obstacle) -> u64 {
     if let Some(record) = ObstacleRecord::of(obstacle) {
         return Digest::of(&record);
     }
-    let bounds = obstacle.bounds();
+    let bounds = obstacle.aabb();
     let extent = bounds.maxs - bounds.mins;
     let nearest = |k: u8| {
         let share = Vec2::new(f32::from(k % POINTS), f32::from(k / POINTS)) / f32::from(POINTS - 1);

@@ -273,7 +273,7 @@ impl World {
         in_range("material.restitution", restitution, 0.0, 1.0)?;
         in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
         in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
-        let bounds = obstacle.bounds();
+        let bounds = obstacle.aabb();
         if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
