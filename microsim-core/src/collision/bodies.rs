@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::aabb::Aabb;
-use super::crowd::{Crowd, Disc, Store};
+use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
 use super::grid::Grid;
 use super::leeway::{self, Leeway, Reach};
@@ -77,7 +77,7 @@ impl Bodies {
         leeway: &mut Leeway,
     ) {
         let Self { discs, aabbs, found, .. } = self;
-        let store = Store::of(particles);
+        let columns = DiscColumns::of(particles);
         let len = blocks.iter().map(BlockRange::len).sum();
         discs.resize(len, Disc::default());
         aabbs.resize(len, Aabb::EMPTY);
@@ -99,7 +99,7 @@ impl Bodies {
             for ((block, index), lane) in lanes {
                 let (first, mut aabb) = (end, Aabb::EMPTY);
                 for i in (0..block.slots).map(|slot| block.entry(slot, lane)) {
-                    if let Some(disc) = store.disc(i, reach.step) {
+                    if let Some(disc) = columns.disc(i, reach.step) {
                         discs[end] = disc;
                         aabbs[end] = disc.aabb();
                         aabb = aabb.union(aabbs[end]);
@@ -142,10 +142,10 @@ impl Bodies {
         &self.discs[body.discs.clone()]
     }
 
-    /// Calls `visit` once for each disc of a body and each disc of a crowd that may touch.
-    pub(super) fn pairs_with(&self, crowd: &Crowd, mut visit: impl FnMut(&Disc, &Disc)) {
+    /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
+    pub(super) fn pairs_with(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
         for body in self.small.bodies.iter().chain(&self.large.bodies) {
-            let near_body = crowd.in_box(body.aabb.low(), body.aabb.high());
+            let near_body = grid.in_box(body.aabb.low(), body.aabb.high());
             for other in near_body.filter(|other| other.aabb().overlaps(body.aabb)) {
                 let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
                 near.for_each(|disc| visit(disc, other));

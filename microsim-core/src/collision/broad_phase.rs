@@ -2,14 +2,14 @@
 //!
 //! Nothing moves farther in a step than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can
 //! touch. They are looked for in the way that suits them: soft bodies and single discs by their boxes first ([`bodies`]),
-//! membranes and fluid disc by disc ([`crowd`]). Between two soft bodies the margin is less at first ([`leeway`]).
+//! membranes and fluid disc by disc ([`disc_grid`]). Between two soft bodies the margin is less at first ([`leeway`]).
 //!
 //! [`bodies`]: super::bodies
-//! [`crowd`]: super::crowd
+//! [`disc_grid`]: super::disc_grid
 //! [`leeway`]: super::leeway
 
 use super::bodies::{Bodies, Meeting};
-use super::crowd::{Crowd, Disc, Store};
+use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
 use super::leeway::{Leeway, Reach};
 use super::obstacle::Obstacle;
@@ -30,8 +30,8 @@ pub(crate) struct BroadPhase {
     pub ring_contacts: Shared<RingContacts>,
     pub leeway: Leeway,
     bodies: Bodies,
-    membranes: Crowd,
-    fluid: Crowd,
+    membranes: DiscGrid,
+    fluid: DiscGrid,
 }
 
 /// What a pair search needs to know of the world.
@@ -103,8 +103,8 @@ impl BroadPhase {
         let Self { bodies, membranes, fluid, .. } = self;
         let woken = bodies.sleepers(sleep).filter(|body| {
             let (low, high) = (body.aabb.low(), body.aabb.high());
-            let mut crowds = [membranes, fluid].into_iter();
-            bodies.is_stirred(body) || crowds.any(|crowd| crowd.in_box(low, high).next().is_some())
+            let mut disc_grids = [membranes, fluid].into_iter();
+            bodies.is_stirred(body) || disc_grids.any(|grid| grid.in_box(low, high).next().is_some())
         });
         for block in woken.map(|body| body.block).collect::<Vec<_>>() {
             sleep.wake(block);
@@ -114,10 +114,11 @@ impl BroadPhase {
     fn find_ring_contacts(&mut self, around: Surroundings<'_>) {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
         let Surroundings { particles, exemptions, containments, rings, reach, .. } = around;
-        let crowds = [&*membranes, &*fluid];
-        ring_contacts
-            .renew(|_| RingContacts::default())
-            .find(rings, RingQuery { particles, exemptions, containments, bodies, crowds, margin: 2.0 * reach.step });
+        let disc_grids = [&*membranes, &*fluid];
+        ring_contacts.renew(|_| RingContacts::default()).find(
+            rings,
+            RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * reach.step },
+        );
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -134,9 +135,9 @@ impl BroadPhase {
         membranes.found.clear();
         fluid.found.clear();
         bodies.collect(blocks, p, sleep, reach, leeway);
-        let store = Store::of(p);
+        let columns = DiscColumns::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for (i, disc) in loose.filter_map(|i| store.disc(i, reach.step).map(|disc| (i, disc))) {
+        for (i, disc) in loose.filter_map(|i| columns.disc(i, reach.step).map(|disc| (i, disc))) {
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
@@ -165,15 +166,15 @@ impl BroadPhase {
             };
             let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
             let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
-            let of_crowds = [&*membranes, &*fluid].into_iter().flat_map(|crowd| crowd.in_box(low, high));
-            let near = of_bodies.chain(of_crowds).filter(is_near);
+            let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high));
+            let near = of_bodies.chain(of_grids).filter(is_near);
             obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
         }
     }
 }
 
 /// Whether a disc's fluid is not that of the first disc: then there are several.
-fn is_of_another_fluid(disc: &Disc, fluid: &Crowd, p: &Particles) -> bool {
+fn is_of_another_fluid(disc: &Disc, fluid: &DiscGrid, p: &Particles) -> bool {
     let first = fluid.iter().next();
     first.is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }

@@ -3,7 +3,7 @@
 mod aabb;
 mod bodies;
 pub(crate) mod broad_phase;
-mod crowd;
+mod disc_grid;
 pub(crate) mod exemptions;
 pub(crate) mod grid;
 pub(crate) mod leeway;

@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::combine;
-use super::crowd::{Crowd, Disc};
+use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
 use crate::geometry::polygon::nearest_on_segment;
 use crate::particle::{NO_OWNER, Particles};
@@ -93,7 +93,7 @@ pub(super) struct RingQuery<'a> {
     pub exemptions: &'a Exemptions,
     pub containments: &'a [Containment],
     pub bodies: &'a Bodies,
-    pub crowds: [&'a Crowd; 2],
+    pub disc_grids: [&'a DiscGrid; 2],
     /// How much the gap between two particles may close in one step.
     pub margin: f32,
 }
@@ -164,8 +164,8 @@ fn find_near_link(ring: Ring<'_>, k: usize, near: RingQuery<'_>, found: &mut Vec
         (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < reach * reach
     };
     let in_bodies = near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body));
-    let in_crowds = near.crowds.into_iter().flat_map(|crowd| crowd.in_box(low, high));
-    let discs = in_bodies.chain(in_crowds).filter(is_near);
+    let in_grids = near.disc_grids.into_iter().flat_map(|grid| grid.in_box(low, high));
+    let discs = in_bodies.chain(in_grids).filter(is_near);
     let touching = discs.filter(|disc| may_touch(p, disc.index as usize, ring, [a, b], near.exemptions));
     found.extend(touching.map(|disc| (disc.index, k as u32)));
 }

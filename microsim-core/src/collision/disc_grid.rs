@@ -1,4 +1,4 @@
-//! Crowds: discs that are looked for one by one, in a grid. Membranes and fluid, which have many and move freely.
+//! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
 
 use super::aabb::Aabb;
 use super::grid::Grid;
@@ -18,7 +18,7 @@ pub(super) struct Disc {
 
 /// The columns that discs are made from, looked up once and not for each of them.
 #[derive(Clone, Copy)]
-pub(super) struct Store<'a> {
+pub(super) struct DiscColumns<'a> {
     origin_x: &'a [f32],
     origin_y: &'a [f32],
     x: &'a [f32],
@@ -27,7 +27,7 @@ pub(super) struct Store<'a> {
     groups: &'a [CollisionGroups],
 }
 
-impl<'a> Store<'a> {
+impl<'a> DiscColumns<'a> {
     pub(super) fn of(particles: &'a Particles) -> Self {
         let Particles { origin_x, origin_y, x, y, radius, groups, .. } = particles;
         Self { origin_x, origin_y, x, y, radius, groups }
@@ -67,7 +67,7 @@ impl Disc {
 
 /// Discs in cell order.
 #[derive(Debug, Default)]
-pub(super) struct Crowd {
+pub(super) struct DiscGrid {
     /// Not yet sorted.
     pub found: Vec<Disc>,
     discs: Vec<Disc>,
@@ -76,7 +76,7 @@ pub(super) struct Crowd {
     reach: f32,
 }
 
-impl Crowd {
+impl DiscGrid {
     /// Sorts what was found.
     pub(super) fn sort(&mut self, size: Vec2) {
         let Self { found, discs, grid, reach } = self;
@@ -95,7 +95,7 @@ impl Crowd {
         self.grid.ranges_in_box(low - self.reach, high + self.reach).flat_map(|range| &self.discs[range])
     }
 
-    /// Discs that may touch one that is not of the crowd.
+    /// Discs that may touch one that is not of the grid.
     pub(super) fn near(&self, disc: &Disc) -> impl Iterator<Item = &Disc> {
         let disc = *disc;
         self.in_box(disc.at - disc.reach, disc.at + disc.reach).filter(move |other| other.is_near(&disc))
