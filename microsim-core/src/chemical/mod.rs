@@ -7,7 +7,7 @@ mod diffusion;
 
 use crate::config::WorldConfig;
 use crate::error::{Error, in_range, out_of_range};
-use diffusion::Grid;
+use diffusion::DiffusionGrid;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ impl ChemicalSpec {
 pub struct Chemical {
     spec: ChemicalSpec,
     #[serde(skip)]
-    grid: Grid,
+    grid: DiffusionGrid,
     /// Rounds of diffusion in a step.
     #[serde(skip)]
     rounds: u32,
@@ -124,7 +124,7 @@ impl Chemical {
     /// A chemical in a world of these settings.
     pub(crate) fn new(spec: ChemicalSpec, config: &WorldConfig) -> Result<Self, Error> {
         let (count, rounds) = spec.plan(config)?;
-        let grid = Grid::new(count, config.size);
+        let grid = DiffusionGrid::new(count, config.size);
         Ok(Self { spec, values: vec![spec.initial; count[0] * count[1]], grid, rounds })
     }
 

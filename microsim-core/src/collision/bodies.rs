@@ -8,8 +8,8 @@ use super::Contact;
 use super::aabb::Aabb;
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
-use super::grid::Grid;
 use super::leeway::{self, Leeway, Reach};
+use super::uniform_grid::UniformGrid;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
@@ -41,7 +41,7 @@ pub(super) struct Body {
 #[derive(Clone, Debug, Default)]
 struct Layer {
     bodies: Vec<Body>,
-    grid: Grid,
+    grid: UniformGrid,
     /// The largest width or height.
     extent: f32,
 }

@@ -1,7 +1,7 @@
 //! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
 
 use super::aabb::Aabb;
-use super::grid::Grid;
+use super::uniform_grid::UniformGrid;
 use crate::particle::{CollisionGroups, Particles};
 use glam::Vec2;
 
@@ -71,7 +71,7 @@ pub(super) struct DiscGrid {
     /// Not yet sorted.
     pub found: Vec<Disc>,
     discs: Vec<Disc>,
-    grid: Grid,
+    grid: UniformGrid,
     /// The largest reach of a disc.
     reach: f32,
 }

@@ -5,11 +5,11 @@ mod bodies;
 pub(crate) mod broad_phase;
 mod disc_grid;
 pub(crate) mod exemptions;
-pub(crate) mod grid;
 pub(crate) mod leeway;
 pub(crate) mod obstacle;
 pub(crate) mod ring;
 pub(crate) mod shape;
+pub(crate) mod uniform_grid;
 
 use crate::particle::{Material, Particles};
 use glam::Vec2;

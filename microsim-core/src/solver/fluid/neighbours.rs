@@ -10,7 +10,7 @@
 //! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the reach drops the candidates that
 //! are not neighbours. Cells are as high as the reach and [`COLUMN_WIDTH`] wide.
 
-use crate::collision::grid::Grid;
+use crate::collision::uniform_grid::UniformGrid;
 use crate::particle::Particles;
 use crate::solver::lanes::{LANES, each};
 use glam::Vec2;
@@ -49,7 +49,7 @@ pub(super) struct Group {
 /// A fluid's particles sorted by cell.
 #[derive(Debug, Default)]
 pub(super) struct Sorted {
-    grid: Grid,
+    grid: UniformGrid,
     /// Where they were, in the order of the fluid.
     found: Vec<Vec2>,
     /// In cell order.
