@@ -160,8 +160,8 @@ fn find_near_link(ring: Ring<'_>, k: usize, near: RingQuery<'_>, found: &mut Vec
     let half_width = p.radius[a as usize] + 0.5 * near.margin;
     let (low, high) = (ends[0].min(ends[1]) - half_width, ends[0].max(ends[1]) + half_width);
     let is_near = |disc: &&Disc| {
-        let reach = disc.reach + half_width;
-        (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < reach * reach
+        let distance = disc.swept_radius + half_width;
+        (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < distance * distance
     };
     let in_bodies = near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body));
     let in_grids = near.disc_grids.into_iter().flat_map(|grid| grid.in_box(low, high));

@@ -302,7 +302,7 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
-        [a, b].into_iter().for_each(|id| self.disturb(id));
+        [a, b].into_iter().for_each(|id| self.wake_up(id));
         Ok(())
     }
 
@@ -331,7 +331,7 @@ impl World {
 /// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step.
 fn walls(config: &WorldConfig) -> Vec<Obstacle> {
     let size = config.size;
-    let thickness = size.x + size.y + 4.0 * config.reach();
+    let thickness = size.x + size.y + 4.0 * config.max_displacement();
     let half = size * 0.5;
     let slab = |half_extents: Vec2, centre: Vec2| {
         Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))

@@ -17,7 +17,7 @@ impl World {
         if !self.all_is_sane() {
             for id in self.freeze_insane() {
                 self.release_meals(id);
-                self.disturb_what_touches(id);
+                self.wake_up_touching(id);
             }
         }
     }

@@ -49,7 +49,7 @@ impl World {
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         self.release_meals(id);
-        self.disturb_what_touches(id);
+        self.wake_up_touching(id);
         let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
@@ -202,7 +202,7 @@ impl World {
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
-        self.sleep.disturb(index as u32, lane);
+        self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
         }
