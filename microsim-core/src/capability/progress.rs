@@ -1,7 +1,7 @@
 //! Whether what wants to move gets anywhere, and how what is stuck tries to get away: faster than it goes about, as
 //! ciliates do (Hamel et al. 2011, PNAS 108, 7290).
 
-use super::controller::senses::{Senses, Wish};
+use super::controller::senses::{Senses, Steering};
 use crate::geometry::ring::{direction_or, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
@@ -66,7 +66,7 @@ impl Progress {
 
     /// How it tries to get away, if it is stuck: rather away from what it has tried, back the way that it came and with
     /// an end first.
-    pub(crate) fn way_out(&mut self, wish: Wish, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(crate) fn way_out(&mut self, steering: Steering, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let needed = SOMEWHERE * senses.radius / senses.speed;
         let [due, length] = [PATIENCE, TRY].map(|[times, more]| times * needed + more);
         let goes = |way: Vec2| senses.velocity.dot(way) > GOING * senses.speed;
@@ -76,7 +76,7 @@ impl Progress {
             }
             Some(Escape { way, age }) if age < length => Escape { way, age: age + senses.around.dt },
             _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => {
-                self.instead_of(direction_or((wish.goal - senses.at) * wish.pace, Vec2::ZERO), senses, rng)
+                self.instead_of(direction_or((steering.goal - senses.at) * steering.relative_speed, Vec2::ZERO), senses, rng)
             }
             _ => {
                 self.escape = None;
@@ -85,7 +85,7 @@ impl Progress {
         };
         self.escape = Some(escape);
         let effort = if self.stalled < UTMOST { self.stalled } else { UTMOST };
-        Some(Wish { pace: HASTE[0] + HASTE[1] * effort, ..senses.along(escape.way) })
+        Some(Steering { relative_speed: HASTE[0] + HASTE[1] * effort, ..senses.along(escape.way) })
     }
 
     /// The most promising of some ways all around, after one that failed.
@@ -123,8 +123,8 @@ mod tests {
             let (speed, radius, arrival) = (1.0, 1.5, 0.25);
             let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
             progress.note(true, &senses);
-            let wish = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
-            wish.map(|wish| direction_or(wish.goal - at, Vec2::ZERO))
+            let steering = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
+            steering.map(|steering| direction_or(steering.goal - at, Vec2::ZERO))
         };
         (0..(seconds / DT) as u32).map(way_out).collect()
     }

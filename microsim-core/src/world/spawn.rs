@@ -117,7 +117,7 @@ impl World {
             divider: blueprint.divider.map(Divider::new),
             exchanges: Vec::new(),
             goal: None,
-            pace: 1.0,
+            relative_speed: 1.0,
             progress: Progress::default(),
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
