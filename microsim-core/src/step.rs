@@ -121,8 +121,8 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let World { config, particles, organisms, blocks, sleep, fluids, obstacles, chemicals, events, scratch, .. } =
         world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
-    let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
-    steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
+    let environment = senses::Environment { size, dt, chemicals, obstacles, others };
+    steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
     constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);

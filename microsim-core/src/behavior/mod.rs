@@ -8,7 +8,7 @@ pub(crate) mod front_pull;
 pub(crate) mod sensing;
 
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Senses, Surroundings, Steering};
+use crate::capability::controller::senses::{Senses, Environment, Steering};
 use crate::capability::phagocytosis::MealPhase;
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -25,7 +25,7 @@ pub(crate) fn steer_organisms(
     organisms: &mut Organisms,
     inputs: &Inputs,
     particles: &Particles,
-    surroundings: &Surroundings<'_>,
+    environment: &Environment<'_>,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
@@ -33,7 +33,7 @@ pub(crate) fn steer_organisms(
     let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
     for (id, organism) in organisms.iter_mut(can_move) {
         let body = Body::of(organism, particles);
-        let senses = body.senses(id, organism, surroundings);
+        let senses = body.senses(id, organism, environment);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
         let steering = intent.map_or(own, |intent| intent.goal().map(Steering::to));

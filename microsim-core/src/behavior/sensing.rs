@@ -2,7 +2,7 @@
 
 use super::place;
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Other, Senses, Surroundings};
+use crate::capability::controller::senses::{Other, Senses, Environment};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
@@ -42,7 +42,7 @@ impl Body {
         &'a self,
         me: OrganismId,
         organism: &Organism,
-        around: &'a Surroundings<'a>,
+        around: &'a Environment<'a>,
     ) -> Senses<'a> {
         let arrival = match organism.locomotion {
             Locomotion::Crawl { .. } | Locomotion::FrontPull { .. } => ARRIVED_BODY * self.radius,

@@ -106,7 +106,7 @@ impl Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::super::controller::senses::Surroundings;
+    use super::super::controller::senses::Environment;
     use super::*;
     use crate::geometry::ring::ellipse;
     use crate::id::OrganismId;
@@ -114,7 +114,7 @@ mod tests {
     /// The ways out, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
     fn ways_out(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
         const DT: f32 = 0.1;
-        let around = Surroundings { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
+        let around = Environment { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
         let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
         let way_out = |step: u32| {
             let at = Vec2::new(30.0, 30.0) + velocity * (step as f32 * DT);

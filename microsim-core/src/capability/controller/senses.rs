@@ -30,7 +30,7 @@ impl Steering {
 
 /// What all organisms may sense.
 #[derive(Clone, Debug)]
-pub(crate) struct Surroundings<'a> {
+pub(crate) struct Environment<'a> {
     /// Upper right corner of the room.
     pub size: Vec2,
     /// Time of a step, s.
@@ -70,7 +70,7 @@ pub(crate) struct Senses<'a> {
     pub arrival: f32,
     /// Centres of its outline, counter-clockwise.
     pub outline: &'a [Vec2],
-    pub around: &'a Surroundings<'a>,
+    pub around: &'a Environment<'a>,
 }
 
 /// A wall next to an organism.

@@ -1,7 +1,7 @@
 //! A bench on which a controller decides for a point-like organism of radius 1 in a room without walls.
 
 use super::Controller;
-use super::senses::{Other, Senses, Surroundings, Steering};
+use super::senses::{Other, Senses, Environment, Steering};
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::config::WorldConfig;
 use crate::geometry::ring::{direction_or, ellipse};
@@ -32,7 +32,7 @@ impl Bench {
 
     pub(super) fn decide(&mut self) -> Option<Steering> {
         let around =
-            Surroundings { size: ROOM, dt: self.dt, chemicals: &self.chemicals, obstacles: &[], others: &self.others };
+            Environment { size: ROOM, dt: self.dt, chemicals: &self.chemicals, obstacles: &[], others: &self.others };
         let outline: Vec<Vec2> = ellipse(Vec2::ONE, 16).into_iter().map(|arm| self.at + arm).collect();
         let (at, velocity, speed) = (self.at, self.velocity, self.speed);
         let senses = Senses {
