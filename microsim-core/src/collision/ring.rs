@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use super::combine;
 use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
-use crate::geometry::polygon::nearest_on_segment;
+use crate::geometry::segment::nearest_on_segment;
 use crate::particle::{NO_OWNER, Particles};
 use std::ops::Range;
 

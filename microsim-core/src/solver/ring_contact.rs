@@ -243,7 +243,7 @@ mod tests {
 
     fn distance(outline: &[u32], p: &Particles, at: Vec2) -> f32 {
         let ends = |k: usize| (p.position(outline[k] as usize), p.position(outline[(k + 1) % outline.len()] as usize));
-        let gap = |k| (crate::geometry::polygon::nearest_on_segment(ends(k).0, ends(k).1, at) - at).length();
+        let gap = |k| (crate::geometry::segment::nearest_on_segment(ends(k).0, ends(k).1, at) - at).length();
         (0..outline.len()).map(gap).fold(f32::INFINITY, f32::min)
     }
 
