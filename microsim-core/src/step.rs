@@ -79,7 +79,7 @@ impl Phase {
 
 pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
-    alone(world, |world| steer(world, inputs));
+    serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
     find_pairs(world);
     find_neighbours(world);
@@ -87,7 +87,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
-        alone(world, |world| predict_positions(world, h));
+        serial(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
@@ -95,7 +95,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         project_constraints(world, h, substep > 0);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        alone(world, project_contacts);
+        serial(world, project_contacts);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
@@ -113,8 +113,8 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
 }
 
 /// Does what no other thread takes part in.
-fn alone(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
-    parallel::alone(world.particles.len(), || phase(world));
+fn serial(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
+    parallel::serial(world.particles.len(), || phase(world));
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
@@ -186,7 +186,7 @@ fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
         #[inline(always)]
         |block, margins| {
             if has_moved {
-                block::note_way(block, margins);
+                block::subtract_displacement(block, margins);
             }
             integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
         },
@@ -224,12 +224,12 @@ fn project_contacts(world: &mut World) {
 fn update_velocities(world: &mut World, h: f32) {
     let World { config, particles, blocks, sleep, organisms, guard, scratch, dispatch, .. } = world;
     let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
-    integrate::in_stretches(
+    integrate::for_each_chunk(
         particles,
         awake,
         *dispatch,
         #[inline(always)]
-        |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
+        |chunk| integrate::update_velocities(chunk, config.damping, config.speed_limit(), h),
     );
     // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {

@@ -8,7 +8,7 @@ pub(crate) mod front_pull;
 pub(crate) mod sensing;
 
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Senses, Environment, Steering};
+use crate::capability::controller::senses::{Environment, Senses, Steering};
 use crate::capability::phagocytosis::MealPhase;
 use crate::event::Event;
 use crate::id::OrganismId;

@@ -75,9 +75,11 @@ impl Progress {
                 self.instead_of(way, senses, rng)
             }
             Some(Escape { way, age }) if age < length => Escape { way, age: age + senses.around.dt },
-            _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => {
-                self.instead_of(direction_or((steering.goal - senses.at) * steering.relative_speed, Vec2::ZERO), senses, rng)
-            }
+            _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => self.instead_of(
+                direction_or((steering.goal - senses.at) * steering.relative_speed, Vec2::ZERO),
+                senses,
+                rng,
+            ),
             _ => {
                 self.escape = None;
                 return None;

@@ -144,7 +144,7 @@ impl BroadPhase {
                 _ => fluid.found.push(disc),
             }
         }
-        parallel::alone(p.len(), || {
+        parallel::serial(p.len(), || {
             bodies.sort(size);
             membranes.sort(size);
             fluid.sort(size);
@@ -213,7 +213,7 @@ mod tests {
     use super::*;
     use crate::particle::{CollisionGroups, LANES};
     use crate::rng::Rng;
-    use crate::solver::block::note_way;
+    use crate::solver::block::subtract_displacement;
     use crate::solver::testing::{disc, overlapping};
     use std::collections::BTreeSet;
 
@@ -317,7 +317,7 @@ mod tests {
                     p.x[i] += way;
                 }
             }
-            note_way(&p.columns().part(block.base..block.end()), left);
+            subtract_displacement(&p.columns().part(block.base..block.end()), left);
         }
     }
 

@@ -216,7 +216,7 @@ impl World {
     /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
     /// measuring: the core itself reads no clock.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::enter(self.particles.len(), || step::advance(self, inputs, &mut finished));
+        parallel::in_pool(self.particles.len(), || step::advance(self, inputs, &mut finished));
     }
 
     /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.

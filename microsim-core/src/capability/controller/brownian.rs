@@ -56,7 +56,9 @@ impl Brownian {
         }
         self.remaining -= dt;
         let relative_speed = self.velocity.length() / senses.speed;
-        relative_speed.is_normal().then(|| Steering { relative_speed, ..senses.along(self.velocity / (relative_speed * senses.speed)) })
+        relative_speed
+            .is_normal()
+            .then(|| Steering { relative_speed, ..senses.along(self.velocity / (relative_speed * senses.speed)) })
     }
 }
 

@@ -1,7 +1,7 @@
 //! A bench on which a controller decides for a point-like organism of radius 1 in a room without walls.
 
 use super::Controller;
-use super::senses::{Other, Senses, Environment, Steering};
+use super::senses::{Environment, Other, Senses, Steering};
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::config::WorldConfig;
 use crate::geometry::ring::{direction_or, ellipse};
@@ -58,7 +58,8 @@ impl Bench {
     pub(super) fn walk(&mut self, speed: f32) {
         let (at, dt) = (self.at, self.dt);
         self.speed = speed;
-        let velocity = |steering: Steering| direction_or(steering.goal - at, Vec2::ZERO) * (steering.relative_speed * speed);
+        let velocity =
+            |steering: Steering| direction_or(steering.goal - at, Vec2::ZERO) * (steering.relative_speed * speed);
         self.velocity = self.decide().map_or(Vec2::ZERO, velocity);
         self.at += self.velocity * dt;
     }

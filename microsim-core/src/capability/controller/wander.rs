@@ -59,7 +59,8 @@ mod tests {
         let rests = goals.iter().filter(|goal| goal.is_none()).count();
         assert!((80..200).contains(&changes), "{changes} changes in 100 s");
         assert!((100..600).contains(&rests), "{rests} rests");
-        let is_inside = |steering: &Steering| steering.goal.cmpge(Vec2::ONE).all() && steering.goal.cmple(ROOM - 1.0).all();
+        let is_inside =
+            |steering: &Steering| steering.goal.cmpge(Vec2::ONE).all() && steering.goal.cmple(ROOM - 1.0).all();
         assert!(goals.iter().flatten().all(is_inside), "no nearer to a wall than its radius");
     }
 
