@@ -6,8 +6,8 @@ pub(crate) mod broad_phase;
 mod disc_grid;
 pub(crate) mod exemptions;
 pub(crate) mod obstacle;
+pub(crate) mod obstacle_record;
 pub(crate) mod ring;
-pub(crate) mod shape;
 pub(crate) mod speculative_margin;
 pub(crate) mod uniform_grid;
 

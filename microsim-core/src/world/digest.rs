@@ -7,7 +7,7 @@
 
 use super::World;
 use crate::collision::obstacle::Obstacle;
-use crate::collision::shape::ObstacleRecord;
+use crate::collision::obstacle_record::ObstacleRecord;
 use crate::fnv::Fnv1a;
 use crate::walk::{Leaf, Visitor, walk};
 use glam::Vec2;
