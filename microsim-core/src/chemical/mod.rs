@@ -84,21 +84,21 @@ pub struct Chemical {
     values: Vec<f32>,
 }
 
-/// What a [`Chemical`] writes; the rest follows from the world.
+/// A [`Chemical`] as it is written; the rest follows from the world.
 #[cfg(feature = "snapshot")]
 #[derive(Debug, Deserialize)]
-pub(crate) struct Record {
+pub(crate) struct ChemicalRecord {
     pub spec: ChemicalSpec,
     values: Vec<f32>,
 }
 
 impl Chemical {
-    /// Takes on the concentrations that were read.
+    /// Takes over the concentrations that were read.
     ///
     /// # Errors
     /// See [`Chemical::check`].
     #[cfg(feature = "snapshot")]
-    pub(crate) fn take_over(&mut self, record: Record, config: &WorldConfig) -> Result<(), String> {
+    pub(crate) fn restore(&mut self, record: ChemicalRecord, config: &WorldConfig) -> Result<(), String> {
         self.values = record.values;
         self.check(config)
     }

@@ -67,7 +67,7 @@ impl BroadPhase {
         }
         let sleep = &*sleep;
         let Self { contacts, bodies, membranes, fluid, .. } = self;
-        let contacts = contacts.renew(Contacts::blank);
+        let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
         bodies.pairs(PairFilter { particles: input.particles, exemptions: input.exemptions, sleep }, strips, others);
@@ -115,7 +115,7 @@ impl BroadPhase {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
         let SearchInput { particles, exemptions, containments, rings, limits, .. } = input;
         let disc_grids = [&*membranes, &*fluid];
-        ring_contacts.renew(|_| RingContacts::default()).find(
+        ring_contacts.get_mut_or(|_| RingContacts::default()).find(
             rings,
             RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step },
         );

@@ -224,7 +224,7 @@ impl Particles {
 
     /// Frees a loose particle; its index is handed out again.
     pub(crate) fn remove(&mut self, index: u32) {
-        self.kill(index as usize);
+        self.clear_entry(index as usize);
         self.free.push(index);
     }
 
@@ -305,7 +305,7 @@ impl Particles {
     }
 
     /// Makes entry `i` dead without freeing its index (a lane of a block).
-    pub(crate) fn kill(&mut self, i: usize) {
+    pub(crate) fn clear_entry(&mut self, i: usize) {
         self.live_count -= usize::from(self.is_live(i));
         self.vx[i] = 0.0;
         self.vy[i] = 0.0;

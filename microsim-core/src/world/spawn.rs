@@ -60,7 +60,7 @@ impl World {
             Body::Lane { block, first } => {
                 let block = &mut self.blocks[block as usize];
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
-                (0..organism.slots).for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
+                (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
             }
             Body::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
