@@ -2,9 +2,9 @@
 
 use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
 use crate::capability::controller::senses;
-use crate::collision::broad_phase::Surroundings;
-use crate::collision::leeway::Reach;
+use crate::collision::broad_phase::SearchInput;
 use crate::collision::ring::Ring;
+use crate::collision::speculative_margin::DisplacementLimits;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
@@ -79,15 +79,15 @@ impl Phase {
 
 pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
-    alone(world, |world| steer(world, inputs));
+    serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
     find_pairs(world);
     find_neighbours(world);
-    quieten_sleepers(world);
+    stop_sleepers(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
-        alone(world, |world| predict_positions(world, h));
+        serial(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
@@ -95,7 +95,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         project_constraints(world, h, substep > 0);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        alone(world, project_contacts);
+        serial(world, project_contacts);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
@@ -113,16 +113,16 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
 }
 
 /// Does what no other thread takes part in.
-fn alone(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
-    parallel::alone(world.particles.len(), || phase(world));
+fn serial(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
+    parallel::serial(world.particles.len(), || phase(world));
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
     let World { config, particles, organisms, blocks, sleep, fluids, obstacles, chemicals, events, scratch, .. } =
         world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
-    let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
-    steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
+    let environment = senses::Environment { size, dt, chemicals, obstacles, others };
+    steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, events);
     draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
     constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
@@ -132,18 +132,19 @@ fn steer(world: &mut World, inputs: &Inputs) {
     for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
         let owner = organisms.id_at(particles.owner[drive.particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
-        lane.into_iter().for_each(|(block, lane)| sleep.disturb(block, lane));
+        lane.into_iter().for_each(|(block, lane)| sleep.wake_up(block, lane));
     }
 }
 
 pub(crate) fn find_pairs(world: &mut World) {
     let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
-    let (size, reach) = (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
+    let (step, substep) = (config.max_displacement(), config.max_substep_displacement());
+    let (size, limits) = (config.size, DisplacementLimits { step, substep, dt: config.dt });
     let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
-    let (rings, homes) = (rings.as_slice(), &organisms.homes());
+    let (rings, containments) = (rings.as_slice(), &organisms.containments());
     let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
-    scratch.broad_phase.find_pairs(around, sleep, config.patience());
+    let input = SearchInput { particles, blocks, obstacles, exemptions, rings, containments, size, limits };
+    scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
 }
 
 fn find_neighbours(world: &mut World) {
@@ -151,9 +152,9 @@ fn find_neighbours(world: &mut World) {
     scratch.fluid.find_neighbours(fluids, particles, config.size);
 }
 
-fn quieten_sleepers(world: &mut World) {
+fn stop_sleepers(world: &mut World) {
     let World { particles, blocks, sleep, .. } = world;
-    sleep.quieten(blocks.iter().map(Block::range), particles);
+    sleep.stop_sleepers(blocks.iter().map(Block::range), particles);
 }
 
 fn predict_positions(world: &mut World, h: f32) {
@@ -178,14 +179,14 @@ fn project_fluids(world: &mut World, h: f32) {
 
 fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
-    let leeways = scratch.broad_phase.leeway.blocks_mut();
-    let awake = blocks.iter().zip(leeways).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
+    let margins = scratch.broad_phase.margins.blocks_mut();
+    let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     block::predict_and_project(
         awake,
         #[inline(always)]
-        |block, leeway| {
+        |block, margins| {
             if has_moved {
-                block::note_way(block, leeway);
+                block::subtract_displacement(block, margins);
             }
             integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
         },
@@ -209,7 +210,7 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 fn project_contacts(world: &mut World) {
     let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
-    broad_phase.widen(particles, exemptions, sleep, config.substep_reach());
+    broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, &mut scratch.impacts);
     }
@@ -223,12 +224,12 @@ fn project_contacts(world: &mut World) {
 fn update_velocities(world: &mut World, h: f32) {
     let World { config, particles, blocks, sleep, organisms, guard, scratch, dispatch, .. } = world;
     let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
-    integrate::in_stretches(
+    integrate::for_each_chunk(
         particles,
         awake,
         *dispatch,
         #[inline(always)]
-        |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
+        |chunk| integrate::update_velocities(chunk, config.damping, config.speed_limit(), h),
     );
     // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
@@ -260,7 +261,12 @@ fn conclude(world: &mut World) {
     let is_asleep = |id| lane(id).is_some_and(|(block, _)| sleep.is_asleep(block));
     touching.update(scratch.broad_phase.touched(), is_asleep, particles, organisms, events);
     if config.sleeps {
-        sleep.note(blocks.iter().map(Block::range), particles, config.calm_speed(), config.patience());
+        sleep.update_sleep_times(
+            blocks.iter().map(Block::range),
+            particles,
+            config.sleep_speed(),
+            config.steps_to_sleep(),
+        );
     }
     world.quarantine();
     world.rebase();

@@ -8,7 +8,7 @@ pub(crate) mod front_pull;
 pub(crate) mod sensing;
 
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Senses, Surroundings, Wish};
+use crate::capability::controller::senses::{Environment, Senses, Steering};
 use crate::capability::phagocytosis::MealPhase;
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -25,7 +25,7 @@ pub(crate) fn steer_organisms(
     organisms: &mut Organisms,
     inputs: &Inputs,
     particles: &Particles,
-    surroundings: &Surroundings<'_>,
+    environment: &Environment<'_>,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
@@ -33,27 +33,27 @@ pub(crate) fn steer_organisms(
     let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
     for (id, organism) in organisms.iter_mut(can_move) {
         let body = Body::of(organism, particles);
-        let senses = body.senses(id, organism, surroundings);
+        let senses = body.senses(id, organism, environment);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
-        let wish = intent.map_or(own, |intent| intent.goal().map(Wish::to));
+        let steering = intent.map_or(own, |intent| intent.goal().map(Steering::to));
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
-        organism.goal = wish.map(|wish| wish.goal).filter(|_| may_move);
-        organism.pace = wish.map_or(1.0, |wish| wish.pace);
+        organism.goal = steering.map(|steering| steering.goal).filter(|_| may_move);
+        organism.relative_speed = steering.map_or(1.0, |steering| steering.relative_speed);
         organism.progress.note(organism.goal.is_some(), &senses);
         move_towards(id, organism, particles, drives, events);
     }
 }
 
 /// What an organism's controller wants, unless it is stuck and tries to get away first.
-fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
+fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Steering> {
     let Organism { controller, progress, rng, .. } = organism;
-    let wish = controller.decide(senses, rng)?;
-    let way_out = if controller.insists() { None } else { progress.way_out(wish, senses, rng) };
+    let steering = controller.decide(senses, rng)?;
+    let way_out = if controller.insists() { None } else { progress.way_out(steering, senses, rng) };
     if let Some(escape) = way_out {
         controller.head(heading(escape.goal - senses.at));
     }
-    Some(way_out.unwrap_or(wish))
+    Some(way_out.unwrap_or(steering))
 }
 
 /// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).

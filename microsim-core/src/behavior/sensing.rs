@@ -2,7 +2,7 @@
 
 use super::place;
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Other, Senses, Surroundings};
+use crate::capability::controller::senses::{Environment, Other, Senses};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
@@ -38,12 +38,7 @@ impl Body {
         Self { at, velocity, radius, outline }
     }
 
-    pub(crate) fn senses<'a>(
-        &'a self,
-        me: OrganismId,
-        organism: &Organism,
-        around: &'a Surroundings<'a>,
-    ) -> Senses<'a> {
+    pub(crate) fn senses<'a>(&'a self, me: OrganismId, organism: &Organism, around: &'a Environment<'a>) -> Senses<'a> {
         let arrival = match organism.locomotion {
             Locomotion::Crawl { .. } | Locomotion::FrontPull { .. } => ARRIVED_BODY * self.radius,
             Locomotion::None | Locomotion::Tow { .. } => ARRIVED,

@@ -294,7 +294,7 @@ pub(crate) struct Organism {
     /// Where it wanted to go in the last step.
     pub goal: Option<Vec2>,
     /// Speed that it wanted then, in its own; negative: backwards.
-    pub pace: f32,
+    pub relative_speed: f32,
     /// Whether it gets anywhere.
     pub progress: Progress,
     /// Where it was spawned.
@@ -350,7 +350,7 @@ impl Organism {
 
     /// Speed that it wants to move with, units/s; negative: backwards.
     pub(crate) fn present_speed(&self) -> f32 {
-        self.pace * self.own_speed()
+        self.relative_speed * self.own_speed()
     }
 
     /// Speed that it is capable of, units/s: less while it digests.

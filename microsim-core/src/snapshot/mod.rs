@@ -24,7 +24,7 @@ mod envelope;
 pub use checkpoint::Checkpoint;
 
 use crate::collision::obstacle::Obstacle;
-use crate::collision::shape::ObstacleRecord;
+use crate::collision::obstacle_record::ObstacleRecord;
 use crate::world::World;
 use crate::world::restore::State;
 use envelope::Format;

@@ -3,22 +3,22 @@
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, each, load, store};
 use super::ratio_limit;
-use crate::parallel::{self, STRETCH};
+use crate::parallel::{self, CHUNK};
 use crate::particle::{Columns, Particles};
 use glam::Vec2;
 use std::ops::Range;
 
-/// Does the same to all particles of some ranges, a stretch at a time.
-pub(crate) fn in_stretches(
+/// Does the same to all particles of some ranges, a chunk at a time.
+pub(crate) fn for_each_chunk(
     p: &mut Particles,
     ranges: impl Iterator<Item = Range<usize>>,
     dispatch: Dispatch,
     kernel: impl Fn(&mut Columns<'_>) + Send + Sync,
 ) {
-    parallel::for_each(p.columns().stretches(ranges, STRETCH), |mut stretch| {
+    parallel::for_each(p.columns().chunks(ranges, CHUNK), |mut chunk| {
         dispatch.run(
             #[inline(always)]
-            || kernel(&mut stretch),
+            || kernel(&mut chunk),
         );
     });
 }

@@ -14,7 +14,7 @@ use std::f32::consts::{PI, TAU};
 /// Time in which the membrane lengthens by what a fold needs, s.
 const FOLDING_TIME: f32 = 0.8;
 /// Nodes beyond those that lie against prey among which the links to swap are looked for.
-const REACH: usize = 4;
+const HALF_WINDOW: usize = 4;
 /// Fewest nodes of a phagosome.
 const LEAST_NODES: usize = 5;
 /// Area of a phagosome over that of its prey.
@@ -49,8 +49,8 @@ impl World {
     ) -> Option<Swap> {
         let outline = self.outline_of(organism);
         let count = outline.len();
-        let window = |from: usize| (from..from + 2 * REACH).map(move |k| k % count);
-        let firsts = window(fold.bottom + 2 * count - fold.before - 2 * REACH + 1);
+        let window = |from: usize| (from..from + 2 * HALF_WINDOW).map(move |k| k % count);
+        let firsts = window(fold.bottom + 2 * count - fold.before - 2 * HALF_WINDOW + 1);
         let swap = Swap::shortest([&outline, &outline], firsts, window(fold.bottom + fold.after))?;
         if swap.length > params.closing_length * organism.body.membrane()?.rest_length {
             return None;
@@ -66,7 +66,7 @@ impl World {
             && self.discs_of(prey).all(|i| holds(&pocket, i))
             && organism.fluid_particles.iter().all(|&i| holds(&left, i as usize))
             && !p.live().filter(is_foreign).any(|i| holds(&pocket, i))
-            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.bounds().center()));
+            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.aabb().center()));
         is_clear.then_some(swap)
     }
 

@@ -7,7 +7,7 @@
 
 use super::World;
 use crate::collision::obstacle::Obstacle;
-use crate::collision::shape::ObstacleRecord;
+use crate::collision::obstacle_record::ObstacleRecord;
 use crate::fnv::Fnv1a;
 use crate::walk::{Leaf, Visitor, walk};
 use glam::Vec2;
@@ -75,7 +75,7 @@ pub(super) fn of_obstacle(obstacle: &Obstacle) -> u64 {
     if let Some(record) = ObstacleRecord::of(obstacle) {
         return Digest::of(&record);
     }
-    let bounds = obstacle.bounds();
+    let bounds = obstacle.aabb();
     let extent = bounds.maxs - bounds.mins;
     let nearest = |k: u8| {
         let share = Vec2::new(f32::from(k % POINTS), f32::from(k / POINTS)) / f32::from(POINTS - 1);

@@ -17,7 +17,7 @@ use glam::Vec2;
 use std::ops::Range;
 
 /// Nodes on both sides of the bottom of the furrow between which links are swapped.
-const REACH: usize = 4;
+const HALF_WINDOW: usize = 4;
 /// A link of a closing furrow's membrane that is longer than this, in rest lengths, gets a new node.
 const LONGEST: f32 = 1.15;
 /// Share of its nodes by which a membrane may grow in a division: two circles need 1.41 times the nodes of one.
@@ -187,7 +187,7 @@ impl World {
         let outline = self.outline_of(organism);
         let count = outline.len();
         let place = |node: u32| organism.outline.iter().position(|&other| other == node).ok_or(Refusal::FurrowOpen);
-        let around = |k: usize| (0..=2 * REACH).map(move |step| (k + count + step - REACH) % count);
+        let around = |k: usize| (0..=2 * HALF_WINDOW).map(move |step| (k + count + step - HALF_WINDOW) % count);
         let (first, second) = (place(furrow.nodes[0])?, place(furrow.nodes[1])?);
         let swap = Swap::shortest([&outline, &outline], around(first), around(second)).ok_or(Refusal::FurrowOpen)?;
         if swap.length > divider.params.closing_length * membrane.rest_length {

@@ -229,7 +229,7 @@ impl World {
         let block = &mut self.blocks[index as usize];
         let lane = (first - block.base) as usize;
         block.scale[lane] = organism.spawn_scale * factor;
-        self.sleep.disturb(index, lane);
+        self.sleep.wake_up(index, lane);
         for (slot, node) in self.templates[block.template as usize].nodes().iter().enumerate() {
             self.particles.radius[first as usize + slot * LANES] = node.radius * block.scale[lane];
         }

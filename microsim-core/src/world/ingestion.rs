@@ -5,7 +5,8 @@ use super::World;
 use super::feeding::front_nodes;
 use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, PhagocytosisParams, PreyClass};
 use crate::event::Event;
-use crate::geometry::polygon::{contains_point, nearest_on_segment};
+use crate::geometry::polygon::contains_point;
+use crate::geometry::segment::nearest_on_segment;
 use crate::id::OrganismId;
 use crate::solver::contact::shift;
 use glam::Vec2;
@@ -114,7 +115,7 @@ impl World {
     fn widen_gate(&mut self, id: OrganismId, meal: &mut Meal) {
         let (Some(engulfer), Some(prey)) = (self.organisms.get(id), self.organisms.get(meal.prey)) else { return };
         let p = &self.particles;
-        let margin = 2.0 * self.config.reach();
+        let margin = 2.0 * self.config.max_displacement();
         let discs: Vec<usize> = prey.particles().map(|i| i as usize).filter(|&i| p.inv_mass[i] > 0.0).collect();
         let is_near =
             |node: usize| discs.iter().any(|&i| p.between(node, i).length() < p.radius[node] + p.radius[i] + margin);

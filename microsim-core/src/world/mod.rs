@@ -31,7 +31,7 @@ pub(crate) mod view;
 
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
-use crate::collision::filter::Exemptions;
+use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
@@ -216,7 +216,7 @@ impl World {
     /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
     /// measuring: the core itself reads no clock.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::enter(self.particles.len(), || step::advance(self, inputs, &mut finished));
+        parallel::in_pool(self.particles.len(), || step::advance(self, inputs, &mut finished));
     }
 
     /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
@@ -273,7 +273,7 @@ impl World {
         in_range("material.restitution", restitution, 0.0, 1.0)?;
         in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
         in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
-        let bounds = obstacle.bounds();
+        let bounds = obstacle.aabb();
         if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
             return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
         }
@@ -302,7 +302,7 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
-        [a, b].into_iter().for_each(|id| self.disturb(id));
+        [a, b].into_iter().for_each(|id| self.wake_up(id));
         Ok(())
     }
 
@@ -331,7 +331,7 @@ impl World {
 /// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step.
 fn walls(config: &WorldConfig) -> Vec<Obstacle> {
     let size = config.size;
-    let thickness = size.x + size.y + 4.0 * config.reach();
+    let thickness = size.x + size.y + 4.0 * config.max_displacement();
     let half = size * 0.5;
     let slab = |half_extents: Vec2, centre: Vec2| {
         Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))

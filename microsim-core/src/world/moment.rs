@@ -66,7 +66,7 @@ impl View<'_> {
         let was_there = owner != NO_OWNER && earlier.owners.get(i) == Some(&owner);
         // Numbers are handed out again. What is farther away than twice the speed limit allows was something else.
         let steps = ((self.world.time() - earlier.time) / f64::from(self.world.config.dt)) as f32 + 1.0;
-        let reach = 2.0 * steps * self.world.config.reach();
+        let reach = 2.0 * steps * self.world.config.max_displacement();
         let near = |before: &Vec2| (*before - now).length_squared() <= reach * reach;
         earlier.positions.get(i).copied().filter(near).filter(|_| was_there).unwrap_or(now)
     }

@@ -19,7 +19,7 @@ impl World {
         let inside = held.filter(|(_, phase)| phase.is_inside()).map(|(prey, _)| prey);
         let limit = self.config.speed_limit();
         for organism in std::iter::once(id).chain(inside).collect::<Vec<_>>() {
-            self.disturb(organism);
+            self.wake_up(organism);
             for i in self.discs_of(organism).collect::<Vec<_>>() {
                 let Vec2 { x, y } = (self.particles.velocity(i) + velocity).clamp_length_max(limit);
                 (self.particles.vx[i], self.particles.vy[i]) = (x, y);

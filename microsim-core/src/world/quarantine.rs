@@ -4,7 +4,7 @@ use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::Organism;
-use crate::parallel::{self, STRETCH};
+use crate::parallel::{self, CHUNK};
 use crate::particle::Particles;
 use glam::Vec2;
 use std::ops::Range;
@@ -17,7 +17,7 @@ impl World {
         if !self.all_is_sane() {
             for id in self.freeze_insane() {
                 self.release_meals(id);
-                self.disturb_what_touches(id);
+                self.wake_up_touching(id);
             }
         }
     }
@@ -25,14 +25,14 @@ impl World {
     /// The same as asking each organism, column by column and without asking whose the particles are.
     fn all_is_sane(&self) -> bool {
         let (p, size) = (&self.particles, self.config.size);
-        let stretches = (0..p.len()).step_by(STRETCH).map(|first| first..p.len().min(first + STRETCH));
+        let chunks = (0..p.len()).step_by(CHUNK).map(|first| first..p.len().min(first + CHUNK));
         let is_sane = |at: Range<usize>| {
             are_near(&p.origin_x[at.clone()], &p.x[at.clone()], size.x)
                 && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], size.y)
                 && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].iter().all(|column| are_within(&column[at.clone()], -f32::MAX))
                 && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
         };
-        parallel::map(stretches.collect(), is_sane).into_iter().all(|is_sane| is_sane)
+        parallel::map(chunks.collect(), is_sane).into_iter().all(|is_sane| is_sane)
     }
 
     /// Freezes them and returns which.

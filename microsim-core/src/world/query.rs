@@ -1,7 +1,8 @@
 //! Queries: what is at a point, in a circle, in a box, along a ray. Results are in the order of the organisms.
 
 use super::World;
-use crate::geometry::polygon::{contains_point, nearest_on_segment};
+use crate::geometry::polygon::contains_point;
+use crate::geometry::segment::nearest_on_segment;
 use crate::id::OrganismId;
 use glam::Vec2;
 

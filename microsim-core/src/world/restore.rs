@@ -3,7 +3,7 @@
 
 use super::{Guard, World, validate};
 use crate::chemical;
-use crate::collision::filter::Exemptions;
+use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::event::Event;
@@ -28,7 +28,7 @@ pub(crate) struct State {
     blocks: Vec<Block>,
     sleep: Sleep,
     fluids: Vec<Fluid>,
-    chemicals: Vec<chemical::Record>,
+    chemicals: Vec<chemical::ChemicalRecord>,
     exemptions: Exemptions,
     touching: Touching,
     events: Vec<Event>,
@@ -51,7 +51,7 @@ impl World {
         }
         for (k, record) in state.chemicals.into_iter().enumerate() {
             let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
-            let filled = added.and_then(|()| world.chemicals[k].take_over(record, &world.config));
+            let filled = added.and_then(|()| world.chemicals[k].restore(record, &world.config));
             filled.map_err(|flaw| format!("chemicals[{k}]: {flaw}"))?;
         }
         world.step_index = state.step_index;

@@ -1,20 +1,20 @@
-//! What wakes sleepers besides motion: a change of the body itself, or of what it leans on.
+//! Waking sleepers up for another reason than motion: a change of the body itself, or of a body that it leans on.
 
 use super::World;
 use crate::id::OrganismId;
 
 impl World {
-    /// Notes that an organism has changed, or what acts on it.
-    pub(super) fn disturb(&mut self, id: OrganismId) {
+    /// Wakes an organism up that has changed, or on which something acts.
+    pub(super) fn wake_up(&mut self, id: OrganismId) {
         let lane = self.organisms.get(id).and_then(|organism| organism.body.lane(&self.blocks));
-        lane.into_iter().for_each(|(block, lane)| self.sleep.disturb(block, lane));
+        lane.into_iter().for_each(|(block, lane)| self.sleep.wake_up(block, lane));
     }
 
-    /// The same of all that touch it.
-    pub(super) fn disturb_what_touches(&mut self, id: OrganismId) {
+    /// Wakes up all organisms that touch one.
+    pub(super) fn wake_up_touching(&mut self, id: OrganismId) {
         let other = |&(a, b): &_| if a == id { Some(b) } else { (b == id).then_some(a) };
         for other in self.touching.pairs().iter().filter_map(other).collect::<Vec<_>>() {
-            self.disturb(other);
+            self.wake_up(other);
         }
     }
 }

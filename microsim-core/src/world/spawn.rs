@@ -49,7 +49,7 @@ impl World {
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         self.release_meals(id);
-        self.disturb_what_touches(id);
+        self.wake_up_touching(id);
         let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
@@ -60,7 +60,7 @@ impl World {
             Body::Lane { block, first } => {
                 let block = &mut self.blocks[block as usize];
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
-                (0..organism.slots).for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
+                (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
             }
             Body::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
@@ -117,7 +117,7 @@ impl World {
             divider: blueprint.divider.map(Divider::new),
             exchanges: Vec::new(),
             goal: None,
-            pace: 1.0,
+            relative_speed: 1.0,
             progress: Progress::default(),
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
@@ -202,7 +202,7 @@ impl World {
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
-        self.sleep.disturb(index as u32, lane);
+        self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
         }

@@ -103,13 +103,13 @@ impl<'a> OrganismView<'a> {
         self.organism.is_quarantined
     }
 
-    /// Whether it lies still and has done so for as long as it takes to fall asleep, with all that it shares a block with. What
-    /// does is left out of every step in which nothing that moves is near ([`crate::WorldConfig::sleeps`]).
+    /// Whether it, and all that shares its block, has been slower than the sleep speed for the time to sleep. Then it sleeps in
+    /// every step in which nothing that moves is near ([`crate::WorldConfig::sleeps`]).
     #[must_use]
-    pub fn is_calm(self) -> bool {
+    pub fn is_at_rest(self) -> bool {
         let World { sleep, blocks, config, .. } = self.view.world;
         let lane = self.organism.body.lane(blocks);
-        lane.is_some_and(|(block, _)| sleep.is_calm(block, config.patience()))
+        lane.is_some_and(|(block, _)| sleep.is_at_rest(block, config.steps_to_sleep()))
     }
 
     /// Its particles: those of the body in the order of their nodes, then its fluid.

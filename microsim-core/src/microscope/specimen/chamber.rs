@@ -48,7 +48,7 @@ impl Chamber {
             plate.add(low, high, |p| self.polymer(p, (p - p.clamp(Vec2::ZERO, self.size)).length()));
         }
         for obstacle in &self.obstacles {
-            let bounds = obstacle.bounds();
+            let bounds = obstacle.aabb();
             plate.add(bounds.mins, bounds.maxs, |p| self.polymer(p, depth_in(obstacle, p)));
         }
     }
@@ -92,7 +92,7 @@ fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
 /// The corners of an obstacle that a slide sees, and a map of depths in all of it. Straight edges come out exactly however
 /// coarse the map is, and it may be coarse, because it is made for every picture.
 pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, slide: &Slide) -> Option<(Vec<f32>, DistanceMap)> {
-    let bounds = obstacle.bounds();
+    let bounds = obstacle.aabb();
     let (low, high) = (bounds.mins, bounds.maxs);
     let extent = high - low;
     let finest = (extent.x * extent.y / MOST_CELLS).sqrt();

@@ -50,7 +50,7 @@ fn check_slots(world: &World) -> Check {
 fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
     let (organisms, none) = (&world.organisms, Subject::default());
     let (blocks, known) = (world.blocks.len(), world.sleep.len());
-    none.must(blocks == known, || format!("of {blocks} blocks it is noted of {known} how calm they are"))?;
+    none.must(blocks == known, || format!("of {blocks} blocks {known} have sleep times"))?;
     let mut end = 0;
     for (k, block) in world.blocks.iter().enumerate() {
         let template = world.templates.get(block.template as usize);

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// An obstacle.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct ObstacleRecord {
-    shape: Parts,
+    shape: ShapeRecords,
     pose: PoseRecord,
     material: Material,
     groups: CollisionGroups,
@@ -25,14 +25,14 @@ type PoseRecord = (Vec2, [f32; 2]);
 
 /// A shape, or the shapes that it consists of.
 #[derive(Debug, Serialize, Deserialize)]
-enum Parts {
-    One(Shape),
-    Several(Vec<(PoseRecord, Shape)>),
+enum ShapeRecords {
+    One(ShapeRecord),
+    Several(Vec<(PoseRecord, ShapeRecord)>),
 }
 
 /// A shape that is no collection.
 #[derive(Debug, Serialize, Deserialize)]
-enum Shape {
+enum ShapeRecord {
     Ball(f32),
     /// Half extents and the radius of the border.
     Cuboid(Vec2, f32),
@@ -51,10 +51,10 @@ impl ObstacleRecord {
     pub(crate) fn of(obstacle: &Obstacle) -> Option<Self> {
         let shape = match obstacle.shape.as_typed_shape() {
             TypedShape::Compound(compound) if compound.flags().is_empty() => {
-                let part = |(pose, shape): &(Pose, SharedShape)| Some((record(pose), Shape::of(shape)?));
-                Parts::Several(compound.shapes().iter().map(part).collect::<Option<_>>()?)
+                let part = |(pose, shape): &(Pose, SharedShape)| Some((record(pose), ShapeRecord::of(shape)?));
+                ShapeRecords::Several(compound.shapes().iter().map(part).collect::<Option<_>>()?)
             }
-            _ => Parts::One(Shape::of(&obstacle.shape)?),
+            _ => ShapeRecords::One(ShapeRecord::of(&obstacle.shape)?),
         };
         let Obstacle { pose, material, groups, .. } = obstacle;
         Some(Self { shape, pose: record(pose), material: *material, groups: *groups })
@@ -65,20 +65,20 @@ impl ObstacleRecord {
     pub(crate) fn restore(self) -> Option<Obstacle> {
         let Self { shape, pose, material, groups } = self;
         let shape = match shape {
-            Parts::One(shape) => shape.restore()?,
-            Parts::Several(parts) if !parts.is_empty() => {
-                let is_simple = |(_, shape): &(_, Shape)| !matches!(shape, Shape::Polyline(..));
-                let part = |(place, shape): (PoseRecord, Shape)| Some((pose_of(place)?, shape.restore()?));
+            ShapeRecords::One(shape) => shape.restore()?,
+            ShapeRecords::Several(parts) if !parts.is_empty() => {
+                let is_simple = |(_, shape): &(_, ShapeRecord)| !matches!(shape, ShapeRecord::Polyline(..));
+                let part = |(place, shape): (PoseRecord, ShapeRecord)| Some((pose_of(place)?, shape.restore()?));
                 let is_sound = parts.iter().all(is_simple);
                 SharedShape::compound(parts.into_iter().map(part).collect::<Option<_>>().filter(|_| is_sound)?)
             }
-            Parts::Several(_) => return None,
+            ShapeRecords::Several(_) => return None,
         };
         Some(Obstacle { shape, pose: pose_of(pose)?, material, groups })
     }
 }
 
-impl Shape {
+impl ShapeRecord {
     fn of(shape: &SharedShape) -> Option<Self> {
         let corners = |Triangle { a, b, c }: &Triangle| [*a, *b, *c];
         Some(match shape.as_typed_shape() {

@@ -8,7 +8,7 @@ const MAX_CELLS: f32 = 2048.0;
 
 /// Entries sorted by cell, row by row.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Grid {
+pub(crate) struct UniformGrid {
     origin: Vec2,
     inverse_cell: Vec2,
     columns: usize,
@@ -20,7 +20,7 @@ pub(crate) struct Grid {
     cells: Vec<u32>,
 }
 
-impl Grid {
+impl UniformGrid {
     /// Sorts entries `0..count` by the cell of their position. `low..high` is the area to cover; what lies outside it is
     /// put into the border cells. Cells have at least the size `cell`.
     pub(crate) fn fill(&mut self, low: Vec2, high: Vec2, cell: Vec2, count: usize, position: impl Fn(usize) -> Vec2) {
@@ -89,7 +89,7 @@ impl Grid {
         (place(local.x, self.columns), place(local.y, self.rows))
     }
 
-    /// Column of the cell that an entry of [`Grid::order`] in this row is in.
+    /// Column of the cell that an entry of [`UniformGrid::order`] in this row is in.
     pub(crate) fn column_at(&self, row: usize, place: usize) -> usize {
         self.cells[self.order[place] as usize] as usize - row * self.columns
     }
@@ -99,7 +99,7 @@ impl Grid {
         row * self.columns + column
     }
 
-    /// Entries of the cells `columns` of one row, as a range of [`Grid::order`].
+    /// Entries of the cells `columns` of one row, as a range of [`UniformGrid::order`].
     pub(crate) fn row_range(&self, row: usize, columns: Range<usize>) -> Range<usize> {
         if columns.is_empty() || row >= self.rows {
             return 0..0;
@@ -109,13 +109,13 @@ impl Grid {
         self.starts[base + columns.start] as usize..self.starts[base + last] as usize
     }
 
-    /// Entries of the cells that a box touches, row by row, as ranges of [`Grid::order`].
+    /// Entries of the cells that a box touches, row by row, as ranges of [`UniformGrid::order`].
     pub(crate) fn ranges_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = Range<usize>> {
         let ((c0, r0), (c1, r1)) = (self.cell_of(low), self.cell_of(high));
         (r0..=r1).map(move |row| self.row_range(row, c0..c1 + 1))
     }
 
-    /// Calls `visit` once for each two places in [`Grid::order`] in the same or neighbouring cells, the first of them in
+    /// Calls `visit` once for each two places in [`UniformGrid::order`] in the same or neighbouring cells, the first of them in
     /// these rows: within a cell, with the cell to the right, and with the three cells above.
     #[inline(always)]
     pub(crate) fn pairs(&self, rows: Range<usize>, mut visit: impl FnMut(usize, usize)) {
@@ -151,7 +151,7 @@ mod tests {
         let mut rng = Rng::new(3, 0);
         let points: Vec<Vec2> = (0..500).map(|_| Vec2::new(rng.range(-2.0, 22.0), rng.range(-2.0, 12.0))).collect();
         let entries: Vec<u32> = (0..500).collect();
-        let mut grid = Grid::default();
+        let mut grid = UniformGrid::default();
         for _ in 0..2 {
             grid.fill(Vec2::ZERO, Vec2::new(20.0, 10.0), Vec2::splat(1.5), points.len(), |e| points[e]);
         }
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn non_finite_points_and_empty_grids_are_harmless() {
-        let mut grid = Grid::default();
+        let mut grid = UniformGrid::default();
         grid.fill(Vec2::ZERO, Vec2::ONE, Vec2::splat(0.1), 2, |_| Vec2::NAN);
         assert_eq!(grid.order().len(), 2);
         grid.fill(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 0, |_| Vec2::ZERO);

@@ -1,16 +1,16 @@
-//! Axis-aligned boxes, made to be compared quickly: most of a pair search is asking whether two of them meet.
+//! Axis-aligned bounding boxes that are quick to compare: most of a pair search asks whether two of them overlap.
 
 use glam::{Vec2, Vec4, Vec4Swizzles};
 
 /// Some units in the last place.
 const ROUNDING: f32 = 1e-6;
 
-/// A box, as `(-low, high)`: two boxes meet if four sums are positive, which is one comparison of four lanes.
+/// A box, as `(-low, high)`: two overlap if four sums are positive, which is one comparison of four lanes.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Bounds(Vec4);
+pub(super) struct Aabb(Vec4);
 
-impl Bounds {
-    /// Holds nothing; joined with another box, it is that one.
+impl Aabb {
+    /// Holds nothing; its union with another box is that one.
     pub(super) const EMPTY: Self = Self(Vec4::NEG_INFINITY);
 
     pub(super) fn new(low: Vec2, high: Vec2) -> Self {
@@ -31,7 +31,7 @@ impl Bounds {
 
     /// The box without a rim of this width, or with a little of it: rounding takes nothing away that is inside.
     #[inline(always)]
-    pub(super) fn less(self, rim: f32) -> Self {
+    pub(super) fn shrunk(self, rim: f32) -> Self {
         Self(self.0 - rim + self.0.abs() * ROUNDING)
     }
 
@@ -43,12 +43,12 @@ impl Bounds {
 
     /// The box around both.
     #[inline(always)]
-    pub(super) fn join(self, other: Self) -> Self {
+    pub(super) fn union(self, other: Self) -> Self {
         Self(Vec4::select(other.0.cmpgt(self.0), other.0, self.0))
     }
 
     #[inline(always)]
-    pub(super) fn meets(self, other: Self) -> bool {
+    pub(super) fn overlaps(self, other: Self) -> bool {
         self.0.cmpge(-other.0.zwxy()).all()
     }
 }
@@ -58,26 +58,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boxes_meet_where_they_share_a_point() {
-        let unit = Bounds::new(Vec2::ZERO, Vec2::ONE);
-        let at = |x: f32, y: f32| Bounds::new(Vec2::new(x, y), Vec2::new(x + 2.0, y + 2.0));
-        for (other, meets) in [
+    fn boxes_overlap_where_they_share_a_point() {
+        let unit = Aabb::new(Vec2::ZERO, Vec2::ONE);
+        let at = |x: f32, y: f32| Aabb::new(Vec2::new(x, y), Vec2::new(x + 2.0, y + 2.0));
+        for (other, expected) in [
             (at(0.2, 0.2), true),
             (at(1.0, -2.0), true),
             (at(1.1, 0.0), false),
             (at(0.0, 1.1), false),
             (at(-2.1, 0.0), false),
             (at(0.0, -2.1), false),
-            (Bounds::EMPTY, false),
+            (Aabb::EMPTY, false),
         ] {
-            assert_eq!((unit.meets(other), other.meets(unit)), (meets, meets), "{other:?}");
+            assert_eq!((unit.overlaps(other), other.overlaps(unit)), (expected, expected), "{other:?}");
         }
     }
 
     #[test]
     fn the_box_around_boxes_is_no_larger_than_it_must_be() {
-        let both = Bounds::new(Vec2::ZERO, Vec2::ONE).join(Bounds::new(Vec2::new(-1.0, 0.5), Vec2::new(0.5, 3.0)));
-        let all = Bounds::EMPTY.join(both);
+        let both = Aabb::new(Vec2::ZERO, Vec2::ONE).union(Aabb::new(Vec2::new(-1.0, 0.5), Vec2::new(0.5, 3.0)));
+        let all = Aabb::EMPTY.union(both);
         assert_eq!((all.low(), all.high()), (Vec2::new(-1.0, 0.0), Vec2::new(1.0, 3.0)));
         assert_eq!((all.centre(), all.extent()), (Vec2::new(0.0, 1.5), 3.0));
     }

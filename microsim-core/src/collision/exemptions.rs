@@ -1,38 +1,6 @@
-//! Pairs of owners that do not collide, whatever their groups say, and the sides of rings on which owners stay.
+//! Pairs of owners that do not collide, whatever their groups say, and open gates.
 
-use super::ring::Ring;
 use serde::{Deserialize, Serialize};
-
-/// Where all particles of an owner are at home.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Home {
-    /// Outside of every ring but its own.
-    Free,
-    /// Inside the ring of this owner.
-    Inside(u32),
-    /// On its way through the ring of this owner.
-    Passing(u32),
-}
-
-/// A side of a ring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    Inside,
-    Outside,
-    /// The one where it is.
-    Either,
-}
-
-/// On which side of a ring an owner's particles stay. `homes` is indexed by owner; who is not in it is free.
-pub(crate) fn side_of(owner: u32, ring: Ring<'_>, homes: &[Home]) -> Side {
-    let is_inside = ring.holds.map_or(owner == ring.owner, |held| owner == held);
-    match homes.get(owner as usize) {
-        _ if is_inside => Side::Inside,
-        Some(&Home::Inside(holder)) if holder == ring.owner && ring.holds.is_none() => Side::Inside,
-        Some(&Home::Passing(holder)) if holder == ring.owner => Side::Either,
-        _ => Side::Outside,
-    }
-}
 
 /// A symmetric set of owner pairs, sorted.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
