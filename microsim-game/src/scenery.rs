@@ -1,7 +1,7 @@
 //! How a world is seen: through the microscope, on the graphics card, or drawn, where that is too slow.
 
 use crate::draw::{Frame, Painter};
-use crate::microscope::{Quality, Renderer};
+use crate::microscope::{RenderQuality, Renderer};
 use crate::viewer::Pace;
 use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
@@ -120,10 +120,10 @@ pub struct Scenery {
 }
 
 /// What automatic effort comes down to, one after the other.
-const STEPS_DOWN: [(&str, Option<Quality>); 4] = [
-    ("high", Some(Quality::High)),
-    ("medium", Some(Quality::Medium)),
-    ("low", Some(Quality::Low)),
+const STEPS_DOWN: [(&str, Option<RenderQuality>); 4] = [
+    ("high", Some(RenderQuality::High)),
+    ("medium", Some(RenderQuality::Medium)),
+    ("low", Some(RenderQuality::Low)),
     ("that of the drawn view", None),
 ];
 
@@ -149,7 +149,7 @@ impl Scenery {
         let is_lower = std::mem::replace(&mut self.given_up, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", STEPS_DOWN[lower].0))
+            .then(|| format!("Pictures are slow. RenderQuality is {} now; see the settings.", STEPS_DOWN[lower].0))
     }
 
     /// Begins anew with the best that automatic effort gives.
@@ -166,9 +166,9 @@ impl Scenery {
     pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
         let quality = match effort {
             Effort::Automatic => STEPS_DOWN[self.given_up].1,
-            Effort::High => Some(Quality::High),
-            Effort::Medium => Some(Quality::Medium),
-            Effort::Low => Some(Quality::Low),
+            Effort::High => Some(RenderQuality::High),
+            Effort::Medium => Some(RenderQuality::Medium),
+            Effort::Low => Some(RenderQuality::Low),
         };
         let is_done = match (sight, quality) {
             (Sight::Microscope(optics), Some(quality)) => self.photograph(frame, optics, quality),
@@ -179,7 +179,7 @@ impl Scenery {
         }
     }
 
-    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: Quality) -> bool {
+    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: RenderQuality) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
         let screen = frame.camera.screen();
         let pixels = (screen * screen_dpi_scale()).max(Vec2::ONE);

@@ -1,4 +1,4 @@
-// What there is to make an image of; see optics/mod.rs.
+// What there is to make an image of; see sampler.rs.
 
 varying vec2 uv;
 // Lower left corner of the target, and its size, micrometres.
