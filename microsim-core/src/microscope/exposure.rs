@@ -12,6 +12,7 @@ use super::specimen::Specimen;
 use super::surround_wave::{self, SurroundWave};
 use crate::error::Error;
 use crate::world::World;
+use crate::world::view::View;
 use glam::{IVec2, Vec2};
 use std::ops::Range;
 
@@ -54,10 +55,8 @@ impl Microscope {
     /// # Errors
     /// Names the number of the field or of the film that is out of range.
     pub fn expose(&self, world: &World, field: Field) -> Result<Exposure, Error> {
-        field.validate()?;
-        self.film.validate().map_err(|error| error.within("film"))?;
-        let seed = scramble(world.config().seed as u32 ^ 0xf11e);
-        let frame = self.film.frame(world.time(), seed);
+        let view = world.view();
+        let frame = self.frame(view, field)?;
         let mode = self.optics.mode();
         let [columns, rows] = field.pixels.map(|count| count as usize);
         let pixel = field.pixel();
@@ -65,15 +64,22 @@ impl Microscope {
         let picture = PixelGrid { corner, pixel, columns, top: 0, rows };
         let (image, margin) = image_grid(&picture, mode);
         let source = match mode.shader {
-            Shader::Painted => ImageSource::Painted(Painting::of(world.view())),
+            Shader::Painted => ImageSource::Painted(Painting::of(view)),
             Shader::Light(shader, _) => {
                 let around = mode.has_surround.then(|| surround_wave::grid_around(&image, image.pixel));
-                let specimen = Specimen::of(world.view(), field.centre, &around.unwrap_or(image));
+                let specimen = Specimen::of(view, field.centre, &around.unwrap_or(image));
                 let surround = around.map(|grid| SurroundWave::of(specimen.rasterize(grid)));
                 ImageSource::Lit { specimen, surround, shader }
             }
         };
         Ok(Exposure { source, mode, frame, pixels: [columns, rows], image, margin, picture })
+    }
+
+    /// The frame of film at the time of a view; checks every number.
+    pub(super) fn frame(&self, view: View<'_>, field: Field) -> Result<FilmFrame, Error> {
+        field.validate()?;
+        self.film.validate().map_err(|error| error.within("film"))?;
+        Ok(self.film.frame(view.time(), scramble(view.world().config().seed as u32 ^ 0xf11e)))
     }
 }
 

@@ -122,7 +122,7 @@ impl FilmFrame {
         FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>()
     }
 
-    /// What [`GLSL`] is fed for a picture of this size: levels and vignette, grain, and its parts.
+    /// Uniforms of [`GLSL`] for a picture of this size.
     pub(super) fn uniforms(&self, strength: f32, is_grey: bool, [width, height]: [usize; 2]) -> Vec<f32> {
         let [black, white] = self.film.levels;
         let own = if is_grey { 0.0 } else { OWN };

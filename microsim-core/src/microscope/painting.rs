@@ -1,5 +1,5 @@
 //! The seed's own way to draw (3.2): meshes with textures that stretch with the body, particles blurred into a fluid, and
-//! primitives that drift in the background. No light is involved.
+//! things that drift in the background. No light is involved.
 //!
 //! - Soft bodies: vertices are the ring's bodies pushed outwards by their radius, the kernel is the hub of the triangles,
 //!   and the texture's inscribed circle is bound to the ring (3.2.1).
@@ -149,7 +149,7 @@ impl Painting {
         (0..grid.len()).map(mean).collect()
     }
 
-    /// The same for [`GLSL`].
+    /// Its triangles, for [`GLSL`].
     pub(super) fn draw_on(&self, draws: &mut DrawList) {
         let [x, y] = shift_of(PAGE_SEED);
         let room = vec![self.room.x, self.room.y, x, y];

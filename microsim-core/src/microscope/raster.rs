@@ -55,7 +55,7 @@ impl PixelGrid {
     }
 }
 
-/// Value at a share of the way from one pixel to the next, between the four nearest; beyond the border it is the border's.
+/// Bilinear interpolation: the value `share` of the way from a pixel to the next. Border pixels repeat beyond the border.
 pub(super) fn bilinear<T>(
     [columns, rows]: [usize; 2],
     pixel: IVec2,
@@ -72,8 +72,7 @@ pub(super) fn bilinear<T>(
     mix(row(pixel.y), row(pixel.y + 1), share.y)
 }
 
-/// Convolves the pixels of a grid with the same kernel along rows and along columns; beyond the border they are the
-/// border's.
+/// Convolves pixels with a kernel along rows and columns. Border pixels repeat beyond the border.
 pub(super) fn blur<const N: usize>(pixels: &mut [[f32; N]], columns: usize, kernel: &[f32]) {
     let reach = kernel.len() / 2;
     let mut across = pixels.to_vec();

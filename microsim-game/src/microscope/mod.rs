@@ -162,7 +162,7 @@ impl Renderer {
             mesh.fill(card, vertices, indices);
         }
         for (k, Map { size, texels }) in recipe.maps.iter().enumerate() {
-            // Filled anew, as targets are.
+            // Resized rather than replaced, as targets are.
             match self.maps.get(k) {
                 Some(&map) => card.texture_resize(map, size[0].into(), size[1].into(), Some(texels)),
                 None => self.maps.push(targets::sharp(card, *size, texels)),
@@ -240,7 +240,7 @@ fn has_float_targets(version: &str) -> bool {
     !(is_small || version.starts_with('2') || version.contains("WebGL"))
 }
 
-/// The graphics card behind macroquad, which has done by then what it was told before.
+/// The graphics card behind macroquad, after its pending commands.
 #[expect(unsafe_code, reason = "macroquad has no other way to what lies below it")]
 fn card() -> &'static mut dyn RenderingBackend {
     // SAFETY: macroquad runs on one thread, and of its context nothing is borrowed while a renderer uses what this returns:

@@ -29,7 +29,7 @@ impl Targets {
         let [width, height] = size;
         if let Some(held) = self.0.get_mut(&target) {
             if held.size != size {
-                // Not made anew: miniquad remembers every texture that it ever made, deleted or not.
+                // Resized, because miniquad keeps a record of every texture, deleted or not.
                 card.texture_resize(held.texture, width, height, None);
                 held.size = size;
             }

@@ -6,7 +6,6 @@ use super::exposure::Microscope;
 use super::field::Field;
 use super::film::FilmFrame;
 use super::maths::{larger, smaller};
-use super::noise::scramble;
 use super::optics::{Mode, Optics, Shader};
 use super::painting::Painting;
 use super::raster::{PixelGrid, gaussian};
@@ -20,20 +19,18 @@ use shader::LONGEST;
 
 /// Smallest pixel that a card computes an image on, micrometres.
 const FINEST: f32 = 1.0 / 32.0;
-/// Of bytes: the largest amounts of matter that a target tells apart, and what an empty one holds. Phase goes from -1 to 5.
+/// Scale and bias of matter in targets of bytes. Phase goes from -1 to 5.
 const BYTES_SCALE: [f32; 4] = [1.0 / 6.0, 1.0 / 1.6, 1.0 / 2.4, 1.0 / 2.0];
 const BYTES_BIAS: [f32; 4] = [1.0 / 6.0, 0.03, 0.15, 0.05];
 
 impl Microscope {
-    /// What a graphics card has to do for the picture that [`Microscope::expose`] computes of what is viewed.
+    /// The passes by which a graphics card draws the picture that [`Microscope::expose`] computes.
     ///
     /// # Errors
     /// Names the number of the field, the film or the card that is out of range.
     pub fn recipe(&self, view: View<'_>, field: Field, card: Card) -> Result<Recipe, Error> {
-        field.validate()?;
-        self.film.validate().map_err(|error| error.within("film"))?;
+        let frame = self.frame(view, field)?;
         in_range("card.detail", card.detail, 0.1, 1.0)?;
-        let frame = self.film.frame(view.time(), scramble(view.world().config().seed as u32 ^ 0xf11e));
         let mode = self.optics.mode();
         let builder = RecipeBuilder { optics: self.optics, mode, card, field, frame };
         Ok(match mode.shader {
@@ -79,7 +76,7 @@ impl RecipeBuilder {
     }
 
     fn painted(&self, painting: &Painting) -> Recipe {
-        // Four pixels for each of the picture's, unless the card is to be spared.
+        // At full detail, four pixels for each of the picture's.
         let samples = if self.card.detail == 1.0 { 2.0 } else { 1.0 };
         let grid = self.image_grid(self.field.pixel() / (samples * self.card.detail));
         let mut draws = DrawList::new(grid.bounds(), grid.pixel);
@@ -98,7 +95,7 @@ impl RecipeBuilder {
         PixelGrid { corner, pixel, columns: columns.max(1), top: 0, rows: rows.max(1) }
     }
 
-    /// How targets hold matter: they hold it times the first, plus the second.
+    /// Scale and bias of matter in targets.
     fn coding(&self) -> ([f32; 4], [f32; 4]) {
         match self.card.precision {
             Precision::Float => ([1.0; 4], [0.0; 4]),
@@ -144,13 +141,8 @@ impl RecipeBuilder {
         if reach > 0.0 {
             let mut uniforms = vec![1.0 / grid.columns as f32, 0.0, reach];
             uniforms.extend(padded(half, LONGEST));
-            passes.push(screen(
-                RenderTarget::Softened,
-                grid,
-                Program::Soften,
-                uniforms,
-                vec![TextureInput::Target(image)],
-            ));
+            let inputs = vec![TextureInput::Target(image)];
+            passes.push(screen(RenderTarget::Softened, grid, Program::Soften, uniforms, inputs));
             image = RenderTarget::Softened;
         }
         let pixels = self.field.pixels.map(|count| count as usize);
@@ -160,12 +152,9 @@ impl RecipeBuilder {
         let share = [scale / grid.columns as f32, scale / grid.rows as f32];
         uniforms.extend([share[0], share[1], 1.0 - share[1] * pixels[1] as f32, 1.0 / grid.rows as f32, reach]);
         uniforms.extend(padded(half, LONGEST));
-        let content = PassContent::Screen {
-            program: Program::Film,
-            uniforms,
-            inputs: vec![TextureInput::Target(image), TextureInput::Noise],
-        };
-        passes.push(Pass { target: RenderTarget::Picture, size: self.field.pixels, content });
+        let inputs = vec![TextureInput::Target(image), TextureInput::Noise];
+        let film = screen(RenderTarget::Picture, grid, Program::Film, uniforms, inputs);
+        passes.push(Pass { size: self.field.pixels, ..film });
     }
 }
 

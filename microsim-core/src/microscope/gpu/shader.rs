@@ -7,11 +7,13 @@ use crate::microscope::specimen::{amoeboid, background, chamber, distance_field,
 use crate::microscope::{film, maths, matter, noise, painting, surround_wave, wave};
 use std::fmt::Write as _;
 
-/// Most pixels that a blur takes to one side, and one more.
+/// Longest half of a blur's kernel, its middle included, pixels.
 pub(super) const LONGEST: usize = 24;
 /// Largest amplitude of a wave, and largest brightness of an image, that targets hold.
 const WAVE_RANGE: f32 = 1.2;
 const LIGHT_RANGE: f32 = 1.5;
+
+/// Names, numbers of floats, lengths of arrays.
 type Uniforms = &'static [(&'static str, usize, usize)];
 
 const MATTER: Uniforms = &[("view", 4, 1), ("pixel", 2, 1), ("scale", 4, 1)];
@@ -77,7 +79,7 @@ impl Program {
         }
     }
 
-    /// Words that the formulas look for.
+    /// What the GLSL asks for with `#ifdef`.
     fn switches(self) -> &'static [&'static str] {
         use Program::*;
         match self {
@@ -92,8 +94,8 @@ impl Program {
         }
     }
 
-    /// Its formulas, each after those that it uses.
-    fn formulas(self) -> Vec<&'static Glsl> {
+    /// The pieces of its GLSL, each after those that it uses.
+    fn pieces(self) -> Vec<&'static Glsl> {
         use Program::*;
         let drawn = |own: &[&'static Glsl]| [&[&maths::GLSL, &noise::GLSL, &matter::GLSL], own].concat();
         match self {
@@ -106,7 +108,7 @@ impl Program {
             Thread => drawn(&[&thread::GLSL]),
             Wave | SpreadAcross | SpreadAlong => vec![&wave::GLSL, &surround_wave::GLSL],
             Image(optics) => match &optics.mode().shader {
-                Shader::Light(_, formula) => vec![&noise::GLSL, &wave::GLSL, &sampler::GLSL, formula],
+                Shader::Light(_, glsl) => vec![&noise::GLSL, &wave::GLSL, &sampler::GLSL, glsl],
                 Shader::Painted => Vec::new(),
             },
             Soften => vec![&SOFTEN],
@@ -116,13 +118,13 @@ impl Program {
         }
     }
 
-    /// Whether its vertices are those of one big square, and its formulas are for pixels only.
+    /// Whether its vertices are the corners of the target, and its GLSL is for pixels only.
     fn covers_target(self) -> bool {
         use Program::*;
         matches!(self, Wave | SpreadAcross | SpreadAlong | Image(_) | Soften | Film)
     }
 
-    /// Its text, and what it wants.
+    /// Its GLSL, and the names of its inputs.
     #[must_use]
     pub fn source(self) -> GlslSource {
         let mut head = "#version 100\nprecision highp float;\nprecision highp int;\n".to_owned();
@@ -130,11 +132,11 @@ impl Program {
         _ = writeln!(head, "#define LONGEST {LONGEST}\n#define LOBES {}", amoeboid::LOBES);
         _ = writeln!(head, "const float WAVE_RANGE = {WAVE_RANGE:?};\nconst float LIGHT_RANGE = {LIGHT_RANGE:?};");
         let (mut vertex, mut fragment) = (format!("{head}#define VERTEX\n"), head);
-        self.formulas().into_iter().for_each(|formula| formula.write(&mut fragment));
+        self.pieces().into_iter().for_each(|piece| piece.write(&mut fragment));
         if self.covers_target() {
             SCREEN.write(&mut vertex);
         } else {
-            self.formulas().into_iter().for_each(|formula| formula.write(&mut vertex));
+            self.pieces().into_iter().for_each(|piece| piece.write(&mut vertex));
         }
         if let Self::Image(_) = self {
             fragment.push_str("\nvoid main() {\n    gl_FragColor = vec4(shade() / LIGHT_RANGE, 1.0);\n}\n");

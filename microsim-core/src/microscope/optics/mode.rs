@@ -34,7 +34,7 @@ impl fmt::Debug for Optics {
     }
 }
 
-/// Modes have different names.
+/// Names identify modes.
 impl PartialEq for Optics {
     fn eq(&self, other: &Self) -> bool {
         self.name() == other.name()
@@ -53,7 +53,7 @@ impl Hash for Optics {
 #[derive(Debug)]
 pub(in crate::microscope) struct Mode {
     pub name: &'static str,
-    /// Whether a field without a specimen is lighter than middle grey.
+    /// See [`Optics::is_bright`].
     pub is_bright: bool,
     /// 1 for grey, 3 for colour.
     pub channels: usize,
@@ -68,12 +68,12 @@ pub(in crate::microscope) struct Mode {
 /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three.
 pub(in crate::microscope) type PixelShader = fn(&Sampler<'_>, usize, usize) -> [f32; 3];
 
-/// Where an image comes from.
+/// How the pixels of an image are computed.
 #[derive(Debug)]
 pub(in crate::microscope) enum Shader {
     /// Light at each pixel, and the same formula for a graphics card.
     Light(PixelShader, &'static Glsl),
-    /// There is no light: it is painted.
+    /// Painted, without light.
     Painted,
 }
 

@@ -1,6 +1,6 @@
 //! Phase contrast: the surround wave is weakened and set back (or ahead) by a quarter of a wave before it meets the wave
-//! that the specimen scattered (Zernike 1942). Halo and shade-off come by themselves (`surround_wave.rs` has the width of the halo): the phase plate cannot tell the
-//! surround wave from light that the specimen scatters a little.
+//! that the specimen scattered (Zernike 1942). Halo and shade-off come by themselves: the phase plate cannot tell the
+//! surround wave from light that the specimen scatters a little. The width of the halo is that of the surround wave.
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
@@ -27,6 +27,8 @@ const NEGATIVE_GLSL: Glsl = Glsl {
 impl Optics {
     /// Positive phase contrast (Zernike 1942): what delays light is dark, with a bright halo.
     pub const PHASE_CONTRAST: Self = Self(&POSITIVE);
+    /// Negative phase contrast: what delays light is bright, with a dark halo.
+    pub const NEGATIVE_PHASE_CONTRAST: Self = Self(&NEGATIVE);
 }
 
 const POSITIVE: Mode = Mode {
@@ -38,11 +40,6 @@ const POSITIVE: Mode = Mode {
     grain: 1.0,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
-
-impl Optics {
-    /// Negative phase contrast: what delays light is bright, with a dark halo.
-    pub const NEGATIVE_PHASE_CONTRAST: Self = Self(&NEGATIVE);
-}
 
 const NEGATIVE: Mode = Mode {
     name: "negative-phase-contrast",

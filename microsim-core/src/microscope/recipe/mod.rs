@@ -73,7 +73,7 @@ pub enum PassContent {
     },
 }
 
-/// What a card has to do for a picture, pass after pass; the last draws [`RenderTarget::Picture`].
+/// The passes of a picture, in their order; the last draws [`RenderTarget::Picture`].
 #[derive(Clone, Debug)]
 pub struct Recipe {
     /// Things on the slide.

@@ -331,7 +331,7 @@ impl Front {
         let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
         let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
         // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
-        // the velocity does when a cell makes up its mind anew.
+        // the velocity does when a cell changes its goal.
         let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
         let way = polarity.try_normalize().unwrap_or(Vec2::X);
         let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);

@@ -40,14 +40,14 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
 
 /// The background of one picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Background {
+pub(super) struct BackgroundMatter {
     pub seed: u32,
     pub time: f32,
     /// What the camera looks at.
     pub camera: Vec2,
 }
 
-impl Background {
+impl BackgroundMatter {
     pub(super) fn draw(&self, raster: &mut MatterRaster) {
         let grid = raster.grid;
         // Features below a pixel would alias.
@@ -64,7 +64,7 @@ impl Background {
         self.each_spot(grid.bounds(), grid.pixel, |spot| spot.draw(raster));
     }
 
-    /// The same for [`GLSL`].
+    /// Its triangles, for [`GLSL`].
     pub(super) fn draw_on(&self, draws: &mut DrawList, bias: [f32; 4]) {
         let mut uniforms = bias.to_vec();
         uniforms.extend([shift_of(self.seed), shift_of(self.seed ^ 9)].concat());

@@ -32,7 +32,7 @@ impl DistanceField {
         let step = larger(step, extent.max_element() / Self::MOST);
         let mut map = Self::sampled(bounds, step, margin, |_| 0.0);
         map.measure(outline);
-        // A blur takes the creases out.
+        // Without creases.
         blur(map.values.as_chunks_mut::<1>().0, map.size[0], &[0.25, 0.5, 0.25]);
         map
     }
@@ -120,7 +120,7 @@ impl DistanceField {
         Some(step * ((beyond - 1) as f32 + (inside / (inside - outside)).clamp(0.0, 1.0)))
     }
 
-    /// As a texture, two bytes for each depth, and what [`GLSL`] has to know of it.
+    /// As a texture, two bytes for each depth, and the uniforms of [`GLSL`].
     pub(in crate::microscope) fn texture(&self) -> (Map, [f32; 7]) {
         let [columns, rows] = self.size;
         let least = self.values.iter().copied().fold(f32::INFINITY, smaller);

@@ -18,7 +18,7 @@ use super::recipe::DrawList;
 use crate::kind::Kind;
 use crate::world::view::{OrganismView, View};
 use amoeboid::AmoeboidBody;
-use background::Background;
+use background::BackgroundMatter;
 use chamber::Chamber;
 use glam::Vec2;
 use round::RoundBody;
@@ -36,7 +36,7 @@ const BLUR: f32 = 3.0;
 /// Everything that lies on the slide at one moment.
 #[derive(Clone, Debug)]
 pub(super) struct Specimen {
-    background: Background,
+    background: BackgroundMatter,
     chamber: Chamber,
     round: Vec<RoundBody>,
     amoeboid: Vec<AmoeboidBody>,
@@ -49,7 +49,7 @@ impl Specimen {
     pub(super) fn of(view: View<'_>, camera: Vec2, grid: &PixelGrid) -> Self {
         let (world, time) = (view.world(), view.time() as f32);
         let seed = world.config().seed;
-        let background = Background { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
+        let background = BackgroundMatter { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
         let chamber = Chamber {
             size: world.config().size,
             obstacles: world.obstacles().cloned().collect(),

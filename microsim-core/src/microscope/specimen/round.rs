@@ -26,7 +26,7 @@ const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
-/// Fewest and most directions in which a graphics card is told a body's radius, and their number where that is one pixel.
+/// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
 const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
 
