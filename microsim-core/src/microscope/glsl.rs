@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 /// A piece of GLSL 100.
 #[derive(Debug)]
-pub(super) struct Formula {
+pub(super) struct Glsl {
     pub source: &'static str,
     /// What the code calls by the same names: numbers and vectors of up to four.
     pub constants: &'static [(&'static str, &'static [f32])],
 }
 
-impl Formula {
+impl Glsl {
     /// Writes the constants and the source.
     pub(super) fn write(&self, text: &mut String) {
         for (name, numbers) in self.constants {

@@ -2,12 +2,12 @@
 //! is stored.
 
 use super::spot::Spot;
-use crate::microscope::formula::Formula;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::look::SpotShape;
 use crate::microscope::maths::smoothstep;
-use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, hash, octaves, shift_of, wobble};
-use crate::microscope::recipe::{Program, QUAD, Slide};
+use crate::microscope::matter::{Matter, MatterRaster};
+use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
+use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::{IVec2, Vec2};
 
 /// Side of the cells in which dust is strewn, micrometres, and specks in each on average.
@@ -28,8 +28,8 @@ const FINE_SIZE: f32 = 1.2;
 const COARSE: f32 = 0.05;
 const COARSE_SIZE: f32 = 15.0;
 
-pub(in crate::microscope) const FORMULA: Formula = Formula {
-    source: include_str!("ground.glsl"),
+pub(in crate::microscope) const GLSL: Glsl = Glsl {
+    source: include_str!("background.glsl"),
     constants: &[
         ("FINE", &[FINE]),
         ("FINE_SIZE", &[FINE_SIZE]),
@@ -38,18 +38,18 @@ pub(in crate::microscope) const FORMULA: Formula = Formula {
     ],
 };
 
-/// The ground of one picture.
+/// The background of one picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ground {
+pub(super) struct BackgroundMatter {
     pub seed: u32,
     pub time: f32,
     /// What the camera looks at.
     pub camera: Vec2,
 }
 
-impl Ground {
-    pub(super) fn draw(&self, plate: &mut Plate) {
-        let grid = plate.grid;
+impl BackgroundMatter {
+    pub(super) fn draw(&self, raster: &mut MatterRaster) {
+        let grid = raster.grid;
         // Features below a pixel would alias.
         let fine = FINE * smoothstep(1.2, 0.3, grid.pixel);
         let coarse = COARSE * smoothstep(15.0, 4.0, grid.pixel);
@@ -58,49 +58,49 @@ impl Ground {
                 let place = grid.place(x, y);
                 let slow = if coarse > 0.0 { coarse * octaves(place / COARSE_SIZE, 3, self.seed) } else { 0.0 };
                 let quick = if fine > 0.0 { fine * octaves(place / FINE_SIZE, 3, self.seed ^ 9) } else { 0.0 };
-                plate.matter[y * grid.columns + x].phase += slow + quick;
+                raster.matter[y * grid.columns + x].phase += slow + quick;
             }
         }
-        self.each_spot(grid.bounds(), grid.pixel, |spot| spot.draw(plate));
+        self.each_spot(grid.bounds(), grid.pixel, |spot| spot.draw(raster));
     }
 
-    /// The same for [`FORMULA`].
-    pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
+    /// Its triangles, for [`GLSL`].
+    pub(super) fn draw_on(&self, draws: &mut DrawList, bias: [f32; 4]) {
         let mut uniforms = bias.to_vec();
         uniforms.extend([shift_of(self.seed), shift_of(self.seed ^ 9)].concat());
         let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
-        slide.add_apart(Program::Ground, &corners, QUAD.to_vec(), uniforms, None);
-        self.each_spot(slide.bounds(), slide.pixel(), |spot| spot.draw_on(slide));
+        draws.add_apart(Program::Background, &corners, QUAD.to_vec(), uniforms, None);
+        self.each_spot(draws.bounds(), draws.pixel(), |spot| spot.draw_on(draws));
     }
 
     /// Dust, and what is out of focus, in a box.
     fn each_spot(&self, bounds: (Vec2, Vec2), pixel: f32, mut visit: impl FnMut(Spot)) {
         let strength = smoothstep(DUST_FADES[1], DUST_FADES[0], pixel);
         if strength > 0.0 {
-            let speck = |at, dice: &mut Dice| self.speck(at, strength, dice);
+            let speck = |at, rng: &mut HashRng| self.speck(at, strength, rng);
             strewn(bounds, Vec2::ZERO, DUST_CELL, DUST, self.seed ^ 21, speck, &mut visit);
         }
         if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
-            strewn(bounds, shift, FAR_CELL, FAR, self.seed ^ 22, |at, dice| self.far(at, dice), &mut visit);
+            strewn(bounds, shift, FAR_CELL, FAR, self.seed ^ 22, |at, rng| self.far(at, rng), &mut visit);
         }
     }
 
     /// Dust: mostly tiny, some denser than the medium and some less.
-    fn speck(&self, at: Vec2, strength: f32, dice: &mut Dice) -> Spot {
-        let size = dice.unit();
+    fn speck(&self, at: Vec2, strength: f32, rng: &mut HashRng) -> Spot {
+        let size = rng.unit();
         let radius = 0.06 + 0.34 * size * size * size * size;
-        let sign = if dice.unit() < 0.65 { strength } else { -strength };
-        let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * dice.range([0.08, 0.32])) };
+        let sign = if rng.unit() < 0.65 { strength } else { -strength };
+        let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.08, 0.32])) };
         Spot { at, radius, matter, shape: SpotShape::Bump }
     }
 
     /// A cell or a clump above or below the plane of focus: a soft shadow that drifts slowly.
-    fn far(&self, at: Vec2, dice: &mut Dice) -> Spot {
-        let seed = dice.bits();
+    fn far(&self, at: Vec2, rng: &mut HashRng) -> Spot {
+        let seed = rng.bits();
         let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
-        let radius = dice.range([3.0, 5.0]);
-        let matter = Matter { haemoglobin: 0.05, ..Matter::phase(dice.range([0.12, 0.34])) };
+        let radius = rng.range([3.0, 5.0]);
+        let matter = Matter { haemoglobin: 0.05, ..Matter::phase(rng.range([0.12, 0.34])) };
         Spot { at: at + drift, radius, matter, shape: SpotShape::Bump }
     }
 }
@@ -112,17 +112,17 @@ fn strewn(
     cell: f32,
     expected: f32,
     seed: u32,
-    spot: impl Fn(Vec2, &mut Dice) -> Spot,
+    spot: impl Fn(Vec2, &mut HashRng) -> Spot,
     visit: &mut impl FnMut(Spot),
 ) {
     let [first, last] = [low, high].map(|corner| ((corner - shift) / cell).floor().as_ivec2());
     for j in first.y - 1..=last.y + 1 {
         for i in first.x - 1..=last.x + 1 {
-            let mut dice = Dice::new(hash(IVec2::new(i, j), seed));
-            let count = (2.0 * expected * dice.unit() + 0.5) as u32;
+            let mut rng = HashRng::new(hash(IVec2::new(i, j), seed));
+            let count = (2.0 * expected * rng.unit() + 0.5) as u32;
             for _ in 0..count {
-                let at = (Vec2::new(i as f32, j as f32) + Vec2::new(dice.unit(), dice.unit())) * cell + shift;
-                visit(spot(at, &mut dice));
+                let at = (Vec2::new(i as f32, j as f32) + Vec2::new(rng.unit(), rng.unit())) * cell + shift;
+                visit(spot(at, &mut rng));
             }
         }
     }

@@ -1,4 +1,4 @@
-// Three passes that make the surround wave; see wave.rs.
+// Three passes that make the surround wave; see surround_wave.rs.
 
 varying vec2 uv;
 

@@ -1,4 +1,4 @@
-// What there is to make an image of; see optics/mod.rs.
+// Matter, waves and slopes at a pixel; see sampler.rs.
 
 varying vec2 uv;
 // Lower left corner of the target, and its size, micrometres.

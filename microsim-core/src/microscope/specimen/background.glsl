@@ -1,4 +1,4 @@
-// Uneven glass; see ground.rs.
+// Uneven glass; see background.rs.
 
 varying vec2 at;
 

@@ -1,7 +1,7 @@
 //! Things on the slide, as triangles.
 
-use super::{Input, Program};
-use crate::microscope::specimen::outline::DistanceMap;
+use super::program::Program;
+use super::texture::{Map, TextureInput};
 use glam::Vec2;
 
 /// Most vertices of one draw: its indices have 16 bits.
@@ -17,36 +17,27 @@ pub struct Draw {
     /// Whether what is drawn is taken from the target instead of added to it. [`Program::covers`] says which programs do
     /// neither.
     pub is_subtracted: bool,
-    /// Numbers of each vertex in turn, in the order of [`super::Source::attributes`].
+    /// Numbers of each vertex in turn, in the order of [`super::GlslSource::attributes`].
     pub vertices: Vec<f32>,
     /// Three for each triangle.
     pub indices: Vec<u16>,
     /// Its own, after those that all share.
     pub uniforms: Vec<f32>,
-    /// In the order of [`super::Source::textures`].
-    pub inputs: Vec<Input>,
-}
-
-/// A small texture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Map {
-    /// Columns and rows.
-    pub size: [u16; 2],
-    /// Four bytes each, the first row at the lowest coordinate.
-    pub texels: Vec<u8>,
+    /// In the order of [`super::GlslSource::textures`].
+    pub inputs: Vec<TextureInput>,
 }
 
 /// Collects what there is to draw.
 #[derive(Clone, Debug)]
-pub(in crate::microscope) struct Slide {
+pub(in crate::microscope) struct DrawList {
     bounds: (Vec2, Vec2),
     pixel: f32,
     pub draws: Vec<Draw>,
     pub maps: Vec<Map>,
 }
 
-impl Slide {
-    pub(super) fn new(bounds: (Vec2, Vec2), pixel: f32) -> Self {
+impl DrawList {
+    pub(in crate::microscope) fn new(bounds: (Vec2, Vec2), pixel: f32) -> Self {
         Self { bounds, pixel, draws: Vec::new(), maps: Vec::new() }
     }
 
@@ -90,19 +81,18 @@ impl Slide {
         draw.indices.extend(indices.into_iter().map(|index| first + index));
     }
 
-    /// Adds triangles with uniforms of their own, and with those that a map needs before them.
+    /// Adds triangles with uniforms of their own, and with a map and the uniforms that say where it lies.
     pub(in crate::microscope) fn add_apart(
         &mut self,
         program: Program,
         vertices: &[f32],
         indices: Vec<u16>,
         uniforms: Vec<f32>,
-        map: Option<&DistanceMap>,
+        map: Option<(Map, [f32; 7])>,
     ) {
         let mut draw = Draw { vertices: vertices.to_vec(), indices, ..Draw::of(program, false) };
-        if let Some(map) = map {
-            let (map, place) = map.texture();
-            draw.inputs.push(Input::Map(self.maps.len()));
+        if let Some((map, place)) = map {
+            draw.inputs.push(TextureInput::Map(self.maps.len()));
             draw.uniforms.extend(place);
             self.maps.push(map);
         }
@@ -113,7 +103,7 @@ impl Slide {
 
 impl Draw {
     fn of(program: Program, is_subtracted: bool) -> Self {
-        let inputs = vec![Input::Noise];
+        let inputs = vec![TextureInput::Noise];
         Self { program, is_subtracted, vertices: Vec::new(), indices: Vec::new(), uniforms: Vec::new(), inputs }
     }
 }

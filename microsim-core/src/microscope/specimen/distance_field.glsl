@@ -1,4 +1,4 @@
-// A map of distances from an edge; see outline.rs.
+// A map of distances from an edge; see distance_field.rs.
 
 uniform sampler2D map;
 // Lower left corner, cells per micrometre, depth of a full texel.
