@@ -26,7 +26,7 @@ pub use checkpoint::Checkpoint;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::shape::ObstacleRecord;
 use crate::world::World;
-use crate::world::restore::State;
+use crate::world::state::restore::State;
 use envelope::Format;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

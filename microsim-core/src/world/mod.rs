@@ -1,32 +1,18 @@
 //! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
 //! their own.
 
-pub(crate) mod anatomy;
-mod behaving;
-mod cup;
-pub(crate) mod difference;
-pub(crate) mod digest;
-mod division;
-mod feeding;
-mod fusion;
-mod growth;
-mod ingestion;
+mod chemical;
+pub(crate) mod contacts;
 pub(crate) mod measure;
-pub(crate) mod membrane_quality;
-pub(crate) mod moment;
-pub(crate) mod named_measure;
+mod membrane;
+mod phagocytosis;
 mod push;
-pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
-#[cfg(feature = "snapshot")]
-pub(crate) mod restore;
-mod rewire;
 mod sleeping;
 mod spawn;
-pub(crate) mod touching;
-pub(crate) mod validate;
+pub(crate) mod state;
 pub(crate) mod view;
 
 use crate::chemical::Chemical;
@@ -55,8 +41,9 @@ use crate::template::Template;
 use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
+use contacts::Touching;
 use serde::{Deserialize, Serialize};
-use touching::Touching;
+use state::digest;
 
 /// Obstacles that every world has: its four walls.
 const WALLS: usize = 4;

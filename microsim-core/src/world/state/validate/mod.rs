@@ -8,7 +8,7 @@ mod meals;
 mod store;
 pub(super) mod structure;
 
-use super::World;
+use crate::world::World;
 use crate::id::OrganismId;
 use crate::kind::Kind;
 use std::fmt;

@@ -1,8 +1,8 @@
 //! Carries out what phagocytosis decides: encounters are counted, prey is taken in (see [`super::ingestion`]), digested and
 //! removed, and its engulfer grows.
 
-use super::World;
-use super::touching::NearPair;
+use crate::world::World;
+use crate::world::contacts::NearPair;
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::behavior::heading;
 use crate::capability::Locomotion;
@@ -122,7 +122,7 @@ impl World {
     }
 
     /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
-    pub(super) fn engulfer_area(&self, organism: &Organism) -> f32 {
+    pub(in crate::world) fn engulfer_area(&self, organism: &Organism) -> f32 {
         let radius = |&i: &u32| self.particles.radius[i as usize];
         organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()
     }
@@ -151,7 +151,7 @@ impl World {
     }
 
     /// Area of everything that an engulfer holds, phagosomes included, or lets through its gate.
-    pub(super) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
+    pub(in crate::world) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
         let takes_room = |meal: &&Meal| !matches!(meal.phase, MealPhase::Touching(_)) && !meal.is_in_cup();
         let area = |meal: &Meal| {
@@ -163,7 +163,7 @@ impl World {
     }
 
     /// Present area of an organism over its area when spawned.
-    pub(super) fn shrinkage(&self, organism: &Organism) -> f32 {
+    pub(in crate::world) fn shrinkage(&self, organism: &Organism) -> f32 {
         let factor = self.scale_of(organism) / organism.spawn_scale;
         factor * factor
     }
@@ -194,7 +194,7 @@ impl World {
     }
 
     /// The discs of an organism that can move.
-    pub(super) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
+    pub(in crate::world) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
         let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
         particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
     }
@@ -205,7 +205,7 @@ impl World {
     }
 
     /// Size of an organism relative to its size when spawned.
-    pub(super) fn present_scale(&self, id: OrganismId) -> f32 {
+    pub(in crate::world) fn present_scale(&self, id: OrganismId) -> f32 {
         self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale)
     }
 
@@ -223,7 +223,7 @@ impl World {
     }
 
     /// Sets the size of a templated organism relative to its size when spawned.
-    pub(super) fn set_scale(&mut self, id: OrganismId, factor: f32) {
+    pub(in crate::world) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
         let Body::Lane { block: index, first } = organism.body else { return };
         let block = &mut self.blocks[index as usize];
@@ -242,7 +242,7 @@ fn digested_scale(progress: f32) -> f32 {
 }
 
 /// Particles of the front, sorted; none at rest.
-pub(super) fn front_nodes(organism: &Organism) -> Vec<u32> {
+pub(in crate::world) fn front_nodes(organism: &Organism) -> Vec<u32> {
     let Locomotion::Crawl { front_centre: Some(front) } = organism.locomotion else { return Vec::new() };
     let count = organism.outline.len() as u32;
     let is_front = |k: u32| region(k, front, count) == MembraneRegion::Front;

@@ -1,7 +1,7 @@
 //! What changes hands when one cell becomes two, or two one: nodes, cytoplasm, prey and phagosomes, with all tables that
 //! name them.
 
-use super::World;
+use crate::world::World;
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::event::Event;
@@ -26,7 +26,7 @@ struct Lobe {
 impl World {
     /// Makes one cell two: the lobe that is cut off becomes an organism of its own, like the first in everything but its
     /// handle and its random numbers.
-    pub(super) fn split(&mut self, id: OrganismId, swap: &Swap) {
+    pub(in crate::world) fn split(&mut self, id: OrganismId, swap: &Swap) {
         let Some(parent) = self.organisms.get(id) else { return };
         let (left, cut) = swap.cut(&parent.outline);
         let (left, cut) = (self.lobe(parent, left), self.lobe(parent, cut));
@@ -90,7 +90,7 @@ impl World {
     }
 
     /// Gives a cell everything that another one consisted of, within one outline.
-    pub(super) fn adopt(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
+    pub(in crate::world) fn adopt(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
         let Some(by) = self.organisms.get(id).map(|cell| self.origin_of(cell) - self.origin_of(&other)) else { return };
         for i in other.particles() {
             self.particles.owner[i as usize] = id.index;
@@ -120,7 +120,7 @@ impl World {
     }
 
     /// Moves cytoplasm from one fluid to that of another cell.
-    pub(super) fn rehome_fluid(&mut self, moving: &[u32], from: Option<u32>, to: OrganismId) {
+    pub(in crate::world) fn rehome_fluid(&mut self, moving: &[u32], from: Option<u32>, to: OrganismId) {
         let Self { organisms, particles, fluids, .. } = self;
         let Some(into) = organisms.get(to).and_then(|organism| organism.fluid) else { return };
         for &i in moving {
@@ -134,7 +134,7 @@ impl World {
     }
 
     /// Hands prey that is inside from one cell to another.
-    pub(super) fn move_meals(&mut self, meals: &[Meal], from: OrganismId, to: OrganismId) {
+    pub(in crate::world) fn move_meals(&mut self, meals: &[Meal], from: OrganismId, to: OrganismId) {
         for meal in meals {
             self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(Some(to)));
         }

@@ -1,7 +1,7 @@
 //! Division of cells with a membrane: a furrow closes around the equator, two links are swapped, one ring becomes two, and
 //! everything inside goes to the lobe that holds it. What a cell carries of it is [`crate::capability::division`].
 
-use super::World;
+use crate::world::World;
 use crate::capability::division::{Divider, DivisionParams, Furrow, Order};
 use crate::capability::phagocytosis::{Meal, MealPhase, PreyClass};
 use crate::error::{Error, ErrorKind};
@@ -48,7 +48,7 @@ impl World {
     }
 
     /// Notes what a cell is to do with the next step.
-    pub(super) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
+    pub(in crate::world) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         let divider = organism.divider.as_mut();
         divider.ok_or_else(|| Error::unsupported("organism", "an amoeboid cell"))?.order = Some(order);
@@ -71,12 +71,12 @@ impl World {
         }
     }
 
-    pub(super) fn divider_mut(&mut self, id: OrganismId) -> Option<&mut Divider> {
+    pub(in crate::world) fn divider_mut(&mut self, id: OrganismId) -> Option<&mut Divider> {
         self.organisms.get_mut(id).and_then(|organism| organism.divider.as_mut())
     }
 
     /// What keeps a cell from changing the shape of its membrane.
-    pub(super) fn hindrance(organism: &Organism) -> Option<Refusal> {
+    pub(in crate::world) fn hindrance(organism: &Organism) -> Option<Refusal> {
         let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
         if organism.is_quarantined {
             Some(Refusal::Quarantined)

@@ -5,7 +5,7 @@
 //! variants and the number of a list's elements one word, 64-bit integers and numbers two, text its bytes a word each after
 //! their number. Zeros are made positive and every NaN the same, so that equal states have equal digests.
 
-use super::World;
+use crate::world::World;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::shape::ObstacleRecord;
 use crate::fnv::Fnv1a;
@@ -70,7 +70,7 @@ impl World {
 
 /// Digest of an obstacle: the numbers that it is made from, or for shapes without such a record what the step sees of it,
 /// its surface from a grid of points around it.
-pub(super) fn of_obstacle(obstacle: &Obstacle) -> u64 {
+pub(in crate::world) fn of_obstacle(obstacle: &Obstacle) -> u64 {
     const POINTS: u8 = 8;
     if let Some(record) = ObstacleRecord::of(obstacle) {
         return Digest::of(&record);

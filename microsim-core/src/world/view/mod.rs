@@ -17,9 +17,9 @@ use glam::Vec2;
 /// Borrows a world for reading.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    pub(super) world: &'a World,
+    pub(in crate::world) world: &'a World,
     /// Whence everything is on its way, and how much of that is done; see [`World::view_since`].
-    pub(super) earlier: Option<(&'a Moment, f32)>,
+    pub(in crate::world) earlier: Option<(&'a Moment, f32)>,
 }
 
 /// One organism, for reading.

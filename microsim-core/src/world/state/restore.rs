@@ -1,7 +1,7 @@
 //! A world made from state that was read: derived parts are made anew, and everything is checked that stepping takes for
 //! granted ([`super::validate::structure`]).
 
-use super::{Guard, World, validate};
+use super::validate;
 use crate::chemical;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
@@ -14,7 +14,8 @@ use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::template::Template;
-use crate::world::touching::Touching;
+use crate::world::contacts::Touching;
+use crate::world::{Guard, World};
 use serde::Deserialize;
 
 /// What [`World`] writes, field by field.

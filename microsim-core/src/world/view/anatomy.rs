@@ -1,6 +1,6 @@
 //! Anatomy: the constraints and contacts of a world, for drawing how it works.
 
-use super::view::View;
+use super::View;
 use crate::organism::{Body, Organism};
 use crate::solver::ConstraintSet;
 use glam::Vec2;

@@ -1,6 +1,6 @@
 //! Growth of a filled chain (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
-use super::World;
+use crate::world::World;
 use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::{contains_point, signed_area};
 use crate::geometry::ring::unit_vector;
@@ -41,7 +41,7 @@ impl World {
     }
 
     /// The same, with nodes that the content asks for.
-    pub(super) fn enlarge(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
+    pub(in crate::world) fn enlarge(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
         let limit = u64::from(self.config.max_particles);
         if asked > limit {

@@ -1,8 +1,8 @@
 //! Ingestion: prey between the moment in which an engulfer begins to take it in and the one in which all of it is inside, or
 //! all of it outside again.
 
-use super::World;
-use super::feeding::front_nodes;
+use crate::world::World;
+use super::front_nodes;
 use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, PhagocytosisParams, PreyClass};
 use crate::event::Event;
 use crate::geometry::polygon::{contains_point, nearest_on_segment};
@@ -20,7 +20,7 @@ const CUP_NODES: usize = 36;
 const PUT_AFTER: f32 = 2.0;
 
 impl World {
-    pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
+    pub(in crate::world) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
         let Self { organisms, fluids, exemptions, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
         if organism.outline.len() < CUP_NODES {
@@ -37,7 +37,7 @@ impl World {
         self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
     }
 
-    pub(super) fn advance_ingestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
+    pub(in crate::world) fn advance_ingestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
         let params = engulfer.params;
         engulfer.meals.retain_mut(|meal| {
             let MealPhase::Ingesting(elapsed) = meal.phase else { return true };

@@ -1,6 +1,6 @@
 //! How well a membrane hugs what it holds, and how a cell moves that has one.
 
-use super::World;
+use crate::world::World;
 use crate::capability::Locomotion;
 use crate::geometry::coverage::Coverage;
 use crate::geometry::outline::{excess_turning, quarter_widths};
@@ -55,7 +55,7 @@ impl World {
         })
     }
 
-    pub(super) fn voids_of(&self, organism: &Organism) -> Option<f32> {
+    pub(in crate::world) fn voids_of(&self, organism: &Organism) -> Option<f32> {
         let spacing = self.fluids[organism.fluid? as usize].params.spacing;
         let thickness = organism.body.membrane()?.node_radius;
         let position = |i: u32| self.particles.position(i as usize);
@@ -74,12 +74,12 @@ impl World {
         Some(coverage.free_share())
     }
 
-    pub(super) fn excess_turning_of(&self, organism: &Organism) -> Option<f32> {
+    pub(in crate::world) fn excess_turning_of(&self, organism: &Organism) -> Option<f32> {
         organism.body.membrane()?;
         Some(excess_turning(&self.outline_of(organism)))
     }
 
-    pub(super) fn crawl_quality_of(&self, organism: &Organism) -> Option<CrawlQuality> {
+    pub(in crate::world) fn crawl_quality_of(&self, organism: &Organism) -> Option<CrawlQuality> {
         let (Some(goal), Locomotion::Crawl { front_centre: Some(_) }) = (organism.goal, &organism.locomotion) else {
             return None;
         };

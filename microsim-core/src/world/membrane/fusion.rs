@@ -1,7 +1,7 @@
 //! Fusion of two cells with membranes that touch: two links are swapped, and the smaller cell's nodes, cytoplasm and prey
 //! become the larger one's.
 
-use super::World;
+use crate::world::World;
 use crate::capability::division::Order;
 use crate::capability::phagocytosis::Meal;
 use crate::error::Error;
@@ -23,7 +23,7 @@ impl World {
         self.give_order(a, Order::Fuse { with: b })
     }
 
-    pub(super) fn try_fusion(&mut self, a: OrganismId, b: OrganismId) {
+    pub(in crate::world) fn try_fusion(&mut self, a: OrganismId, b: OrganismId) {
         match self.plan_fusion(a, b) {
             Ok((into, from, swap)) => self.merge(into, from, swap),
             Err(reason) => self.events.push(Event::FusionRefused { organism: a, with: b, reason }),

@@ -1,7 +1,7 @@
 //! What lies between two steps, to be drawn: screens do not tick with the world.
 
-use super::World;
-use super::view::View;
+use crate::world::World;
+use super::View;
 use crate::particle::NO_OWNER;
 use crate::shared::Shared;
 use glam::Vec2;

@@ -1,6 +1,6 @@
 //! Measures by name: what scenarios bound and what files list.
 
-use super::World;
+use crate::world::World;
 
 /// One measure of a world, known by its name. Measuring it costs what it alone costs.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! The first field in which two worlds differ, in words.
 
-use super::World;
+use crate::world::World;
 use crate::particle::NO_OWNER;
 use crate::walk::{Leaf, Part, Visitor, walk};
 use std::fmt;

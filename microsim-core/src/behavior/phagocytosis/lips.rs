@@ -7,7 +7,7 @@
 //!                bottom
 //! ```
 
-use super::{heading, place};
+use crate::behavior::{heading, place};
 use crate::capability::phagocytosis::Engulfer;
 use crate::geometry::polygon::contains_point;
 use crate::organism::Organism;

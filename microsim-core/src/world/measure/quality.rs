@@ -1,8 +1,8 @@
 //! Quality: how well constraints hold and membranes hug what they hold.
 
-use super::World;
+use crate::world::World;
 use super::membrane_quality::CrawlQuality;
-use super::touching::NearPair;
+use crate::world::contacts::NearPair;
 use crate::capability::phagocytosis::MealPhase;
 use crate::organism::{Body, Organism};
 use crate::solver::Distance;
@@ -63,43 +63,43 @@ impl World {
         }
     }
 
-    pub(super) fn ring_error_mean(&self) -> f32 {
+    pub(in crate::world) fn ring_error_mean(&self) -> f32 {
         mean(self.ring_strains().map(f32::abs))
     }
 
-    pub(super) fn ring_error_max(&self) -> f32 {
+    pub(in crate::world) fn ring_error_max(&self) -> f32 {
         largest(self.ring_strains().map(f32::abs))
     }
 
-    pub(super) fn edge_stretch_max(&self) -> f32 {
+    pub(in crate::world) fn edge_stretch_max(&self) -> f32 {
         larger(largest(self.ring_strains()), self.membrane_stretch_max())
     }
 
-    pub(super) fn membrane_stretch_max(&self) -> f32 {
+    pub(in crate::world) fn membrane_stretch_max(&self) -> f32 {
         largest(self.organisms.iter().flat_map(|(_, organism)| self.membrane_stretches(organism)))
     }
 
-    pub(super) fn anchor_offset_max(&self) -> f32 {
+    pub(in crate::world) fn anchor_offset_max(&self) -> f32 {
         largest(self.organisms.iter().map(|(_, organism)| self.anchor_offset(organism)))
     }
 
-    pub(super) fn voids_max(&self) -> f32 {
+    pub(in crate::world) fn voids_max(&self) -> f32 {
         largest(self.organisms.iter().filter_map(|(_, organism)| self.voids_of(organism)))
     }
 
-    pub(super) fn excess_turning_max(&self) -> f32 {
+    pub(in crate::world) fn excess_turning_max(&self) -> f32 {
         largest(self.organisms.iter().filter_map(|(_, organism)| self.excess_turning_of(organism)))
     }
 
-    pub(super) fn width_ratio_mean(&self) -> f32 {
+    pub(in crate::world) fn width_ratio_mean(&self) -> f32 {
         mean(self.crawls().map(|crawl| crawl.width_ratio))
     }
 
-    pub(super) fn speed_kept_mean(&self) -> f32 {
+    pub(in crate::world) fn speed_kept_mean(&self) -> f32 {
         mean(self.crawls().map(|crawl| crawl.speed_kept))
     }
 
-    pub(super) fn ingestion_time_max(&self) -> f32 {
+    pub(in crate::world) fn ingestion_time_max(&self) -> f32 {
         let engulfers = self.organisms.iter().filter_map(|(_, organism)| organism.engulfer.as_ref());
         largest(engulfers.flat_map(|engulfer| {
             engulfer.meals.iter().map(|meal| match meal.phase {
@@ -110,7 +110,7 @@ impl World {
         }))
     }
 
-    pub(super) fn stalled_max(&self) -> f32 {
+    pub(in crate::world) fn stalled_max(&self) -> f32 {
         let wanting = self.organisms.iter().filter(|(_, organism)| organism.goal.is_some());
         largest(wanting.map(|(_, organism)| organism.progress.stalled))
     }
@@ -147,7 +147,7 @@ impl World {
     }
 
     /// Relative excess of each link of a membrane over its rest length.
-    pub(super) fn membrane_stretches<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
+    pub(in crate::world) fn membrane_stretches<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
         organism.body.membrane().into_iter().flat_map(move |membrane| {
             let length = |(a, b): (u32, u32)| self.particles.between(a as usize, b as usize).length();
             links(&organism.outline).map(move |link| length(link) / membrane.rest_length - 1.0)
@@ -162,14 +162,14 @@ impl World {
         })
     }
 
-    pub(super) fn penetration_max(&self) -> f32 {
+    pub(in crate::world) fn penetration_max(&self) -> f32 {
         let p = &self.particles;
         let is_apart = |pair: &NearPair| p.owner[pair.i as usize] != p.owner[pair.j as usize];
         let overlap = |pair: NearPair| ratio(-pair.gap, p.smaller_radius(pair.i, pair.j));
         self.near_pairs().filter(is_apart).map(overlap).fold(0.0, larger)
     }
 
-    pub(super) fn fluid_compression_mean(&self) -> f32 {
+    pub(in crate::world) fn fluid_compression_mean(&self) -> f32 {
         let fluids = self.fluids.iter().filter(|fluid| !fluid.particles.is_empty());
         let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
             let share = fluid.particles.len() as f32;

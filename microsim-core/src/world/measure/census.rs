@@ -1,6 +1,6 @@
 //! Census: what there is, and whether anything is where it must not be.
 
-use super::World;
+use crate::world::World;
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
@@ -59,7 +59,7 @@ impl World {
     }
 
     /// The constraints that hold a templated organism together.
-    pub(super) fn constraints_of(&self, organism: &Organism) -> Option<&ConstraintSet> {
+    pub(in crate::world) fn constraints_of(&self, organism: &Organism) -> Option<&ConstraintSet> {
         match organism.body {
             Body::Lane { block, .. } => {
                 Some(self.templates[self.blocks[block as usize].template as usize].constraints())
@@ -68,16 +68,16 @@ impl World {
         }
     }
 
-    pub(super) fn bodies(&self) -> usize {
+    pub(in crate::world) fn bodies(&self) -> usize {
         let p = &self.particles;
         p.live().filter(|&i| p.inv_mass[i] > 0.0 && p.fluid[i] == 0).count()
     }
 
-    pub(super) fn quarantined(&self) -> usize {
+    pub(in crate::world) fn quarantined(&self) -> usize {
         self.organisms.iter().filter(|(_, organism)| organism.is_quarantined).count()
     }
 
-    pub(super) fn leaks(&self) -> usize {
+    pub(in crate::world) fn leaks(&self) -> usize {
         self.organisms.iter().map(|(_, organism)| self.leaks_of(organism)).sum()
     }
 
@@ -91,7 +91,7 @@ impl World {
     }
 
     /// Prey whose centre is inside an engulfer that does not hold it, or outside one that does.
-    pub(super) fn improper_absorptions(&self) -> usize {
+    pub(in crate::world) fn improper_absorptions(&self) -> usize {
         self.prey_that(|phase, outline, prey| {
             let is_inside = contains_point(outline, self.centre_of(prey));
             match phase {
@@ -103,7 +103,7 @@ impl World {
     }
 
     /// Prey with particles on both sides of a membrane that is not taking it in.
-    pub(super) fn partial_absorptions(&self) -> usize {
+    pub(in crate::world) fn partial_absorptions(&self) -> usize {
         self.prey_that(|phase, outline, prey| {
             let mut sides = prey.particles().map(|i| contains_point(outline, self.particles.position(i as usize)));
             let first = sides.next();
@@ -126,14 +126,14 @@ impl World {
     }
 
     /// Position of the nucleus, or of the first particle.
-    pub(super) fn centre_of(&self, organism: &Organism) -> Vec2 {
+    pub(in crate::world) fn centre_of(&self, organism: &Organism) -> Vec2 {
         let is_nucleus = |&i: &usize| self.particles.role[i] == Role::Nucleus as u8;
         let mut particles = organism.particles().map(|i| i as usize);
         let first = organism.first_node().map_or(0, |i| i as usize);
         self.particles.position(particles.find(is_nucleus).unwrap_or(first))
     }
 
-    pub(super) fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
+    pub(in crate::world) fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
         organism.outline_particles().map(|i| self.particles.position(i as usize)).collect()
     }
 }

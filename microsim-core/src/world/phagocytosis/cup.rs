@@ -1,8 +1,8 @@
 //! Ingestion by cup: nodes for the fold around prey, the cut when its lips have met, and what becomes of the arc that was
-//! cut off, the phagosome. How the lips move is [`crate::behavior::cup`].
+//! cut off, the phagosome. How the lips move is [`crate::behavior::phagocytosis`].
 
-use super::World;
-use crate::behavior::cup::Fold;
+use crate::world::World;
+use crate::behavior::phagocytosis::Fold;
 use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PhagocytosisParams};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::id::OrganismId;
@@ -22,7 +22,7 @@ const ROOM: f32 = 1.1;
 
 impl World {
     /// One step of prey that a cup takes in; returns whether the cup has closed.
-    pub(super) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
+    pub(in crate::world) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let (Some(organism), Some(eaten)) = (self.organisms.get(id), self.organisms.get(prey)) else { return false };
         let Some(fold) = Fold::find(organism, eaten, &self.particles) else { return false };
@@ -88,7 +88,7 @@ impl World {
     }
 
     /// Lets phagosomes follow the size of their prey, and removes those without; returns whether there were any.
-    pub(super) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
+    pub(in crate::world) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
         let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
         for phagosome in &mut phagosomes {
             phagosome.area = ROOM * self.area_of(phagosome.prey);
@@ -111,7 +111,7 @@ impl World {
     }
 
     /// Length of membrane that the folds around prey need now.
-    pub(super) fn fold_length(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
+    pub(in crate::world) fn fold_length(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let membrane = self.organisms.get(id).and_then(|organism| organism.body.membrane());
         let node_radius = membrane.map_or(0.0, |membrane| membrane.node_radius);
         let length = |meal: &Meal| {
@@ -123,7 +123,7 @@ impl World {
     }
 
     /// Present area of an organism.
-    pub(super) fn area_of(&self, id: OrganismId) -> f32 {
+    pub(in crate::world) fn area_of(&self, id: OrganismId) -> f32 {
         self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * self.shrinkage(organism))
     }
 }

@@ -1,0 +1,6 @@
+//! What changes membranes: growth, division, fusion.
+
+mod division;
+mod fusion;
+mod growth;
+mod transfer;
