@@ -1,14 +1,11 @@
 //! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
 
-use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
+use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
-use crate::collision::broad_phase::Surroundings;
-use crate::collision::leeway::Reach;
-use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
-use crate::particle::{BlockRange, outside_of};
+use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
@@ -77,13 +74,26 @@ impl Phase {
     }
 }
 
-pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
+impl World {
+    /// Advances the world by [`crate::WorldConfig::dt`]. Cannot fail and does not panic.
+    pub fn step(&mut self, inputs: &Inputs) {
+        self.step_observed(inputs, |_| {});
+    }
+
+    /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
+    /// measuring: the core itself reads no clock.
+    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
+        parallel::enter(self.particles.len(), || advance(self, inputs, &mut finished));
+    }
+}
+
+fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
     alone(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
-    find_pairs(world);
+    world.find_pairs();
     find_neighbours(world);
-    quieten_sleepers(world);
+    stop_sleepers(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
@@ -123,27 +133,19 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
     let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
-    draw_in_prey(organisms, particles, &mut scratch.drives);
+    phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
-    constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
-    cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
     // What wants to move does not sleep, even where it cannot.
     for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
         let owner = organisms.id_at(particles.owner[drive.particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
-        lane.into_iter().for_each(|(block, lane)| sleep.disturb(block, lane));
+        if let Some((block, lane)) = lane {
+            sleep.disturb(block, lane);
+        }
     }
-}
-
-pub(crate) fn find_pairs(world: &mut World) {
-    let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
-    let (size, reach) = (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
-    let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
-    let (rings, homes) = (rings.as_slice(), &organisms.homes());
-    let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
-    scratch.broad_phase.find_pairs(around, sleep, config.patience());
 }
 
 fn find_neighbours(world: &mut World) {
@@ -151,7 +153,7 @@ fn find_neighbours(world: &mut World) {
     scratch.fluid.find_neighbours(fluids, particles, config.size);
 }
 
-fn quieten_sleepers(world: &mut World) {
+fn stop_sleepers(world: &mut World) {
     let World { particles, blocks, sleep, .. } = world;
     sleep.quieten(blocks.iter().map(Block::range), particles);
 }

@@ -1,15 +1,14 @@
 //! What organisms do, over the solver: how they choose a goal and how they move towards it.
 
-pub(crate) mod constrict;
 pub(crate) mod crawl;
-pub(crate) mod cup;
+pub(crate) mod division;
 pub(crate) mod exchange;
 pub(crate) mod front_pull;
+pub(crate) mod phagocytosis;
 pub(crate) mod sensing;
 
 use crate::capability::Locomotion;
 use crate::capability::controller::senses::{Senses, Surroundings, Wish};
-use crate::capability::phagocytosis::MealPhase;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::inputs::Inputs;
@@ -54,21 +53,6 @@ fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
         controller.head(heading(escape.goal - senses.at));
     }
     Some(way_out.unwrap_or(wish))
-}
-
-/// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
-pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives: &mut Vec<Drive>) {
-    for (_, organism) in organisms.with_membrane() {
-        let Some(engulfer) = &organism.engulfer else { continue };
-        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
-        for meal in taken_in {
-            let Some(prey) = organisms.get(meal.prey) else { continue };
-            let inwards = heading(place(organism, particles) - place(prey, particles));
-            let velocity = if meal.is_expelled { -inwards } else { inwards } * engulfer.params.pull_speed;
-            let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
-            drives.extend(prey.particles().map(pull));
-        }
-    }
 }
 
 fn move_towards(

@@ -2,10 +2,14 @@
 
 use super::World;
 use crate::collision::Contact;
+use crate::collision::broad_phase::Surroundings;
+use crate::collision::leeway::Reach;
+use crate::collision::ring::Ring;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::table::Organisms;
-use crate::particle::Particles;
+use crate::particle::{BlockRange, Particles};
+use crate::solver::block::Block;
 use crate::solver::ring_contact;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +33,18 @@ pub(crate) struct NearPair {
 }
 
 impl World {
+    /// Finds the pairs of bodies and discs that can touch before the next search, and which blocks are asleep.
+    pub(crate) fn find_pairs(&mut self) {
+        let Self { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = self;
+        let (size, reach) =
+            (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
+        let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
+        let (rings, homes) = (rings.as_slice(), &organisms.homes());
+        let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
+        let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
+        scratch.broad_phase.find_pairs(around, sleep, config.patience());
+    }
+
     /// All pairs of live particles that the last step's search found.
     pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> + '_ {
         let (p, near) = (&self.particles, &self.scratch.broad_phase);

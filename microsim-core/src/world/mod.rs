@@ -3,13 +3,16 @@
 
 mod chemical;
 pub(crate) mod contacts;
+mod controller;
 pub(crate) mod measure;
 mod membrane;
+mod obstacle;
 mod phagocytosis;
 mod push;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
+mod scale;
 mod sleeping;
 mod spawn;
 pub(crate) mod state;
@@ -20,15 +23,14 @@ use crate::collision::broad_phase::BroadPhase;
 use crate::collision::filter::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
-use crate::error::{Error, ErrorKind, in_range};
+use crate::error::{Error, ErrorKind};
 use crate::event::Event;
-use crate::id::{ObstacleId, OrganismId, TemplateId};
-use crate::inputs::Inputs;
+use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
+use crate::organism::Organism;
 use crate::organism::table::Organisms;
-use crate::parallel;
+use crate::particle::Particles;
 use crate::particle::sleep::Sleep;
-use crate::particle::{Material, Particles};
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
@@ -36,17 +38,10 @@ use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
-use crate::step::{self, Phase};
 use crate::template::Template;
-use glam::Vec2;
-use parry2d::math::Pose;
-use parry2d::shape::SharedShape;
 use contacts::Touching;
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
-use state::digest;
-
-/// Obstacles that every world has: its four walls.
-const WALLS: usize = 4;
 
 /// A room with organisms in it. Cloning it is a snapshot: the clone has the same future and answers every question alike.
 ///
@@ -85,7 +80,7 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
-    /// Of each obstacle, see [`digest::of_obstacle`].
+    /// Of each obstacle, see [`obstacle::digest`].
     obstacle_digests: Vec<u64>,
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -95,7 +90,7 @@ pub struct World {
     pub(crate) dispatch: Dispatch,
 }
 
-/// How often the membranes' protections had to do what must never be needed, since the world was made.
+/// Counts of violations of membranes since the world was made. All stay 0 unless there is a bug.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Guard {
     /// A disc was found on the wrong side of the link nearest to it.
@@ -168,7 +163,7 @@ impl World {
     /// Names the field of `config` that is out of range.
     pub fn new(config: WorldConfig) -> Result<Self, Error> {
         config.validate()?;
-        let walls = walls(&config);
+        let walls = obstacle::walls(&config);
         Ok(Self::of(config, Shared::new(walls)))
     }
 
@@ -193,17 +188,6 @@ impl World {
             scratch: Scratch::default(),
             dispatch: Dispatch::default(),
         }
-    }
-
-    /// Advances the world by [`WorldConfig::dt`]. Cannot fail and does not panic.
-    pub fn step(&mut self, inputs: &Inputs) {
-        self.step_observed(inputs, |_| {});
-    }
-
-    /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
-    /// measuring: the core itself reads no clock.
-    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::enter(self.particles.len(), || step::advance(self, inputs, &mut finished));
     }
 
     /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
@@ -249,35 +233,6 @@ impl World {
         }) as u32
     }
 
-    /// Adds static geometry: any `parry2d` shape.
-    ///
-    /// # Errors
-    /// When the pose is not finite, the shape's box is not finite, a material number is out of range, or the obstacle would
-    /// overlap an organism. Nothing is changed then.
-    pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
-        let Material { friction, restitution } = obstacle.material;
-        in_range("material.friction", friction, 0.0, 10.0)?;
-        in_range("material.restitution", restitution, 0.0, 1.0)?;
-        in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
-        in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
-        let bounds = obstacle.bounds();
-        if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
-            return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
-        }
-        if let Some(with) = self.overlapped_by(&obstacle) {
-            return Err(Error::new(ErrorKind::Overlap { with }, "pose"));
-        }
-        self.obstacle_digests.push(digest::of_obstacle(&obstacle));
-        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
-        self.obstacles.push(obstacle);
-        Ok(ObstacleId(self.obstacles.len() as u32 - 1))
-    }
-
-    /// The obstacles that were added, without the walls.
-    pub fn obstacles(&self) -> impl Iterator<Item = &Obstacle> {
-        self.obstacles.iter().skip(WALLS)
-    }
-
     /// Lets two organisms pass through each other, or collide again.
     ///
     /// # Errors
@@ -310,33 +265,21 @@ impl World {
         Some(self.view().organism(id)?.centroid())
     }
 
+    /// The discs of an organism that can move.
+    pub(in crate::world) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
+        let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
+        particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
+    }
+
     pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {
         self.organisms.get(id).map(drop).ok_or_else(|| Error::new(ErrorKind::Stale, field))
     }
 }
 
-/// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step.
-fn walls(config: &WorldConfig) -> Vec<Obstacle> {
-    let size = config.size;
-    let thickness = size.x + size.y + 4.0 * config.reach();
-    let half = size * 0.5;
-    let slab = |half_extents: Vec2, centre: Vec2| {
-        Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))
-    };
-    let (across, along) =
-        (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
-    vec![
-        slab(across, Vec2::new(half.x, -0.5 * thickness)),
-        slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
-        slab(along, Vec2::new(-0.5 * thickness, half.y)),
-        slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Controller, Placement, PlateletSpec, ProbeSpec};
+    use crate::{Controller, Inputs, Placement, PlateletSpec, ProbeSpec};
 
     #[test]
     fn a_step_leaves_shared_with_clones_what_it_does_not_change() {

@@ -1,12 +1,12 @@
 //! Census: what there is, and whether anything is where it must not be.
 
-use crate::world::World;
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
 use crate::organism::{Body, Organism};
 use crate::solver::ConstraintSet;
 use crate::template::Role;
+use crate::world::World;
 use glam::Vec2;
 
 /// Counts of what is in the world, and of what must not happen.

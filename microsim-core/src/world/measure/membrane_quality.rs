@@ -1,12 +1,12 @@
 //! How well a membrane hugs what it holds, and how a cell moves that has one.
 
-use crate::world::World;
 use crate::capability::Locomotion;
 use crate::geometry::coverage::Coverage;
 use crate::geometry::outline::{excess_turning, quarter_widths};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::solver::membrane::links;
+use crate::world::World;
 use glam::Vec2;
 
 /// Distance from a cytoplasm particle, in rest spacings of the cytoplasm, up to which a place is covered by it. In the

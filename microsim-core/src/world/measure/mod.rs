@@ -1,5 +1,9 @@
 //! Measures by name: what scenarios bound and what files list.
 
+pub(crate) mod census;
+pub(crate) mod membrane_quality;
+pub(crate) mod quality;
+
 use crate::world::World;
 
 /// One measure of a world, known by its name. Measuring it costs what it alone costs.

@@ -1,14 +1,14 @@
 //! Quality: how well constraints hold and membranes hug what they hold.
 
-use crate::world::World;
 use super::membrane_quality::CrawlQuality;
-use crate::world::contacts::NearPair;
 use crate::capability::phagocytosis::MealPhase;
-use crate::organism::{Body, Organism};
+use crate::organism::Organism;
 use crate::solver::Distance;
 use crate::solver::lanes::ratio;
 use crate::solver::membrane::links;
 use crate::template::Role;
+use crate::world::World;
+use crate::world::contacts::NearPair;
 
 /// How well the constraints hold at the end of a step. All are 0 when nothing is violated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -121,17 +121,6 @@ impl World {
 
     fn ring_strains(&self) -> impl Iterator<Item = f32> + '_ {
         self.organisms.iter().flat_map(|(_, organism)| self.outline_strains(organism))
-    }
-
-    /// Scale of an organism's constraints.
-    pub(crate) fn scale_of(&self, organism: &Organism) -> f32 {
-        match organism.body {
-            Body::Lane { block, first } => {
-                let block = &self.blocks[block as usize];
-                block.scale[(first - block.base) as usize]
-            }
-            Body::Loose { .. } => 1.0,
-        }
     }
 
     /// Relative error of each rigid link between neighbours of a templated outline, positive when stretched.

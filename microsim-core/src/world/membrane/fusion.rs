@@ -1,15 +1,16 @@
 //! Fusion of two cells with membranes that touch: two links are swapped, and the smaller cell's nodes, cytoplasm and prey
 //! become the larger one's.
 
-use crate::world::World;
 use crate::capability::division::Order;
 use crate::capability::phagocytosis::Meal;
 use crate::error::Error;
 use crate::event::{Event, Refusal};
 use crate::geometry::polygon::{contains_point, is_simple};
 use crate::id::OrganismId;
-use crate::organism::Organism;
-use crate::organism::ring_surgery::Swap;
+use crate::organism::ring_surgery::{Swap, set_outline};
+use crate::organism::{Body, Organism};
+use crate::world::World;
+use glam::Vec2;
 
 impl World {
     /// Tells an amoeboid cell to fuse with another that it touches. In the next step the larger one, by cytoplasm, takes over
@@ -23,7 +24,7 @@ impl World {
         self.give_order(a, Order::Fuse { with: b })
     }
 
-    pub(in crate::world) fn try_fusion(&mut self, a: OrganismId, b: OrganismId) {
+    pub(super) fn try_fusion(&mut self, a: OrganismId, b: OrganismId) {
         match self.plan_fusion(a, b) {
             Ok((into, from, swap)) => self.merge(into, from, swap),
             Err(reason) => self.events.push(Event::FusionRefused { organism: a, with: b, reason }),
@@ -86,6 +87,36 @@ impl World {
         }
         larger.adapt_nodes(fluids);
         events.push(Event::Fused { into, from });
+    }
+
+    /// Gives a cell everything that another one consisted of, within one outline.
+    pub(super) fn adopt(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
+        let Some(by) = self.organisms.get(id).map(|cell| self.origin_of(cell) - self.origin_of(&other)) else { return };
+        for i in other.particles() {
+            self.particles.owner[i as usize] = id.index;
+            self.particles.shift_origin(i as usize, by);
+        }
+        self.rehome_fluid(&other.fluid_particles, other.fluid, id);
+        let Self { organisms, particles, .. } = self;
+        let Some(cell) = organisms.get_mut(id) else { return };
+        let before = cell.outline.len();
+        if let (Body::Loose { particles: body, membrane: Some(membrane) }, Body::Loose { particles: added, .. }) =
+            (&mut cell.body, &other.body)
+        {
+            body.extend(added);
+            *membrane = membrane.resized(before, outline.len());
+        }
+        cell.fluid_particles.extend(&other.fluid_particles);
+        cell.phagosomes.extend(other.phagosomes);
+        cell.spawn_area += other.spawn_area;
+        let pending = other.engulfer.map_or(0.0, |engulfer| engulfer.pending_growth);
+        cell.engulfer.iter_mut().for_each(|engulfer| engulfer.pending_growth += pending);
+        set_outline(cell, outline, particles);
+    }
+
+    /// Point that the coordinates of an organism with a body are relative to.
+    fn origin_of(&self, organism: &Organism) -> Vec2 {
+        organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize))
     }
 
     /// Membrane nodes over the square root of the content.

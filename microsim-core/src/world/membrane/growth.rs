@@ -1,16 +1,16 @@
 //! Growth of a filled chain (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
-use crate::world::World;
 use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::{contains_point, signed_area};
 use crate::geometry::ring::unit_vector;
 use crate::id::OrganismId;
 use crate::organism::Organism;
-use crate::organism::ring_surgery::insert_node;
+use crate::organism::ring_surgery::{insert_node, remove_node};
 use crate::particle::{Particle, Particles};
 use crate::solver::fluid::rest_area;
 use crate::solver::membrane::STRAIN_LIMIT;
 use crate::template::Role;
+use crate::world::World;
 use glam::Vec2;
 
 /// Angle between new particles in turns of the golden ratio, radians (Vogel 1979): they never fall on one line.
@@ -38,6 +38,24 @@ impl World {
         let grown = self.organisms.get_mut(id);
         grown.into_iter().for_each(|organism| organism.keep_added_nodes(nodes, &self.fluids));
         Ok(())
+    }
+
+    /// Takes a membrane one node nearer to the number that it wants, while no gate holds on to its nodes.
+    pub(super) fn turn_over(&mut self, id: OrganismId) {
+        let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
+        let Self { organisms, particles, .. } = self;
+        let Some(organism) = organisms.get_mut(id).filter(|organism| Self::hindrance(organism).is_none()) else {
+            return;
+        };
+        let count = organism.outline.len() as u32;
+        let Some(wanted) = organism.divider.as_ref().and_then(|divider| divider.wanted_nodes) else { return };
+        if count < wanted && room {
+            insert_node(organism, particles);
+        } else if count > wanted && organism.has_spare_node() {
+            remove_node(organism, particles);
+        } else if count == wanted {
+            organism.divider.as_mut().into_iter().for_each(|divider| divider.wanted_nodes = None);
+        }
     }
 
     /// The same, with nodes that the content asks for.

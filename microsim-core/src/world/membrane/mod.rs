@@ -1,6 +1,59 @@
-//! What changes membranes: growth, division, fusion.
+//! Cells that change their membrane: growth, division and fusion.
 
 mod division;
+mod furrow;
 mod fusion;
 mod growth;
 mod transfer;
+
+use crate::capability::division::{Divider, Order};
+use crate::capability::phagocytosis::{Meal, MealPhase};
+use crate::error::{Error, ErrorKind};
+use crate::event::Refusal;
+use crate::id::OrganismId;
+use crate::organism::Organism;
+use crate::world::World;
+
+impl World {
+    /// One step of all cells that divide, fuse, or adapt their membrane to what they hold since.
+    pub(crate) fn divide_and_fuse(&mut self) {
+        let dt = self.config.dt;
+        let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
+        for id in cells.map(|(id, _)| id).collect::<Vec<_>>() {
+            match self.divider_mut(id).and_then(|divider| divider.order.take()) {
+                Some(Order::Divide { axis }) => self.begin_division(id, axis),
+                Some(Order::Fuse { with }) => self.try_fusion(id, with),
+                None => {}
+            }
+            self.divider_mut(id).into_iter().for_each(|divider| divider.relax(dt));
+            self.constrict(id);
+            self.turn_over(id);
+        }
+    }
+
+    /// Notes what a cell is to do with the next step.
+    pub(in crate::world) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
+        let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        let divider = organism.divider.as_mut();
+        divider.ok_or_else(|| Error::unsupported("organism", "an amoeboid cell"))?.order = Some(order);
+        Ok(())
+    }
+
+    pub(in crate::world) fn divider_mut(&mut self, id: OrganismId) -> Option<&mut Divider> {
+        self.organisms.get_mut(id).and_then(|organism| organism.divider.as_mut())
+    }
+
+    /// What keeps a cell from changing the shape of its membrane.
+    pub(in crate::world) fn hindrance(organism: &Organism) -> Option<Refusal> {
+        let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
+        if organism.is_quarantined {
+            Some(Refusal::Quarantined)
+        } else if organism.furrow().is_some() {
+            Some(Refusal::Dividing)
+        } else if organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).any(ingests) {
+            Some(Refusal::Ingesting)
+        } else {
+            None
+        }
+    }
+}

@@ -1,28 +1,22 @@
 //! Ingestion by cup: nodes for the fold around prey, the cut when its lips have met, and what becomes of the arc that was
 //! cut off, the phagosome. How the lips move is [`crate::behavior::phagocytosis`].
 
-use crate::world::World;
-use crate::behavior::phagocytosis::Fold;
-use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PhagocytosisParams};
+use super::phagosome::LEAST_NODES;
+use crate::behavior::phagocytosis::lips::Fold;
+use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::id::OrganismId;
-use crate::organism::ring_surgery::{Swap, free_nodes, insert_node_in, set_outline, take_out};
+use crate::organism::ring_surgery::{Swap, insert_node_in, set_outline};
 use crate::organism::{Organism, Phagosome};
+use crate::world::World;
 use glam::Vec2;
-use std::f32::consts::{PI, TAU};
 
-/// Time in which the membrane lengthens by what a fold needs, s.
-const FOLDING_TIME: f32 = 0.8;
 /// Nodes beyond those that lie against prey among which the links to swap are looked for.
 const REACH: usize = 4;
-/// Fewest nodes of a phagosome.
-const LEAST_NODES: usize = 5;
-/// Area of a phagosome over that of its prey.
-const ROOM: f32 = 1.1;
 
 impl World {
     /// One step of prey that a cup takes in; returns whether the cup has closed.
-    pub(in crate::world) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
+    pub(super) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let (Some(organism), Some(eaten)) = (self.organisms.get(id), self.organisms.get(prey)) else { return false };
         let Some(fold) = Fold::find(organism, eaten, &self.particles) else { return false };
@@ -85,45 +79,5 @@ impl World {
             organism.phagosomes.push(Phagosome { prey, ring, membrane: inner, area });
         }
         set_outline(organism, left, particles);
-    }
-
-    /// Lets phagosomes follow the size of their prey, and removes those without; returns whether there were any.
-    pub(in crate::world) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
-        let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
-        for phagosome in &mut phagosomes {
-            phagosome.area = ROOM * self.area_of(phagosome.prey);
-        }
-        let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id) else { return false };
-        let count = phagosomes.len();
-        phagosomes.retain_mut(|phagosome| {
-            let is_needed = engulfer.meals.iter().any(|meal| meal.prey == phagosome.prey);
-            let wanted = phagosome.membrane.rest_perimeter() / phagosome.membrane.rest_length;
-            if !is_needed {
-                free_nodes(organism, &phagosome.ring, particles);
-            } else if wanted < phagosome.ring.len() as f32 - 0.5 && phagosome.ring.len() > LEAST_NODES {
-                free_nodes(organism, take_out(&mut phagosome.ring, particles).as_slice(), particles);
-            }
-            is_needed
-        });
-        organism.phagosomes = phagosomes;
-        organism.phagosomes.len() < count
-    }
-
-    /// Length of membrane that the folds around prey need now.
-    pub(in crate::world) fn fold_length(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
-        let membrane = self.organisms.get(id).and_then(|organism| organism.body.membrane());
-        let node_radius = membrane.map_or(0.0, |membrane| membrane.node_radius);
-        let length = |meal: &Meal| {
-            let MealPhase::Ingesting(elapsed) = meal.phase else { return 0.0 };
-            let part = if elapsed < FOLDING_TIME { elapsed / FOLDING_TIME } else { 1.0 };
-            part * TAU * ((self.area_of(meal.prey) / PI).sqrt() + 2.0 * node_radius)
-        };
-        engulfer.meals.iter().filter(|meal| meal.is_in_cup()).map(length).sum()
-    }
-
-    /// Present area of an organism.
-    pub(in crate::world) fn area_of(&self, id: OrganismId) -> f32 {
-        self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * self.shrinkage(organism))
     }
 }

@@ -1,8 +1,8 @@
 //! The first field in which two worlds differ, in words.
 
-use crate::world::World;
 use crate::particle::NO_OWNER;
 use crate::walk::{Leaf, Part, Visitor, walk};
+use crate::world::World;
 use std::fmt;
 
 /// A field in which two worlds differ: the first, in the order in which the digest takes them.

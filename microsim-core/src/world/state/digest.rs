@@ -5,19 +5,16 @@
 //! variants and the number of a list's elements one word, 64-bit integers and numbers two, text its bytes a word each after
 //! their number. Zeros are made positive and every NaN the same, so that equal states have equal digests.
 
-use crate::world::World;
-use crate::collision::obstacle::Obstacle;
-use crate::collision::shape::ObstacleRecord;
 use crate::fnv::Fnv1a;
 use crate::walk::{Leaf, Visitor, walk};
-use glam::Vec2;
+use crate::world::World;
 use serde::Serialize;
 
 /// The words that were hashed so far.
-struct Digest(Fnv1a);
+pub(in crate::world) struct Digest(Fnv1a);
 
 impl Digest {
-    fn of(value: &(impl Serialize + ?Sized)) -> u64 {
+    pub(in crate::world) fn of(value: &(impl Serialize + ?Sized)) -> u64 {
         let mut digest = Self(Fnv1a::new());
         walk(value, &mut digest);
         digest.0.finish()
@@ -66,23 +63,6 @@ impl World {
     pub fn digest(&self) -> u64 {
         Digest::of(self)
     }
-}
-
-/// Digest of an obstacle: the numbers that it is made from, or for shapes without such a record what the step sees of it,
-/// its surface from a grid of points around it.
-pub(in crate::world) fn of_obstacle(obstacle: &Obstacle) -> u64 {
-    const POINTS: u8 = 8;
-    if let Some(record) = ObstacleRecord::of(obstacle) {
-        return Digest::of(&record);
-    }
-    let bounds = obstacle.bounds();
-    let extent = bounds.maxs - bounds.mins;
-    let nearest = |k: u8| {
-        let share = Vec2::new(f32::from(k % POINTS), f32::from(k / POINTS)) / f32::from(POINTS - 1);
-        obstacle.nearest(bounds.mins + extent * share)
-    };
-    let surface: Vec<(Vec2, bool)> = (0..POINTS * POINTS).map(nearest).collect();
-    Digest::of(&(surface, obstacle.material, obstacle.groups))
 }
 
 #[cfg(test)]

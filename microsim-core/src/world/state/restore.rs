@@ -71,7 +71,7 @@ impl World {
         validate::structure::check(&world).map_err(|violation| violation.to_string())?;
         // Measures look at the pairs that the last step found; until the next one these stand for them.
         if world.step_index > 0 {
-            crate::step::find_pairs(&mut world);
+            world.find_pairs();
         }
         Ok(world)
     }

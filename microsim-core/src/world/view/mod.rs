@@ -1,7 +1,8 @@
 //! A read-only view for drawing and measuring.
 
-use super::World;
-use super::moment::Moment;
+pub(crate) mod anatomy;
+pub(crate) mod moment;
+
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
@@ -12,7 +13,9 @@ use crate::id::{ChemicalId, OrganismId};
 use crate::kind::Kind;
 use crate::organism::Organism;
 use crate::template::Role;
+use crate::world::World;
 use glam::Vec2;
+use moment::Moment;
 
 /// Borrows a world for reading.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,9 @@
 //! What lies between two steps, to be drawn: screens do not tick with the world.
 
-use crate::world::World;
 use super::View;
 use crate::particle::NO_OWNER;
 use crate::shared::Shared;
+use crate::world::World;
 use glam::Vec2;
 
 /// Where everything was at one moment, see [`World::view_since`].

@@ -8,9 +8,9 @@ mod meals;
 mod store;
 pub(super) mod structure;
 
-use crate::world::World;
 use crate::id::OrganismId;
 use crate::kind::Kind;
+use crate::world::World;
 use std::fmt;
 
 /// Something in a world that must not be.

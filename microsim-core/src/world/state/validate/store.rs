@@ -5,7 +5,8 @@ use crate::config::WorldConfig;
 use crate::particle::{CollisionGroups, NO_OWNER, Particles};
 use crate::solver::block::Block;
 use crate::template::Role;
-use crate::world::{WALLS, World};
+use crate::world::World;
+use crate::world::obstacle::WALLS;
 use glam::Vec2;
 
 /// Largest coordinate of anything, units: quarantine takes what is farther from its room than the room's size.
