@@ -7,17 +7,17 @@ use crate::particle::Particles;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 
-/// Speeds of approach at the bottom of the furrow and next to it, relative to the furrow's: its sides slope.
+/// Speeds of approach at the bottom of the furrow and at the nodes next to it, relative to the furrow's.
 const SLOPE: [f32; 3] = [1.0, 0.8, 0.5];
-/// In a neck narrower than this, in rest lengths, the furrow closes from its bottom outwards, each pair of nodes when the one
-/// before is at most `SHUT` apart: all at once would shut cytoplasm in.
+/// Width of the neck, in rest lengths, below which the furrow closes from its bottom outwards, each pair of nodes when the
+/// one before is at most `SHUT` apart. All pairs at once would enclose cytoplasm.
 const NARROW: f32 = 3.5;
 const SHUT: f32 = 1.3;
 
-/// Prey inside is kept this far from the plane of the furrow, in rest lengths beyond its own size.
+/// Distance between prey inside and the plane of the furrow, in rest lengths.
 const CLEAR: f32 = 2.5;
 
-/// Draws the sides of every furrow together and drives prey inside out of its way.
+/// Draws the sides of every furrow together and drives prey out of the plane of the furrow.
 pub(crate) fn draw_furrows(
     organisms: &Organisms,
     particles: &Particles,

@@ -1,4 +1,4 @@
-//! What organisms do, over the solver: how they choose a goal and how they move towards it.
+//! Behaviour: how organisms choose a goal, and the drives that move them and their prey.
 
 pub(crate) mod crawl;
 pub(crate) mod division;
@@ -17,7 +17,7 @@ use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::drive::Drive;
 use glam::Vec2;
-use sensing::Body;
+use sensing::OwnBody;
 
 /// Turns inputs and controllers into the drives of this step.
 pub(crate) fn steer_organisms(
@@ -31,7 +31,7 @@ pub(crate) fn steer_organisms(
     drives.clear();
     let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
     for (id, organism) in organisms.iter_mut(can_move) {
-        let body = Body::of(organism, particles);
+        let body = OwnBody::of(organism, particles);
         let senses = body.senses(id, organism, surroundings);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
@@ -44,7 +44,7 @@ pub(crate) fn steer_organisms(
     }
 }
 
-/// What an organism's controller wants, unless it is stuck and tries to get away first.
+/// The wish of an organism's controller, or its way out while it is stuck.
 fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
     let Organism { controller, progress, rng, .. } = organism;
     let wish = controller.decide(senses, rng)?;
@@ -78,7 +78,7 @@ fn move_towards(
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
         Locomotion::Tow { max_acceleration } => {
-            // The first heads for the goal and each other one for the one before: in thick water nothing swings round.
+            // The first particle heads for the goal, each other one for the one before it: at low Reynolds number nothing swings.
             let mut ahead = goal;
             for particle in (0..organism.slots).map(|slot| organism.body.particle(slot)) {
                 let at = particles.position(particle as usize);
@@ -90,12 +90,12 @@ fn move_towards(
     }
 }
 
-/// Unit vector of a way, or zero when there is no way to go.
+/// Unit vector of a displacement, or zero for none.
 pub(crate) fn heading(way: Vec2) -> Vec2 {
     crate::geometry::ring::direction_or(way, Vec2::ZERO)
 }
 
-/// Where an organism is, for its controller: the mean of its outline, or its first particle.
+/// Position of an organism for its controller: the mean of its outline, or its first particle.
 pub(crate) fn place(organism: &Organism, particles: &Particles) -> Vec2 {
     let count = organism.outline.len();
     if count == 0 {

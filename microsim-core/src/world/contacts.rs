@@ -1,4 +1,4 @@
-//! Which organisms touch: turns the solver's contacts into exactly one begin and one end event per pair.
+//! Contacts: the search for pairs, the pairs that it found, and one begin and one end event per pair of organisms.
 
 use super::World;
 use crate::collision::Contact;
@@ -21,13 +21,13 @@ pub(crate) struct Touching {
     now: Vec<(OrganismId, OrganismId)>,
 }
 
-/// Two particles of which the surfaces may have met in the last step.
+/// Two particles whose surfaces may have touched in the last step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearPair {
     pub i: u32,
-    /// The other disc; of a link of a membrane the node that is nearer. Each link makes a pair of its own.
+    /// The other disc; for a link of a membrane its nearer node. Each link is a pair of its own.
     pub j: u32,
-    /// Distance of the surfaces now, negative where they overlap.
+    /// Present distance of the surfaces, negative where they overlap.
     pub gap: f32,
     pub touched: bool,
 }
@@ -70,8 +70,8 @@ impl Touching {
         &self.pairs
     }
 
-    /// Compares the pairs of particles that touched in this step with the last step's and reports what began and what ended.
-    /// Of two that are asleep nothing changes.
+    /// Compares the pairs that touched in this step with those of the last step and reports the differences. Pairs of
+    /// sleeping organisms keep touching.
     pub(crate) fn update(
         &mut self,
         touched: impl Iterator<Item = (u32, u32)>,
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_overlaps_after_a_step_was_looked_for() {
+    fn every_overlap_after_a_step_is_a_known_pair() {
         for substeps in [1, 3, 8] {
             let (mut world, cell) = rows(substeps);
             let mut overlaps = 0;

@@ -10,7 +10,7 @@ impl World {
     /// Gives an organism another controller. Inputs still come first.
     ///
     /// # Errors
-    /// When the handle is stale, a field is out of range, the controller goes by a chemical that this world does not have, or
+    /// When the handle is stale, a field is out of range, the controller senses a chemical that this world does not have, or
     /// the organism cannot move or has no outline to sense with.
     pub fn set_controller(&mut self, id: OrganismId, controller: Controller) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
@@ -18,7 +18,9 @@ impl World {
         if let Some(organism) = self.organisms.get(id) {
             self.check_controller(&controller, &organism.locomotion, !organism.outline.is_empty())?;
         }
-        self.organisms.get_mut(id).into_iter().for_each(|organism| organism.controller = controller.clone());
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.controller = controller;
+        }
         Ok(())
     }
 

@@ -1,5 +1,6 @@
-//! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
-//! their own.
+//! The world owns all state. What it can do is in files of their own: spawning, obstacles, queries, eating
+//! ([`phagocytosis`]), division, fusion and growth ([`membrane`]), [`measure`]s, the [`view`], digest and validation
+//! ([`state`]).
 
 mod chemical;
 pub(crate) mod contacts;
@@ -13,10 +14,10 @@ mod quarantine;
 pub(crate) mod query;
 mod rebase;
 mod scale;
-mod sleeping;
 mod spawn;
 pub(crate) mod state;
 pub(crate) mod view;
+mod wake;
 
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
@@ -99,7 +100,7 @@ pub(crate) struct Guard {
     pub net_fired: u64,
 }
 
-/// What a step works with and the next one does not need. Of it, a clone has the pairs that were found.
+/// Buffers of a step, which the next one does not need. Of them, a clone has the pairs that were found.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
@@ -244,7 +245,7 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
-        [a, b].into_iter().for_each(|id| self.disturb(id));
+        [a, b].into_iter().for_each(|id| self.wake(id));
         Ok(())
     }
 

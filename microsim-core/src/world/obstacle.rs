@@ -35,7 +35,9 @@ impl World {
             return Err(Error::new(ErrorKind::Overlap { with }, "pose"));
         }
         self.obstacle_digests.push(digest(&obstacle));
-        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
+        for chemical in &mut self.chemicals {
+            chemical.close(|at| obstacle.nearest(at).1);
+        }
         self.obstacles.push(obstacle);
         Ok(ObstacleId(self.obstacles.len() as u32 - 1))
     }

@@ -1,4 +1,4 @@
-//! Putting organisms into the world and taking them out. Everything is checked before anything changes.
+//! Spawning and removing organisms. Everything is checked before anything changes.
 
 use super::World;
 use crate::capability::division::Divider;
@@ -49,7 +49,7 @@ impl World {
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         self.release_meals(id);
-        self.disturb_what_touches(id);
+        self.wake_touching(id);
         let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
@@ -169,7 +169,7 @@ impl World {
 
     /// Whether an organism overlaps discs within these bounds.
     fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
-        // Where it was spawned it still is, if there was no step since: that makes filling a world linear in its particles.
+        // Without a step since it was spawned it is still there: this makes filling a world linear in its particles.
         let (step, spawn_bounds) = &organism.spawned;
         if *step == self.step_index && !spawn_bounds.intersects(bounds) {
             return false;

@@ -1,4 +1,4 @@
-//! The phagocytic cup: the membrane folds around prey that is drawn in, and its lips close behind it.
+//! Lips of a phagocytic cup: the membrane folds around prey that is drawn in, and its two lips close behind it.
 //!
 //! ```text
 //!        lip  \           / lip          lips are driven around the prey until they are past it,
@@ -17,11 +17,11 @@ use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use glam::Vec2;
 
-/// Gap up to which a node counts as lying against the prey, in node radii.
+/// Gap below which a node lies against the prey, in node radii.
 const GRIP: f32 = 0.9;
 /// Nodes of each lip that are driven, from the last that lies against the prey outwards.
 const LIP: usize = 5;
-/// Lips closer than this, in rest lengths, close pair by pair from the prey outwards.
+/// Distance of the lips, in rest lengths, below which they close pair by pair from the prey outwards.
 const NARROW: f32 = 3.0;
 
 /// Where a membrane lies around prey: positions in the outline, counted on beyond its end.
@@ -29,7 +29,7 @@ const NARROW: f32 = 3.0;
 pub(crate) struct Fold {
     /// The deepest node.
     pub bottom: usize,
-    /// Last nodes that lie against the prey, before and after the bottom: so many places away from it.
+    /// Number of nodes from the bottom to the last one that lies against the prey, before and after it.
     pub before: usize,
     pub after: usize,
     /// Out of the cell.
@@ -43,7 +43,7 @@ impl Fold {
         let mouth = heading(place(prey, p) - place(organism, p));
         let deepest = |&(best, least): &(usize, f32), k: usize| {
             let (gap, away) = nearest(prey, ring[k] as usize, p);
-            // What lies on the cell's side of the prey comes before what lies beside it.
+            // Nodes on the cell's side of the prey come before nodes beside it.
             let depth = gap + away.dot(mouth) * p.radius[ring[k] as usize];
             if depth < least { (k, depth) } else { (best, least) }
         };
@@ -120,7 +120,7 @@ impl Cup<'_> {
         })
     }
 
-    /// Whether something else has got between the lips, which would crush it. They wait until it is gone, or their time is up.
+    /// Whether something else is between the lips, which would crush it. They wait until it is gone or the time limit is over.
     fn is_blocked(&self) -> bool {
         let (p, ring) = (self.particles, &self.organism.outline);
         let middle = self.fold.bottom + 2 * ring.len();
@@ -160,7 +160,7 @@ impl Cup<'_> {
         }
     }
 
-    /// Draws the lips together: all pairs across a wide mouth, in a narrow one each when the pair before it is shut.
+    /// Draws the lips together: all pairs of a wide mouth at once, in a narrow one each after the pair before it has closed.
     fn close(&self, contractions: &mut Vec<Contraction>) {
         let rest_length = self.organism.body.membrane().map_or(1.0, |membrane| membrane.rest_length);
         let mut inner = 0.0;
@@ -182,14 +182,16 @@ mod tests {
     use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, PlateletSpec, WorldConfig};
 
     #[test]
-    fn lips_wait_while_something_else_is_between_them() {
+    fn lips_do_not_close_on_other_organisms() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
         let prey = world.spawn(&AgarSpec::default().into(), Placement::at(56.0, 45.0)).unwrap();
         let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(90.0, 45.0)).unwrap();
         for _ in 0..900 {
             let mut inputs = Inputs::new();
-            world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
+            if let Some(at) = world.centroid(prey) {
+                inputs.set(cell, Intent::toward(at).unwrap());
+            }
             world.step(&inputs);
             if !world.scratch.contractions.is_empty() {
                 break;

@@ -1,4 +1,4 @@
-//! Census: what there is, and whether anything is where it must not be.
+//! Census: counts of what is in the world and of what must not happen.
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
@@ -26,8 +26,8 @@ pub struct Census {
     pub improper_absorptions: usize,
     /// How often a disc was found on the wrong side of the link of a membrane nearest to it, since the world was made.
     pub wrong_side: u64,
-    /// How often the membranes' safety net had to take a disc back, found by a ray, or to lay out links that crossed, since
-    /// the world was made.
+    /// How often a ray found a disc on the wrong side of a whole membrane, or links of a membrane crossed, since the world was
+    /// made. Both are repaired in the same step.
     pub net_fired: u64,
     /// Prey that lies partly within an engulfer that is not taking it in.
     pub partial_absorptions: usize,
@@ -92,7 +92,7 @@ impl World {
 
     /// Prey whose centre is inside an engulfer that does not hold it, or outside one that does.
     pub(in crate::world) fn improper_absorptions(&self) -> usize {
-        self.prey_that(|phase, outline, prey| {
+        self.count_prey(|phase, outline, prey| {
             let is_inside = contains_point(outline, self.centre_of(prey));
             match phase {
                 Some(MealPhase::Ingesting(_)) => false,
@@ -104,15 +104,15 @@ impl World {
 
     /// Prey with particles on both sides of a membrane that is not taking it in.
     pub(in crate::world) fn partial_absorptions(&self) -> usize {
-        self.prey_that(|phase, outline, prey| {
+        self.count_prey(|phase, outline, prey| {
             let mut sides = prey.particles().map(|i| contains_point(outline, self.particles.position(i as usize)));
             let first = sides.next();
             !matches!(phase, Some(MealPhase::Ingesting(_))) && sides.any(|side| Some(side) != first)
         })
     }
 
-    /// Number of prey for which something is true beside some engulfer: the phase of its meal, the engulfer's outline.
-    fn prey_that(&self, is_so: impl Fn(Option<MealPhase>, &[Vec2], &Organism) -> bool) -> usize {
+    /// Number of prey for which a condition holds with some engulfer, given the phase of the meal and the engulfer's outline.
+    fn count_prey(&self, is_so: impl Fn(Option<MealPhase>, &[Vec2], &Organism) -> bool) -> usize {
         let engulfers = self.organisms.iter().filter_map(|(_, o)| Some((o.engulfer.as_ref()?, self.outline_of(o))));
         let engulfers: Vec<_> = engulfers.collect();
         let prey = self.organisms.iter().filter(|(_, o)| o.prey.is_some() && !o.is_quarantined);

@@ -1,4 +1,4 @@
-//! How well a membrane hugs what it holds, and how a cell moves that has one.
+//! Shape of a membrane around its content, and motion of its cell.
 
 use crate::capability::Locomotion;
 use crate::geometry::coverage::Coverage;

@@ -1,4 +1,5 @@
-//! Measures by name: what scenarios bound and what files list.
+//! Measures of a world: the [`census`], the [`quality`] of constraints, [`membrane_quality`], and each measure by its name, as
+//! scenarios and output files use it.
 
 pub(crate) mod census;
 pub(crate) mod membrane_quality;
@@ -78,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn each_says_what_the_census_and_the_quality_say() {
+    fn each_measure_equals_its_field_of_census_or_quality() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(50.0, 45.0)).unwrap();
         (0..5).for_each(|_| world.step(&Inputs::new()));

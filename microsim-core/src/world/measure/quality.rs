@@ -1,4 +1,4 @@
-//! Quality: how well constraints hold and membranes hug what they hold.
+//! Quality: errors of constraints and the shape of membranes.
 
 use super::membrane_quality::CrawlQuality;
 use crate::capability::phagocytosis::MealPhase;
@@ -10,7 +10,7 @@ use crate::template::Role;
 use crate::world::World;
 use crate::world::contacts::NearPair;
 
-/// How well the constraints hold at the end of a step. All are 0 when nothing is violated.
+/// Errors of constraints at the end of a step. All are 0 when nothing is violated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quality {
     /// Mean relative error of the lengths of the rigid links of soft bodies' outlines.

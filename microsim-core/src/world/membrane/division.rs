@@ -1,5 +1,5 @@
-//! Division of cells with a membrane: a furrow closes around the equator, two links are swapped, one ring becomes two, and
-//! everything inside goes to the lobe that holds it. What a cell carries of it is [`crate::capability::division`].
+//! Division: a furrow closes around the equator of a cell, two links are swapped, one ring becomes two, and each lobe keeps
+//! its content.
 
 use crate::capability::Locomotion;
 use crate::capability::division::{Furrow, Order};
@@ -18,10 +18,10 @@ use crate::world::World;
 use glam::Vec2;
 use std::ops::Range;
 
-/// A link of a closing furrow's membrane that is longer than this, in rest lengths, gets a new node.
+/// Length of a link in a closing furrow above which it gets a new node, in rest lengths.
 const LONGEST: f32 = 1.15;
 
-/// Part of a cell: a ring, and what is in it.
+/// One side of a divided cell: a ring and its content.
 struct Lobe {
     outline: Vec<u32>,
     fluid_particles: Vec<u32>,
@@ -62,7 +62,7 @@ impl World {
             Ok(furrow) => {
                 let Self { organisms, fluids, .. } = self;
                 let Some(organism) = organisms.get_mut(id) else { return };
-                organism.note_first_nodes(fluids);
+                organism.record_nodes_per_root(fluids);
                 let Some(divider) = organism.divider.as_mut() else { return };
                 divider.furrow = Some(furrow);
                 divider.wanted_nodes = None;
@@ -72,12 +72,12 @@ impl World {
         }
     }
 
-    /// One step of a furrow: new nodes where the membrane is stretched, and the swap when both sides have met.
-    pub(super) fn constrict(&mut self, id: OrganismId) {
+    /// Advances a furrow by a step: adds nodes where the membrane is stretched, and swaps links when both sides have met.
+    pub(super) fn advance_furrow(&mut self, id: OrganismId) {
         let Some(organism) = self.organisms.get_mut(id) else { return };
         let Some(Furrow { elapsed, .. }) = organism.furrow() else { return };
         if organism.is_quarantined {
-            return self.abandon(id, Refusal::Quarantined);
+            return self.abandon_division(id, Refusal::Quarantined);
         }
         let elapsed = elapsed + self.config.dt;
         let Some(divider) = organism.divider.as_mut() else { return };
@@ -88,22 +88,24 @@ impl World {
             insert_node_in(organism, shorter_arc(organism), &mut self.particles);
         }
         let Some(organism) = self.organisms.get(id) else { return };
-        match self.closing_swap(organism) {
+        match self.division_swap(organism) {
             Ok(swap) => self.split(id, &swap),
-            Err(reason) if elapsed >= time_limit => self.abandon(id, reason),
+            Err(reason) if elapsed >= time_limit => self.abandon_division(id, reason),
             Err(_) => {}
         }
     }
 
-    fn abandon(&mut self, id: OrganismId, reason: Refusal) {
+    fn abandon_division(&mut self, id: OrganismId, reason: Refusal) {
         let Some(organism) = self.organisms.get_mut(id) else { return };
-        organism.divider.iter_mut().for_each(|divider| divider.furrow = None);
-        organism.adapt_nodes(&self.fluids);
+        if let Some(divider) = &mut organism.divider {
+            divider.furrow = None;
+        }
+        organism.update_wanted_nodes(&self.fluids);
         self.events.push(Event::DivisionAbandoned { organism: id, reason });
     }
 
-    /// Makes one cell two: the lobe that is cut off becomes an organism of its own, like the first in everything but its
-    /// handle and its random numbers.
+    /// Splits a cell: the lobe that is cut off becomes an organism with the same properties, but a handle and random numbers
+    /// of its own.
     pub(in crate::world) fn split(&mut self, id: OrganismId, swap: &Swap) {
         let Some(parent) = self.organisms.get(id) else { return };
         let (left, cut) = swap.cut(&parent.outline);
@@ -121,14 +123,14 @@ impl World {
         let fluid = self.organisms.get(id).and_then(|parent| parent.fluid);
         self.exemptions.inherit(id.index, daughter_id.index);
         self.organisms.insert(daughter);
-        self.rehome_fluid(&cut.fluid_particles, fluid, daughter_id);
+        self.move_cytoplasm(&cut.fluid_particles, fluid, daughter_id);
         self.move_meals(&cut.meals, id, daughter_id);
-        self.round_off(id, left);
-        self.round_off(daughter_id, cut);
+        self.reduce_to_lobe(id, left);
+        self.reduce_to_lobe(daughter_id, cut);
         self.events.push(Event::Divided { parent: id, daughter: daughter_id });
     }
 
-    /// What a ring of a cell encloses.
+    /// A ring of a cell with its content.
     fn lobe(&self, cell: &Organism, outline: Vec<u32>) -> Lobe {
         let ring: Vec<Vec2> = outline.iter().map(|&i| self.particles.position(i as usize)).collect();
         let is_inside = |i: u32| contains_point(&ring, self.particles.position(i as usize));
@@ -147,8 +149,8 @@ impl World {
         }
     }
 
-    /// Makes a lobe of a divided cell a cell at rest.
-    fn round_off(&mut self, id: OrganismId, lobe: Lobe) {
+    /// Reduces a divided cell to one of its lobes, at rest.
+    fn reduce_to_lobe(&mut self, id: OrganismId, lobe: Lobe) {
         let Self { organisms, particles, fluids, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
         let before = organism.outline.len();
@@ -163,8 +165,10 @@ impl World {
         organism.locomotion = Locomotion::Crawl { front_centre: None };
         organism.goal = None;
         set_outline(organism, lobe.outline, particles);
-        organism.divider.iter_mut().for_each(|divider| divider.end());
-        organism.adapt_nodes(fluids);
+        if let Some(divider) = &mut organism.divider {
+            divider.end();
+        }
+        organism.update_wanted_nodes(fluids);
     }
 }
 

@@ -10,15 +10,15 @@ use crate::organism::ring_surgery::Swap;
 use crate::world::World;
 use glam::Vec2;
 
-/// Nodes on both sides of the bottom of the furrow between which links are swapped.
-const REACH: usize = 4;
-/// Share of its nodes by which a membrane may grow in a division: two circles need 1.41 times the nodes of one.
+/// Number of nodes on both sides of the bottom of the furrow between which the links to swap are searched for.
+const SEARCHED_NODES: usize = 4;
+/// Share of nodes that a division may add: two circles need 1.41 times the nodes of one.
 const SLACK: f32 = 0.6;
 
 impl World {
-    /// Where the furrow is to be, if nothing is against it.
+    /// The furrow across `axis`, or across the longest axis, or the reason why the cell cannot divide.
     pub(super) fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
-        Self::hindrance(organism).map_or(Ok(()), Err)?;
+        Self::refusal(organism).map_or(Ok(()), Err)?;
         let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else {
             return Err(Refusal::TooSmall);
         };
@@ -45,8 +45,8 @@ impl World {
         Ok(Furrow { nodes, width, elapsed: 0.0 })
     }
 
-    /// Whether soft prey inside a cell reaches the line across `axis` through a point, or comes nearer than the membrane
-    /// of the furrow would need.
+    /// Whether soft prey inside a cell lies on the line across `axis` through a point, or closer than the membrane of the
+    /// furrow needs.
     fn soft_prey_reaches(&self, organism: &Organism, point: Vec2, axis: Vec2) -> bool {
         let room = organism.body.membrane().map_or(0.0, |membrane| membrane.rest_length);
         let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
@@ -58,8 +58,8 @@ impl World {
         })
     }
 
-    /// The links to swap, if both sides of the furrow are near enough and everything inside is in one lobe or the other.
-    pub(super) fn closing_swap(&self, organism: &Organism) -> Result<Swap, Refusal> {
+    /// The links to swap, if both sides of the furrow are close enough and all content lies in one lobe or the other.
+    pub(super) fn division_swap(&self, organism: &Organism) -> Result<Swap, Refusal> {
         let (Some(furrow), Some(divider), Some(membrane)) =
             (organism.furrow(), &organism.divider, organism.body.membrane())
         else {
@@ -68,7 +68,7 @@ impl World {
         let outline = self.outline_of(organism);
         let count = outline.len();
         let place = |node: u32| organism.outline.iter().position(|&other| other == node).ok_or(Refusal::FurrowOpen);
-        let around = |k: usize| (0..=2 * REACH).map(move |step| (k + count + step - REACH) % count);
+        let around = |k: usize| (0..=2 * SEARCHED_NODES).map(move |step| (k + count + step - SEARCHED_NODES) % count);
         let (first, second) = (place(furrow.nodes[0])?, place(furrow.nodes[1])?);
         let swap = Swap::shortest([&outline, &outline], around(first), around(second)).ok_or(Refusal::FurrowOpen)?;
         if swap.length > divider.params.closing_length * membrane.rest_length {
@@ -81,8 +81,8 @@ impl World {
         self.check_lobes(organism, &divider.params, &left, &cut).map(|()| swap)
     }
 
-    /// Checks that both rings are large enough, that every particle of cytoplasm is in exactly one of them, and that all of
-    /// every prey is in the same.
+    /// Checks that both rings are large enough, that each particle of cytoplasm is in exactly one of them, and that no prey
+    /// is in both.
     fn check_lobes(
         &self,
         organism: &Organism,
@@ -129,7 +129,7 @@ fn long_axis(outline: &[Vec2], centre: Vec2) -> Vec2 {
     direction_or(axis, Vec2::X)
 }
 
-/// The node of the outline on each side of the axis that is nearest to the line across it.
+/// On each side of the axis the node of the outline that is nearest to the line across it.
 fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2) -> Option<[u32; 2]> {
     let nearest = |is_left: bool| {
         let on_side =

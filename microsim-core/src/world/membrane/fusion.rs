@@ -1,5 +1,5 @@
-//! Fusion of two cells with membranes that touch: two links are swapped, and the smaller cell's nodes, cytoplasm and prey
-//! become the larger one's.
+//! Fusion of two cells with membranes that touch: two links are swapped, and the larger cell takes over the nodes, cytoplasm
+//! and prey of the smaller one.
 
 use crate::capability::division::Order;
 use crate::capability::phagocytosis::Meal;
@@ -31,12 +31,12 @@ impl World {
         }
     }
 
-    /// Which of two cells takes the other in, and the links to swap, if nothing is against it.
+    /// The larger cell, the smaller cell and the links to swap, or the reason why they cannot fuse.
     fn plan_fusion(&self, a: OrganismId, b: OrganismId) -> Result<(OrganismId, OrganismId, Swap), Refusal> {
         let partner =
             |id| self.organisms.get(id).filter(|organism| organism.divider.is_some() && organism.fluid.is_some());
         let (one, other) = (partner(a).ok_or(Refusal::NoPartner)?, partner(b).ok_or(Refusal::NoPartner)?);
-        Self::hindrance(one).or_else(|| Self::hindrance(other)).map_or(Ok(()), Err)?;
+        Self::refusal(one).or_else(|| Self::refusal(other)).map_or(Ok(()), Err)?;
         let (Some(membrane), Some(fluid), Some(divider)) = (one.body.membrane(), one.fluid, &one.divider) else {
             return Err(Refusal::NoPartner);
         };
@@ -51,13 +51,13 @@ impl World {
         }
         let is_larger = one.fluid_particles.len() >= other.fluid_particles.len();
         let (into, from) = if is_larger { (a, b) } else { (b, a) };
-        let swap = self.joining_swap(into, from).ok_or(Refusal::NotTouching)?;
+        let swap = self.fusion_swap(into, from).ok_or(Refusal::NotTouching)?;
         let is_near = swap.length <= divider.params.closing_length * membrane.rest_length;
         is_near.then_some((into, from, swap)).ok_or(Refusal::NotTouching)
     }
 
     /// The links whose swap joins two cells with the shortest new links, if nothing lies between them.
-    fn joining_swap(&self, into: OrganismId, from: OrganismId) -> Option<Swap> {
+    fn fusion_swap(&self, into: OrganismId, from: OrganismId) -> Option<Swap> {
         let (a, b) = (self.outline_of(self.organisms.get(into)?), self.outline_of(self.organisms.get(from)?));
         let swap = Swap::shortest([&a, &b], 0..a.len(), 0..b.len())?;
         let (i, j) = (swap.first, swap.second);
@@ -78,25 +78,25 @@ impl World {
         self.move_meals(&meals, from, into);
         let Some(smaller) = self.organisms.remove(from) else { return };
         self.exemptions.forget(from.index);
-        self.adopt(into, smaller, outline);
+        self.take_over(into, smaller, outline);
         let Self { organisms, fluids, events, .. } = self;
         let Some(larger) = organisms.get_mut(into) else { return };
         if let Some(divider) = &mut larger.divider {
             divider.nodes_per_root = Some(if a > b { a } else { b });
             divider.lobes = 2.0;
         }
-        larger.adapt_nodes(fluids);
+        larger.update_wanted_nodes(fluids);
         events.push(Event::Fused { into, from });
     }
 
-    /// Gives a cell everything that another one consisted of, within one outline.
-    pub(super) fn adopt(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
+    /// Gives a cell all particles and prey of another one, within a common outline.
+    pub(super) fn take_over(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
         let Some(by) = self.organisms.get(id).map(|cell| self.origin_of(cell) - self.origin_of(&other)) else { return };
         for i in other.particles() {
             self.particles.owner[i as usize] = id.index;
             self.particles.shift_origin(i as usize, by);
         }
-        self.rehome_fluid(&other.fluid_particles, other.fluid, id);
+        self.move_cytoplasm(&other.fluid_particles, other.fluid, id);
         let Self { organisms, particles, .. } = self;
         let Some(cell) = organisms.get_mut(id) else { return };
         let before = cell.outline.len();
@@ -109,12 +109,13 @@ impl World {
         cell.fluid_particles.extend(&other.fluid_particles);
         cell.phagosomes.extend(other.phagosomes);
         cell.spawn_area += other.spawn_area;
-        let pending = other.engulfer.map_or(0.0, |engulfer| engulfer.pending_growth);
-        cell.engulfer.iter_mut().for_each(|engulfer| engulfer.pending_growth += pending);
+        if let (Some(engulfer), Some(other)) = (&mut cell.engulfer, &other.engulfer) {
+            engulfer.pending_growth += other.pending_growth;
+        }
         set_outline(cell, outline, particles);
     }
 
-    /// Point that the coordinates of an organism with a body are relative to.
+    /// Origin of the coordinates of an organism.
     fn origin_of(&self, organism: &Organism) -> Vec2 {
         organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize))
     }

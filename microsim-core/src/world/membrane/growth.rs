@@ -1,4 +1,4 @@
-//! Growth of a filled chain (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
+//! Growth of an amoeboid cell (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
 use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::{contains_point, signed_area};
@@ -15,10 +15,10 @@ use glam::Vec2;
 
 /// Angle between new particles in turns of the golden ratio, radians (Vogel 1979): they never fall on one line.
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
-/// So many times as much cytoplasm as it has room for at rest a membrane takes before it has had time to stretch: more tears
-/// at it faster than the substeps of a step can pass on.
+/// Largest amount of cytoplasm in a membrane that has not stretched yet, over its content at rest. With more the pressure
+/// rises faster than the substeps of a step can spread it.
 const MOST_CROWDED: f32 = 1.5;
-/// New particles lie this share of the spacing from their common centre, times the square root of their number.
+/// Distance of new particle number `n` from their common centre, in spacings times the square root of `n`.
 const CROWDING: f32 = 0.3;
 
 impl World {
@@ -35,30 +35,32 @@ impl World {
             return Err(Error::unsupported("organism", "an organism that is not dividing"));
         }
         self.enlarge(id, nodes, particles)?;
-        let grown = self.organisms.get_mut(id);
-        grown.into_iter().for_each(|organism| organism.keep_added_nodes(nodes, &self.fluids));
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.add_wanted_nodes(nodes, &self.fluids);
+        }
         Ok(())
     }
 
-    /// Takes a membrane one node nearer to the number that it wants, while no gate holds on to its nodes.
-    pub(super) fn turn_over(&mut self, id: OrganismId) {
+    /// Adds or removes one node of a membrane that has not reached its wanted number of nodes, unless prey is going in.
+    pub(super) fn adapt_membrane(&mut self, id: OrganismId) {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id).filter(|organism| Self::hindrance(organism).is_none()) else {
+        let Some(organism) = organisms.get_mut(id).filter(|organism| Self::refusal(organism).is_none()) else {
             return;
         };
         let count = organism.outline.len() as u32;
-        let Some(wanted) = organism.divider.as_ref().and_then(|divider| divider.wanted_nodes) else { return };
-        if count < wanted && room {
+        let Some(divider) = &mut organism.divider else { return };
+        let Some(wanted) = divider.wanted_nodes else { return };
+        if count == wanted {
+            divider.wanted_nodes = None;
+        } else if count < wanted && room {
             insert_node(organism, particles);
         } else if count > wanted && organism.has_spare_node() {
             remove_node(organism, particles);
-        } else if count == wanted {
-            organism.divider.as_mut().into_iter().for_each(|divider| divider.wanted_nodes = None);
         }
     }
 
-    /// The same, with nodes that the content asks for.
+    /// Adds nodes and cytoplasm; the wanted number of nodes stays.
     pub(in crate::world) fn enlarge(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
         let limit = u64::from(self.config.max_particles);
@@ -80,8 +82,8 @@ impl World {
     }
 }
 
-/// Checks that a membrane with so many more nodes goes round so much more cytoplasm without a link at its limit, and that
-/// what it encloses now can take it at once.
+/// Checks that a membrane with `nodes` more nodes can hold `particles` more cytoplasm below its strain limit, and that they
+/// fit into its present area.
 fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, particles: u32) -> Result<(), Error> {
     let Some(membrane) = organism.body.membrane() else { return Ok(()) };
     let longest = STRAIN_LIMIT * membrane.rest_length * (organism.outline.len() as f32 + nodes as f32);
@@ -94,7 +96,7 @@ fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, part
     (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
 }
 
-/// How many particles of cytoplasm find room, at rest, in what a membrane encloses now.
+/// Number of particles of cytoplasm that the present area of a membrane holds at rest.
 fn room(organism: &Organism, p: &Particles, spacing: f32) -> f32 {
     let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
     signed_area(&outline) / rest_area(1, spacing)

@@ -1,4 +1,7 @@
-//! Cells that change their membrane: growth, division and fusion.
+//! Cells that change their membrane: growth, division (with its furrow) and fusion.
+//!
+//! Parameters and state are in [`crate::capability::division`], the contraction of the furrow in
+//! [`crate::behavior::division`], changes of single rings in [`crate::organism::ring_surgery`].
 
 mod division;
 mod furrow;
@@ -15,7 +18,7 @@ use crate::organism::Organism;
 use crate::world::World;
 
 impl World {
-    /// One step of all cells that divide, fuse, or adapt their membrane to what they hold since.
+    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content.
     pub(crate) fn divide_and_fuse(&mut self) {
         let dt = self.config.dt;
         let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
@@ -25,13 +28,15 @@ impl World {
                 Some(Order::Fuse { with }) => self.try_fusion(id, with),
                 None => {}
             }
-            self.divider_mut(id).into_iter().for_each(|divider| divider.relax(dt));
-            self.constrict(id);
-            self.turn_over(id);
+            if let Some(divider) = self.divider_mut(id) {
+                divider.relax(dt);
+            }
+            self.advance_furrow(id);
+            self.adapt_membrane(id);
         }
     }
 
-    /// Notes what a cell is to do with the next step.
+    /// Stores an order, which the next step carries out.
     pub(in crate::world) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         let divider = organism.divider.as_mut();
@@ -43,8 +48,8 @@ impl World {
         self.organisms.get_mut(id).and_then(|organism| organism.divider.as_mut())
     }
 
-    /// What keeps a cell from changing the shape of its membrane.
-    pub(in crate::world) fn hindrance(organism: &Organism) -> Option<Refusal> {
+    /// The reason why a cell cannot divide or fuse now, if there is one.
+    pub(in crate::world) fn refusal(organism: &Organism) -> Option<Refusal> {
         let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
         if organism.is_quarantined {
             Some(Refusal::Quarantined)

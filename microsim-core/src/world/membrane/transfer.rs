@@ -1,12 +1,12 @@
-//! Cytoplasm and prey that pass from one cell to another, with all tables that name their owner.
+//! Cytoplasm and prey that pass from one cell to another in a division or fusion.
 
 use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::id::OrganismId;
 use crate::world::World;
 
 impl World {
-    /// Moves cytoplasm from one fluid to that of another cell.
-    pub(super) fn rehome_fluid(&mut self, moving: &[u32], from: Option<u32>, to: OrganismId) {
+    /// Moves cytoplasm from the fluid `from` to that of another cell.
+    pub(super) fn move_cytoplasm(&mut self, moving: &[u32], from: Option<u32>, to: OrganismId) {
         let Self { organisms, particles, fluids, .. } = self;
         let Some(into) = organisms.get(to).and_then(|organism| organism.fluid) else { return };
         for &i in moving {
@@ -19,21 +19,23 @@ impl World {
         fluids[into as usize].particles.extend(moving);
     }
 
-    /// Hands prey that is inside from one cell to another.
+    /// Moves prey inside a cell to another cell.
     pub(super) fn move_meals(&mut self, meals: &[Meal], from: OrganismId, to: OrganismId) {
         for meal in meals {
-            self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(Some(to)));
+            self.set_held_by(meal.prey, Some(to));
         }
         let stays = |meal: &Meal| meals.iter().all(|moved| moved.prey != meal.prey);
-        self.change_engulfer(from, |engulfer| engulfer.meals.retain(stays));
-        self.change_engulfer(to, |engulfer| engulfer.meals.extend(meals.iter().cloned()));
+        self.update_engulfer(from, |engulfer| engulfer.meals.retain(stays));
+        self.update_engulfer(to, |engulfer| engulfer.meals.extend(meals.iter().cloned()));
     }
 
-    fn change_engulfer(&mut self, id: OrganismId, change: impl FnOnce(&mut Engulfer)) {
+    fn update_engulfer(&mut self, id: OrganismId, change: impl FnOnce(&mut Engulfer)) {
         let engulfer = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.take());
         let Some(mut engulfer) = engulfer else { return };
         change(&mut engulfer);
         engulfer.held_area = self.held_area(id, &engulfer);
-        self.organisms.get_mut(id).into_iter().for_each(|organism| organism.engulfer = Some(engulfer.clone()));
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.engulfer = Some(engulfer);
+        }
     }
 }

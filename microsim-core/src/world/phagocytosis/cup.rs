@@ -1,5 +1,5 @@
-//! Ingestion by cup: nodes for the fold around prey, the cut when its lips have met, and what becomes of the arc that was
-//! cut off, the phagosome. How the lips move is [`crate::behavior::phagocytosis`].
+//! Ingestion by cup: the membrane around the prey gets more nodes, and when the lips meet, the arc around the prey is cut
+//! off and becomes a phagosome.
 
 use super::phagosome::LEAST_NODES;
 use crate::behavior::phagocytosis::lips::Fold;
@@ -11,17 +11,17 @@ use crate::organism::{Organism, Phagosome};
 use crate::world::World;
 use glam::Vec2;
 
-/// Nodes beyond those that lie against prey among which the links to swap are looked for.
-const REACH: usize = 4;
+/// Number of nodes, beyond those that lie against prey, between which the links to swap are searched for.
+const SEARCHED_NODES: usize = 4;
 
 impl World {
-    /// One step of prey that a cup takes in; returns whether the cup has closed.
+    /// Advances a cup by a step; returns whether it has closed.
     pub(super) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let (Some(organism), Some(eaten)) = (self.organisms.get(id), self.organisms.get(prey)) else { return false };
         let Some(fold) = Fold::find(organism, eaten, &self.particles) else { return false };
-        if let Some(swap) = self.closing_cut(organism, prey, &fold, params) {
-            self.cut_off(id, prey, &swap);
+        if let Some(swap) = self.cup_swap(organism, prey, &fold, params) {
+            self.form_phagosome(id, prey, &swap);
             return true;
         }
         let Self { organisms, particles, .. } = self;
@@ -33,8 +33,8 @@ impl World {
         false
     }
 
-    /// The links to swap, if the lips are near enough and all of the prey, and nothing else, is behind them.
-    fn closing_cut(
+    /// The links to swap, if the lips are close enough and enclose all of the prey and nothing else.
+    fn cup_swap(
         &self,
         organism: &Organism,
         prey: OrganismId,
@@ -43,29 +43,29 @@ impl World {
     ) -> Option<Swap> {
         let outline = self.outline_of(organism);
         let count = outline.len();
-        let window = |from: usize| (from..from + 2 * REACH).map(move |k| k % count);
-        let firsts = window(fold.bottom + 2 * count - fold.before - 2 * REACH + 1);
+        let window = |from: usize| (from..from + 2 * SEARCHED_NODES).map(move |k| k % count);
+        let firsts = window(fold.bottom + 2 * count - fold.before - 2 * SEARCHED_NODES + 1);
         let swap = Swap::shortest([&outline, &outline], firsts, window(fold.bottom + fold.after))?;
         if swap.length > params.closing_length * organism.body.membrane()?.rest_length {
             return None;
         }
-        let (left, pocket) = swap.cut(&outline);
+        let (left, arc) = swap.cut(&outline);
         let holds = |ring: &[Vec2], i: usize| contains_point(ring, self.particles.position(i));
-        let is_cut = pocket.len() >= LEAST_NODES && left.len() >= 2 * LEAST_NODES && signed_area(&pocket) < 0.0;
-        let is_sound = is_cut && is_simple(&left) && is_simple(&pocket);
+        let is_cut = arc.len() >= LEAST_NODES && left.len() >= 2 * LEAST_NODES && signed_area(&arc) < 0.0;
+        let is_sound = is_cut && is_simple(&left) && is_simple(&arc);
         let p = &self.particles;
         let own = p.owner[organism.outline[0] as usize];
         let is_foreign = |&i: &usize| p.owner[i] != prey.index && p.owner[i] != own && p.inv_mass[i] > 0.0;
         let is_clear = is_sound
-            && self.discs_of(prey).all(|i| holds(&pocket, i))
+            && self.discs_of(prey).all(|i| holds(&arc, i))
             && organism.fluid_particles.iter().all(|&i| holds(&left, i as usize))
-            && !p.live().filter(is_foreign).any(|i| holds(&pocket, i))
-            && !self.obstacles.iter().any(|obstacle| contains_point(&pocket, obstacle.bounds().center()));
+            && !p.live().filter(is_foreign).any(|i| holds(&arc, i))
+            && !self.obstacles.iter().any(|obstacle| contains_point(&arc, obstacle.bounds().center()));
         is_clear.then_some(swap)
     }
 
-    /// Re-wires the ring: prey and the membrane around it are inside now.
-    fn cut_off(&mut self, id: OrganismId, prey: OrganismId, swap: &Swap) {
+    /// Cuts the arc around prey off the outline: it becomes a phagosome inside the cell.
+    fn form_phagosome(&mut self, id: OrganismId, prey: OrganismId, swap: &Swap) {
         let area = self.area_of(prey);
         let Self { organisms, particles, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };

@@ -37,7 +37,7 @@ impl World {
         engulfer.pending_growth += eaten * params.growth_yield;
     }
 
-    /// Frees digested prey and returns its area.
+    /// Removes digested prey and returns its area.
     fn consume(&mut self, id: OrganismId, prey: OrganismId) -> f32 {
         let Some((kind, area)) = self.organisms.get(prey).map(|organism| (organism.kind, organism.spawn_area)) else {
             return 0.0;
@@ -47,9 +47,9 @@ impl World {
         if is_removed { area } else { 0.0 }
     }
 
-    /// Turns area that was digested into cytoplasm, one particle a step so that nothing bursts, and into the membrane
-    /// that it needs.
-    pub(super) fn grow_pending(&mut self, id: OrganismId) {
+    /// Turns digested area into cytoplasm, at most one particle per step so that the membrane can follow, and adds the nodes
+    /// that the membrane then needs.
+    pub(super) fn grow_from_digestion(&mut self, id: OrganismId) {
         let Some(organism) = self.organisms.get_mut(id) else { return };
         let Some(fluid) = organism.fluid else { return };
         let each = rest_area(1, self.fluids[fluid as usize].params.spacing);
@@ -58,11 +58,11 @@ impl World {
         };
         engulfer.pending_growth -= each;
         let nodes = organism.missing_nodes();
-        // A world that is full, or a cell that is gone, does not grow.
+        // In a full world the cell does not grow.
         let _ = self.enlarge(id, nodes, 1);
     }
 
-    /// Prey that was released gets its size back, slowly enough for what lies around it to give way.
+    /// Lets released prey return to its full size, slowly enough for its neighbours to make room.
     pub(super) fn regrow_free_prey(&mut self) {
         let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held() && !organism.is_quarantined;
         let free: Vec<OrganismId> = self.organisms.iter().filter(|(_, o)| is_free(o)).map(|(id, _)| id).collect();

@@ -15,7 +15,7 @@ use std::f32::consts::PI;
 const TOUCH_GAP: f32 = 0.5;
 
 impl World {
-    /// What touches the front of an engulfer in this step.
+    /// The prey that touches the front of an engulfer in this step.
     pub(super) fn encounters(&self, id: OrganismId) -> Vec<Encounter> {
         let Some(organism) = self.organisms.get(id) else { return Vec::new() };
         let front = front_nodes(organism);
@@ -36,8 +36,8 @@ impl World {
         groups.filter_map(|group| self.encounter(group[0], group.len() as u32, centre, to_goal, area)).collect()
     }
 
-    /// Whether two discs touch: in any substep of this step, or nearly so now, because a contact between soft bodies
-    /// flickers from substep to substep.
+    /// Whether two discs touched in any substep of this step or are close now: contacts of soft bodies come and go from
+    /// substep to substep.
     fn is_contact(&self, pair: &NearPair) -> bool {
         pair.touched || pair.gap < TOUCH_GAP * self.particles.smaller_radius(pair.i, pair.j)
     }

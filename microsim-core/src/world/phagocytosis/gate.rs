@@ -7,15 +7,15 @@ use crate::solver::contact::shift;
 use crate::world::World;
 use glam::Vec2;
 
-/// Share of a node's radius by which prey may still overlap the membrane when it counts as inside.
+/// Overlap with the membrane up to which prey counts as inside, as a share of a node's radius.
 const OVERLAP: f32 = 0.25;
-/// Prey that is neither inside nor outside is placed on one side of the membrane after so many time limits.
+/// Time after which prey that is still between both sides is moved to one of them, in time limits.
 const PLACED_AFTER: f32 = 2.0;
 
 impl World {
-    /// Widens the gate to where the prey is now, and says where that is. After the time limit the ray cast decides: prey
-    /// whose centre is outside is driven out, and after as much time again everything is put where its centre is.
-    pub(super) fn pass_gate(
+    /// Widens the gate to the nodes near the prey and returns the prey's side. At the time limit prey whose centre is outside
+    /// is expelled; at twice the time limit all of the prey is moved to the side of its centre.
+    pub(super) fn advance_gate(
         &mut self,
         id: OrganismId,
         meal: &mut Meal,
@@ -41,7 +41,7 @@ impl World {
         if meal.is_expelled { PreySide::Outside } else { PreySide::Inside }
     }
 
-    /// Moves every disc of prey that is not on one side of an outline there, next to the nearest place.
+    /// Moves all discs of prey to one side of an outline, each to the nearest point there.
     fn place_prey(&mut self, prey: OrganismId, inside: bool, outline: &[Vec2], clearance: f32) {
         for i in self.discs_of(prey).collect::<Vec<_>>() {
             let at = self.particles.position(i);
@@ -57,7 +57,7 @@ impl World {
         }
     }
 
-    /// Opens the gate to the nodes next to the prey: it may have slid along the membrane since the gate was opened.
+    /// Adds the nodes near the prey to the gate: prey may slide along the membrane.
     fn widen_gate(&mut self, id: OrganismId, meal: &mut Meal) {
         let (Some(engulfer), Some(prey)) = (self.organisms.get(id), self.organisms.get(meal.prey)) else { return };
         let p = &self.particles;
@@ -71,7 +71,7 @@ impl World {
         meal.gate.extend(nodes);
     }
 
-    /// Where all discs of prey lie with respect to an outline whose inner edge is `clearance` inside its line.
+    /// Side of an outline on which all discs of prey lie. The inner surface is `clearance` inside the outline.
     fn side_of_prey(&self, prey: OrganismId, outline: &[Vec2], clearance: f32) -> PreySide {
         let (mut inside, mut outside) = (self.organisms.get(prey).is_some(), true);
         for i in self.discs_of(prey) {
@@ -89,7 +89,7 @@ impl World {
     }
 }
 
-/// Where prey is.
+/// Side of a membrane on which prey lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PreySide {
     Inside,

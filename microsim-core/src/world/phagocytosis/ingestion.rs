@@ -1,5 +1,4 @@
-//! Ingestion: prey between the moment in which an engulfer begins to take it in and the one in which all of it is inside, or
-//! all of it outside again.
+//! Ingestion: from its beginning until all of the prey is inside, or all of it is outside again.
 
 use super::encounter::front_nodes;
 use super::gate::PreySide;
@@ -8,12 +7,13 @@ use crate::event::Event;
 use crate::id::OrganismId;
 use crate::world::World;
 
-/// Prey has shrunk to its scale for ingestion at this share of the time limit.
+/// Share of the time limit at which soft prey has shrunk to its scale for ingestion.
 const SHRUNK_BY: f32 = 0.6;
-/// Fewest membrane nodes of a cell that folds around prey; with less the fold takes in too much of the ring.
+/// Fewest membrane nodes of a cell that forms a cup: in a smaller one the cup takes too much of the membrane.
 const CUP_NODES: usize = 36;
 
 impl World {
+    /// Opens a gate for prey, or prepares the membrane for a cup.
     pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
         let Self { organisms, fluids, exemptions, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
@@ -25,12 +25,13 @@ impl World {
                 meal.gate = front_nodes(organism);
                 exemptions.open_gate(&meal.gate, meal.prey.index);
             }
-            IngestionWay::Cup => organism.note_first_nodes(fluids),
+            IngestionWay::Cup => organism.record_nodes_per_root(fluids),
         }
-        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(Some(id)));
+        self.set_held_by(meal.prey, Some(id));
         self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
     }
 
+    /// Advances all ingestions of an engulfer by a step; those that reach the time limit outside are given up.
     pub(super) fn advance_ingestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
         let params = engulfer.params;
         engulfer.meals.retain_mut(|meal| {
@@ -40,18 +41,18 @@ impl World {
             if meal.class == PreyClass::Soft {
                 let part = elapsed / (SHRUNK_BY * params.time_limit);
                 let scale = 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 };
-                // Prey that was released a moment ago has not got its size back yet.
+                // Recently released prey is still smaller than its full size.
                 let present = self.present_scale(meal.prey);
                 self.set_scale(meal.prey, if scale < present { scale } else { present });
             }
             let side = match meal.way {
-                IngestionWay::Gate => self.pass_gate(id, meal, &params, elapsed),
+                IngestionWay::Gate => self.advance_gate(id, meal, &params, elapsed),
                 IngestionWay::Cup if self.advance_cup(id, meal.prey, &params) => PreySide::Inside,
                 IngestionWay::Cup => PreySide::Outside,
             };
             match side {
-                PreySide::Inside => self.complete(id, meal),
-                PreySide::Outside if elapsed >= params.time_limit => self.release(id, meal),
+                PreySide::Inside => self.complete_ingestion(id, meal),
+                PreySide::Outside if elapsed >= params.time_limit => self.abort_ingestion(id, meal),
                 PreySide::Outside | PreySide::Between => return true,
             }
             side == PreySide::Inside
@@ -59,7 +60,7 @@ impl World {
     }
 
     /// Closes the gate behind prey that is inside.
-    fn complete(&mut self, id: OrganismId, meal: &mut Meal) {
+    fn complete_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
         self.exemptions.close_gate(&meal.gate, meal.prey.index);
         meal.gate.clear();
         meal.phase = MealPhase::Ingested;
@@ -67,9 +68,9 @@ impl World {
     }
 
     /// Closes the gate behind prey that stayed outside.
-    fn release(&mut self, id: OrganismId, meal: &Meal) {
+    fn abort_ingestion(&mut self, id: OrganismId, meal: &Meal) {
         self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        self.organisms.get_mut(meal.prey).into_iter().for_each(|organism| organism.set_held_by(None));
+        self.set_held_by(meal.prey, None);
         self.events.push(Event::Released { engulfer: id, prey: meal.prey });
     }
 }

@@ -1,5 +1,8 @@
-//! Carries out what phagocytosis decides: encounters are counted, prey is taken in (see [`super::ingestion`]), digested and
-//! removed, and its engulfer grows.
+//! Phagocytosis: how a cell takes in prey, digests it and grows. Each file is one part of it, in the order of a meal:
+//! [`encounter`], [`ingestion`] through a [`gate`] or by a [`cup`], [`phagosome`], [`digestion`].
+//!
+//! The conditions and parameters are in [`crate::capability::phagocytosis`]; the forces on prey and on the lips of a cup in
+//! [`crate::behavior::phagocytosis`].
 
 mod cup;
 mod digestion;
@@ -14,7 +17,7 @@ use crate::organism::Organism;
 use crate::world::World;
 
 impl World {
-    /// One step of all engulfers: conditions, gates, ingestion, digestion and growth.
+    /// Advances all engulfers by a step: encounters, ingestion, digestion and growth.
     pub(crate) fn advance_phagocytosis(&mut self) {
         self.regrow_free_prey();
         let engulfers: Vec<OrganismId> = self
@@ -25,48 +28,54 @@ impl World {
             .collect();
         for id in engulfers {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
-            self.drop_lost_meals(&mut engulfer);
-            for k in engulfer.touch(&self.encounters(id), self.config.dt) {
+            self.remove_lost_meals(&mut engulfer);
+            for k in engulfer.advance_touching(&self.encounters(id), self.config.dt) {
                 self.begin_ingestion(id, &mut engulfer.meals[k]);
             }
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
             let is_folded = engulfer.fold_length > 0.0;
-            let is_rid = self.advance_phagosomes(id, &engulfer);
+            let has_removed = self.advance_phagosomes(id, &engulfer);
             engulfer.held_area = self.held_area(id, &engulfer);
             engulfer.fold_length = self.fold_length(id, &engulfer);
-            let has_spare_nodes = is_rid || (is_folded && engulfer.fold_length == 0.0);
+            let has_spare_nodes = has_removed || (is_folded && engulfer.fold_length == 0.0);
             if let Some(organism) = self.organisms.get_mut(id) {
                 organism.engulfer = Some(engulfer);
                 if has_spare_nodes {
-                    organism.adapt_nodes(&self.fluids);
+                    organism.update_wanted_nodes(&self.fluids);
                 }
             }
-            self.grow_pending(id);
+            self.grow_from_digestion(id);
         }
     }
 
-    /// Frees all prey of an organism that is about to be removed or was frozen.
+    /// Releases all prey of an organism that is about to be removed or was frozen.
     pub(crate) fn release_meals(&mut self, id: OrganismId) {
         let engulfer = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.as_mut());
         for meal in engulfer.map_or(Vec::new(), |engulfer| std::mem::take(&mut engulfer.meals)) {
             self.exemptions.close_gate(&meal.gate, meal.prey.index);
             if self.organisms.get(meal.prey).is_some_and(Organism::is_held) {
-                self.organisms.get_mut(meal.prey).into_iter().for_each(|prey| prey.set_held_by(None));
+                self.set_held_by(meal.prey, None);
             }
         }
     }
 
-    /// Forgets meals that were removed from the world or are frozen.
-    fn drop_lost_meals(&mut self, engulfer: &mut Engulfer) {
+    /// Removes meals whose prey was removed from the world or is frozen.
+    fn remove_lost_meals(&mut self, engulfer: &mut Engulfer) {
         engulfer.meals.retain(|meal| {
-            let prey = self.organisms.get_mut(meal.prey);
-            let is_alive = prey.as_ref().is_some_and(|prey| !prey.is_quarantined);
+            let is_alive = self.organisms.get(meal.prey).is_some_and(|prey| !prey.is_quarantined);
             if !is_alive {
                 self.exemptions.close_gate(&meal.gate, meal.prey.index);
-                prey.into_iter().for_each(|frozen| frozen.set_held_by(None));
+                self.set_held_by(meal.prey, None);
             }
             is_alive
         });
+    }
+
+    /// Notes which engulfer holds an organism, if any.
+    pub(in crate::world) fn set_held_by(&mut self, prey: OrganismId, engulfer: Option<OrganismId>) {
+        if let Some(prey) = self.organisms.get_mut(prey) {
+            prey.set_held_by(engulfer);
+        }
     }
 }

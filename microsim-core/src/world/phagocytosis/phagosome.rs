@@ -1,4 +1,4 @@
-//! Phagosomes: membranes around prey inside a cell, and what all prey takes of its engulfer's area and membrane.
+//! Phagosomes: membranes around prey inside a cell; also the area and the membrane that prey takes up in its engulfer.
 
 use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase};
 use crate::id::OrganismId;
@@ -14,7 +14,7 @@ pub(super) const LEAST_NODES: usize = 5;
 const AREA_RATIO: f32 = 1.1;
 
 impl World {
-    /// Lets phagosomes follow the size of their prey, and removes those without; returns whether there were any.
+    /// Fits phagosomes to the size of their prey and removes those whose prey is gone; returns whether any was removed.
     pub(in crate::world) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
         let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
         for phagosome in &mut phagosomes {
@@ -24,20 +24,20 @@ impl World {
         let Some(organism) = organisms.get_mut(id) else { return false };
         let count = phagosomes.len();
         phagosomes.retain_mut(|phagosome| {
-            let is_needed = engulfer.meals.iter().any(|meal| meal.prey == phagosome.prey);
+            let has_prey = engulfer.meals.iter().any(|meal| meal.prey == phagosome.prey);
             let wanted = phagosome.membrane.rest_perimeter() / phagosome.membrane.rest_length;
-            if !is_needed {
+            if !has_prey {
                 free_nodes(organism, &phagosome.ring, particles);
             } else if wanted < phagosome.ring.len() as f32 - 0.5 && phagosome.ring.len() > LEAST_NODES {
                 free_nodes(organism, take_out(&mut phagosome.ring, particles).as_slice(), particles);
             }
-            is_needed
+            has_prey
         });
         organism.phagosomes = phagosomes;
         organism.phagosomes.len() < count
     }
 
-    /// Area of everything that an engulfer holds, phagosomes included, or lets through its gate.
+    /// Area of all prey inside an engulfer or passing its gate, phagosomes included.
     pub(in crate::world) fn held_area(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let node_radius = self.organisms.get(id).and_then(|o| o.body.membrane()).map_or(0.0, |m| m.node_radius);
         let takes_room = |meal: &&Meal| !matches!(meal.phase, MealPhase::Touching(_)) && !meal.is_in_cup();
@@ -49,7 +49,7 @@ impl World {
         engulfer.meals.iter().filter(takes_room).map(area).sum()
     }
 
-    /// Length of membrane that the folds around prey need now.
+    /// Length of membrane that the cups around prey need now.
     pub(in crate::world) fn fold_length(&self, id: OrganismId, engulfer: &Engulfer) -> f32 {
         let membrane = self.organisms.get(id).and_then(|organism| organism.body.membrane());
         let node_radius = membrane.map_or(0.0, |membrane| membrane.node_radius);

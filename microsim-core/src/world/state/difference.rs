@@ -1,7 +1,7 @@
 //! The first field in which two worlds differ, in words.
 
 use crate::particle::NO_OWNER;
-use crate::walk::{Leaf, Part, Visitor, walk};
+use crate::walk::{Leaf, PathSegment, Visitor, walk};
 use crate::world::World;
 use std::fmt;
 
@@ -29,53 +29,59 @@ impl World {
     /// of zeros and the kind of NaN.
     #[must_use]
     pub fn first_difference(&self, other: &Self) -> Option<Difference> {
-        let mut listed = Listed::default();
+        let mut listed = Leaves::default();
         walk(self, &mut listed);
-        let mut compared = Compared { known: listed.0.into_iter(), way: Vec::new(), found: None };
+        let mut compared = Comparison { known: listed.0.into_iter(), path: Vec::new(), found: None };
         walk(other, &mut compared);
-        let (way, values) = compared.found?;
-        let (of, field) = self.in_words(&way);
+        let (path, values) = compared.found?;
+        let (of, field) = self.describe(&path);
         Some(Difference { of, field, values })
     }
 
     /// What a field is of, and its name there.
-    fn in_words(&self, way: &[Part]) -> (String, String) {
-        match way {
-            [Part::Field("particles"), Part::Field(column), Part::Element(i), rest @ ..] => {
+    fn describe(&self, path: &[PathSegment]) -> (String, String) {
+        match path {
+            [PathSegment::Field("particles"), PathSegment::Field(column), PathSegment::Element(i), rest @ ..] => {
                 let owner = self.particles.owner.get(*i).copied().filter(|&owner| owner != NO_OWNER);
-                let owner = owner.map_or("nobody's".to_owned(), |owner| self.organism_in_words(owner));
+                let owner = owner.map_or("nobody's".to_owned(), |owner| self.describe_organism(owner));
                 (format!("particle {i} ({owner})"), format!("{column}{}", dotted(rest)))
             }
-            [Part::Field("organisms"), Part::Field("slots"), Part::Element(i), Part::Field(field), rest @ ..] => {
+            [
+                PathSegment::Field("organisms"),
+                PathSegment::Field("slots"),
+                PathSegment::Element(i),
+                PathSegment::Field(field),
+                rest @ ..,
+            ] => {
                 let field = if *field == "organism" { dotted(rest) } else { format!("{field}{}", dotted(rest)) };
                 let field = if field.is_empty() { "existence".to_owned() } else { field };
-                (self.organism_in_words(*i as u32), field.trim_start_matches('.').to_owned())
+                (self.describe_organism(*i as u32), field.trim_start_matches('.').to_owned())
             }
-            _ => (String::new(), dotted(way).trim_start_matches('.').to_owned()),
+            _ => (String::new(), dotted(path).trim_start_matches('.').to_owned()),
         }
     }
 
-    fn organism_in_words(&self, index: u32) -> String {
+    fn describe_organism(&self, index: u32) -> String {
         let kind = self.organisms.id_at(index).and_then(|id| self.kind(id));
         kind.map_or_else(|| format!("organism {index}"), |kind| format!("organism {index}, {}", kind.name()))
     }
 }
 
-fn dotted(way: &[Part]) -> String {
-    let part = |part: &Part| match part {
-        Part::Field(name) => format!(".{name}"),
-        Part::Element(index) => format!("[{index}]"),
+fn dotted(path: &[PathSegment]) -> String {
+    let part = |part: &PathSegment| match part {
+        PathSegment::Field(name) => format!(".{name}"),
+        PathSegment::Element(index) => format!("[{index}]"),
     };
-    way.iter().map(part).collect()
+    path.iter().map(part).collect()
 }
 
 /// All leaves.
 #[derive(Default)]
-struct Listed(Vec<Value>);
+struct Leaves(Vec<OwnedLeaf>);
 
 /// A leaf that is kept.
 #[derive(Clone, Debug, PartialEq)]
-enum Value {
+enum OwnedLeaf {
     Integer(u64),
     Single(f32),
     Double(f64),
@@ -84,7 +90,7 @@ enum Value {
     Count(usize),
 }
 
-impl Value {
+impl OwnedLeaf {
     fn of(leaf: Leaf<'_>) -> Self {
         match leaf {
             Leaf::Word(value) => Self::Integer(value.into()),
@@ -98,7 +104,7 @@ impl Value {
     }
 
     /// Equal for the digest: one NaN is like another.
-    fn is_like(&self, other: &Self) -> bool {
+    fn same_for_digest(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Single(a), Self::Single(b)) => a == b || (a.is_nan() && b.is_nan()),
             (Self::Double(a), Self::Double(b)) => a == b || (a.is_nan() && b.is_nan()),
@@ -107,7 +113,7 @@ impl Value {
     }
 }
 
-impl fmt::Display for Value {
+impl fmt::Display for OwnedLeaf {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Integer(value) => write!(f, "{value}"),
@@ -120,36 +126,36 @@ impl fmt::Display for Value {
     }
 }
 
-impl Visitor for Listed {
+impl Visitor for Leaves {
     fn leaf(&mut self, leaf: Leaf<'_>) {
-        self.0.push(Value::of(leaf));
+        self.0.push(OwnedLeaf::of(leaf));
     }
 }
 
 /// Compares leaves with those of another walk, up to the first that differs.
-struct Compared {
-    known: std::vec::IntoIter<Value>,
-    way: Vec<Part>,
-    found: Option<(Vec<Part>, [String; 2])>,
+struct Comparison {
+    known: std::vec::IntoIter<OwnedLeaf>,
+    path: Vec<PathSegment>,
+    found: Option<(Vec<PathSegment>, [String; 2])>,
 }
 
-impl Visitor for Compared {
-    fn enter(&mut self, part: Part) {
-        self.way.push(part);
+impl Visitor for Comparison {
+    fn enter(&mut self, part: PathSegment) {
+        self.path.push(part);
     }
 
     fn leave(&mut self) {
-        self.way.pop();
+        self.path.pop();
     }
 
     fn leaf(&mut self, leaf: Leaf<'_>) {
         if self.found.is_some() {
             return;
         }
-        let (known, now) = (self.known.next(), Value::of(leaf));
-        if !known.as_ref().is_some_and(|known| known.is_like(&now)) {
+        let (known, now) = (self.known.next(), OwnedLeaf::of(leaf));
+        if !known.as_ref().is_some_and(|known| known.same_for_digest(&now)) {
             let known = known.map_or("nothing".to_owned(), |known| known.to_string());
-            self.found = Some((self.way.clone(), [known, now.to_string()]));
+            self.found = Some((self.path.clone(), [known, now.to_string()]));
         }
     }
 }

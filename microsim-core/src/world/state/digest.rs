@@ -10,7 +10,7 @@ use crate::walk::{Leaf, Visitor, walk};
 use crate::world::World;
 use serde::Serialize;
 
-/// The words that were hashed so far.
+/// Hash of a value.
 pub(in crate::world) struct Digest(Fnv1a);
 
 impl Digest {
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_list_ends_with_does_not_begin_the_next_one() {
+    fn digests_depend_on_where_a_list_ends() {
         assert_ne!(Digest::of(&[vec![1, 2], vec![3]]), Digest::of(&[vec![1], vec![2, 3]]));
         assert_ne!(Digest::of(&["ab", "c"]), Digest::of(&["a", "bc"]));
         assert_ne!(Digest::of(&(None::<u32>, 1u32)), Digest::of(&(Some(1u32), 0u32)));

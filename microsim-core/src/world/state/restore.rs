@@ -1,5 +1,5 @@
-//! A world made from state that was read: derived parts are made anew, and everything is checked that stepping takes for
-//! granted ([`super::validate::structure`]).
+//! A world from state that was read: derived parts are rebuilt, and everything that stepping relies on is checked
+//! ([`super::validate::structure`]).
 
 use super::validate;
 use crate::chemical;
@@ -18,9 +18,9 @@ use crate::world::contacts::Touching;
 use crate::world::{Guard, World};
 use serde::Deserialize;
 
-/// What [`World`] writes, field by field.
+/// The serialised fields of a [`World`].
 #[derive(Debug, Deserialize)]
-pub(crate) struct State {
+pub(crate) struct WorldState {
     step_index: u64,
     config: WorldConfig,
     particles: Particles,
@@ -42,13 +42,13 @@ impl World {
     ///
     /// # Errors
     /// Says which part of the state cannot be one of a world.
-    pub(crate) fn restore(state: State, obstacles: Vec<Obstacle>) -> Result<Self, String> {
+    pub(crate) fn restore(state: WorldState, obstacles: Vec<Obstacle>) -> Result<Self, String> {
         let mut world = Self::new(state.config).map_err(|error| error.within("config").to_string())?;
         for (k, obstacle) in obstacles.into_iter().enumerate() {
             world.add_obstacle(obstacle).map_err(|error| error.within(&format!("obstacles[{k}]")).to_string())?;
         }
         if world.obstacle_digests != state.obstacle_digests {
-            return Err("obstacles: not what they were".to_owned());
+            return Err("obstacles: they differ from those that were written".to_owned());
         }
         for (k, record) in state.chemicals.into_iter().enumerate() {
             let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
@@ -69,7 +69,7 @@ impl World {
         world.particles.complete()?;
         world.organisms.complete();
         validate::structure::check(&world).map_err(|violation| violation.to_string())?;
-        // Measures look at the pairs that the last step found; until the next one these stand for them.
+        // Measures need the pairs of the last step, which are not part of the state.
         if world.step_index > 0 {
             world.find_pairs();
         }

@@ -1,4 +1,4 @@
-//! Anatomy: the constraints and contacts of a world, for drawing how it works.
+//! Anatomy: the constraints and contacts of a world, for a debug view.
 
 use super::View;
 use crate::organism::{Body, Organism};

@@ -21,7 +21,7 @@ use moment::Moment;
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     pub(in crate::world) world: &'a World,
-    /// Whence everything is on its way, and how much of that is done; see [`World::view_since`].
+    /// An earlier moment and the share of the time since then that has passed, see [`World::view_since`].
     pub(in crate::world) earlier: Option<(&'a Moment, f32)>,
 }
 
@@ -36,7 +36,7 @@ pub struct OrganismView<'a> {
 /// One particle, for reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParticleView {
-    /// Its number, its own as long as it lives; it may be another's afterwards.
+    /// Its index, which is used again after the particle is removed.
     pub index: u32,
     /// Centre, units.
     pub position: Vec2,
@@ -106,8 +106,8 @@ impl<'a> OrganismView<'a> {
         self.organism.is_quarantined
     }
 
-    /// Whether it lies still and has done so for as long as it takes to fall asleep, with all that it shares a block with. What
-    /// does is left out of every step in which nothing that moves is near ([`crate::WorldConfig::sleeps`]).
+    /// Whether its whole block has been at rest for long enough to fall asleep. It then sleeps in every step in which nothing
+    /// that moves is near ([`crate::WorldConfig::sleeps`]).
     #[must_use]
     pub fn is_calm(self) -> bool {
         let World { sleep, blocks, config, .. } = self.view.world;
@@ -121,8 +121,8 @@ impl<'a> OrganismView<'a> {
     }
 
     /// Lower left and upper right corner of the smallest upright box around the discs of all its particles, fluid included,
-    /// units. What is drawn beyond them is not in it. Without particles it is empty: its corners are infinite, the wrong way
-    /// round.
+    /// units. Without particles it is empty: the lower corner
+    /// is at positive infinity and the upper one at negative infinity.
     #[must_use]
     pub fn bounds(self) -> (Vec2, Vec2) {
         let radii = &self.view.world.particles.radius;
@@ -162,12 +162,12 @@ impl<'a> OrganismView<'a> {
         pushed.collect()
     }
 
-    /// Its prey, in the order in which it was first touched, and where they stand; empty for what takes nothing in.
+    /// Its prey in the order of first contact, each with its phase; empty for organisms that are no engulfers.
     pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
         self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
     }
 
-    /// How it takes prey in; `None` for what does not.
+    /// How it takes prey in; `None` for organisms that are no engulfers.
     #[must_use]
     pub fn phagocytosis(self) -> Option<&'a PhagocytosisParams> {
         self.organism.engulfer.as_ref().map(|engulfer| &engulfer.params)
@@ -199,7 +199,7 @@ impl<'a> OrganismView<'a> {
         self.organism.phagosomes.iter().map(move |inner| (inner.prey, inner.ring.iter().map(at).collect()))
     }
 
-    /// How far its division has come: time since the furrow began, s; `None` if it is not dividing.
+    /// Time since its furrow began to close, s; `None` if it is not dividing.
     #[must_use]
     pub fn dividing_for(self) -> Option<f32> {
         self.organism.furrow().map(|furrow| furrow.elapsed)

@@ -1,4 +1,4 @@
-//! What lies between two steps, to be drawn: screens do not tick with the world.
+//! Interpolation between two steps, for drawing at another rate than that of the steps.
 
 use super::View;
 use crate::particle::NO_OWNER;
@@ -6,7 +6,7 @@ use crate::shared::Shared;
 use crate::world::World;
 use glam::Vec2;
 
-/// Where everything was at one moment, see [`World::view_since`].
+/// Positions of all particles at one moment, see [`World::view_since`].
 #[derive(Clone, Debug, Default)]
 pub struct Moment {
     time: f64,
@@ -15,7 +15,7 @@ pub struct Moment {
 }
 
 impl World {
-    /// The present moment, to come back to when the world has moved on.
+    /// The present positions, for [`World::view_since`] after a later step.
     #[must_use]
     pub fn moment(&self) -> Moment {
         let count = self.particles.len();
@@ -64,7 +64,7 @@ impl View<'_> {
         let i = i as usize;
         let owner = self.world.particles.owner[i];
         let was_there = owner != NO_OWNER && earlier.owners.get(i) == Some(&owner);
-        // Numbers are handed out again. What is farther away than twice the speed limit allows was something else.
+        // Indices are used again: a particle farther away than twice the speed limit allows was another one.
         let steps = ((self.world.time() - earlier.time) / f64::from(self.world.config.dt)) as f32 + 1.0;
         let reach = 2.0 * steps * self.world.config.reach();
         let near = |before: &Vec2| (*before - now).length_squared() <= reach * reach;
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_moment_between_lies_in_between() {
+    fn positions_are_interpolated() {
         let mut world = world();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
         (0..20).for_each(|_| world.step(&Inputs::new()));
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_came_or_went_does_not_disturb_the_others() {
+    fn organisms_added_or_removed_since_do_not_affect_the_others() {
         let mut world = world();
         let gone = world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 30.0)).unwrap();
         let stays = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
