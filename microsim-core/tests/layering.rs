@@ -71,7 +71,6 @@ const LAYERS: &[(&str, &[&str])] = &[
             "fnv",
             "geometry",
             "id",
-            "inputs",
             "kind",
             "organism",
             "parallel",

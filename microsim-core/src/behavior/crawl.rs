@@ -54,7 +54,7 @@ pub(crate) fn region(k: u32, front_centre: u32, count: u32) -> MembraneRegion {
 
 /// Drives front and rear; returns the node of the outline that is the centre of the front, the nearest one to the goal.
 pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, drives: &mut Vec<Drive>) -> Option<u32> {
-    let nodes: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
+    let nodes = organism.outline_positions(particles);
     let front_centre = crate::geometry::ring::nearest_index(&nodes, goal)? as u32;
     let count = nodes.len() as u32;
     let centroid = crate::geometry::polygon::centroid(&nodes)?;

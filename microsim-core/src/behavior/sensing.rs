@@ -26,7 +26,7 @@ pub(crate) struct OwnBody {
 impl OwnBody {
     pub(crate) fn of(organism: &Organism, particles: &Particles) -> Self {
         let at = place(organism, particles);
-        let outline: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
+        let outline = organism.outline_positions(particles);
         let count = outline.len() as f32;
         if outline.is_empty() {
             let first = organism.first_node().map(|i| i as usize);

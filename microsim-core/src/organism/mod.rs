@@ -17,7 +17,7 @@ use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::division::{Divider, DivisionParams, Furrow};
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::{Engulfer, PhagocytosisParams, Prey, PreyClass};
+use crate::capability::phagocytosis::{Engulfer, Meal, PhagocytosisParams, Prey, PreyClass};
 use crate::capability::progress::Progress;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
@@ -379,6 +379,16 @@ impl Organism {
             let content = Content { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
             phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
         }
+    }
+
+    /// The prey that it touches or holds; empty for organisms that are no engulfers.
+    pub(crate) fn meals(&self) -> &[Meal] {
+        self.engulfer.as_ref().map_or(&[], |engulfer| &engulfer.meals)
+    }
+
+    /// Positions of its outline.
+    pub(crate) fn outline_positions(&self, particles: &Particles) -> Vec<Vec2> {
+        self.outline_particles().map(|i| particles.position(i as usize)).collect()
     }
 
     /// All membranes with their rings: its own, and those of its phagosomes.

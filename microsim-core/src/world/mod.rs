@@ -64,8 +64,7 @@ use serde::{Deserialize, Serialize};
 /// # Ok::<(), microsim_core::Error>(())
 /// ```
 ///
-/// Serialised, it is its whole state but the shapes of obstacles, for which a digest stands; feature `snapshot` keeps those
-/// too.
+/// A serialised world has a digest in place of each obstacle's shape; feature `snapshot` writes the shapes too.
 #[derive(Debug, Serialize)]
 pub struct World {
     pub(crate) step_index: u64,
@@ -91,7 +90,7 @@ pub struct World {
     pub(crate) dispatch: Dispatch,
 }
 
-/// Counts of violations of membranes since the world was made. All stay 0 unless there is a bug.
+/// Counts of discs that crossed a membrane since the world was made. Both should stay 0.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Guard {
     /// A disc was found on the wrong side of the link nearest to it.
@@ -191,7 +190,7 @@ impl World {
         }
     }
 
-    /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
+    /// Restricts the processor instructions that steps use, for measuring times; results do not depend on it.
     pub fn set_instruction_set(&mut self, set: InstructionSet) {
         self.dispatch = Dispatch::new(set);
     }
@@ -220,7 +219,7 @@ impl World {
         self.step_index as f64 * f64::from(self.config.dt)
     }
 
-    /// Adds a recipe for bodies of an embedder's own, see [`World::spawn_template`].
+    /// Adds a template for custom bodies, see [`World::spawn_template`].
     pub fn add_template(&mut self, template: Template) -> TemplateId {
         TemplateId(self.template_index(template))
     }
@@ -245,7 +244,8 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
-        [a, b].into_iter().for_each(|id| self.wake(id));
+        self.wake(a);
+        self.wake(b);
         Ok(())
     }
 

@@ -64,10 +64,7 @@ impl World {
             let discs = organism.particles().map(|i| i as usize);
             let mut solid = discs.filter(|&i| self.particles.groups[i].memberships != 0);
             solid.any(|i| meets(self.particles.position(i), self.particles.radius[i]))
-                || inside.is_some_and(|(centre, radius)| {
-                    let outline = organism.outline_particles().map(|i| self.particles.position(i as usize));
-                    reaches_into(&outline.collect::<Vec<_>>(), centre, radius)
-                })
+                || inside.is_some_and(|(centre, radius)| reaches_into(&self.outline_of(organism), centre, radius))
         });
         found.map(|(id, _)| id)
     }

@@ -17,12 +17,6 @@ impl World {
         }
     }
 
-    /// Present area of an organism over its area when spawned.
-    pub(in crate::world) fn shrinkage(&self, organism: &Organism) -> f32 {
-        let factor = self.scale_of(organism) / organism.spawn_scale;
-        factor * factor
-    }
-
     /// Size of an organism relative to its size when spawned.
     pub(in crate::world) fn present_scale(&self, id: OrganismId) -> f32 {
         self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale)
@@ -43,6 +37,7 @@ impl World {
 
     /// Present area of an organism.
     pub(in crate::world) fn area_of(&self, id: OrganismId) -> f32 {
-        self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * self.shrinkage(organism))
+        let scale = self.present_scale(id);
+        self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * (scale * scale))
     }
 }

@@ -134,6 +134,6 @@ impl World {
     }
 
     pub(in crate::world) fn outline_of(&self, organism: &Organism) -> Vec<Vec2> {
-        organism.outline_particles().map(|i| self.particles.position(i as usize)).collect()
+        organism.outline_positions(&self.particles)
     }
 }

@@ -66,8 +66,7 @@ impl World {
         for &i in &organism.fluid_particles {
             coverage.cover_disc(position(i), COVERED * spacing);
         }
-        let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
-        for prey in meals.filter_map(|meal| self.organisms.get(meal.prey)) {
+        for prey in organism.meals().iter().filter_map(|meal| self.organisms.get(meal.prey)) {
             coverage.cover_polygon(&self.outline_of(prey));
             prey.particles().for_each(|i| coverage.cover_disc(position(i), self.particles.radius[i as usize]));
         }

@@ -136,7 +136,7 @@ impl World {
         let is_inside = |i: u32| contains_point(&ring, self.particles.position(i as usize));
         let fluid_particles: Vec<u32> = cell.fluid_particles.iter().copied().filter(|&i| is_inside(i)).collect();
         let holds = |meal: &&Meal| self.discs_of(meal.prey).next().is_some_and(|i| is_inside(i as u32));
-        let meals = cell.engulfer.iter().flat_map(|engulfer| &engulfer.meals).filter(|meal| meal.phase.is_inside());
+        let meals = cell.meals().iter().filter(|meal| meal.phase.is_inside());
         let meals: Vec<Meal> = meals.filter(holds).cloned().collect();
         let is_of_meal = |inner: &&Phagosome| meals.iter().any(|meal| meal.prey == inner.prey);
         Lobe {

@@ -49,8 +49,7 @@ impl World {
     /// furrow needs.
     fn soft_prey_reaches(&self, organism: &Organism, point: Vec2, axis: Vec2) -> bool {
         let room = organism.body.membrane().map_or(0.0, |membrane| membrane.rest_length);
-        let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
-        let soft = meals.filter(|meal| meal.class == PreyClass::Soft && meal.phase.is_inside());
+        let soft = organism.meals().iter().filter(|meal| meal.class == PreyClass::Soft && meal.phase.is_inside());
         soft.filter_map(|meal| self.organisms.get(meal.prey)).any(|prey| {
             let side = |i: usize, reach: f32| (self.particles.position(i) - point).dot(axis) + reach;
             let discs = || prey.particles().map(|i| (i as usize, self.particles.radius[i as usize] + room));
@@ -109,8 +108,7 @@ impl World {
             let first = sides.next();
             sides.any(|side| Some(side) != first)
         };
-        let mut held =
-            organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).filter(|meal| meal.phase.is_inside());
+        let mut held = organism.meals().iter().filter(|meal| meal.phase.is_inside());
         if held.any(lies_between) { Err(Refusal::PreyInFurrow) } else { Ok(()) }
     }
 }

@@ -73,8 +73,7 @@ impl World {
         let (Some(larger), Some(smaller)) = (self.organisms.get(into), self.organisms.get(from)) else { return };
         let outline = swap.join(&larger.outline, &smaller.outline);
         let (a, b) = (self.nodes_per_root(larger), self.nodes_per_root(smaller));
-        let meals = smaller.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
-        let meals: Vec<Meal> = meals.filter(|meal| meal.phase.is_inside()).cloned().collect();
+        let meals: Vec<Meal> = smaller.meals().iter().filter(|meal| meal.phase.is_inside()).cloned().collect();
         self.move_meals(&meals, from, into);
         let Some(smaller) = self.organisms.remove(from) else { return };
         self.exemptions.forget(from.index);

@@ -98,13 +98,12 @@ fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, part
 
 /// Number of particles of cytoplasm that the present area of a membrane holds at rest.
 fn room(organism: &Organism, p: &Particles, spacing: f32) -> f32 {
-    let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
-    signed_area(&outline) / rest_area(1, spacing)
+    signed_area(&organism.outline_positions(p)) / rest_area(1, spacing)
 }
 
 /// Puts new cytoplasm near the centroid and returns its particles.
 fn inject(organism: &mut Organism, count: u32, spacing: f32, p: &mut Particles) -> Vec<u32> {
-    let outline: Vec<Vec2> = organism.outline_particles().map(|i| p.position(i as usize)).collect();
+    let outline = organism.outline_positions(p);
     let Some(centre) = injection_point(organism, &outline, p) else { return Vec::new() };
     let Some(&first) = organism.fluid_particles.first() else { return Vec::new() };
     let like = Particle { role: Role::GrownCytoplasm as u8, ..p.get(first as usize) };

@@ -55,7 +55,7 @@ impl World {
             Some(Refusal::Quarantined)
         } else if organism.furrow().is_some() {
             Some(Refusal::Dividing)
-        } else if organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).any(ingests) {
+        } else if organism.meals().iter().any(ingests) {
             Some(Refusal::Ingesting)
         } else {
             None

@@ -164,7 +164,7 @@ impl<'a> OrganismView<'a> {
 
     /// Its prey in the order of first contact, each with its phase; empty for organisms that are no engulfers.
     pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
-        self.organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals).map(|meal| (meal.prey, meal.phase))
+        self.organism.meals().iter().map(|meal| (meal.prey, meal.phase))
     }
 
     /// How it takes prey in; `None` for organisms that are no engulfers.

@@ -1,4 +1,4 @@
-//! Organisms: their particles, membranes, cytoplasm and state.
+//! Single organisms: particles, membranes, cytoplasm and state.
 
 use super::{Check, Subject};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
@@ -8,9 +8,9 @@ use crate::solver::membrane::{Membrane, links};
 use crate::world::World;
 use glam::Vec2;
 
-/// Largest length, area or count that organisms remember.
+/// Largest length, area or count in an organism.
 const MOST: f32 = 1e9;
-/// Circles that a membrane goes round at most.
+/// Largest length of a membrane, in circles around its content.
 const MOST_LOBES: f32 = 3.0;
 
 pub(super) fn check(world: &World) -> Check {
@@ -81,7 +81,7 @@ fn check_ring(world: &World, organism: &Organism, cell: Subject, membrane: &Memb
     cell.must(is_simple(&outline), || format!("a ring of {} nodes crosses itself", ring.len()))
 }
 
-/// What is linked to a following node is in a ring.
+/// Nodes that are linked to a following node are in a ring.
 fn check_links(world: &World) -> Check {
     let p = &world.particles;
     let rings = world.organisms.iter().flat_map(|(_, organism)| organism.membranes());
@@ -90,7 +90,7 @@ fn check_links(world: &World) -> Check {
     Subject::default().must(linked == nodes, || format!("{linked} nodes are linked, {nodes} are in rings"))
 }
 
-/// Its fluid has its particles, and its membrane encloses them.
+/// Its cytoplasm is in its fluid and inside its membrane.
 fn check_fluid(world: &World, organism: &Organism, cell: Subject) -> Check {
     let p = &world.particles;
     if organism.is_quarantined {

@@ -1,10 +1,9 @@
-//! Validation: whether the whole state is one that stepping can reach, and if not, in words what is wrong and where.
+//! Validation: whether stepping can reach the state of a world, and if not, what is wrong and where.
 //!
-//! For tests, for soaks and for worlds that came from outside. It changes nothing, costs about as much as a step, and does
-//! not panic on any state, however broken.
+//! For tests, soaks and worlds from files. It costs about as much as a step and does not panic on any state.
 
 mod bodies;
-mod meals;
+mod relations;
 mod store;
 pub(super) mod structure;
 
@@ -13,38 +12,37 @@ use crate::kind::Kind;
 use crate::world::World;
 use std::fmt;
 
-/// Something in a world that must not be.
+/// An invalid part of a world's state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     subject: Subject,
     what: String,
 }
 
-/// What a violation is about: an organism, one of its particles, or neither.
+/// Subject of a violation: an organism, one of its particles, or neither.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Subject {
     organism: Option<(OrganismId, Kind)>,
     particle: Option<u32>,
 }
 
-/// What a check finds.
+/// Result of a check.
 type Check = Result<(), Violation>;
 
 impl World {
-    /// Checks everything that holds between steps, whatever was asked of the world: numbers are finite and in sane bounds,
-    /// every index names what is there, what names each other does so both ways, membranes are simple, closed and
-    /// counter-clockwise with all cytoplasm inside, nothing is outside the walls, nothing is lost, and there is a
-    /// concentration of every chemical everywhere.
+    /// Checks all that holds between steps: numbers are finite and within their bounds, indices and references are valid in
+    /// both directions, membranes are simple, closed and counter-clockwise with all cytoplasm inside, everything is within the
+    /// walls, no particle is lost, and every chemical has a concentration everywhere.
     ///
     /// # Errors
-    /// The first thing that is wrong. That is a bug of this library, or of the file that the world was read from.
+    /// The first violation: a bug of this library, or of the file that the world was read from.
     pub fn validate(&self) -> Result<(), Violation> {
         self.config.validate().map_err(|error| Subject::default().violation(error.to_string()))?;
         store::check_columns(&self.particles)?;
         structure::check(self)?;
         store::check(self)?;
         bodies::check(self)?;
-        meals::check(self)
+        relations::check(self)
     }
 }
 
@@ -92,12 +90,12 @@ impl Subject {
         Violation { subject: self, what: what.into() }
     }
 
-    /// Nothing, if something holds.
+    /// An error, unless a condition holds.
     fn must(self, holds: bool, else_what: impl FnOnce() -> String) -> Check {
         if holds { Ok(()) } else { Err(self.violation(else_what())) }
     }
 
-    /// Nothing, if a number is finite and within `low..=high`.
+    /// An error, unless a number is finite and within `low..=high`.
     fn must_range(self, name: &str, value: f32, low: f32, high: f32) -> Check {
         let is_inside = value.is_finite() && value >= low && value <= high;
         self.must(is_inside, || format!("{name} is {value}, must be {low} to {high}"))

@@ -1,4 +1,4 @@
-//! The tables below organisms: particles, free indices, blocks, fluids, obstacles.
+//! Tables: particles, free indices, blocks, fluids, obstacles.
 
 use super::{Check, Subject};
 use crate::config::WorldConfig;
@@ -9,13 +9,13 @@ use crate::world::World;
 use crate::world::obstacle::WALLS;
 use glam::Vec2;
 
-/// Largest coordinate of anything, units: quarantine takes what is farther from its room than the room's size.
+/// Largest coordinate, units: quarantine freezes organisms farther from the room than the room's size.
 const FARTHEST: f32 = 3.0 * WorldConfig::MAX_SIZE;
 /// Largest radius: of a template's node times the scale of its placement.
 const LARGEST: f32 = 1e5;
-/// Impacts may leave a particle faster than the speed limit, until the next substep, but not more times than this.
+/// Largest speed over the speed limit: impacts may exceed the limit until the next substep.
 const TIMES_SPEED_LIMIT: f32 = 10.0;
-/// How far the centre of a disc that collides with walls may be beyond them, as a share of its radius.
+/// Largest distance of the centre of a colliding disc beyond a wall, as a share of its radius.
 const BEYOND_WALLS: f32 = 0.5;
 
 pub(super) fn check(world: &World) -> Check {
@@ -76,8 +76,8 @@ fn check_numbers(world: &World, i: usize, disc: Subject) -> Check {
     disc.must_range("restitution", p.material[i].restitution, 0.0, 1.0)
 }
 
-/// What collides with walls has its centre within them, unless the world is one without protection, in which discs move
-/// farther in a step than pairs are searched for; everything is at most a room's size away.
+/// Discs that collide with walls have their centres within them, except in a world without protection, where discs move
+/// farther in a step than the search margin; all particles are at most a room's size outside.
 fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     let (p, size) = (&world.particles, world.config.size);
     let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
@@ -87,7 +87,7 @@ fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     disc.must(is_inside, || format!("it is at {at}, outside the room of {size}"))
 }
 
-/// Every index that is not in use is in a block or free.
+/// Every unused index is in a block or free.
 fn check_places(world: &World) -> Check {
     let p = &world.particles;
     let mut is_kept: Vec<bool> = (0..p.len()).map(|i| p.is_live(i)).collect();
@@ -99,14 +99,14 @@ fn check_places(world: &World) -> Check {
     lost.map_or(Ok(()), |i| Err(Subject::default().violation(format!("index {i} is neither in use nor free"))))
 }
 
-/// A fluid has what its particles' owners take for it; an enclosed one has one owner.
+/// The particles of a fluid have owners with this fluid; an enclosed fluid has one owner.
 fn check_fluid(world: &World, k: usize) -> Check {
     let (p, fluid) = (&world.particles, &world.fluids[k]);
     for &i in &fluid.particles {
         let disc = Subject::particle(world, i as usize);
         let owner = disc.organism.and_then(|(id, _)| world.organisms.get(id));
         let is_owners = owner.is_some_and(|owner| owner.fluid == Some(k as u32));
-        disc.must(is_owners, || format!("fluid {k} is not its owner's"))?;
+        disc.must(is_owners, || format!("fluid {k} has a particle whose owner has another fluid"))?;
     }
     let owners = |i: &u32| p.owner[*i as usize];
     let mixes = fluid.is_enclosed && fluid.particles.windows(2).any(|pair| owners(&pair[0]) != owners(&pair[1]));

@@ -1,5 +1,5 @@
-//! What stepping takes for granted: every index names something, every particle has one owner, parameters are in their
-//! ranges. What passes here may be nonsense, but cannot make a step panic; worlds that are read have to pass.
+//! Structure that stepping relies on: indices are valid, every particle has one owner, parameters are in their ranges. A world
+//! that passes may be unphysical, but cannot make a step panic; worlds from files have to pass.
 
 use super::{Check, Subject, Violation};
 use crate::capability::Locomotion;
@@ -11,13 +11,13 @@ use crate::solver::block::Block;
 use crate::solver::lanes::LANES;
 use crate::world::{Guard, World};
 
-/// More than any run counts, and far from overflow.
+/// Largest value of a counter, far from overflow.
 const MOST: u64 = 1 << 53;
 const MOST_NODES: u32 = 1 << 30;
-/// Stands for the owner of a lane that is empty, to tell it from a free index.
+/// Owner of an empty lane, as opposed to a free index.
 const EMPTY_LANE: u32 = NO_OWNER - 1;
 
-/// Takes columns for granted that are of one length.
+/// Checks the structure of a world whose columns have equal lengths.
 pub(in crate::world) fn check(world: &World) -> Check {
     let Guard { wrong_side, net_fired } = world.guard;
     let is_counter = |count: u64| count < MOST;
@@ -37,20 +37,20 @@ pub(in crate::world) fn check(world: &World) -> Check {
     check_particles(world, &owned)
 }
 
-/// Exactly the empty slots of organisms are free, each once.
+/// The free slots of organisms are exactly the empty ones.
 fn check_slots(world: &World) -> Check {
     let organisms = &world.organisms;
     let mut free = organisms.free_slots().to_vec();
     free.sort_unstable();
     let empty = (0..organisms.slot_count()).filter(|&index| organisms.id_at(index).is_none());
-    Subject::default().must(empty.eq(free), || "the empty places of organisms are not those that are free".to_owned())
+    Subject::default().must(empty.eq(free), || "the free slots of organisms are not the empty ones".to_owned())
 }
 
-/// Blocks hold their template and lie side by side. Notes who lives in their lanes.
+/// Blocks fit their template and do not overlap. Records the owners of their lanes in `owned`.
 fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
     let (organisms, none) = (&world.organisms, Subject::default());
     let (blocks, known) = (world.blocks.len(), world.sleep.len());
-    none.must(blocks == known, || format!("of {blocks} blocks it is noted of {known} how calm they are"))?;
+    none.must(blocks == known, || format!("{blocks} blocks, but sleep counters of {known}"))?;
     let mut end = 0;
     for (k, block) in world.blocks.iter().enumerate() {
         let template = world.templates.get(block.template as usize);
@@ -77,7 +77,7 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
     Ok(())
 }
 
-/// What an organism says of itself.
+/// Fields of an organism.
 fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     let (nodes, membrane) = (organism.outline.len(), organism.body.membrane());
     let in_outline = |k: u32| (k as usize) < nodes;
@@ -100,7 +100,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     check_parameters(world, organism, nodes > 0).map_err(|error| cell.violation(error.to_string()))
 }
 
-/// What an embedder, too, could not have asked for.
+/// Parameters that the public API would refuse.
 fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Result<(), Error> {
     let Organism { controller, exchanges, engulfer, divider, .. } = organism;
     controller.validate().map_err(|error| error.within("controller"))?;
@@ -115,7 +115,7 @@ fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Re
     divider.map_err(|error| error.within("divider"))
 }
 
-/// Notes the particles of an organism, which nobody may own yet, and checks those that it names.
+/// Records the particles of an organism in `owned`, where they must be free, and checks its indices.
 fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &mut [u32]) -> Check {
     let loose: &[u32] = match &organism.body {
         Body::Lane { block, first } => {
@@ -174,7 +174,7 @@ fn check_fluids(world: &World) -> Check {
     Ok(())
 }
 
-/// Every index is its owner's, or nobody's; none is free that is in use, or free twice.
+/// Every index has its owner or none; free indices are not in use and are listed once.
 fn check_particles(world: &World, owned: &[u32]) -> Check {
     let p = &world.particles;
     for (i, &owner) in owned.iter().enumerate() {

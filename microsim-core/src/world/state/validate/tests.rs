@@ -51,7 +51,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.blocks[0].template = 9, "template 9");
     finds(|w| w.blocks[0].base = 1 << 20, "block 0 lies");
     finds(|w| w.blocks[0].scale[0] = 0.0, "scale of lane 0");
-    finds(|w| w.sleep = Sleep::default(), "of 2 blocks it is noted of 0");
+    finds(|w| w.sleep = Sleep::default(), "2 blocks, but sleep counters of 0");
     finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
     finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
     finds(|w| w.obstacle_digests.push(7), "digests");

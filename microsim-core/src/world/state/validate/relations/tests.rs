@@ -142,8 +142,8 @@ fn damage_to_gates_is_found() {
     let world = at_the_gate();
     finds(&world, |w| hold(w, PREY, None), "prey 1 is held by None");
     finds(&world, |w| hold(w, PREY, Some(OTHER)), "prey 1 is held by Some");
-    finds(&world, |w| meal(w).phase = MealPhase::Ingested, "a gate for prey 1 that is not passing one");
-    finds(&world, |w| meal(w).way = IngestionWay::Cup, "a gate for prey 1 that is not passing one");
+    finds(&world, |w| meal(w).phase = MealPhase::Ingested, "a gate for prey 1 that does not pass one");
+    finds(&world, |w| meal(w).way = IngestionWay::Cup, "a gate for prey 1 that does not pass one");
     finds(
         &world,
         |w| {
@@ -179,7 +179,7 @@ fn damage_to_soft_prey_on_its_way_in_is_found() {
 fn damage_to_prey_inside_and_to_phagosomes_is_found() {
     let world = two_inside();
     finds(&world, |w| meal(w).phase = MealPhase::Digesting(1.5), "is 1.5, must be 0 to 1");
-    finds(&world, take_away, "its prey 1 is inside no longer");
+    finds(&world, take_away, "its prey 1 is no longer inside");
     finds(&world, |w| organism(w, CELL).phagosomes[0].area = f32::NAN, "area of a phagosome is NaN");
     let in_none = "a phagosome for prey";
     finds(&world, |w| organism(w, CELL).phagosomes[0].prey = CELL, in_none);

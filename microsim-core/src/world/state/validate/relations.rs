@@ -1,4 +1,4 @@
-//! Who holds whom, who passes through whom, who touches whom.
+//! Relations of organisms: meals, holders, gates, exempt pairs, touching pairs.
 
 use super::{Check, Subject};
 use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, PreyClass};
@@ -7,7 +7,7 @@ use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
 
-/// Largest time or area that is remembered of meals.
+/// Largest time or area of a meal.
 const MOST: f32 = 1e9;
 
 pub(super) fn check(world: &World) -> Check {
@@ -23,7 +23,7 @@ pub(super) fn check(world: &World) -> Check {
     check_pairs(world)
 }
 
-/// Whether prey lives and moves. What does not is forgotten at the beginning of the next step.
+/// Whether prey is alive and not frozen. The next step removes the meals of other prey.
 fn is_alive(world: &World, prey: OrganismId) -> bool {
     world.organisms.get(prey).is_some_and(|prey| !prey.is_quarantined)
 }
@@ -61,10 +61,10 @@ fn check_phase(meal: &Meal, cell: Subject) -> Check {
         MealPhase::Digesting(part) => cell.must_range(&format!("digested part of {prey}"), part, 0.0, 1.0)?,
     }
     let has_gate = meal.way == IngestionWay::Gate && matches!(meal.phase, MealPhase::Ingesting(_));
-    cell.must(has_gate || meal.gate.is_empty(), || format!("a gate for prey {prey} that is not passing one"))
+    cell.must(has_gate || meal.gate.is_empty(), || format!("a gate for prey {prey} that does not pass one"))
 }
 
-/// Prey knows who holds it, and is inside if it is said to be.
+/// Prey names its holder, and lies inside if its meal is.
 fn check_meal(world: &World, id: OrganismId, organism: &Organism, meal: &Meal, cell: Subject) -> Check {
     let Some(prey) = world.organisms.get(meal.prey) else { return Ok(()) };
     let index = meal.prey.index;
@@ -82,12 +82,12 @@ fn check_meal(world: &World, id: OrganismId, organism: &Organism, meal: &Meal, c
     let is_kept_in = meal.phase.is_inside() && world.config.protects_membranes;
     if is_kept_in && !world.exemptions.contains(id.index, index) {
         let is_inside = contains_point(&world.outline_of(organism), world.centre_of(prey));
-        cell.must(is_inside, || format!("its prey {index} is inside no longer"))?;
+        cell.must(is_inside, || format!("its prey {index} is no longer inside"))?;
     }
     Ok(())
 }
 
-/// Who is held is somebody's meal.
+/// Held prey is a meal of its holder.
 fn check_held(world: &World, id: OrganismId, organism: &Organism, cell: Subject) -> Check {
     let Some(holder) = organism.prey.and_then(|prey| prey.held_by) else { return Ok(()) };
     let engulfer = world.organisms.get(holder).and_then(|holder| holder.engulfer.as_ref());
@@ -96,26 +96,25 @@ fn check_held(world: &World, id: OrganismId, organism: &Organism, cell: Subject)
     cell.must(is_held, || format!("it is held by {}, which does not hold it", holder.index))
 }
 
-/// Each phagosome holds prey that is inside, one each.
+/// Each phagosome holds one prey that is inside.
 fn check_phagosomes(organism: &Organism, cell: Subject) -> Check {
     if organism.is_quarantined {
         return Ok(());
     }
     for (k, inner) in organism.phagosomes.iter().enumerate() {
-        let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
-        let mut inside = meals.filter(|meal| meal.prey == inner.prey && meal.phase.is_inside());
+        let mut inside = organism.meals().iter().filter(|meal| meal.prey == inner.prey && meal.phase.is_inside());
         let is_only = organism.phagosomes[..k].iter().all(|other| other.prey != inner.prey);
         let prey = inner.prey.index;
-        cell.must(inside.next().is_some() && is_only, || format!("a phagosome for prey {prey}, which is not in it"))?;
+        cell.must(inside.next().is_some() && is_only, || format!("a phagosome for prey {prey} that is not in it"))?;
         cell.must_range("area of a phagosome", inner.area, 0.0, MOST)?;
     }
     Ok(())
 }
 
-/// Gates are open for the prey that passes them, and for nobody else.
+/// Gates are open for the prey that passes them only.
 fn check_gates(world: &World) -> Check {
-    let engulfers = world.organisms.iter().filter_map(|(_, organism)| organism.engulfer.as_ref());
-    let meals = engulfers.flat_map(|engulfer| &engulfer.meals).filter(|meal| world.organisms.get(meal.prey).is_some());
+    let meals = world.organisms.iter().flat_map(|(_, organism)| organism.meals());
+    let meals = meals.filter(|meal| world.organisms.get(meal.prey).is_some());
     let mut gates: Vec<(u32, u32)> =
         meals.flat_map(|meal| meal.gate.iter().map(|&node| (node, meal.prey.index))).collect();
     gates.sort_unstable();
@@ -123,7 +122,7 @@ fn check_gates(world: &World) -> Check {
     Subject::default().must(gates == open, || format!("gates open for {open:?}, asked for {gates:?}"))
 }
 
-/// Exempt pairs live; pairs that touch are named once, by handles that were given out.
+/// Exempt organisms are alive; touching pairs are listed once, by handles that exist or existed.
 fn check_pairs(world: &World) -> Check {
     let none = Subject::default();
     let pairs = world.exemptions.pairs();
