@@ -1,6 +1,6 @@
 //! The furrow of a dividing cell: the two sides of its equator are drawn towards each other, as by a contractile ring.
 
-use super::{heading, place};
+use super::{heading, position_of};
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
@@ -40,9 +40,9 @@ fn clear_furrow(organism: &Organism, organisms: &Organisms, p: &Particles, drive
     let axis = heading((b - a).perp());
     for meal in engulfer.meals.iter().filter(|meal| meal.phase.is_inside()) {
         let Some(prey) = organisms.get(meal.prey) else { continue };
-        let side = (place(prey, p) - 0.5 * (a + b)).dot(axis);
+        let side = (position_of(prey, p) - 0.5 * (a + b)).dot(axis);
         let discs = || prey.particles().map(|i| i as usize);
-        let reach = |i: usize| (p.position(i) - place(prey, p)).length() + p.radius[i];
+        let reach = |i: usize| (p.position(i) - position_of(prey, p)).length() + p.radius[i];
         let size = discs().map(reach).fold(0.0, |size, reach| if reach > size { reach } else { size });
         if side.abs() < size + CLEAR * membrane.rest_length {
             let velocity = axis * engulfer.params.pull_speed.copysign(side);

@@ -96,7 +96,7 @@ pub(crate) fn heading(way: Vec2) -> Vec2 {
 }
 
 /// Position of an organism for its controller: the mean of its outline, or its first particle.
-pub(crate) fn place(organism: &Organism, particles: &Particles) -> Vec2 {
+pub(crate) fn position_of(organism: &Organism, particles: &Particles) -> Vec2 {
     let count = organism.outline.len();
     if count == 0 {
         return organism.particles().next().map_or(organism.home, |i| particles.position(i as usize));

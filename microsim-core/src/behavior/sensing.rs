@@ -1,6 +1,6 @@
 //! Sensing: what organisms perceive of their own body and of each other.
 
-use super::place;
+use super::position_of;
 use crate::capability::Locomotion;
 use crate::capability::controller::senses::{Other, Senses, Surroundings};
 use crate::id::OrganismId;
@@ -25,7 +25,7 @@ pub(crate) struct OwnBody {
 
 impl OwnBody {
     pub(crate) fn of(organism: &Organism, particles: &Particles) -> Self {
-        let at = place(organism, particles);
+        let at = position_of(organism, particles);
         let outline = organism.outline_positions(particles);
         let count = outline.len() as f32;
         if outline.is_empty() {
@@ -60,7 +60,7 @@ pub(crate) fn others(organisms: &Organisms, particles: &Particles) -> Vec<Other>
     };
     let all = organisms.iter().filter(|(_, organism)| matters(organism));
     let seen = all.map(|(id, organism)| {
-        let at = place(organism, particles);
+        let at = position_of(organism, particles);
         let first = organism.first_node().map_or(0, |i| i as usize);
         let far = |far: f32, i: u32| {
             let distance = (particles.position(i as usize) - at).length();

@@ -7,7 +7,7 @@
 //!                bottom
 //! ```
 
-use crate::behavior::{heading, place};
+use crate::behavior::{heading, position_of};
 use crate::capability::phagocytosis::Engulfer;
 use crate::geometry::polygon::contains_point;
 use crate::organism::Organism;
@@ -40,7 +40,7 @@ impl Fold {
     /// The fold of a membrane around prey.
     pub(crate) fn find(organism: &Organism, prey: &Organism, p: &Particles) -> Option<Self> {
         let (ring, count) = (&organism.outline, organism.outline.len());
-        let mouth = heading(place(prey, p) - place(organism, p));
+        let mouth = heading(position_of(prey, p) - position_of(organism, p));
         let deepest = |&(best, least): &(usize, f32), k: usize| {
             let (gap, away) = nearest(prey, ring[k] as usize, p);
             // Nodes on the cell's side of the prey come before nodes beside it.

@@ -2,7 +2,7 @@
 
 pub(crate) mod lips;
 
-use super::{heading, place};
+use super::{heading, position_of};
 use crate::capability::phagocytosis::MealPhase;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
@@ -15,7 +15,7 @@ pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives:
         let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
         for meal in taken_in {
             let Some(prey) = organisms.get(meal.prey) else { continue };
-            let inwards = heading(place(organism, particles) - place(prey, particles));
+            let inwards = heading(position_of(organism, particles) - position_of(prey, particles));
             let velocity = if meal.is_expelled { -inwards } else { inwards } * engulfer.params.pull_speed;
             let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
             drives.extend(prey.particles().map(pull));

@@ -89,7 +89,7 @@ impl World {
     }
 
     /// Gives a cell all particles and prey of another one, within a common outline.
-    pub(super) fn take_over(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
+    fn take_over(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
         let Some(by) = self.organisms.get(id).map(|cell| self.origin_of(cell) - self.origin_of(&other)) else { return };
         for i in other.particles() {
             self.particles.owner[i as usize] = id.index;

@@ -7,12 +7,13 @@ use crate::organism::Organism;
 use crate::solver::fluid::rest_area;
 use crate::world::World;
 
-/// Size to which digestion shrinks prey before it is freed, relative to its size when it was taken in.
+/// Size to which digestion shrinks prey before it is removed, relative to its size when it was ingested.
 const DIGESTED_SCALE: f32 = 0.25;
-/// Time in which released prey would grow from nothing to its own size, s.
+/// Time in which released prey grows by its full size, s.
 const REGROWTH_TIME: f32 = 2.0;
 
 impl World {
+    /// Advances the digestion of all prey inside an engulfer that was told to digest.
     pub(super) fn advance_digestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
         if !engulfer.digests {
             return;
@@ -76,7 +77,7 @@ impl World {
     }
 }
 
-/// Size of prey that is digested so far, relative to its size when it was taken in.
+/// Size of prey at a progress of its digestion, relative to its size when it was ingested.
 fn digested_scale(progress: f32) -> f32 {
     1.0 + (DIGESTED_SCALE - 1.0) * if progress < 1.0 { progress } else { 1.0 }
 }

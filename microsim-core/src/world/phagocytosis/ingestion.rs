@@ -67,10 +67,9 @@ impl World {
         self.events.push(Event::Ingested { engulfer: id, prey: meal.prey });
     }
 
-    /// Closes the gate behind prey that stayed outside.
+    /// Lets prey go that stayed outside.
     fn abort_ingestion(&mut self, id: OrganismId, meal: &Meal) {
-        self.exemptions.close_gate(&meal.gate, meal.prey.index);
-        self.set_held_by(meal.prey, None);
+        self.release_prey(meal);
         self.events.push(Event::Released { engulfer: id, prey: meal.prey });
     }
 }

@@ -11,7 +11,7 @@ mod gate;
 mod ingestion;
 mod phagosome;
 
-use crate::capability::phagocytosis::Engulfer;
+use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
@@ -53,10 +53,7 @@ impl World {
     pub(crate) fn release_meals(&mut self, id: OrganismId) {
         let engulfer = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.as_mut());
         for meal in engulfer.map_or(Vec::new(), |engulfer| std::mem::take(&mut engulfer.meals)) {
-            self.exemptions.close_gate(&meal.gate, meal.prey.index);
-            if self.organisms.get(meal.prey).is_some_and(Organism::is_held) {
-                self.set_held_by(meal.prey, None);
-            }
+            self.release_prey(&meal);
         }
     }
 
@@ -65,15 +62,22 @@ impl World {
         engulfer.meals.retain(|meal| {
             let is_alive = self.organisms.get(meal.prey).is_some_and(|prey| !prey.is_quarantined);
             if !is_alive {
-                self.exemptions.close_gate(&meal.gate, meal.prey.index);
-                self.set_held_by(meal.prey, None);
+                self.release_prey(meal);
             }
             is_alive
         });
     }
 
+    /// Closes the gate for prey and lets it go.
+    fn release_prey(&mut self, meal: &Meal) {
+        self.exemptions.close_gate(&meal.gate, meal.prey.index);
+        if self.organisms.get(meal.prey).is_some_and(Organism::is_held) {
+            self.set_held_by(meal.prey, None);
+        }
+    }
+
     /// Notes which engulfer holds an organism, if any.
-    pub(in crate::world) fn set_held_by(&mut self, prey: OrganismId, engulfer: Option<OrganismId>) {
+    pub(super) fn set_held_by(&mut self, prey: OrganismId, engulfer: Option<OrganismId>) {
         if let Some(prey) = self.organisms.get_mut(prey) {
             prey.set_held_by(engulfer);
         }
