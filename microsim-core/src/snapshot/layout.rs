@@ -291,7 +291,7 @@ fn check(layout: &Layout, version: u32, file: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(&file, &now).unwrap();
     } else {
-        assert_eq!(golden, now, "write {} anew with UPDATE_GOLDEN=1", file.display());
+        assert_eq!(golden, now, "update {} with UPDATE_GOLDEN=1", file.display());
     }
 }
 

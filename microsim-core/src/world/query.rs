@@ -1,4 +1,5 @@
-//! Queries: what is at a point, in a circle, in a box, along a ray. Results are in the order of the organisms.
+//! Queries: organisms at a point, in a circle, in a box, and the first disc along a ray. Results are in the order of the
+//! organisms.
 
 use super::World;
 use crate::geometry::polygon::{contains_point, nearest_on_segment};

@@ -9,8 +9,8 @@ use crate::solver::membrane::links;
 use crate::world::World;
 use glam::Vec2;
 
-/// Distance from a cytoplasm particle, in rest spacings of the cytoplasm, up to which a place is covered by it. In the
-/// hexagonal lattice no place is farther than `1 / sqrt(3)` = 0.58 from a particle; an eighth more is for the disorder of
+/// Distance from a cytoplasm particle, in rest spacings of the cytoplasm, up to which it covers a point. In the
+/// hexagonal lattice no point is farther than `1 / sqrt(3)` = 0.58 from a particle; an eighth more is for the disorder of
 /// a fluid at rest.
 const COVERED: f32 = 0.65;
 /// Samples per rest spacing.
@@ -42,7 +42,7 @@ pub struct CrawlQuality {
 }
 
 impl World {
-    /// Measures one membrane. `None` for a stale handle and for what has no membrane around a fluid.
+    /// Measures one membrane. `None` for a stale handle and for an organism without a membrane around a fluid.
     #[must_use]
     pub fn membrane_quality(&self, id: OrganismId) -> Option<MembraneQuality> {
         let organism = self.organisms.get(id)?;

@@ -7,7 +7,7 @@ pub(crate) mod quality;
 
 use crate::world::World;
 
-/// One measure of a world, known by its name. Measuring it costs what it alone costs.
+/// One measure of a world, with its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
     name: &'static str,

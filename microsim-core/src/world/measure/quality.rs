@@ -35,15 +35,15 @@ pub struct Quality {
     pub width_ratio_mean: f32,
     /// Mean of [`CrawlQuality::speed_kept`] over the cells that crawl; 0 when none does.
     pub speed_kept_mean: f32,
-    /// Longest time since the conditions of an ingestion began to hold that is not over yet, s.
+    /// Longest time of an ingestion in progress since its conditions began to hold, s.
     pub ingestion_time_max: f32,
-    /// Longest time for which something has wanted to move without getting a third of its radius away from where it was, s.
+    /// Longest time for which an organism has wanted to move but has stayed within a third of its radius, s.
     pub stalled_max: f32,
 }
 
 impl World {
-    /// Measures how well the constraints hold and how membranes do. Costs more than a step where there are large cells;
-    /// [`crate::Measure`] measures one thing alone.
+    /// Measures errors of constraints and the shape of membranes. Costs more than a step in worlds with large cells;
+    /// [`crate::Measure`] measures one number alone.
     #[must_use]
     pub fn quality(&self) -> Quality {
         Quality {
@@ -172,7 +172,7 @@ fn largest(numbers: impl Iterator<Item = f32>) -> f32 {
     numbers.fold(0.0, larger)
 }
 
-/// The mean; 0 of nothing.
+/// The mean; 0 of an empty list.
 fn mean(numbers: impl Iterator<Item = f32>) -> f32 {
     let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }

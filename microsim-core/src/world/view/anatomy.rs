@@ -14,22 +14,22 @@ pub enum Bond {
     MinDistance,
     /// Keeps two particles together: [`crate::Rope`].
     Rope,
-    /// Ties a particle to a place: [`crate::Anchor`].
+    /// Ties a particle to a fixed point: [`crate::Anchor`].
     Anchor,
     /// A link of a membrane.
     Membrane,
 }
 
 impl<'a> View<'a> {
-    /// The constraints between two particles, each with where the two are.
+    /// The constraints between two particles, each with their positions.
     pub fn bonds(self) -> impl Iterator<Item = (Bond, [Vec2; 2])> + 'a {
         let ends = move |(bond, pair): (Bond, [u32; 2])| (bond, pair.map(|i| self.position(i)));
         let organisms = self.world.organisms.iter();
         organisms.flat_map(move |(_, organism)| self.bonds_of(organism)).map(ends)
     }
 
-    /// Pairs of places in which the surfaces of two particles touched in the last step: their centres, or a centre and
-    /// the nearer node of a membrane's link.
+    /// Pairs of particles that touched in the last step, as positions of their centres; for a link of a membrane that of its
+    /// nearer node.
     pub fn contacts(self) -> impl Iterator<Item = [Vec2; 2]> + 'a {
         let touching = self.world.near_pairs().filter(|pair| pair.touched);
         touching.map(move |pair| [pair.i, pair.j].map(|i| self.position(i)))
@@ -60,7 +60,7 @@ mod tests {
     use crate::{AmoeboidCellSpec, Inputs, Placement, PlateletSpec, World, WorldConfig};
 
     #[test]
-    fn every_constraint_of_two_particles_is_there_once() {
+    fn every_constraint_of_two_particles_is_listed_once() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         world.spawn(&PlateletSpec::default().into(), Placement::at(30.0, 40.0)).unwrap();
         world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 40.0)).unwrap();
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn contacts_are_where_bodies_touch() {
+    fn contacts_lie_between_bodies_that_touch() {
         let mut world = World::new(WorldConfig { gravity: Vec2::ZERO, ..WorldConfig::default() }).unwrap();
         let ids = [40.0, 45.2].map(|x| world.spawn(&PlateletSpec::default().into(), Placement::at(x, 40.0)).unwrap());
         assert_eq!(world.view().contacts().count(), 0);

@@ -51,7 +51,7 @@ fn check_entry(world: &World, i: usize) -> Check {
             && p.next_in_ring[i] == NO_OWNER
             && p.fluid[i] == 0
             && p.velocity(i) == Vec2::ZERO;
-        return disc.must(is_dead, || "nobody owns it, but it has mass, speed, a fluid, a ring or collides".to_owned());
+        return disc.must(is_dead, || "it has no owner, but mass, speed, a fluid, a ring or collisions".to_owned());
     }
     check_numbers(world, i, disc)?;
     disc.must((p.role[i] as usize) < Role::ALL.len(), || format!("role {} is unknown", p.role[i]))?;

@@ -136,7 +136,7 @@ fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &
     };
     for &i in loose.iter().chain(&organism.fluid_particles) {
         let place = owned.get_mut(i as usize).filter(|place| **place == NO_OWNER);
-        *place.ok_or_else(|| in_cell(cell, i, "it does not exist, or is somebody's already"))? = index;
+        *place.ok_or_else(|| in_cell(cell, i, "it does not exist or has another owner"))? = index;
     }
     let are_own = |ring: &[u32]| {
         let mut known = ring.to_vec();
