@@ -1,14 +1,12 @@
-//! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
+//! The step, as a table of contents: the order of its phases, and what each hands to which function elsewhere. The names are
+//! those of [`Phase`].
 
-use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
+use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
-use crate::collision::broad_phase::SearchInput;
-use crate::collision::ring::Ring;
-use crate::collision::speculative_margin::DisplacementLimits;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
-use crate::particle::{BlockRange, outside_of};
+use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
@@ -20,7 +18,7 @@ use glam::Vec2;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that are expected to touch before the next step are found, who sleeps in this one, and the neighbours of fluid.
+    /// Pairs that may touch in this step are found, blocks that sleep in it, and the neighbours of fluid particles.
     FindPairs,
     /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
@@ -30,15 +28,15 @@ pub enum Phase {
     ProjectConstraints,
     /// Pairs of bodies that got faster than expected are found; discs and obstacles push each other apart.
     ProjectContacts,
-    /// What has moved gets the velocity of its move; restitution.
+    /// Velocities follow from the changes of position; restitution.
     UpdateVelocities,
-    /// What is on the wrong side of a membrane is taken back; prey is touched, taken in and digested; engulfers grow.
+    /// Discs on the wrong side of a membrane are returned; prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
     /// Furrows close, cells divide and fuse.
     DivideAndFuse,
     /// Organisms secrete and take up chemicals, which diffuse and decay.
     DiffuseChemicals,
-    /// Contacts become events, and what is no longer finite is frozen.
+    /// Contacts become events, organisms that are no longer finite are frozen, origins are moved.
     Conclude,
 }
 
@@ -77,11 +75,24 @@ impl Phase {
     }
 }
 
-pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
+impl World {
+    /// Advances the world by [`crate::WorldConfig::dt`]. Cannot fail and does not panic.
+    pub fn step(&mut self, inputs: &Inputs) {
+        self.step_observed(inputs, |_| {});
+    }
+
+    /// The same as [`World::step`]; calls `finished` after each phase, once per substep for those inside the loop. For
+    /// measuring times: the core itself reads no clock.
+    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
+        parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+    }
+}
+
+fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
     serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
-    find_pairs(world);
+    world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
     finished(Phase::FindPairs);
@@ -100,7 +111,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
     }
-    catch_strays(world);
+    repair_membranes(world);
     world.advance_phagocytosis();
     finished(Phase::AdvancePhagocytosis);
     world.divide_and_fuse();
@@ -112,7 +123,7 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     world.step_index += 1;
 }
 
-/// Does what no other thread takes part in.
+/// Runs a phase on one thread.
 fn serial(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
     parallel::serial(world.particles.len(), || phase(world));
 }
@@ -123,28 +134,19 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
     let environment = senses::Environment { size, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, events);
-    draw_in_prey(organisms, particles, &mut scratch.drives);
+    phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
-    constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
-    cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
-    // What wants to move does not sleep, even where it cannot.
+    // An organism with a drive stays awake, even if it is blocked.
     for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
         let owner = organisms.id_at(particles.owner[drive.particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
-        lane.into_iter().for_each(|(block, lane)| sleep.wake_up(block, lane));
+        if let Some((block, lane)) = lane {
+            sleep.wake_up(block, lane);
+        }
     }
-}
-
-pub(crate) fn find_pairs(world: &mut World) {
-    let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
-    let (step, substep) = (config.max_displacement(), config.max_substep_displacement());
-    let (size, limits) = (config.size, DisplacementLimits { step, substep, dt: config.dt });
-    let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
-    let (rings, containments) = (rings.as_slice(), &organisms.containments());
-    let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    let input = SearchInput { particles, blocks, obstacles, exemptions, rings, containments, size, limits };
-    scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
 }
 
 fn find_neighbours(world: &mut World) {
@@ -231,16 +233,16 @@ fn update_velocities(world: &mut World, h: f32) {
         #[inline(always)]
         |chunk| integrate::update_velocities(chunk, config.damping, config.speed_limit(), h),
     );
-    // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
+    // Drag acts on the membrane only: the cytoplasm of a crawling cell is not damped.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
-        integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
+        integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
-/// The safety net: lays out what crosses itself, and casts a ray from every disc near a membrane.
-fn catch_strays(world: &mut World) {
+/// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.
+fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
         guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles));

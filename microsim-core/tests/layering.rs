@@ -59,23 +59,6 @@ const LAYERS: &[(&str, &[&str])] = &[
             "solver::drive",
         ],
     ),
-    // The step takes the world apart and hands each phase what it needs, so these two know each other.
-    (
-        "step",
-        &[
-            "behavior",
-            "capability",
-            "collision",
-            "config",
-            "event",
-            "inputs",
-            "organism",
-            "parallel",
-            "particle",
-            "solver",
-            "world",
-        ],
-    ),
     (
         "world",
         &[
@@ -89,7 +72,6 @@ const LAYERS: &[(&str, &[&str])] = &[
             "fnv",
             "geometry",
             "id",
-            "inputs",
             "kind",
             "organism",
             "parallel",
@@ -97,11 +79,12 @@ const LAYERS: &[(&str, &[&str])] = &[
             "rng",
             "shared",
             "solver",
-            "step",
             "template",
             "walk",
         ],
     ),
+    // The step takes the world apart and hands each phase what it needs.
+    ("step", &["behavior", "capability", "inputs", "organism", "parallel", "particle", "solver", "world"]),
     ("snapshot", &["collision", "fnv", "id", "scenario", "world"]),
     ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
     ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),

@@ -159,7 +159,7 @@ impl Organisms {
     pub(crate) fn containments(&self) -> Vec<Containment> {
         let mut containments = vec![Containment::Free; self.slots.len()];
         for (id, organism) in self.with_membrane() {
-            let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
+            let meals = organism.meals().iter();
             // Another organism may live in the place of prey that was removed.
             for meal in meals.filter(|meal| self.get(meal.prey).is_some()) {
                 match meal.phase {

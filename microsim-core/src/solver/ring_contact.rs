@@ -111,14 +111,14 @@ pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p
         };
         if is_stray {
             caught += 1;
-            take_back(contact, ring, p);
+            return_to_side(contact, ring, p);
         }
     }
     caught
 }
 
 /// Moves a disc to its own side of the link of a whole ring that is nearest to it.
-fn take_back(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
+fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
     let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
     let i = contact.particle as usize;
