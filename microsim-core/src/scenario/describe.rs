@@ -2,13 +2,13 @@
 //!
 //! Nothing here names a field. The reader is run over an empty file and notes what it asks for; ranges are what it accepts
 //! instead of a number that is out of any range. So neither the description nor the JSON Schema made from it can say
-//! anything but what is true of the reader. Only the words of explanation stand in a list of their own, `words.rs`, and a
+//! anything but what is true of the reader. Only the words of explanation stand in a list of their own, `explanations.rs`, and a
 //! test compares that with the fields.
 
-use super::fields::Report;
-use super::shape::Shape;
-use super::source::Source;
-use super::{Scenario, file, words};
+use super::reader::document::Source;
+use super::reader::fields::Report;
+use super::reader::value_type::Shape;
+use super::{Scenario, explanations, file};
 use toml::de::DeTable;
 
 /// One field or table of the format.
@@ -82,7 +82,7 @@ pub fn describe() -> Vec<Description> {
     let accepted: Vec<_> = notes.iter().map(|note| note.accepted(is_list)).collect();
     let described = notes.into_iter().zip(accepted);
     let described = described.map(|(Note { path, entry }, accepted)| {
-        let words = words::of(&path).unwrap_or_default();
+        let words = explanations::of(&path).unwrap_or_default();
         Description { path, entry, accepted, words }
     });
     described.collect()
@@ -118,7 +118,7 @@ mod tests {
             described.iter().filter(|field| field.words.is_empty()).map(|field| &field.path).collect();
         assert!(missing.is_empty(), "no words for {missing:#?}");
         let is_field = |path: &str| described.iter().any(|field| field.path == path);
-        let stray: Vec<_> = words::paths().filter(|path| !is_field(path)).collect();
+        let stray: Vec<_> = explanations::paths().filter(|path| !is_field(path)).collect();
         assert!(stray.is_empty(), "words for fields that there are not: {stray:#?}");
     }
 }

@@ -1,15 +1,18 @@
 //! The whole file: from a tree of values to what a scenario is made of.
 
-use super::checks::{self, Checks};
-use super::chemical::{self, Chemicals};
-use super::fields::{Fields, Report};
-use super::group::{self, Group, Surroundings};
-use super::output::{self, OutputPlan};
-use super::prototype::{self, Prototype};
+use super::diagnostic::Diagnostics;
+use super::reader::document::Source;
+use super::reader::fields::{Fields, Report};
 use super::script::{self, Command};
-use super::source::Source;
-use super::steering::Controllers;
-use super::{diagnostic::Diagnostics, game, game::Game, grid::GridPlan, obstacle, steering};
+use super::sections::checks::{self, Checks};
+use super::sections::chemical::{self, Chemicals};
+use super::sections::controller::{self, Controllers};
+use super::sections::field::GridPlan;
+use super::sections::game::{self, Game};
+use super::sections::obstacle;
+use super::sections::output::{self, OutputPlan};
+use super::sections::prototype::{self, Prototype};
+use super::sections::spawn::{self, Group, Surroundings};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::error::Error;
@@ -55,21 +58,21 @@ pub(super) fn read_root(table: &DeTable<'_>, report: &Report<'_>) -> File {
     let duration = root.number("duration", DURATION, [0.0, 1e6]);
     let (config, size) = read_config(&mut root);
     let prototypes = prototype::read(&mut root);
-    let plans = group::read_fields(&mut root, &prototypes);
+    let plans = spawn::read_fields(&mut root, &prototypes);
     let size = size.or_else(|| room_for(&plans, report)).unwrap_or(config.size);
     let config = WorldConfig { size, ..config };
     let obstacles = obstacle::read(&mut root, size);
     let chemicals = chemical::read(&mut root, &config);
-    let controllers = steering::read(&mut root, size, &chemicals);
+    let controllers = controller::read(&mut root, size, &chemicals);
     let around = Surroundings { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
-    let mut groups = group::read_spawns(&mut root, &around);
+    let mut groups = spawn::read_spawns(&mut root, &around);
     groups.extend(lay_out(plans, size, report));
     let commands = script::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
     let output = output::read(&mut root);
     let game = game::read(&mut root, &groups);
     root.finish();
-    group::check_size(&groups, config.max_particles, report);
+    spawn::check_size(&groups, config.max_particles, report);
     File {
         name,
         description,

@@ -81,38 +81,27 @@
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
 mod builtin;
-mod checks;
-mod chemical;
 mod describe;
 mod diagnostic;
 mod effective;
-mod fields;
+mod explanations;
 mod file;
-mod game;
-mod grid;
-mod group;
-mod obstacle;
 mod origin;
-mod output;
-mod overrides;
 mod placing;
-mod prototype;
+mod reader;
 mod script;
-mod shape;
-mod source;
-mod steering;
+mod sections;
 pub(crate) mod supply;
-mod words;
 
 pub use builtin::{Builtin, builtin, builtins};
-pub use checks::{Checks, Violation};
 pub use describe::{Description, Entry, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use game::{Game, Points};
 pub use origin::Origin;
-pub use output::{FramePlan, OutputPlan, TableFormat, TablePlan};
+pub use reader::value_type::Shape;
 pub use script::{Refusal, Script};
-pub use shape::Shape;
+pub use sections::checks::{Checks, Violation};
+pub use sections::game::{Game, Points};
+pub use sections::output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 
 use crate::config::WorldConfig;
 use crate::error::Error;
@@ -120,11 +109,11 @@ use crate::id::{ChemicalId, OrganismId};
 use crate::inputs::Inputs;
 use crate::world::World;
 use diagnostic::in_words;
-use fields::Report;
 use file::File;
-use group::{Group, Place};
 use placing::Placed;
-use source::Source;
+use reader::document::Source;
+use reader::fields::Report;
+use sections::spawn::{Group, Place};
 use supply::Supply;
 
 /// Errors after which building gives up: the rest would be more of the same.

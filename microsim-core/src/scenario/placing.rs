@@ -1,7 +1,7 @@
 //! Finding a place for every organism, from the seed alone.
 
-use super::fields::Report;
-use super::group::{Angle, Group, Place};
+use super::reader::fields::Report;
+use super::sections::spawn::{Angle, Group, Place};
 use crate::collision::obstacle::Obstacle;
 use crate::organism::{OrganismSpec, Placement};
 use crate::rng::Rng;

@@ -1,10 +1,10 @@
 //! Scripts: the `[[command]]` tables, what is done to organisms and when.
 
-use super::fields::{Fields, Read, Report};
-use super::group::Group;
-use super::shape::Shape;
-use super::source::{NAME, Value, is_name, unknown};
-use super::steering::{self, Controllers};
+use super::reader::document::{NAME, Value, is_name, unknown};
+use super::reader::fields::{Fields, Read, Report};
+use super::reader::value_type::Shape;
+use super::sections::controller::{self, Controllers};
+use super::sections::spawn::Group;
 use super::supply::Supply;
 #[cfg(feature = "snapshot")]
 use super::supply::SupplyState;
@@ -266,7 +266,7 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], controllers: &Contro
     let mut commands = Vec::new();
     for mut fields in root.list("command") {
         let command = read_command(&mut fields, &named, duration);
-        steering::read_named(&mut fields, "controller", controllers);
+        controller::read_named(&mut fields, "controller", controllers);
         fields.finish();
         let daughter = command.as_ref().and_then(|command| daughter(command, &named));
         named.extend(daughter);
@@ -379,7 +379,7 @@ impl Read for Always {
     fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
         match value.get_ref().as_bool() {
             Some(true) => Some(Self),
-            _ => super::fields::mismatch(value, path, report),
+            _ => super::reader::fields::mismatch(value, path, report),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Supply: organisms of a `[[spawn]]` table that come later (`from`), or again when one is gone (`respawn`).
 
-use super::group::{Group, Place};
 use super::placing::{self, Placed};
+use super::sections::spawn::{Group, Place};
 use crate::World;
 use crate::id::OrganismId;
 use crate::rng::Rng;

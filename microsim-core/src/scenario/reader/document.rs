@@ -1,7 +1,7 @@
 //! The text of a scenario as a tree of values: overrides and parameters put in, and where each value stands.
 
-use super::diagnostic::{Diagnostic, Diagnostics, line_and_column, nearest};
-use super::overrides;
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, line_and_column, nearest};
+use crate::scenario::reader::overrides;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -9,14 +9,14 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A value and where it stands.
-pub(super) type Value<'a> = Spanned<DeValue<'a>>;
+pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
 
 /// The text and the place of every value in it, by dotted path.
 ///
 /// A value that an override brought does not stand in the text: its span begins beyond the end of the text, by one plus
 /// the index of the override. Values that a parameter brought stand where the parameter does: there they can be changed.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Source {
+pub(crate) struct Source {
     pub text: String,
     pub overrides: Vec<(String, String)>,
     places: BTreeMap<String, Place>,
@@ -30,7 +30,7 @@ struct Place {
 
 impl Source {
     /// Parses the text, applies the overrides and puts parameters in.
-    pub(super) fn read<'a>(
+    pub(crate) fn read<'a>(
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
@@ -39,7 +39,7 @@ impl Source {
         // What follows from a syntax error is no use to anybody: at most one for each line.
         let mut broken: Vec<Diagnostic> = errors.iter().map(|error| source.syntax_error(error)).collect();
         broken.dedup_by_key(|diagnostic| diagnostic.line);
-        broken.truncate(super::MAX_ERRORS);
+        broken.truncate(crate::scenario::MAX_ERRORS);
         Diagnostics::check(broken)?;
         let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
         let mut found = Vec::new();
@@ -60,19 +60,19 @@ impl Source {
     }
 
     /// The diagnostic for the value at a path; for one that is not in the file, at the table that it belongs to.
-    pub(super) fn diagnostic(&self, field: &str, message: impl Into<String>, accepted: Option<String>) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, field: &str, message: impl Into<String>, accepted: Option<String>) -> Diagnostic {
         let (field, place) = self.locate(field);
         self.diagnostic_at(place.value, field, message.into(), accepted)
     }
 
     /// The diagnostic for the key at a path.
-    pub(super) fn key_diagnostic(&self, field: &str, message: String, accepted: String) -> Diagnostic {
+    pub(crate) fn key_diagnostic(&self, field: &str, message: String, accepted: String) -> Diagnostic {
         let (field, place) = self.locate(field);
         self.diagnostic_at(place.key, field, message, Some(accepted))
     }
 
     /// Whether the file has a value at a path.
-    pub(super) fn has(&self, path: &str) -> bool {
+    pub(crate) fn has(&self, path: &str) -> bool {
         self.places.contains_key(path)
     }
 
@@ -219,24 +219,24 @@ impl Source {
 }
 
 /// A degree in radians: files hold degrees.
-pub(super) const DEGREE: f32 = std::f32::consts::PI / 180.0;
+pub(crate) const DEGREE: f32 = std::f32::consts::PI / 180.0;
 
 /// What names of prototypes, controllers, organisms and parameters look like.
-pub(super) const NAME: &str = "1 to 64 letters, digits, _ or -";
+pub(crate) const NAME: &str = "1 to 64 letters, digits, _ or -";
 
 /// Whether this is a name: nothing that needs quoting in a dotted path.
-pub(super) fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
     (1..=64).contains(&text.len()) && text.bytes().all(is_part)
 }
 
 /// Extends a dotted path.
-pub(super) fn join(path: &str, last: &str) -> String {
+pub(crate) fn join(path: &str, last: &str) -> String {
     if path.is_empty() { last.to_owned() } else { format!("{path}.{last}") }
 }
 
 /// Message and accepted names for a name that is none of those known.
-pub(super) fn unknown(what: &str, name: &str, known: &[&str]) -> (String, String) {
+pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> (String, String) {
     let guess = nearest(name, known.iter().copied()).map_or(String::new(), |near| format!(", did you mean `{near}`?"));
     let accepted = if known.is_empty() { "none: there is none".to_owned() } else { known.join(", ") };
     (format!("unknown {what} `{name}`{guess}"), accepted)

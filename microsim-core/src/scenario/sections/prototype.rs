@@ -1,10 +1,10 @@
 //! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
 
-use super::fields::{Fields, Read, Report};
-use super::shape::Shape;
-use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
+use crate::scenario::reader::document::Value;
+use crate::scenario::reader::fields::{Fields, Read, Report};
+use crate::scenario::reader::value_type::Shape;
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
     AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay,
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.
 #[derive(Clone, Debug)]
-pub(super) struct Prototype {
+pub(crate) struct Prototype {
     pub name: String,
     spec: OrganismSpec,
     /// Farthest that it reaches from its centre, units.
@@ -22,7 +22,7 @@ pub(super) struct Prototype {
 }
 
 /// Prototypes by name; `None` where its table is wrong, which is reported once, there.
-pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
+pub(crate) type Prototypes = BTreeMap<String, Option<Prototype>>;
 
 type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
 
@@ -40,7 +40,7 @@ const KINDS: [(&str, ReadSpec); 9] = [
 ];
 
 /// Reads all prototypes of a file.
-pub(super) fn read(root: &mut Fields<'_>) -> Prototypes {
+pub(crate) fn read(root: &mut Fields<'_>) -> Prototypes {
     let mut prototypes = Prototypes::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
@@ -64,29 +64,29 @@ impl Prototype {
     }
 
     /// Whether anything can steer it.
-    pub(super) fn can_move(&self) -> bool {
+    pub(crate) fn can_move(&self) -> bool {
         self.spec.can_move()
     }
 
     /// Whether it takes others in and grows.
-    pub(super) fn can_grow(&self) -> bool {
+    pub(crate) fn can_grow(&self) -> bool {
         matches!(self.spec, OrganismSpec::AmoeboidCell(_))
     }
 
     /// Farthest that it reaches from its centre when scaled, units.
-    pub(super) fn extent(&self, scale: f32) -> f32 {
+    pub(crate) fn extent(&self, scale: f32) -> f32 {
         self.extent * scale
     }
 
     /// Particles that one of it takes.
-    pub(super) fn particles(&self, scale: f32) -> Result<u64, Error> {
+    pub(crate) fn particles(&self, scale: f32) -> Result<u64, Error> {
         let (spec, _) = self.scaled(scale);
         spec.particle_count().map(|count| count as u64)
     }
 
     /// Its spec in another size, and what is left for [`crate::Placement::scale`] to do. Where fluid is part of it the
     /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (seed, 3.1.2).
-    pub(super) fn scaled(&self, scale: f32) -> (OrganismSpec, f32) {
+    pub(crate) fn scaled(&self, scale: f32) -> (OrganismSpec, f32) {
         match self.spec.clone() {
             OrganismSpec::AmoeboidCell(spec) => {
                 let radii = spec.radii * scale;
@@ -253,7 +253,7 @@ impl Read for IngestionWay {
         match value.get_ref().as_str() {
             Some("gate") => Some(Self::Gate),
             Some("cup") => Some(Self::Cup),
-            _ => super::fields::mismatch(value, path, report),
+            _ => crate::scenario::reader::fields::mismatch(value, path, report),
         }
     }
 }
@@ -279,7 +279,7 @@ impl Read for FluidMode {
         match value.get_ref().as_str() {
             Some("density") => Some(Self::Density),
             Some("granular") => Some(Self::Granular),
-            _ => super::fields::mismatch(value, path, report),
+            _ => crate::scenario::reader::fields::mismatch(value, path, report),
         }
     }
 }

@@ -1,9 +1,9 @@
 //! What a run leaves behind: the table `[output]`. The library writes no files; whoever runs a scenario does.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, unknown};
 use crate::Measure;
+use crate::scenario::reader::document::{Value, unknown};
+use crate::scenario::reader::fields::{Fields, Read, Report, mismatch};
+use crate::scenario::reader::value_type::Shape;
 
 /// Longest time that makes sense, s.
 const LONGEST: f32 = 1e6;
@@ -80,7 +80,7 @@ impl TableFormat {
 }
 
 /// Reads the `[output]` table.
-pub(super) fn read(root: &mut Fields<'_>) -> OutputPlan {
+pub(crate) fn read(root: &mut Fields<'_>) -> OutputPlan {
     let mut fields = root.table("output");
     let mut measures = fields.table("measures");
     let measured = read_measured(&mut measures);

@@ -1,15 +1,15 @@
 //! Chemicals: the tables `[chemical.NAME]`, and who secretes and takes up what.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, join, unknown};
+use crate::scenario::reader::document::{Value, join, unknown};
+use crate::scenario::reader::fields::{Fields, Read, Report, mismatch};
+use crate::scenario::reader::value_type::Shape;
 use crate::{ChemicalId, ChemicalSpec, Exchange, WorldConfig};
 
 /// Chemicals with their names, in the order in which the world gets them.
-pub(super) type Chemicals = Vec<(String, ChemicalSpec)>;
+pub(crate) type Chemicals = Vec<(String, ChemicalSpec)>;
 
 /// Reads all chemicals of a file.
-pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
+pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
     let mut chemicals = Chemicals::new();
     for (name, mut fields) in root.named("chemical") {
         let default = ChemicalSpec::default();
@@ -27,7 +27,7 @@ pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
 }
 
 /// The chemical of the name at a path; reports it if there is none.
-pub(super) fn find(name: &str, path: &str, chemicals: &Chemicals, report: &Report<'_>) -> Option<ChemicalId> {
+pub(crate) fn find(name: &str, path: &str, chemicals: &Chemicals, report: &Report<'_>) -> Option<ChemicalId> {
     let found = (0..).zip(chemicals).find(|(_, (known, _))| known == name).map(|(k, _)| ChemicalId(k));
     if found.is_none() {
         let names: Vec<&str> = chemicals.iter().map(|(name, _)| name.as_str()).collect();
@@ -38,7 +38,7 @@ pub(super) fn find(name: &str, path: &str, chemicals: &Chemicals, report: &Repor
 }
 
 /// Reads the fields `secretes` and `takes_up` of a `[[spawn]]` table.
-pub(super) fn read_exchanges(fields: &mut Fields<'_>, chemicals: &Chemicals) -> Vec<Exchange> {
+pub(crate) fn read_exchanges(fields: &mut Fields<'_>, chemicals: &Chemicals) -> Vec<Exchange> {
     let mut exchanges: Vec<Exchange> = Vec::new();
     for field in ["secretes", "takes_up"] {
         let Rates(rates) = fields.or(field, Rates(Vec::new()));

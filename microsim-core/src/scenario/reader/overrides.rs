@@ -1,6 +1,6 @@
 //! Overrides: `key=value` pairs that change a scenario before it is read.
 
-use super::source::{Value, unknown};
+use crate::scenario::reader::document::{Value, unknown};
 use std::borrow::Cow;
 use std::ops::Range;
 use toml::Spanned;
@@ -15,7 +15,7 @@ const OPTIONAL: [&str; 7] = ["world", "step", "invariants", "output", "measures"
 type Refusal = (String, String);
 
 /// Sets one value by the name of a parameter or by its path. What is set stands at `span`.
-pub(super) fn apply<'a>(root: &mut Value<'a>, key: &'a str, text: &'a str, span: Range<usize>) -> Result<(), Refusal> {
+pub(crate) fn apply<'a>(root: &mut Value<'a>, key: &'a str, text: &'a str, span: Range<usize>) -> Result<(), Refusal> {
     let path = path_of(root, key)?;
     let value = parse(text, &span)?;
     set(root, &path, value)

@@ -1,9 +1,9 @@
 //! Checks: the tables `[invariants]` and `[[expect]]`.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, unknown};
 use crate::event::Event;
+use crate::scenario::reader::document::{Value, unknown};
+use crate::scenario::reader::fields::{Fields, Read, Report, mismatch};
+use crate::scenario::reader::value_type::Shape;
 use crate::{Measure, World};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -166,12 +166,12 @@ fn digits(value: f64) -> String {
 }
 
 /// Whether something that can be bounded goes by this name.
-pub(super) fn is_quantity(name: &str) -> bool {
+pub(crate) fn is_quantity(name: &str) -> bool {
     Quantity::named(name).is_some()
 }
 
 /// Reads the `[invariants]` and `[[expect]]` tables.
-pub(super) fn read(root: &mut Fields<'_>) -> Checks {
+pub(crate) fn read(root: &mut Fields<'_>) -> Checks {
     let mut fields = root.table("invariants");
     let mut invariants = Vec::new();
     for name in Quantity::names() {

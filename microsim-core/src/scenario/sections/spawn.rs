@@ -1,19 +1,19 @@
 //! Groups of organisms: the tables `[[spawn]]` and `[[field]]`.
 
-use super::chemical::{self, Chemicals};
-use super::fields::{Fields, Read, Report, mismatch};
-use super::grid::{Grid, GridPlan};
-use super::prototype::{Prototype, Prototypes};
-use super::shape::Shape;
-use super::source::{DEGREE, NAME, Value, is_name, unknown};
-use super::steering::{self, Controllers};
+use crate::scenario::reader::document::{DEGREE, NAME, Value, is_name, unknown};
+use crate::scenario::reader::fields::{Fields, Read, Report, mismatch};
+use crate::scenario::reader::value_type::Shape;
+use crate::scenario::sections::chemical::{self, Chemicals};
+use crate::scenario::sections::controller::{self, Controllers};
+use crate::scenario::sections::field::{Grid, GridPlan};
+use crate::scenario::sections::prototype::{Prototype, Prototypes};
 use crate::{Controller, Exchange};
 use glam::Vec2;
 use std::collections::BTreeSet;
 
 /// Organisms of one prototype that one table puts into the world.
 #[derive(Clone, Debug)]
-pub(super) struct Group {
+pub(crate) struct Group {
     /// Path of its table.
     pub path: String,
     pub prototype: Prototype,
@@ -33,7 +33,7 @@ pub(super) struct Group {
 
 /// Where organisms are put.
 #[derive(Clone, Debug)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// One, here.
     At(Vec2),
     /// Anywhere wholly within a box, `gap` from everything else.
@@ -43,7 +43,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    pub(super) fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         match self {
             Self::At(_) => 1,
             Self::Random { count, .. } => *count,
@@ -54,7 +54,7 @@ impl Place {
 
 /// Direction of organisms.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Angle {
+pub(crate) enum Angle {
     Radians(f32),
     Random,
 }
@@ -119,7 +119,7 @@ impl Read for Scale {
 }
 
 /// What groups refer to by name, and the room that they are put into.
-pub(super) struct Surroundings<'a> {
+pub(crate) struct Surroundings<'a> {
     pub prototypes: &'a Prototypes,
     pub controllers: &'a Controllers,
     pub chemicals: &'a Chemicals,
@@ -127,7 +127,7 @@ pub(super) struct Surroundings<'a> {
 }
 
 /// Reads the `[[spawn]]` tables.
-pub(super) fn read_spawns(root: &mut Fields<'_>, around: &Surroundings<'_>) -> Vec<Group> {
+pub(crate) fn read_spawns(root: &mut Fields<'_>, around: &Surroundings<'_>) -> Vec<Group> {
     let mut names = BTreeSet::new();
     let mut groups = Vec::new();
     for mut fields in root.list("spawn") {
@@ -143,7 +143,7 @@ fn read_spawn(fields: &mut Fields<'_>, around: &Surroundings<'_>, names: &mut BT
     let place = read_place(fields, around.size);
     let angle = fields.or("angle", Angle::Radians(0.0));
     let Scale(scale) = fields.or("scale", Scale([1.0, 1.0]));
-    let controller = steering::read_named(fields, "controller", around.controllers).unwrap_or_default();
+    let controller = controller::read_named(fields, "controller", around.controllers).unwrap_or_default();
     let exchanges = chemical::read_exchanges(fields, around.chemicals);
     let name = read_name(fields, names);
     let is_player = fields.or("player", false);
@@ -233,7 +233,7 @@ fn is_box_in([low, high]: &[Vec2; 2], size: Vec2, fields: &Fields<'_>) -> bool {
 }
 
 /// Reads the `[[field]]` tables; they are laid out when the size of the room is known.
-pub(super) fn read_fields(root: &mut Fields<'_>, prototypes: &Prototypes) -> Vec<(String, Prototype, GridPlan)> {
+pub(crate) fn read_fields(root: &mut Fields<'_>, prototypes: &Prototypes) -> Vec<(String, Prototype, GridPlan)> {
     let mut plans = Vec::new();
     for mut fields in root.list("field") {
         let prototype = read_prototype(&mut fields, prototypes);
@@ -249,7 +249,7 @@ pub(super) fn read_fields(root: &mut Fields<'_>, prototypes: &Prototypes) -> Vec
 
 impl Group {
     /// Organisms on a grid: unturned, in their own size, not steered.
-    pub(super) fn on_grid(path: String, prototype: Prototype, grid: Grid) -> Self {
+    pub(crate) fn on_grid(path: String, prototype: Prototype, grid: Grid) -> Self {
         Self {
             path,
             prototype,
@@ -266,7 +266,7 @@ impl Group {
     }
 
     /// How many there are from the beginning in random places.
-    pub(super) fn random_count(&self) -> usize {
+    pub(crate) fn random_count(&self) -> usize {
         match self.place {
             Place::Random { count, .. } if self.from == 0.0 => count as usize,
             _ => 0,
@@ -274,20 +274,20 @@ impl Group {
     }
 
     /// Path of the field that says how many there are.
-    pub(super) fn count_path(&self, report: &Report<'_>) -> String {
+    pub(crate) fn count_path(&self, report: &Report<'_>) -> String {
         let count = format!("{}.count", self.path);
         if report.source.has(&count) { count } else { format!("{}.of", self.path) }
     }
 }
 
 /// Checks that the scaled organisms are sound and that all of them together are not too many, before anything is made.
-pub(super) fn check_size(groups: &[Group], max_particles: u32, report: &Report<'_>) {
+pub(crate) fn check_size(groups: &[Group], max_particles: u32, report: &Report<'_>) {
     let mut left = u64::from(max_particles);
     for group in groups {
         let sizes = group.scale.map(|scale| group.prototype.particles(scale));
         let [Ok(_), Ok(each)] = sizes else {
             sizes.into_iter().filter_map(Result::err).for_each(|error| {
-                let (message, accepted) = super::diagnostic::in_words(&error);
+                let (message, accepted) = crate::scenario::diagnostic::in_words(&error);
                 let message = format!("scaled, its {} {message}", error.field());
                 report.refuse(&format!("{}.scale", group.path), message, accepted.unwrap_or_default());
             });

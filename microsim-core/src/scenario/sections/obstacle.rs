@@ -1,11 +1,11 @@
 //! Static geometry: the tables `[[wall]]`, `[[block]]`, `[[disc]]` and `[[polygon]]`.
 
-use super::fields::Fields;
-use super::source::DEGREE;
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{is_simple, signed_area, triangulate};
 use crate::particle::Material;
+use crate::scenario::reader::document::DEGREE;
+use crate::scenario::reader::fields::Fields;
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
@@ -23,7 +23,7 @@ type ReadShape = fn(&mut Fields<'_>) -> Option<(SharedShape, Pose)>;
 const KINDS: [(&str, ReadShape); 4] = [("wall", wall), ("block", block), ("disc", disc), ("polygon", polygon)];
 
 /// Reads all obstacles of a file for a room of this size.
-pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Vec<Obstacle> {
+pub(crate) fn read(root: &mut Fields<'_>, size: Vec2) -> Vec<Obstacle> {
     let mut obstacles = Vec::new();
     for (kind, read) in KINDS {
         for mut fields in root.list(kind) {

@@ -1,20 +1,20 @@
 //! Reading tables: every field is asked for by name and type, and what nobody asked for is refused.
 //!
 //! Reading goes on after an error with a value that makes sense, so that one pass finds all that is wrong. What is asked
-//! for is also the description of the format: see [`super::describe`].
+//! for is also the description of the format: see [`crate::scenario::describe`].
 
-use super::describe::{Entry, Note};
-use super::diagnostic::{Diagnostic, in_words};
-use super::shape::Shape;
-use super::source::{NAME, Source, Value, is_name, join, unknown};
 use crate::error::Error;
+use crate::scenario::describe::{Entry, Note};
+use crate::scenario::diagnostic::{Diagnostic, in_words};
+use crate::scenario::reader::document::{NAME, Source, Value, is_name, join, unknown};
+use crate::scenario::reader::value_type::Shape;
 use glam::Vec2;
 use std::cell::RefCell;
 use toml::de::{DeTable, DeValue};
 
 /// What was found to be wrong so far. Shared by all readers of one file, hence the cell.
 #[derive(Debug)]
-pub(super) struct Report<'s> {
+pub(crate) struct Report<'s> {
     pub source: &'s Source,
     pub found: RefCell<Vec<Diagnostic>>,
     /// Every field that was asked for, if the format is being described.
@@ -24,12 +24,12 @@ pub(super) struct Report<'s> {
 }
 
 impl<'s> Report<'s> {
-    pub(super) fn new(source: &'s Source) -> Self {
+    pub(crate) fn new(source: &'s Source) -> Self {
         Self { source, found: RefCell::default(), notes: None, refused: RefCell::default() }
     }
 
     /// One that takes notes of what is asked for instead of reading.
-    pub(super) fn describing(source: &'s Source) -> Self {
+    pub(crate) fn describing(source: &'s Source) -> Self {
         Self { notes: Some(RefCell::default()), ..Self::new(source) }
     }
 
@@ -44,26 +44,26 @@ impl<'s> Report<'s> {
     }
 
     /// Refuses the value at a path.
-    pub(super) fn refuse(&self, path: &str, message: impl Into<String>, accepted: impl Into<String>) {
+    pub(crate) fn refuse(&self, path: &str, message: impl Into<String>, accepted: impl Into<String>) {
         let diagnostic = self.source.diagnostic(path, message, Some(accepted.into()));
         self.found.borrow_mut().push(diagnostic);
     }
 
     /// Refuses the key at a path.
-    pub(super) fn refuse_key(&self, path: &str, message: String, accepted: String) {
+    pub(crate) fn refuse_key(&self, path: &str, message: String, accepted: String) {
         let diagnostic = self.source.key_diagnostic(path, message, accepted);
         self.found.borrow_mut().push(diagnostic);
     }
 
     /// Passes on what the library says of a value in the table at `path`.
-    pub(super) fn check<T>(&self, path: &str, result: Result<T, Error>) -> Option<T> {
+    pub(crate) fn check<T>(&self, path: &str, result: Result<T, Error>) -> Option<T> {
         let refuse = |error: Error| self.found.borrow_mut().push(self.diagnostic(path, &error));
         result.map_err(refuse).ok()
     }
 
     /// Reads something of the table at `path` and has it checked. Where the library refuses a value, that is reported and it
     /// is read once more without that value, so that whatever else is wrong shows too.
-    pub(super) fn check_all<T>(&self, path: &str, mut read: impl FnMut() -> Result<T, Error>) -> Option<T> {
+    pub(crate) fn check_all<T>(&self, path: &str, mut read: impl FnMut() -> Result<T, Error>) -> Option<T> {
         let mut result = read();
         let is_sound = result.is_ok();
         while let Err(error) = &result {
@@ -87,7 +87,7 @@ impl<'s> Report<'s> {
     }
 
     /// What the library says of a value in the table at `path`.
-    pub(super) fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
         let (message, accepted) = in_words(error);
         // The parameters of a fluid are fields of its table.
         let field = error.field().strip_prefix("fluid.").unwrap_or(error.field());
@@ -96,7 +96,7 @@ impl<'s> Report<'s> {
 }
 
 /// A type that fields have.
-pub(super) trait Read: Sized {
+pub(crate) trait Read: Sized {
     /// What is accepted, in words.
     fn accepted() -> String;
 
@@ -111,7 +111,7 @@ pub(super) trait Read: Sized {
 }
 
 /// Says that the value is not of this type.
-pub(super) fn mismatch<T: Read>(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<T> {
+pub(crate) fn mismatch<T: Read>(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<T> {
     let found = match value.get_ref() {
         DeValue::String(text) => format!("is the string \"{}\"", text.chars().take(40).collect::<String>()),
         DeValue::Integer(number) => format!("is {number}"),
@@ -291,7 +291,7 @@ impl Read for Vec2 {
 
 /// One table that is being read.
 #[derive(Debug)]
-pub(super) struct Fields<'a> {
+pub(crate) struct Fields<'a> {
     /// Not there if the file has no such table, or something else in its place.
     table: Option<&'a DeTable<'a>>,
     /// Something else is in its place, which is reported already.
@@ -302,7 +302,7 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn root(table: &'a DeTable<'a>, report: &'a Report<'a>) -> Self {
+    pub(crate) fn root(table: &'a DeTable<'a>, report: &'a Report<'a>) -> Self {
         Self::new(Some(table), false, String::new(), report)
     }
 
@@ -320,7 +320,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Path of a field.
-    pub(super) fn at(&self, field: &str) -> String {
+    pub(crate) fn at(&self, field: &str) -> String {
         join(&self.path, field)
     }
 
@@ -342,41 +342,41 @@ impl<'a> Fields<'a> {
     }
 
     /// Whether the field is there.
-    pub(super) fn has(&self, field: &str) -> bool {
+    pub(crate) fn has(&self, field: &str) -> bool {
         self.table.is_some_and(|table| table.contains_key(field))
     }
 
     /// The field, if it is there.
-    pub(super) fn get<T: Read>(&mut self, field: &'static str) -> Option<T> {
+    pub(crate) fn get<T: Read>(&mut self, field: &'static str) -> Option<T> {
         self.read(field, false, None)
     }
 
     /// The field, or a default.
-    pub(super) fn or<T: Read>(&mut self, field: &'static str, default: T) -> T {
+    pub(crate) fn or<T: Read>(&mut self, field: &'static str, default: T) -> T {
         self.read(field, false, Some(&default)).unwrap_or(default)
     }
 
     /// Reports that a field is not there, if it is not.
-    pub(super) fn require(&self, field: &str, accepted: &str) {
+    pub(crate) fn require(&self, field: &str, accepted: &str) {
         if !self.is_broken && !self.has(field) {
             self.report.refuse(&self.at(field), format!("missing field `{field}`"), accepted);
         }
     }
 
     /// The field. Where it is missing, that is reported.
-    pub(super) fn required<T: Read>(&mut self, field: &'static str) -> Option<T> {
+    pub(crate) fn required<T: Read>(&mut self, field: &'static str) -> Option<T> {
         self.require(field, &T::accepted());
         self.read(field, true, None)
     }
 
     /// A number within a range, or a default within it.
-    pub(super) fn number(&mut self, field: &'static str, default: f32, range: [f32; 2]) -> f32 {
+    pub(crate) fn number(&mut self, field: &'static str, default: f32, range: [f32; 2]) -> f32 {
         let value = self.or(field, default);
         if self.is_within(field, value, range) { value } else { default }
     }
 
     /// Whether the field's value is within a range; reports it if it is not.
-    pub(super) fn is_within(&self, field: &str, value: f32, [low, high]: [f32; 2]) -> bool {
+    pub(crate) fn is_within(&self, field: &str, value: f32, [low, high]: [f32; 2]) -> bool {
         let is_within = (low..=high).contains(&value);
         if !is_within {
             let message = format!("{value} is out of range");
@@ -386,7 +386,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A table of this table; where it is missing, one without fields.
-    pub(super) fn table(&mut self, field: &'static str) -> Self {
+    pub(crate) fn table(&mut self, field: &'static str) -> Self {
         let path = self.at(field);
         self.report.note(path.clone(), || Entry::Table);
         match self.ask(field) {
@@ -396,7 +396,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The tables `[field.NAME]`, each with its name.
-    pub(super) fn named(&mut self, field: &'static str) -> Vec<(String, Self)> {
+    pub(crate) fn named(&mut self, field: &'static str) -> Vec<(String, Self)> {
         let tables = self.table(field);
         if self.report.notes.is_some() {
             let path = tables.at(Note::ANY);
@@ -415,7 +415,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The tables `[[field]]`.
-    pub(super) fn list(&mut self, field: &'static str) -> Vec<Self> {
+    pub(crate) fn list(&mut self, field: &'static str) -> Vec<Self> {
         let path = self.at(field);
         self.report.note(path.clone(), || Entry::Tables);
         if self.report.notes.is_some() {
@@ -433,7 +433,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Refuses what was not asked for.
-    pub(super) fn finish(self) {
+    pub(crate) fn finish(self) {
         let keys = self.table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref().as_ref());
         for key in keys.filter(|key| !self.asked.contains(key)) {
             let (message, accepted) = unknown("field", key, &self.asked);

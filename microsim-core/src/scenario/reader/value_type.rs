@@ -23,18 +23,18 @@ pub enum Shape {
 
 impl Shape {
     /// An array of so many.
-    pub(super) fn array(of: Self, count: usize) -> Self {
+    pub(crate) fn array(of: Self, count: usize) -> Self {
         Self::Array(Box::new(of), Some(count))
     }
 
     /// An array of any length.
-    pub(super) fn list(of: Self) -> Self {
+    pub(crate) fn list(of: Self) -> Self {
         Self::Array(Box::new(of), None)
     }
 
     /// A value of this form, as a file would have it, that is a number or consists of numbers far beyond any range; `None`
     /// for what has no range.
-    pub(super) fn extreme(&self) -> Option<String> {
+    pub(crate) fn extreme(&self) -> Option<String> {
         match self {
             Self::Number => Some("1e30".to_owned()),
             Self::Whole(_) => Some(u32::MAX.to_string()),

@@ -1,9 +1,9 @@
 //! Games: the table `[game]`, what a front-end needs to make a game of a scenario.
 
-use super::fields::Fields;
-use super::group::Group;
-use super::source::unknown;
 use crate::kind::Kind;
+use crate::scenario::reader::document::unknown;
+use crate::scenario::reader::fields::Fields;
+use crate::scenario::sections::spawn::Group;
 
 /// Time that a game lasts if the file does not say, s (seed, 3.3.2).
 const TIME: f32 = 90.0;
@@ -39,7 +39,7 @@ impl Game {
 }
 
 /// Reads the table, if the file has it.
-pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
+pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
     let is_game = root.has("game");
     let mut fields = root.table("game");
     let time = fields.number("time", TIME, [1.0, 3600.0]);

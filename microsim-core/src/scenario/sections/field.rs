@@ -1,9 +1,9 @@
 //! Jittered grids of organisms, for `[[field]]`.
 
-use super::fields::Fields;
-use super::prototype::Prototype;
 use crate::WorldConfig;
 use crate::rng::Rng;
+use crate::scenario::reader::fields::Fields;
+use crate::scenario::sections::prototype::Prototype;
 use glam::Vec2;
 
 /// Width over height of a room that is made for a field.
@@ -11,7 +11,7 @@ const ASPECT: f32 = 16.0 / 9.0;
 
 /// What a `[[field]]` asks for.
 #[derive(Clone, Debug)]
-pub(super) struct GridPlan {
+pub(crate) struct GridPlan {
     count: u32,
     /// Distance of neighbours, units.
     pitch: f32,
@@ -23,7 +23,7 @@ pub(super) struct GridPlan {
 
 /// A grid in a room.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     plan: GridPlan,
     columns: u32,
     /// Its lower left corner.
@@ -31,7 +31,7 @@ pub(super) struct Grid {
 }
 
 impl GridPlan {
-    pub(super) fn read(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Option<Self> {
+    pub(crate) fn read(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Option<Self> {
         let count = fields.required("count");
         let pitch = fields.required("pitch");
         let jitter = fields.number("jitter", 0.0, [0.0, 1000.0]);
@@ -47,12 +47,12 @@ impl GridPlan {
     }
 
     /// Size of a room of the usual shape that the field fills.
-    pub(super) fn room(&self) -> Vec2 {
+    pub(crate) fn room(&self) -> Vec2 {
         self.size(self.columns(ASPECT)) + 2.0 * self.margin
     }
 
     /// Lays the grid out in the middle of a room, if it fits.
-    pub(super) fn fit(self, room: Vec2) -> Option<Grid> {
+    pub(crate) fn fit(self, room: Vec2) -> Option<Grid> {
         let inner = room - 2.0 * self.margin;
         let most = (inner.x / self.pitch * (1.0 + 1e-5)) as u32;
         let columns = [ASPECT, inner.x / inner.y].map(|aspect| self.columns(aspect));
@@ -73,12 +73,12 @@ impl GridPlan {
 }
 
 impl Grid {
-    pub(super) fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         self.plan.count
     }
 
     /// The places, row by row.
-    pub(super) fn places<'a>(&'a self, rng: &'a mut Rng) -> impl Iterator<Item = Vec2> + 'a {
+    pub(crate) fn places<'a>(&'a self, rng: &'a mut Rng) -> impl Iterator<Item = Vec2> + 'a {
         let GridPlan { count, pitch, jitter, .. } = self.plan;
         (0..count).map(move |index| {
             let cell = Vec2::new((index % self.columns) as f32, (index / self.columns) as f32);

@@ -1,9 +1,9 @@
 //! Controllers: the tables `[wander.NAME]`, `[patrol.NAME]` and so on.
 
-use super::chemical::{self, Chemicals};
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{DEGREE, Value, unknown};
+use crate::scenario::reader::document::{DEGREE, Value, unknown};
+use crate::scenario::reader::fields::{Fields, Read, Report, mismatch};
+use crate::scenario::reader::value_type::Shape;
+use crate::scenario::sections::chemical::{self, Chemicals};
 use crate::{
     AvoidanceParams, BrownianParams, ChemicalId, ChemotaxisParams, Controller, FleeParams, PersistentWalkParams,
     PursueParams, RunAndTumbleParams,
@@ -12,7 +12,7 @@ use glam::Vec2;
 use std::collections::BTreeMap;
 
 /// Controllers by name.
-pub(super) type Controllers = BTreeMap<String, Controller>;
+pub(crate) type Controllers = BTreeMap<String, Controller>;
 
 /// What controllers refer to.
 struct Known<'a> {
@@ -41,7 +41,7 @@ const KINDS: [(&str, ReadController); 11] = [
 ];
 
 /// Reads all controllers of a file for a room of this size.
-pub(super) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> Controllers {
+pub(crate) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> Controllers {
     let mut controllers = Controllers::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
@@ -64,7 +64,7 @@ pub(super) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> 
 }
 
 /// The controller that a field names, if it is there; reports it if there is none of that name.
-pub(super) fn read_named(
+pub(crate) fn read_named(
     fields: &mut Fields<'_>,
     field: &'static str,
     controllers: &Controllers,

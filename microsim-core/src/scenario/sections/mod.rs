@@ -1,0 +1,11 @@
+//! One file for each section of the format: its fields, their defaults and ranges, and what is made of them.
+
+pub(crate) mod checks;
+pub(crate) mod chemical;
+pub(crate) mod controller;
+pub(crate) mod field;
+pub(crate) mod game;
+pub(crate) mod obstacle;
+pub(crate) mod output;
+pub(crate) mod prototype;
+pub(crate) mod spawn;
