@@ -1,4 +1,4 @@
-//! What every field of the format means, for editors and the reference: paths as in [`super::Description`].
+//! An explanation of every field of the format, for editors and the reference: paths as in [`super::Description`].
 
 use super::sections::checks;
 

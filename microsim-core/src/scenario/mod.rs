@@ -66,7 +66,6 @@
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
 //! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
-//!
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `bacillus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
@@ -80,71 +79,41 @@
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
+mod build;
 mod builtin;
 mod describe;
 mod diagnostic;
-mod effective;
 mod explanations;
 mod file;
+mod grid;
 mod origin;
 mod placing;
 mod reader;
 mod script;
 mod sections;
-pub(crate) mod supply;
+pub(crate) mod spawner;
 
+pub use build::Built;
 pub use builtin::{Builtin, builtin, builtins};
-pub use describe::{Description, Entry, describe};
+pub use describe::{Description, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use origin::Origin;
-pub use reader::value_type::Shape;
+pub use reader::{Entry, ValueType};
 pub use script::{Refusal, Script};
 pub use sections::checks::{Checks, Violation};
 pub use sections::game::{Game, Points};
 pub use sections::output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 
 use crate::config::WorldConfig;
-use crate::error::Error;
-use crate::id::{ChemicalId, OrganismId};
-use crate::inputs::Inputs;
-use crate::world::World;
-use diagnostic::in_words;
 use file::File;
-use placing::Placed;
-use reader::document::Source;
-use reader::fields::Report;
-use sections::spawn::{Group, Place};
-use supply::Supply;
-
-/// Errors after which building gives up: the rest would be more of the same.
-const MAX_ERRORS: usize = 20;
+use reader::Document;
 
 /// A scenario, read and checked.
 #[derive(Clone, Debug)]
 pub struct Scenario {
     file: File,
-    source: Source,
+    document: Document,
     effective: toml::Table,
-}
-
-/// A world made from a scenario.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Built {
-    /// The world, at time 0.
-    pub world: World,
-    /// The first organism marked `player = true`.
-    pub player: Option<OrganismId>,
-    /// Organisms that have a `name`, in the order in which they were spawned.
-    pub named: Vec<(String, OrganismId)>,
-    /// Its chemicals by name, in the order in which the world has them.
-    pub chemicals: Vec<(String, ChemicalId)>,
-    /// What is done to organisms while the world runs.
-    pub script: Script,
-    /// What must hold meanwhile.
-    pub checks: Checks,
-    /// What makes a game of it.
-    pub game: Option<Game>,
 }
 
 impl Scenario {
@@ -158,9 +127,9 @@ impl Scenario {
     /// Everything that is wrong with the text and the overrides, each with its place. What depends on the seed, and
     /// whether organisms overlap, shows only in [`Scenario::build`].
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
-        let (table, source) = Source::read(text, overrides)?;
-        let file = file::read(&table, &source)?;
-        Ok(Self { file, source, effective: effective::table(&table) })
+        let (table, document) = Document::read(text, overrides)?;
+        let file = file::read(&table, &document)?;
+        Ok(Self { file, document, effective: reader::without_spans(&table) })
     }
 
     /// Its name; empty if the file has none.
@@ -207,7 +176,7 @@ impl Scenario {
     /// What it was read from.
     #[must_use]
     pub fn origin(&self) -> Origin {
-        let Source { text, overrides, .. } = &self.source;
+        let Document { text, overrides, .. } = &self.document;
         Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
     }
 
@@ -225,94 +194,6 @@ impl Scenario {
         let seed = i64::try_from(self.seed()).unwrap_or(i64::MAX);
         table.insert("seed".to_owned(), toml::Value::Integer(seed));
         table.to_string()
-    }
-
-    /// Makes the world. Equal text, overrides and seed give equal worlds.
-    ///
-    /// # Errors
-    /// Where organisms overlap, lie outside the walls or find no free place.
-    pub fn build(&self) -> Result<Built, Diagnostics> {
-        let report = Report::new(&self.source);
-        let world = World::new(self.file.config.clone());
-        let mut built = Built {
-            world: world.map_err(|error| report.diagnostic("world", &error))?,
-            player: None,
-            named: Vec::new(),
-            chemicals: Vec::new(),
-            script: Script::default(),
-            checks: self.file.checks.clone(),
-            game: self.file.game.clone(),
-        };
-        let supplies = self.fill(&mut built, &report);
-        built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
-            .with_supplies(supplies);
-        Diagnostics::check(report.found.into_inner())?;
-        Ok(built)
-    }
-
-    /// Puts everything into the world that is there from the beginning, and returns what is to come.
-    fn fill(&self, built: &mut Built, report: &Report<'_>) -> Vec<Supply> {
-        let File { config, chemicals, obstacles, groups, .. } = &self.file;
-        for (name, spec) in chemicals {
-            let id = report.check(&format!("chemical.{name}"), built.world.add_chemical(*spec));
-            built.chemicals.extend(id.map(|id| (name.clone(), id)));
-        }
-        for obstacle in obstacles {
-            report.check("", built.world.add_obstacle(obstacle.clone()));
-        }
-        let placed = placing::place_all(groups, obstacles, config.seed, report);
-        let mut supplies = Vec::new();
-        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
-            let mut there = Vec::new();
-            for Placed { spec, placement } in placed {
-                if report.found.borrow().len() >= MAX_ERRORS {
-                    return supplies;
-                }
-                match built.world.spawn(&spec, placement) {
-                    Ok(id) => {
-                        built.note(group, id);
-                        there.push(id);
-                    }
-                    Err(error) => report.spawn_error(group, &error),
-                }
-            }
-            supplies.extend(Supply::new(index, group, &there, &built.world));
-        }
-        supplies
-    }
-}
-
-impl Built {
-    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
-    pub fn step(&mut self, told: &Inputs) {
-        let mut inputs = self.script.before_step(&mut self.world).clone();
-        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
-        self.world.step(&inputs);
-    }
-
-    fn note(&mut self, group: &Group, id: OrganismId) {
-        for exchange in &group.exchanges {
-            // The group's are checked, and the organism is new.
-            let _ = self.world.set_exchange(id, *exchange);
-        }
-        if group.is_player && self.player.is_none() {
-            self.player = Some(id);
-        }
-        self.named.extend(group.name.iter().map(|name| (name.clone(), id)));
-    }
-}
-
-impl Report<'_> {
-    /// Passes on why an organism of a group was not spawned.
-    fn spawn_error(&self, group: &Group, error: &Error) {
-        let (message, accepted) = in_words(error);
-        let is_given = matches!(group.place, Place::At(_));
-        let path = match error.field() {
-            field @ ("scale" | "controller") => format!("{}.{field}", group.path),
-            at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
-            _ => group.count_path(self),
-        };
-        self.refuse(&path, format!("`{}` {message}", group.prototype.name), accepted.unwrap_or_default());
     }
 }
 

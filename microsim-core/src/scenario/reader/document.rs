@@ -1,79 +1,78 @@
-//! The text of a scenario as a tree of values: overrides and parameters put in, and where each value stands.
+//! The text of a scenario as a tree of values, with overrides and parameters put in, and the span of each value.
 
-use crate::scenario::diagnostic::{Diagnostic, Diagnostics, line_and_column, nearest};
-use crate::scenario::reader::overrides;
-use std::borrow::Cow;
+use super::value::{SpannedValue, join};
+use super::{overrides, parameters};
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, line_and_column};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A value and where it stands.
-pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
-
-/// The text and the place of every value in it, by dotted path.
+/// The text and the spans of every value in it, by dotted path.
 ///
 /// A value that an override brought does not stand in the text: its span begins beyond the end of the text, by one plus
 /// the index of the override. Values that a parameter brought stand where the parameter does: there they can be changed.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Source {
+pub(crate) struct Document {
     pub text: String,
     pub overrides: Vec<(String, String)>,
-    places: BTreeMap<String, Place>,
+    spans: BTreeMap<String, Spans>,
 }
 
+/// Where a value and its key stand, bytes of the text.
 #[derive(Clone, Debug)]
-struct Place {
+struct Spans {
     key: Range<usize>,
     value: Range<usize>,
 }
 
-impl Source {
+impl Document {
     /// Parses the text, applies the overrides and puts parameters in.
     pub(crate) fn read<'a>(
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
-        let mut source = Self { text: text.to_owned(), overrides: overrides.to_vec(), places: BTreeMap::new() };
+        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans: BTreeMap::new() };
         let (root, errors) = DeTable::parse_recoverable(text);
-        // What follows from a syntax error is no use to anybody: at most one for each line.
-        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| source.syntax_error(error)).collect();
+        // One syntax error for each line: others there are consequences of it.
+        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| document.syntax_error(error)).collect();
         broken.dedup_by_key(|diagnostic| diagnostic.line);
-        broken.truncate(crate::scenario::MAX_ERRORS);
+        broken.truncate(MAX_ERRORS);
         Diagnostics::check(broken)?;
         let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
         let mut found = Vec::new();
         for (index, (key, value)) in overrides.iter().enumerate() {
             let span = text.len() + 1 + index;
             if let Err((message, accepted)) = overrides::apply(&mut root, key, value, span..span) {
-                found.push(source.diagnostic_at(span..span, key.clone(), message, Some(accepted)));
+                found.push(document.diagnostic_at(span..span, key.clone(), message, Some(accepted)));
             }
         }
-        let parameters = source.parameters(&root, &mut found);
-        source.substitute(&mut root, "", &parameters, &mut found);
-        source.record("", 0..0, &root);
+        parameters::substitute(&mut root, &mut |span, field, message, accepted| {
+            found.push(document.diagnostic_at(span, field.to_owned(), message, Some(accepted)));
+        });
+        document.record("", 0..0, &root);
         Diagnostics::check(found)?;
         match root.into_inner() {
-            DeValue::Table(table) => Ok((table, source)),
-            _ => Ok((DeTable::new(), source)),
+            DeValue::Table(table) => Ok((table, document)),
+            _ => Ok((DeTable::new(), document)),
         }
     }
 
     /// The diagnostic for the value at a path; for one that is not in the file, at the table that it belongs to.
     pub(crate) fn diagnostic(&self, field: &str, message: impl Into<String>, accepted: Option<String>) -> Diagnostic {
-        let (field, place) = self.locate(field);
-        self.diagnostic_at(place.value, field, message.into(), accepted)
+        let (field, spans) = self.locate(field);
+        self.diagnostic_at(spans.value, field, message.into(), accepted)
     }
 
     /// The diagnostic for the key at a path.
     pub(crate) fn key_diagnostic(&self, field: &str, message: String, accepted: String) -> Diagnostic {
-        let (field, place) = self.locate(field);
-        self.diagnostic_at(place.key, field, message, Some(accepted))
+        let (field, spans) = self.locate(field);
+        self.diagnostic_at(spans.key, field, message, Some(accepted))
     }
 
     /// Whether the file has a value at a path.
     pub(crate) fn has(&self, path: &str) -> bool {
-        self.places.contains_key(path)
+        self.spans.contains_key(path)
     }
 
     fn diagnostic_at(
@@ -112,16 +111,16 @@ impl Source {
     }
 
     /// The path as the file spells it (`at.0` for `at.x`) and the place of it or of the nearest table around it.
-    fn locate(&self, path: &str) -> (String, Place) {
+    fn locate(&self, path: &str) -> (String, Spans) {
         let path = self.in_file(path);
         let mut around = path.as_str();
         loop {
-            if let Some(place) = self.places.get(around) {
-                return (path.clone(), place.clone());
+            if let Some(spans) = self.spans.get(around) {
+                return (path.clone(), spans.clone());
             }
             around = match around.rsplit_once('.') {
                 Some((parent, _)) => parent,
-                None if around.is_empty() => return (path.clone(), Place { key: 0..0, value: 0..0 }),
+                None if around.is_empty() => return (path.clone(), Spans { key: 0..0, value: 0..0 }),
                 None => "",
             };
         }
@@ -141,9 +140,9 @@ impl Source {
         }
     }
 
-    fn record(&mut self, path: &str, key: Range<usize>, value: &Value<'_>) {
-        let place = Place { key, value: value.span() };
-        self.places.insert(path.to_owned(), place);
+    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) {
+        let spans = Spans { key, value: value.span() };
+        self.spans.insert(path.to_owned(), spans);
         match value.get_ref() {
             DeValue::Table(table) => {
                 for (key, child) in table {
@@ -158,86 +157,4 @@ impl Source {
             _ => {}
         }
     }
-
-    /// The `[parameters]` table.
-    fn parameters<'a>(&self, root: &Value<'a>, found: &mut Vec<Diagnostic>) -> BTreeMap<String, Value<'a>> {
-        let Some(parameters) = root.get_ref().get("parameters") else {
-            return BTreeMap::new();
-        };
-        let mut refuse = |field: String, span, message: &str, accepted: &str| {
-            found.push(self.diagnostic_at(span, field, message.to_owned(), Some(accepted.to_owned())));
-        };
-        let Some(table) = parameters.get_ref().as_table() else {
-            refuse("parameters".into(), parameters.span(), "not a table", "a [parameters] table");
-            return BTreeMap::new();
-        };
-        for (key, value) in table {
-            let field = join("parameters", key.get_ref());
-            if !is_name(key.get_ref()) {
-                refuse(field.clone(), key.span(), "not a usable name", NAME);
-            }
-            if value.get_ref().is_table() || value.get_ref().is_array() {
-                refuse(field, value.span(), "not a single value", "a number, a string or a boolean");
-            }
-        }
-        let entry = |(key, value): (&Spanned<Cow<'_, str>>, &Value<'a>)| (key.get_ref().to_string(), value.clone());
-        table.iter().map(entry).collect()
-    }
-
-    /// Replaces every string `$name` outside `[parameters]` by that parameter.
-    fn substitute<'a>(
-        &self,
-        value: &mut Value<'a>,
-        path: &str,
-        parameters: &BTreeMap<String, Value<'a>>,
-        found: &mut Vec<Diagnostic>,
-    ) {
-        let name = value.get_ref().as_str().and_then(|text| text.strip_prefix('$'));
-        if let Some(name) = name.filter(|name| is_name(name)) {
-            match parameters.get(name) {
-                Some(parameter) => *value = parameter.clone(),
-                None => {
-                    let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
-                    let (message, accepted) = unknown("parameter", name, &names);
-                    found.push(self.diagnostic_at(value.span(), path.to_owned(), message, Some(accepted)));
-                }
-            }
-            return;
-        }
-        match value.get_mut() {
-            DeValue::Table(table) => table
-                .iter_mut()
-                .filter(|(key, _)| !(path.is_empty() && key.get_ref() == "parameters"))
-                .for_each(|(key, child)| self.substitute(child, &join(path, key.get_ref()), parameters, found)),
-            DeValue::Array(array) => array
-                .iter_mut()
-                .enumerate()
-                .for_each(|(index, child)| self.substitute(child, &join(path, &index.to_string()), parameters, found)),
-            _ => {}
-        }
-    }
-}
-
-/// A degree in radians: files hold degrees.
-pub(crate) const DEGREE: f32 = std::f32::consts::PI / 180.0;
-
-/// What names of prototypes, controllers, organisms and parameters look like.
-pub(crate) const NAME: &str = "1 to 64 letters, digits, _ or -";
-
-/// Whether this is a name: nothing that needs quoting in a dotted path.
-pub(crate) fn is_name(text: &str) -> bool {
-    let is_part = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
-    (1..=64).contains(&text.len()) && text.bytes().all(is_part)
-}
-
-/// Extends a dotted path.
-pub(crate) fn join(path: &str, last: &str) -> String {
-    if path.is_empty() { last.to_owned() } else { format!("{path}.{last}") }
-}
-
-/// Message and accepted names for a name that is none of those known.
-pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> (String, String) {
-    let guess = nearest(name, known.iter().copied()).map_or(String::new(), |near| format!(", did you mean `{near}`?"));
-    let accepted = if known.is_empty() { "none: there is none".to_owned() } else { known.join(", ") };
-    (format!("unknown {what} `{name}`{guess}"), accepted)
 }

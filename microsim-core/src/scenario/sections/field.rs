@@ -1,124 +1,73 @@
-//! Jittered grids of organisms, for `[[field]]`.
+//! Organisms on grids: the tables `[[field]]`.
 
 use crate::WorldConfig;
-use crate::rng::Rng;
-use crate::scenario::reader::fields::Fields;
-use crate::scenario::sections::prototype::Prototype;
+use crate::scenario::grid::GridPlan;
+use crate::scenario::reader::{Fields, ReadContext};
+use crate::scenario::sections::group::Group;
+use crate::scenario::sections::prototype::{self, Prototype, Prototypes};
 use glam::Vec2;
 
-/// Width over height of a room that is made for a field.
-const ASPECT: f32 = 16.0 / 9.0;
+/// A `[[field]]` table: its path, its prototype and its grid.
+pub(crate) type Plan = (String, Prototype, GridPlan);
 
-/// What a `[[field]]` asks for.
-#[derive(Clone, Debug)]
-pub(crate) struct GridPlan {
-    count: u32,
-    /// Distance of neighbours, units.
-    pitch: f32,
-    /// Farthest from its grid point that an organism is put, in each direction, units.
-    jitter: f32,
-    /// Free room between the field and the walls, units.
-    margin: f32,
+/// Reads the `[[field]]` tables; they are laid out when the size of the room is known.
+pub(crate) fn read(root: &mut Fields<'_>, prototypes: &Prototypes) -> Vec<Plan> {
+    let mut plans = Vec::new();
+    for mut fields in root.list("field") {
+        let prototype = prototype::read_named(&mut fields, prototypes);
+        let plan = read_plan(&mut fields, prototype.as_ref());
+        let path = fields.path.clone();
+        fields.finish();
+        if let (Some(prototype), Some(plan)) = (prototype, plan) {
+            plans.push((path, prototype, plan));
+        }
+    }
+    plans
 }
 
-/// A grid in a room.
-#[derive(Clone, Debug)]
-pub(crate) struct Grid {
-    plan: GridPlan,
-    columns: u32,
-    /// Its lower left corner.
-    low: Vec2,
+fn read_plan(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Option<GridPlan> {
+    let count = fields.required("count");
+    let pitch = fields.required("pitch");
+    let jitter = fields.number("jitter", 0.0, [0.0, 1000.0]);
+    let margin = fields.number("margin", 0.0, [0.0, 1000.0]);
+    let (count, pitch) = (count?, pitch?);
+    if count == 0 {
+        fields.refuse("count", "0 is out of range", "1 or more");
+        return None;
+    }
+    let least = prototype.map_or(0.0, |prototype| 2.0 * (prototype.extent(1.0) + jitter));
+    let is_sound = fields.is_within("pitch", pitch, [least, WorldConfig::MAX_SIZE]);
+    is_sound.then_some(GridPlan { count, pitch, jitter, margin })
 }
 
-impl GridPlan {
-    pub(crate) fn read(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Option<Self> {
-        let count = fields.required("count");
-        let pitch = fields.required("pitch");
-        let jitter = fields.number("jitter", 0.0, [0.0, 1000.0]);
-        let margin = fields.number("margin", 0.0, [0.0, 1000.0]);
-        let (count, pitch) = (count?, pitch?);
-        if count == 0 {
-            fields.report.refuse(&fields.at("count"), "0 is out of range", "1 or more");
+/// Size of the room that holds every field.
+pub(crate) fn room_for(plans: &[Plan], context: &ReadContext<'_>) -> Option<Vec2> {
+    let mut room = Vec2::ONE;
+    for (path, _, plan) in plans {
+        let wanted = plan.room();
+        if wanted.cmpgt(Vec2::splat(WorldConfig::MAX_SIZE)).any() {
+            let message = format!("needs a room of {:.0} by {:.0}", wanted.x, wanted.y);
+            context.refuse(&format!("{path}.count"), message, format!("at most {0} by {0}", WorldConfig::MAX_SIZE));
             return None;
         }
-        let least = prototype.map_or(0.0, |prototype| 2.0 * (prototype.extent(1.0) + jitter));
-        let is_sound = fields.is_within("pitch", pitch, [least, WorldConfig::MAX_SIZE]);
-        is_sound.then_some(Self { count, pitch, jitter, margin })
+        room = Vec2::select(wanted.cmpgt(room), wanted, room);
     }
-
-    /// Size of a room of the usual shape that the field fills.
-    pub(crate) fn room(&self) -> Vec2 {
-        self.size(self.columns(ASPECT)) + 2.0 * self.margin
-    }
-
-    /// Lays the grid out in the middle of a room, if it fits.
-    pub(crate) fn fit(self, room: Vec2) -> Option<Grid> {
-        let inner = room - 2.0 * self.margin;
-        let most = (inner.x / self.pitch * (1.0 + 1e-5)) as u32;
-        let columns = [ASPECT, inner.x / inner.y].map(|aspect| self.columns(aspect));
-        let fits = |columns: &u32| *columns > 0 && self.size(*columns).cmple(inner * (1.0 + 1e-5)).all();
-        let columns = columns.into_iter().chain([most]).find(fits)?;
-        let low = (room - self.size(columns)) * 0.5;
-        Some(Grid { plan: self, columns, low })
-    }
-
-    /// Columns of a grid of about this shape.
-    fn columns(&self, aspect: f32) -> u32 {
-        ((self.count as f32 * aspect).sqrt().ceil() as u32).clamp(1, self.count)
-    }
-
-    fn size(&self, columns: u32) -> Vec2 {
-        Vec2::new(columns as f32, self.count.div_ceil(columns) as f32) * self.pitch
-    }
+    Some(room)
 }
 
-impl Grid {
-    pub(crate) fn count(&self) -> u32 {
-        self.plan.count
-    }
-
-    /// The places, row by row.
-    pub(crate) fn places<'a>(&'a self, rng: &'a mut Rng) -> impl Iterator<Item = Vec2> + 'a {
-        let GridPlan { count, pitch, jitter, .. } = self.plan;
-        (0..count).map(move |index| {
-            let cell = Vec2::new((index % self.columns) as f32, (index / self.columns) as f32);
-            let shift = Vec2::new(rng.range(-jitter, jitter), rng.range(-jitter, jitter));
-            self.low + (cell + 0.5) * pitch + shift
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn plan(count: u32) -> GridPlan {
-        GridPlan { count, pitch: 5.6, jitter: 0.2, margin: 10.0 }
-    }
-
-    #[test]
-    fn any_count_fits_the_room_made_for_it_and_keeps_its_distance() {
-        for count in [1, 2, 3, 90, 120, 150, 200, 997, 20_000] {
-            let room = plan(count).room();
-            let grid = plan(count).fit(room).unwrap();
-            let places: Vec<Vec2> = grid.places(&mut Rng::new(1, 1)).collect();
-            assert_eq!(places.len() as u32, count);
-            let is_inside = |p: &Vec2| p.cmpge(Vec2::splat(12.6)).all() && p.cmple(room - 12.6).all();
-            assert!(places.iter().all(is_inside), "{count} in {room}");
-            let columns = grid.columns as usize;
-            let apart = |k: usize, other: usize| (places[k] - places[other]).length() > 5.6 - 0.4;
-            assert!((columns..places.len()).all(|k| apart(k, k - columns)));
-            assert!((1..places.len()).all(|k| apart(k, k - 1)));
+/// Lays the grids out in a room; reports those that do not fit.
+pub(crate) fn lay_out(plans: Vec<Plan>, size: Vec2, context: &ReadContext<'_>) -> Vec<Group> {
+    let mut groups = Vec::new();
+    for (path, prototype, plan) in plans {
+        let wanted = plan.room();
+        match plan.fit(size) {
+            Some(grid) => groups.push(Group::on_grid(path, prototype, grid)),
+            None => {
+                let message = format!("does not fit into the room of {} by {}", size.x, size.y);
+                let accepted = format!("a room of about {:.1} by {:.1}, or fewer", wanted.x, wanted.y);
+                context.refuse(&format!("{path}.count"), message, accepted);
+            }
         }
-        assert!((plan(200).room().x / plan(200).room().y - ASPECT).abs() < 0.3);
     }
-
-    #[test]
-    fn a_grid_takes_the_shape_of_its_room_or_does_not_fit() {
-        let tall = plan(10).fit(Vec2::new(26.0, 90.0)).unwrap();
-        assert_eq!(tall.columns, 1);
-        assert!(plan(10).fit(Vec2::new(26.0, 60.0)).is_none());
-        assert!(plan(10).fit(Vec2::new(15.0, 60.0)).is_none());
-        assert!(plan(10).fit(Vec2::new(f32::NAN, 60.0)).is_none());
-    }
+    groups
 }

@@ -2,9 +2,7 @@
 
 use crate::error::Error;
 use crate::organism::OrganismSpec;
-use crate::scenario::reader::document::Value;
-use crate::scenario::reader::fields::{Fields, Read, Report};
-use crate::scenario::reader::value_type::Shape;
+use crate::scenario::reader::{Fields, Keyword};
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
     AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay,
@@ -44,17 +42,27 @@ pub(crate) fn read(root: &mut Fields<'_>) -> Prototypes {
     let mut prototypes = Prototypes::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
-            let (path, report) = (fields.path.clone(), fields.report);
-            let prototype = report.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
+            let (path, context) = (fields.path.clone(), fields.context);
+            let prototype = context.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
             fields.finish();
             if prototypes.contains_key(&name) {
                 let accepted = "a name that no other prototype has";
-                report.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
+                context.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
             }
             prototypes.insert(name, prototype);
         }
     }
     prototypes
+}
+
+/// The prototype that the field `of` names, if it is sound; reports it if there is none of that name.
+pub(crate) fn read_named(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Option<Prototype> {
+    let of: String = fields.required("of")?;
+    if let Some(prototype) = prototypes.get(&of) {
+        return prototype.clone();
+    }
+    fields.refuse_unknown("of", "prototype", &of, prototypes.keys().map(String::as_str));
+    None
 }
 
 impl Prototype {
@@ -232,54 +240,10 @@ fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
     })
 }
 
-impl Read for IngestionWay {
-    fn accepted() -> String {
-        "\"gate\" or \"cup\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(&["gate", "cup"])
-    }
-
-    fn written(&self) -> String {
-        match self {
-            Self::Gate => "\"gate\"",
-            Self::Cup => "\"cup\"",
-        }
-        .to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_str() {
-            Some("gate") => Some(Self::Gate),
-            Some("cup") => Some(Self::Cup),
-            _ => crate::scenario::reader::fields::mismatch(value, path, report),
-        }
-    }
+impl Keyword for IngestionWay {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("gate", Self::Gate), ("cup", Self::Cup)];
 }
 
-impl Read for FluidMode {
-    fn accepted() -> String {
-        "\"density\" or \"granular\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(&["density", "granular"])
-    }
-
-    fn written(&self) -> String {
-        match self {
-            Self::Density => "\"density\"",
-            Self::Granular => "\"granular\"",
-        }
-        .to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_str() {
-            Some("density") => Some(Self::Density),
-            Some("granular") => Some(Self::Granular),
-            _ => crate::scenario::reader::fields::mismatch(value, path, report),
-        }
-    }
+impl Keyword for FluidMode {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("density", Self::Density), ("granular", Self::Granular)];
 }
