@@ -38,10 +38,10 @@ pub(crate) fn snapshot(bytes: &[u8]) {
     }
 }
 
-/// A replay: the file if the first byte is even, else frames for a scenario of its own: kind, length and content of each.
+/// A replay: the file if the first byte is even, else chunks for a scenario of its own: kind, length and content of each.
 pub(crate) fn replay(bytes: &[u8]) {
     let Some((&kind, rest)) = bytes.split_first() else { return };
-    let file = if kind % 2 == 0 { rest.to_vec() } else { framed(rest) };
+    let file = if kind % 2 == 0 { rest.to_vec() } else { chunked(rest) };
     let Ok(replay) = Replay::read(&file) else { return };
     if replay.origin().text == ROOM
         && let Ok(player) = Player::new(&replay)
@@ -113,25 +113,25 @@ of = "needle"
 at = [20.0, 10.0]
 "#;
 
-/// A replay of frames: kind, length and content of each.
-fn framed(mut rest: &[u8]) -> Vec<u8> {
+/// A replay of chunks: kind, length and content of each.
+fn chunked(mut rest: &[u8]) -> Vec<u8> {
     let mut bytes = b"MSIMPLAY".to_vec();
-    bytes.extend(1u32.to_le_bytes());
+    bytes.extend(2u32.to_le_bytes());
     // Library, interval, text, overrides, seed.
     let mut header = vec![1, b'0', 60];
     header.extend([(ROOM.len() % 128) as u8 | 128, (ROOM.len() / 128) as u8]);
     header.extend(ROOM.bytes());
     header.extend([0, 0]);
-    frame(&mut bytes, 0, &header);
+    chunk(&mut bytes, 0, &header);
     while let [kind, length, after @ ..] = rest {
         let (content, after) = after.split_at(usize::from(*length).min(after.len()));
-        frame(&mut bytes, *kind, content);
+        chunk(&mut bytes, *kind, content);
         rest = after;
     }
     bytes
 }
 
-fn frame(bytes: &mut Vec<u8>, kind: u8, content: &[u8]) {
+fn chunk(bytes: &mut Vec<u8>, kind: u8, content: &[u8]) {
     bytes.push(kind);
     bytes.extend((content.len() as u32).to_le_bytes());
     bytes.extend(content);

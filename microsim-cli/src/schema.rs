@@ -2,7 +2,7 @@
 
 use crate::console::stdout;
 use crate::failure::Failure;
-use microsim_core::scenario::{Description, Entry, Shape, describe};
+use microsim_core::scenario::{Description, Entry, ValueType, describe};
 use serde_json::{Map, Value, json};
 use std::io::Write;
 
@@ -62,7 +62,7 @@ fn schema_of(field: &Description, fields: &[Description]) -> Value {
     let mut schema = match &field.entry {
         Entry::Table => object(&field.path, fields),
         Entry::Tables => json!({ "type": "array", "items": object(&format!("{}.*", field.path), fields) }),
-        Entry::Value { shape, default, .. } => value(field, shape, default.as_deref()),
+        Entry::Value { value_type, default, .. } => value(field, value_type, default.as_deref()),
     };
     if schema.get("description").is_none() {
         schema["description"] = field.words.into();
@@ -70,9 +70,10 @@ fn schema_of(field: &Description, fields: &[Description]) -> Value {
     schema
 }
 
-fn value(field: &Description, shape: &Shape, default: Option<&str>) -> Value {
+fn value(field: &Description, value_type: &ValueType, default: Option<&str>) -> Value {
     let accepted = field.accepted.as_deref().unwrap_or_default();
-    let mut schema = json!({ "anyOf": [shape_of(shape, range(accepted)), { "$ref": "#/definitions/parameter" }] });
+    let mut schema =
+        json!({ "anyOf": [type_schema(value_type, range(accepted)), { "$ref": "#/definitions/parameter" }] });
     if !accepted.is_empty() {
         schema["description"] = format!("{} Accepted: {accepted}.", field.words).into();
     }
@@ -92,7 +93,7 @@ fn range(accepted: &str) -> Option<[f64; 2]> {
     Some([low.parse().ok()?, high.parse().ok()?])
 }
 
-fn shape_of(shape: &Shape, range: Option<[f64; 2]>) -> Value {
+fn type_schema(value_type: &ValueType, range: Option<[f64; 2]>) -> Value {
     let ranged = |mut schema: Value| {
         if let Some([low, high]) = range {
             schema["minimum"] = number(low);
@@ -100,22 +101,22 @@ fn shape_of(shape: &Shape, range: Option<[f64; 2]>) -> Value {
         }
         schema
     };
-    match shape {
-        Shape::Boolean => json!({ "type": "boolean" }),
-        Shape::Text => json!({ "type": "string" }),
-        Shape::Number => ranged(json!({ "type": "number" })),
-        Shape::Whole(most) => {
+    match value_type {
+        ValueType::Boolean => json!({ "type": "boolean" }),
+        ValueType::Text => json!({ "type": "string" }),
+        ValueType::Number => ranged(json!({ "type": "number" })),
+        ValueType::Whole(most) => {
             let whole = json!({ "type": "integer", "minimum": 0, "maximum": most });
             ranged(whole)
         }
-        Shape::Word(words) => json!({ "enum": words }),
-        Shape::Array(of, None) => json!({ "type": "array", "items": shape_of(of, range) }),
-        Shape::Array(of, Some(length)) => {
-            json!({ "type": "array", "items": shape_of(of, range), "minItems": length, "maxItems": length })
+        ValueType::Word(words) => json!({ "enum": words }),
+        ValueType::Array(of, None) => json!({ "type": "array", "items": type_schema(of, range) }),
+        ValueType::Array(of, Some(length)) => {
+            json!({ "type": "array", "items": type_schema(of, range), "minItems": length, "maxItems": length })
         }
-        Shape::Table(of) => json!({ "type": "object", "additionalProperties": shape_of(of, range) }),
-        Shape::Either(shapes) => {
-            json!({ "anyOf": shapes.iter().map(|shape| shape_of(shape, range)).collect::<Vec<_>>() })
+        ValueType::Table(of) => json!({ "type": "object", "additionalProperties": type_schema(of, range) }),
+        ValueType::Either(types) => {
+            json!({ "anyOf": types.iter().map(|of| type_schema(of, range)).collect::<Vec<_>>() })
         }
     }
 }

@@ -137,18 +137,18 @@ fn write_seeds() {
     }
     let file = recorded();
     write("replay", "whole", &[&[0][..], &file].concat());
-    // Without the header: magic and version, then a frame of kind, length, content and checksum.
-    let mut frames = vec![1];
+    // Without the header: magic and version, then chunks of kind, length, content and checksum.
+    let mut chunks = vec![1];
     let mut rest = &file[12..];
     while let [kind, a, b, c, d, after @ ..] = rest {
         let length = u32::from_le_bytes([*a, *b, *c, *d]) as usize;
         if *kind != 0 {
-            frames.extend([*kind, u8::try_from(length).unwrap()]);
-            frames.extend(&after[..length]);
+            chunks.extend([*kind, u8::try_from(length).unwrap()]);
+            chunks.extend(&after[..length]);
         }
         rest = &after[length + 4..];
     }
-    write("replay", "frames", &frames);
+    write("replay", "chunks", &chunks);
 }
 
 fn recorded() -> Vec<u8> {

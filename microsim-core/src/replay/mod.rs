@@ -1,6 +1,6 @@
 //! Replays: a scenario and what its organisms were told, step by step, with digests to check against.
 //!
-//! A file is a header and then one frame for every few steps, each with its length and checksum, so that it can be written
+//! A file is a header and then one chunk for every few steps, each with its length and checksum, so that it can be written
 //! as the run goes on, and what there is of it can be played wherever it was cut off.
 //!
 //! ```
@@ -28,15 +28,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod bits;
-mod frame;
-mod inputs;
+mod changes;
+mod chunk;
 mod player;
 mod recorder;
 
 use crate::scenario::Origin;
-use frame::{FrameEnd, Frames};
-use inputs::{Change, Reader};
+use changes::{Change, Decoder};
+use chunk::{ChunkError, ChunkReader};
 pub use player::{Mismatch, Player};
 pub use recorder::Recorder;
 use serde::{Deserialize, Serialize};
@@ -44,10 +43,10 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 const MAGIC: [u8; 8] = *b"MSIMPLAY";
-/// Changes with every change of the frames, and of what they hold.
-const VERSION: u32 = 1;
+/// Changes with every change of the chunks, and of what they hold.
+const VERSION: u32 = 2;
 
-/// Kinds of frames.
+/// Kinds of chunks.
 const HEADER: u8 = 0;
 const STEPS: u8 = 1;
 const END: u8 = 2;
@@ -60,7 +59,7 @@ pub struct Replay {
     ending: Ending,
 }
 
-/// What the first frame says.
+/// What the first chunk says.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Header {
     /// Version of the library that recorded it.
@@ -85,7 +84,7 @@ struct Record {
 pub enum Ending {
     /// As its recorder finished it.
     Complete,
-    /// Within a frame, or without the last one: it was cut off, or its recorder did not get to finish it.
+    /// Within a chunk, or without the last one: it was cut off, or its recorder did not get to finish it.
     CutOff,
     /// With something that no recorder writes.
     Damaged {
@@ -94,7 +93,7 @@ pub enum Ending {
     },
 }
 
-/// Why bytes are no replay.
+/// Why bytes are not a replay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReplayError {
@@ -131,23 +130,23 @@ impl Replay {
     /// # Errors
     /// When not even the header is.
     pub fn read(bytes: &[u8]) -> Result<Self, ReplayError> {
-        let mut frames = Frames::open(bytes)?;
-        let header = match frames.next() {
+        let mut chunks = ChunkReader::open(bytes)?;
+        let header = match chunks.next() {
             Some(Ok((HEADER, content))) => postcard::from_bytes(content).map_err(|_| ReplayError::NoHeader)?,
             _ => return Err(ReplayError::NoHeader),
         };
-        let (mut records, mut reader) = (Vec::new(), Reader::default());
+        let (mut records, mut decoder) = (Vec::new(), Decoder::default());
         let ending = loop {
-            let at = frames.place();
-            match frames.next() {
+            let at = chunks.place();
+            match chunks.next() {
                 None => break Ending::CutOff,
-                Some(Err(FrameEnd::CutOff)) => break Ending::CutOff,
-                Some(Ok((STEPS, content))) => match reader.record(content) {
+                Some(Err(ChunkError::CutOff)) => break Ending::CutOff,
+                Some(Ok((STEPS, content))) => match decoder.record(content) {
                     Some(record) => records.push(record),
                     None => break Ending::Damaged { at },
                 },
-                Some(Ok((END, []))) if frames.is_at_end() => break Ending::Complete,
-                Some(Ok(_) | Err(FrameEnd::Damaged)) => break Ending::Damaged { at },
+                Some(Ok((END, []))) if chunks.is_at_end() => break Ending::Complete,
+                Some(Ok(_) | Err(ChunkError::Damaged)) => break Ending::Damaged { at },
             }
         };
         Ok(Self { header, records, ending })

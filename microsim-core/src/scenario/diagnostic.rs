@@ -4,6 +4,9 @@ use crate::error::{Error, ErrorKind};
 use std::fmt;
 use std::ops::Range;
 
+/// Errors after which reading or building gives up: the rest would be more of the same.
+pub(super) const MAX_ERRORS: usize = 20;
+
 /// One thing that is wrong with a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -126,36 +129,6 @@ pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// The candidate that `word` is most likely a slip of, if any is near.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = match word.chars().count() {
-        0..=1 | 65.. => return None,
-        2..=3 => 1,
-        4..=7 => 2,
-        _ => 3,
-    };
-    let distances = candidates.into_iter().map(|candidate| (edit_distance(word, candidate), candidate));
-    let (distance, candidate) = distances.min_by_key(|(distance, _)| *distance)?;
-    (distance <= allowed).then_some(candidate)
-}
-
-/// Fewest insertions, removals and replacements of a character that turn `a` into `b`
-/// (R. Wagner, M. Fischer, "The string-to-string correction problem", 1974).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,17 +141,6 @@ mod tests {
         assert_eq!(line_and_column(text, text.len()), (3, 1));
         assert_eq!(line_and_column(text, 3), (2, 2), "inside a character");
         assert_eq!(line_and_column("", 7), (1, 1));
-    }
-
-    #[test]
-    fn slips_are_recognised_and_other_words_are_not() {
-        let words = ["radius", "density", "speed"];
-        assert_eq!(nearest("radus", words), Some("radius"));
-        assert_eq!(nearest("desnity", words), Some("density"));
-        assert_eq!(nearest("colour", words), None);
-        assert_eq!(nearest("", words), None);
-        assert_eq!(nearest(&"r".repeat(5000), words), None);
-        assert_eq!(edit_distance("kitten", "sitting"), 3);
     }
 
     #[test]

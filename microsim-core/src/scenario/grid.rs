@@ -1,24 +1,21 @@
-//! Jittered grids of organisms, for `[[field]]`.
+//! Jittered grids of places.
 
-use super::fields::Fields;
-use super::prototype::Prototype;
-use crate::WorldConfig;
 use crate::rng::Rng;
 use glam::Vec2;
 
 /// Width over height of a room that is made for a field.
 const ASPECT: f32 = 16.0 / 9.0;
 
-/// What a `[[field]]` asks for.
+/// A grid without a room.
 #[derive(Clone, Debug)]
 pub(super) struct GridPlan {
-    count: u32,
+    pub count: u32,
     /// Distance of neighbours, units.
-    pitch: f32,
+    pub pitch: f32,
     /// Farthest from its grid point that an organism is put, in each direction, units.
-    jitter: f32,
+    pub jitter: f32,
     /// Free room between the field and the walls, units.
-    margin: f32,
+    pub margin: f32,
 }
 
 /// A grid in a room.
@@ -31,21 +28,6 @@ pub(super) struct Grid {
 }
 
 impl GridPlan {
-    pub(super) fn read(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Option<Self> {
-        let count = fields.required("count");
-        let pitch = fields.required("pitch");
-        let jitter = fields.number("jitter", 0.0, [0.0, 1000.0]);
-        let margin = fields.number("margin", 0.0, [0.0, 1000.0]);
-        let (count, pitch) = (count?, pitch?);
-        if count == 0 {
-            fields.report.refuse(&fields.at("count"), "0 is out of range", "1 or more");
-            return None;
-        }
-        let least = prototype.map_or(0.0, |prototype| 2.0 * (prototype.extent(1.0) + jitter));
-        let is_sound = fields.is_within("pitch", pitch, [least, WorldConfig::MAX_SIZE]);
-        is_sound.then_some(Self { count, pitch, jitter, margin })
-    }
-
     /// Size of a room of the usual shape that the field fills.
     pub(super) fn room(&self) -> Vec2 {
         self.size(self.columns(ASPECT)) + 2.0 * self.margin

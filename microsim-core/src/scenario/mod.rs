@@ -29,9 +29,9 @@
 //!
 //! # Format
 //!
-//! Lengths are in micrometres, times in seconds, angles in degrees. Each kind of thing has a table of its own, and a
-//! field that is not known is an error, as is anything else that cannot be meant: nothing is guessed. A field without a
-//! default below is required. The fields of prototypes are those of the specs, with their ranges and defaults.
+//! Lengths are in micrometres, times in seconds, angles in degrees. An unknown field is an error, as is a value out of
+//! range. A field without a default below is required. The fields of prototypes are those of the specs, with their ranges
+//! and defaults.
 //!
 //! | table | fields |
 //! |---|---|
@@ -66,7 +66,6 @@
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |
 //! | `[[disc]]` | `at`, `radius`, `friction = 0.2` |
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
-//!
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `bacillus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
@@ -75,87 +74,46 @@
 //! | `[output.frames]` | `at = [times]`, `every = 0.0`, `width = 1280` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
-//! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
-//! place of what its controller wants; what follows another one rests when somebody takes that in.
+//! Commands are done in the order of the file. An organism obeys a command until the next one, in place of its controller.
+//! A follower rests when the organism that it follows is taken in.
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
+mod build;
 mod builtin;
-mod checks;
-mod chemical;
 mod describe;
 mod diagnostic;
-mod effective;
-mod fields;
+mod explanations;
 mod file;
-mod game;
 mod grid;
-mod group;
-mod obstacle;
 mod origin;
-mod output;
-mod overrides;
 mod placing;
-mod prototype;
+mod reader;
 mod script;
-mod shape;
-mod source;
-mod steering;
-pub(crate) mod supply;
-mod words;
+mod sections;
+pub(crate) mod spawner;
 
+pub use build::Built;
 pub use builtin::{Builtin, builtin, builtins};
-pub use checks::{Checks, Violation};
-pub use describe::{Description, Entry, describe};
+pub use describe::{Description, describe};
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use game::{Game, Points};
 pub use origin::Origin;
-pub use output::{FramePlan, OutputPlan, TableFormat, TablePlan};
+pub use reader::{Entry, ValueType};
 pub use script::{Refusal, Script};
-pub use shape::Shape;
+pub use sections::checks::{Checks, Violation};
+pub use sections::game::{Game, Points};
+pub use sections::output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 
 use crate::config::WorldConfig;
-use crate::error::Error;
-use crate::id::{ChemicalId, OrganismId};
-use crate::inputs::Inputs;
-use crate::world::World;
-use diagnostic::in_words;
-use fields::Report;
 use file::File;
-use group::{Group, Place};
-use placing::Placed;
-use source::Source;
-use supply::Supply;
-
-/// Errors after which building gives up: the rest would be more of the same.
-const MAX_ERRORS: usize = 20;
+use reader::Document;
 
 /// A scenario, read and checked.
 #[derive(Clone, Debug)]
 pub struct Scenario {
     file: File,
-    source: Source,
+    document: Document,
     effective: toml::Table,
-}
-
-/// A world made from a scenario.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Built {
-    /// The world, at time 0.
-    pub world: World,
-    /// The first organism marked `player = true`.
-    pub player: Option<OrganismId>,
-    /// Organisms that have a `name`, in the order in which they were spawned.
-    pub named: Vec<(String, OrganismId)>,
-    /// Its chemicals by name, in the order in which the world has them.
-    pub chemicals: Vec<(String, ChemicalId)>,
-    /// What is done to organisms while the world runs.
-    pub script: Script,
-    /// What must hold meanwhile.
-    pub checks: Checks,
-    /// What makes a game of it.
-    pub game: Option<Game>,
 }
 
 impl Scenario {
@@ -166,12 +124,12 @@ impl Scenario {
     /// `spawn.0.count`. A value is TOML text; bare words become strings.
     ///
     /// # Errors
-    /// Everything that is wrong with the text and the overrides, each with its place. What depends on the seed, and
-    /// whether organisms overlap, shows only in [`Scenario::build`].
+    /// All errors in the text and the overrides, each with its place. [`Scenario::build`] reports those that depend on the
+    /// seed, and overlaps of organisms.
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
-        let (table, source) = Source::read(text, overrides)?;
-        let file = file::read(&table, &source)?;
-        Ok(Self { file, source, effective: effective::table(&table) })
+        let (table, document) = Document::read(text, overrides)?;
+        let file = file::read(&table, &document)?;
+        Ok(Self { file, document, effective: reader::without_spans(&table) })
     }
 
     /// Its name; empty if the file has none.
@@ -218,7 +176,7 @@ impl Scenario {
     /// What it was read from.
     #[must_use]
     pub fn origin(&self) -> Origin {
-        let Source { text, overrides, .. } = &self.source;
+        let Document { text, overrides, .. } = &self.document;
         Origin { text: text.clone(), overrides: overrides.clone(), seed: self.seed() }
     }
 
@@ -228,102 +186,14 @@ impl Scenario {
         &self.file.output
     }
 
-    /// The scenario as it is run: a file with overrides, parameters and seed put in and keys in order, so that scenarios that
-    /// differ only in how they are written have equal texts.
+    /// The scenario as it is run: a file with overrides, parameters and seed put in and sorted keys. Scenarios that differ
+    /// only in how they are written have equal texts.
     #[must_use]
     pub fn effective(&self) -> String {
         let mut table = self.effective.clone();
         let seed = i64::try_from(self.seed()).unwrap_or(i64::MAX);
         table.insert("seed".to_owned(), toml::Value::Integer(seed));
         table.to_string()
-    }
-
-    /// Makes the world. Equal text, overrides and seed give equal worlds.
-    ///
-    /// # Errors
-    /// Where organisms overlap, lie outside the walls or find no free place.
-    pub fn build(&self) -> Result<Built, Diagnostics> {
-        let report = Report::new(&self.source);
-        let world = World::new(self.file.config.clone());
-        let mut built = Built {
-            world: world.map_err(|error| report.diagnostic("world", &error))?,
-            player: None,
-            named: Vec::new(),
-            chemicals: Vec::new(),
-            script: Script::default(),
-            checks: self.file.checks.clone(),
-            game: self.file.game.clone(),
-        };
-        let supplies = self.fill(&mut built, &report);
-        built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
-            .with_supplies(supplies);
-        Diagnostics::check(report.found.into_inner())?;
-        Ok(built)
-    }
-
-    /// Puts everything into the world that is there from the beginning, and returns what is to come.
-    fn fill(&self, built: &mut Built, report: &Report<'_>) -> Vec<Supply> {
-        let File { config, chemicals, obstacles, groups, .. } = &self.file;
-        for (name, spec) in chemicals {
-            let id = report.check(&format!("chemical.{name}"), built.world.add_chemical(*spec));
-            built.chemicals.extend(id.map(|id| (name.clone(), id)));
-        }
-        for obstacle in obstacles {
-            report.check("", built.world.add_obstacle(obstacle.clone()));
-        }
-        let placed = placing::place_all(groups, obstacles, config.seed, report);
-        let mut supplies = Vec::new();
-        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
-            let mut there = Vec::new();
-            for Placed { spec, placement } in placed {
-                if report.found.borrow().len() >= MAX_ERRORS {
-                    return supplies;
-                }
-                match built.world.spawn(&spec, placement) {
-                    Ok(id) => {
-                        built.note(group, id);
-                        there.push(id);
-                    }
-                    Err(error) => report.spawn_error(group, &error),
-                }
-            }
-            supplies.extend(Supply::new(index, group, &there, &built.world));
-        }
-        supplies
-    }
-}
-
-impl Built {
-    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
-    pub fn step(&mut self, told: &Inputs) {
-        let mut inputs = self.script.before_step(&mut self.world).clone();
-        told.iter().for_each(|(organism, intent)| inputs.set(organism, intent));
-        self.world.step(&inputs);
-    }
-
-    fn note(&mut self, group: &Group, id: OrganismId) {
-        for exchange in &group.exchanges {
-            // The group's are checked, and the organism is new.
-            let _ = self.world.set_exchange(id, *exchange);
-        }
-        if group.is_player && self.player.is_none() {
-            self.player = Some(id);
-        }
-        self.named.extend(group.name.iter().map(|name| (name.clone(), id)));
-    }
-}
-
-impl Report<'_> {
-    /// Passes on why an organism of a group was not spawned.
-    fn spawn_error(&self, group: &Group, error: &Error) {
-        let (message, accepted) = in_words(error);
-        let is_given = matches!(group.place, Place::At(_));
-        let path = match error.field() {
-            field @ ("scale" | "controller") => format!("{}.{field}", group.path),
-            at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
-            _ => group.count_path(self),
-        };
-        self.refuse(&path, format!("`{}` {message}", group.prototype.name), accepted.unwrap_or_default());
     }
 }
 

@@ -1,7 +1,7 @@
 //! Finding a place for every organism, from the seed alone.
 
-use super::fields::Report;
-use super::group::{Angle, Group, Place};
+use super::reader::ReadContext;
+use super::sections::group::{Angle, Group, Positions};
 use crate::collision::obstacle::Obstacle;
 use crate::organism::{OrganismSpec, Placement};
 use crate::rng::Rng;
@@ -25,8 +25,13 @@ pub(super) struct Placed {
 
 /// Finds places for all organisms that are there from the beginning, group by group. Fixed places count before random
 /// ones do, wherever they stand in the file, so that random placement never takes a place that is asked for. When one
-/// finds none, the random ones are all laid out anew.
-pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, report: &Report<'_>) -> Vec<Vec<Placed>> {
+/// finds none, all random ones are placed again.
+pub(super) fn place_all(
+    groups: &[Group],
+    obstacles: &[Obstacle],
+    seed: u64,
+    context: &ReadContext<'_>,
+) -> Vec<Vec<Placed>> {
     let reach = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
     let mut taken = Taken::new(reach.fold(0.0, |far, reach| if reach > far { reach } else { far }), obstacles);
     let rng = |index: usize| Rng::new(seed, STREAM + index as u64);
@@ -49,18 +54,18 @@ pub(super) fn place_all(groups: &[Group], obstacles: &[Obstacle], seed: u64, rep
         let (found, count) = (placed.len(), group.random_count());
         let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
         let accepted = format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
-        report.refuse(&group.count_path(report), message, accepted);
+        context.refuse(&group.count_path(context), message, accepted);
     }
     placed
 }
 
 /// Those of a group whose places are given.
 fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
-    let places: Vec<Vec2> = match &group.place {
+    let places: Vec<Vec2> = match &group.positions {
         _ if group.from > 0.0 => Vec::new(),
-        Place::At(at) => vec![*at],
-        Place::Grid(grid) => grid.places(&mut rng).collect(),
-        Place::Random { .. } => Vec::new(),
+        Positions::At(at) => vec![*at],
+        Positions::Grid(grid) => grid.places(&mut rng).collect(),
+        Positions::Random { .. } => Vec::new(),
     };
     let put = |at| {
         let (scale, angle) = draw(group, &mut rng);
@@ -73,7 +78,7 @@ fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
 /// As many of a group whose places are random as find a free one, by rejection.
 fn random(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
     let mut placed = Vec::new();
-    let Place::Random { within: [low, high], gap, .. } = group.place else { return placed };
+    let Positions::Random { within: [low, high], gap, .. } = group.positions else { return placed };
     for _ in 0..group.random_count() {
         let (scale, angle) = draw(group, &mut rng);
         let radius = group.prototype.extent(scale);

@@ -1,17 +1,13 @@
-//! Scripts: the `[[command]]` tables, what is done to organisms and when.
+//! Scripts: commands are done at their time, and spawners bring the organisms that come later.
 
-use super::fields::{Fields, Read, Report};
-use super::group::Group;
-use super::shape::Shape;
-use super::source::{NAME, Value, is_name, unknown};
-use super::steering::{self, Controllers};
-use super::supply::Supply;
+use super::sections::command::{Action, Command, Goal};
+use super::sections::controller::Controllers;
+use super::spawner::Spawner;
 #[cfg(feature = "snapshot")]
-use super::supply::SupplyState;
+use super::spawner::SpawnerState;
 use crate::error::{Error, ErrorKind};
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
-use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -25,7 +21,7 @@ pub struct Script {
     dividing: Vec<(OrganismId, String)>,
     orders: Vec<Order>,
     #[serde(skip)]
-    supplies: Vec<Supply>,
+    spawners: Vec<Spawner>,
     inputs: Inputs,
     refusals: Vec<Refusal>,
 }
@@ -43,47 +39,6 @@ pub struct Refusal {
     pub error: Error,
 }
 
-/// One table.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Command {
-    path: String,
-    of: String,
-    at: f32,
-    /// Time from one repetition to the next, s.
-    every: Option<f32>,
-    until: f32,
-    actions: Vec<Action>,
-}
-
-/// What is done to an organism.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-enum Action {
-    Goal(Goal),
-    Digest(bool),
-    Grow {
-        nodes: u32,
-        particles: u32,
-    },
-    /// The daughter goes by this name.
-    Divide(String),
-    /// With the one of this name.
-    Fuse(String),
-    /// To do as the controller of this name says, in place of all that it was told.
-    Controller(String),
-}
-
-/// Organisms that commands may name.
-type Named<'a> = Vec<(String, &'a Group)>;
-
-/// Where an organism is to go.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-enum Goal {
-    Rest,
-    Point(Vec2),
-    /// Wherever this one is, until somebody takes it in.
-    Organism(String),
-}
-
 /// What one organism has been told to do until it is told something else.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Order {
@@ -92,56 +47,46 @@ struct Order {
     digests: bool,
 }
 
-type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
-
-/// The fields that are actions and how they are read.
-const ACTIONS: [(&str, ReadAction); 8] = [
-    ("goal", |fields| fields.get("goal").map(Goal::Point).map(Action::Goal)),
-    ("follow", |fields| fields.get("follow").map(Goal::Organism).map(Action::Goal)),
-    ("rest", |fields| fields.get("rest").map(|Always| Action::Goal(Goal::Rest))),
-    ("digest", |fields| fields.get("digest").map(Action::Digest)),
-    ("grow", grow),
-    ("divide", |fields| fields.get("divide").map(Action::Divide)),
-    ("fuse", |fields| fields.get("fuse").map(Action::Fuse)),
-    ("controller", |fields| fields.get("controller").map(Action::Controller)),
-];
-
 impl Script {
     pub(super) fn new(commands: Vec<Command>, controllers: Controllers, named: Vec<(String, OrganismId)>) -> Self {
         Self { commands, controllers, named, ..Self::default() }
     }
 
     /// The same, with organisms that come later.
-    pub(super) fn with_supplies(self, supplies: Vec<Supply>) -> Self {
-        Self { supplies, ..self }
+    pub(super) fn with_spawners(self, spawners: Vec<Spawner>) -> Self {
+        Self { spawners, ..self }
     }
 
     /// What changes of the organisms that come later; the rest of them is in the file.
     #[cfg(feature = "snapshot")]
-    pub(crate) fn supply_states(&self) -> impl Iterator<Item = &SupplyState> {
-        self.supplies.iter().map(|supply| &supply.state)
+    pub(crate) fn spawner_states(&self) -> impl Iterator<Item = &SpawnerState> {
+        self.spawners.iter().map(|spawner| &spawner.state)
     }
 
     /// Takes the organisms that come later from the script as the file has it, in this state; `None` if it does not fit.
     #[cfg(feature = "snapshot")]
-    pub(crate) fn supplied_by(self, file: Self, states: Vec<SupplyState>) -> Option<Self> {
-        let fits = file.supplies.len() == states.len();
-        let mut supplies = file.supplies;
-        supplies.iter_mut().zip(states).for_each(|(supply, state)| supply.state = state);
-        fits.then(|| self.with_supplies(supplies))
+    pub(crate) fn with_spawner_states(self, file: Self, states: Vec<SpawnerState>) -> Option<Self> {
+        let fits = file.spawners.len() == states.len();
+        let mut spawners = file.spawners;
+        for (spawner, state) in spawners.iter_mut().zip(states) {
+            spawner.state = state;
+        }
+        fits.then(|| self.with_spawners(spawners))
     }
 
     /// Whether there is nothing to do.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.commands.is_empty() && self.supplies.is_empty()
+        self.commands.is_empty() && self.spawners.is_empty()
     }
 
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
         self.rename(world.events());
-        self.supplies.iter_mut().for_each(|supply| supply.before_step(world));
+        for spawner in &mut self.spawners {
+            spawner.before_step(world);
+        }
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
             let due = if command.is_due(world) { &command.actions[..] } else { &[] };
@@ -176,7 +121,9 @@ impl Script {
                     self.named.extend(names.map(|(_, name)| (name, daughter)));
                 }
                 Event::Fused { into, from } => {
-                    self.named.iter_mut().filter(|(_, id)| *id == from).for_each(|(_, id)| *id = into);
+                    for (_, id) in self.named.iter_mut().filter(|(_, id)| *id == from) {
+                        *id = into;
+                    }
                 }
                 _ => {}
             }
@@ -242,144 +189,8 @@ fn is_free(id: OrganismId, world: &World) -> bool {
     world.view().organism(id).is_some_and(|organism| organism.held_by().is_none())
 }
 
-impl Command {
-    /// Whether it is to be done before the world's next step.
-    fn is_due(&self, world: &World) -> bool {
-        let steps = |time: f32| (f64::from(time) / f64::from(world.config().dt)).round() as u64;
-        let Some(since) = world.step_index().checked_sub(steps(self.at)) else { return false };
-        match self.every.map(|every| steps(every).max(1)) {
-            Some(every) => since.is_multiple_of(every) && world.step_index() <= steps(self.until),
-            None => since == 0,
-        }
-    }
-}
-
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} was refused before step {} ({:.2} s): {}", self.command, self.step + 1, self.time, self.error)
-    }
-}
-
-/// Reads the `[[command]]` tables.
-pub(super) fn read(root: &mut Fields<'_>, groups: &[Group], controllers: &Controllers, duration: f32) -> Vec<Command> {
-    let mut named: Named<'_> = groups.iter().filter_map(|group| Some((group.name.clone()?, group))).collect();
-    let mut commands = Vec::new();
-    for mut fields in root.list("command") {
-        let command = read_command(&mut fields, &named, duration);
-        steering::read_named(&mut fields, "controller", controllers);
-        fields.finish();
-        let daughter = command.as_ref().and_then(|command| daughter(command, &named));
-        named.extend(daughter);
-        commands.extend(command);
-    }
-    commands
-}
-
-/// The daughter that a command makes: later ones may name it.
-fn daughter<'a>(command: &Command, named: &Named<'a>) -> Option<(String, &'a Group)> {
-    let name = command.actions.iter().find_map(|action| match action {
-        Action::Divide(name) => Some(name.clone()),
-        _ => None,
-    });
-    Some((name?, find(&command.of, named)?))
-}
-
-fn find<'a>(name: &str, named: &Named<'a>) -> Option<&'a Group> {
-    named.iter().find(|(known, _)| known == name).map(|(_, group)| *group)
-}
-
-fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Option<Command> {
-    let at = fields.number("at", 0.0, [0.0, 1e6]);
-    let of = fields.required::<String>("of");
-    let every = fields.get("every").filter(|&every| fields.is_within("every", every, [0.001, 1e6]));
-    let until = fields.get("until").filter(|&until| fields.is_within("until", until, [at, 1e6]));
-    let until = until.unwrap_or(if duration > at { duration } else { at });
-    let path = fields.path.clone();
-    let actions: Vec<Action> = ACTIONS.into_iter().filter_map(|(_, read)| read(fields)).collect();
-    if !ACTIONS.iter().any(|(field, _)| fields.has(field)) {
-        let known = ACTIONS.map(|(field, _)| field).join(", ");
-        fields.report.refuse(&fields.path, "does nothing", format!("at least one of {known}"));
-    }
-    let refuse = |field: &str, (message, accepted): (String, String)| {
-        fields.report.refuse(&fields.at(field), message, accepted);
-    };
-    if fields.has("until") && !fields.has("every") {
-        refuse("until", ("does nothing by itself".to_owned(), "`until` with `every`".to_owned()));
-    }
-    let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
-    let of = of?;
-    match find(&of, named) {
-        None => refuse("of", unknown("organism", &of, &names)),
-        Some(group) => check_actions(fields, &actions, group),
-    }
-    for action in &actions {
-        match action {
-            Action::Goal(Goal::Organism(name)) if !names.contains(&name.as_str()) => {
-                refuse("follow", unknown("organism", name, &names));
-            }
-            Action::Fuse(name) if !names.contains(&name.as_str()) => refuse("fuse", unknown("organism", name, &names)),
-            Action::Divide(name) if !is_name(name) => {
-                refuse("divide", ("not a usable name".to_owned(), NAME.to_owned()));
-            }
-            Action::Divide(name) if names.contains(&name.as_str()) => {
-                let accepted = "a name for the daughter that no other organism has".to_owned();
-                refuse("divide", (format!("the name `{name}` is taken"), accepted));
-            }
-            _ => {}
-        }
-    }
-    Some(Command { path, of, at, every, until, actions })
-}
-
-/// Checks that an organism can do what is asked of it.
-fn check_actions(fields: &Fields<'_>, actions: &[Action], group: &Group) {
-    let refuse = |field: &str, what: &str, accepted: &str| {
-        let message = format!("`{}` cannot {what}", group.prototype.name);
-        fields.report.refuse(&fields.at(field), message, accepted);
-    };
-    for action in actions {
-        match action {
-            Action::Goal(_) | Action::Controller(_) if !group.prototype.can_move() => {
-                let field = ["goal", "follow", "rest", "controller"].into_iter().find(|field| fields.has(field));
-                refuse(field.unwrap_or_default(), "move", "an amoeboid_cell, a rigid_cell or a probe");
-            }
-            Action::Digest(_) if !group.prototype.can_grow() => refuse("digest", "digest", "an amoeboid_cell"),
-            Action::Grow { .. } if !group.prototype.can_grow() => refuse("grow", "grow", "an amoeboid_cell"),
-            Action::Divide(_) if !group.prototype.can_grow() => refuse("divide", "divide", "an amoeboid_cell"),
-            Action::Fuse(_) if !group.prototype.can_grow() => refuse("fuse", "fuse", "an amoeboid_cell"),
-            _ => {}
-        }
-    }
-}
-
-fn grow(fields: &mut Fields<'_>) -> Option<Action> {
-    let is_asked = fields.has("grow");
-    let mut amount = fields.table("grow");
-    let (nodes, particles) = (amount.or("nodes", 0), amount.or("particles", 0));
-    amount.finish();
-    is_asked.then_some(Action::Grow { nodes, particles })
-}
-
-/// `true`, the only value of a field that stands for an action without more to say.
-struct Always;
-
-impl Read for Always {
-    fn accepted() -> String {
-        "true".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Boolean
-    }
-
-    fn written(&self) -> String {
-        "true".to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_bool() {
-            Some(true) => Some(Self),
-            _ => super::fields::mismatch(value, path, report),
-        }
     }
 }

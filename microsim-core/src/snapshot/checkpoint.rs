@@ -3,7 +3,7 @@
 use super::envelope::Format;
 use super::{SnapshotError, decode, encode, invalid};
 use crate::id::OrganismId;
-use crate::scenario::supply::SupplyState;
+use crate::scenario::spawner::SpawnerState;
 use crate::scenario::{Built, Checks, Origin, Script};
 use crate::world::World;
 
@@ -12,7 +12,7 @@ pub(super) const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 3 };
 
 /// Content of a checkpoint; the world is a snapshot.
 pub(super) type Content =
-    (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SupplyState>, Checks, Vec<u8>);
+    (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SpawnerState>, Checks, Vec<u8>);
 
 /// A run of a scenario that can be resumed with the same results as without the interruption.
 #[derive(Clone, Debug)]
@@ -30,8 +30,8 @@ impl Checkpoint {
     /// As for [`World::to_snapshot`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
         let Built { world, player, named, script, checks, .. } = &self.run;
-        let supplies: Vec<_> = script.supply_states().collect();
-        Ok(RUN.seal(&encode(&(&self.origin, player, named, script, supplies, checks, world.to_snapshot()?))?))
+        let spawners: Vec<_> = script.spawner_states().collect();
+        Ok(RUN.seal(&encode(&(&self.origin, player, named, script, spawners, checks, world.to_snapshot()?))?))
     }
 
     /// The run that was written.
@@ -39,12 +39,12 @@ impl Checkpoint {
     /// # Errors
     /// As for [`World::from_snapshot`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        let (origin, player, named, script, supplies, checks, world): Content = decode(RUN.open(bytes)?)?;
+        let (origin, player, named, script, spawners, checks, world): Content = decode(RUN.open(bytes)?)?;
         let world = World::from_snapshot(&world)?;
         let built = origin.scenario().and_then(|scenario| scenario.build());
         let Built { script: file, chemicals, game, .. } = built.map_err(|problems| invalid(problems.to_string()))?;
-        let script = script.supplied_by(file, supplies);
-        let script = script.ok_or_else(|| invalid("the scenario has other supplies of organisms".to_owned()))?;
+        let script = script.with_spawner_states(file, spawners);
+        let script = script.ok_or_else(|| invalid("the scenario has other organisms to come".to_owned()))?;
         Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game } })
     }
 
@@ -53,11 +53,11 @@ impl Checkpoint {
     #[must_use]
     pub fn difference_beside_worlds(&self, other: &Self) -> Option<&'static str> {
         let parts = |Built { player, named, script, checks, .. }: &Built| {
-            let supplies: Vec<_> = script.supply_states().collect();
+            let spawners: Vec<_> = script.spawner_states().collect();
             [
                 ("player", encode(player)),
                 ("names", encode(named)),
-                ("script", encode(&(script, supplies))),
+                ("script", encode(&(script, spawners))),
                 ("checks", encode(checks)),
             ]
         };

@@ -1,9 +1,7 @@
 //! Checks: the tables `[invariants]` and `[[expect]]`.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, unknown};
 use crate::event::Event;
+use crate::scenario::reader::{Fields, Read, ReadContext, SpannedValue, ValueType, mismatch};
 use crate::{Measure, World};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -65,8 +63,7 @@ impl Checks {
     /// Looks at the world after a step. Returns what this step has broken: invariants in the order of the measures, then
     /// expectations whose time has come.
     pub fn after_step(&mut self, world: &World) -> Vec<Violation> {
-        let invariants = self.invariants.iter_mut().filter_map(|bound| bound.broken(world));
-        let mut broken: Vec<_> = invariants.collect();
+        let mut broken: Vec<_> = self.invariants.iter_mut().filter_map(|bound| bound.broken(world)).collect();
         broken.extend(self.expectations.iter_mut().filter_map(|expectation| expectation.broken(world)));
         broken
     }
@@ -166,17 +163,18 @@ fn digits(value: f64) -> String {
 }
 
 /// Whether something that can be bounded goes by this name.
-pub(super) fn is_quantity(name: &str) -> bool {
+pub(crate) fn is_quantity(name: &str) -> bool {
     Quantity::named(name).is_some()
 }
 
 /// Reads the `[invariants]` and `[[expect]]` tables.
-pub(super) fn read(root: &mut Fields<'_>) -> Checks {
+pub(crate) fn read(root: &mut Fields<'_>) -> Checks {
     let mut fields = root.table("invariants");
     let mut invariants = Vec::new();
     for name in Quantity::names() {
-        let bound = fields.get::<Range>(name).zip(Quantity::named(name));
-        invariants.extend(bound.map(|(Range(range), quantity)| Bound { quantity, range }));
+        if let (Some(Range(range)), Some(quantity)) = (fields.get(name), Quantity::named(name)) {
+            invariants.push(Bound { quantity, range });
+        }
     }
     fields.finish();
     let mut expectations = Vec::new();
@@ -193,8 +191,7 @@ fn read_expectation(fields: &mut Fields<'_>) -> Option<Expectation> {
     let min = fields.required::<f32>("min");
     let (by, measure, min) = (by?, measure?, min?);
     let Some(quantity) = Quantity::named(&measure) else {
-        let (message, accepted) = unknown("measure", &measure, &Quantity::names().collect::<Vec<_>>());
-        fields.report.refuse(&fields.at("measure"), message, accepted);
+        fields.refuse_unknown("measure", "measure", &measure, Quantity::names());
         return None;
     };
     let is_sound = fields.is_within("by", by, [0.0, 1e6]) & fields.is_within("min", min, [-1e9, 1e9]);
@@ -210,20 +207,20 @@ impl Read for Range {
         "a number, the most that it may be, or [least, most]".to_owned()
     }
 
-    fn shape() -> Shape {
-        Shape::Either(vec![Shape::Number, Shape::array(Shape::Number, 2)])
+    fn value_type() -> ValueType {
+        ValueType::Either(vec![ValueType::Number, ValueType::array(ValueType::Number, 2)])
     }
 
     fn written(&self) -> String {
         self.0.map(|limit| limit as f32).written()
     }
 
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
+    fn read(value: &SpannedValue<'_>, path: &str, context: &ReadContext<'_>) -> Option<Self> {
         let range = match value.get_ref() {
-            DeValue::Array(_) => <[f32; 2]>::read(value, path, report)?.map(f64::from),
-            DeValue::Integer(_) | DeValue::Float(_) => [f64::NEG_INFINITY, f32::read(value, path, report)?.into()],
-            _ => return mismatch(value, path, report),
+            DeValue::Array(_) => <[f32; 2]>::read(value, path, context)?.map(f64::from),
+            DeValue::Integer(_) | DeValue::Float(_) => [f64::NEG_INFINITY, f32::read(value, path, context)?.into()],
+            _ => return mismatch(value, path, context),
         };
-        if range[0] <= range[1] { Some(Self(range)) } else { mismatch(value, path, report) }
+        if range[0] <= range[1] { Some(Self(range)) } else { mismatch(value, path, context) }
     }
 }

@@ -1,10 +1,21 @@
-//! The scenario that is run, as text: overrides and parameters put in, keys in order.
+//! Values of a TOML text, and dotted paths to them.
 
 use toml::de::{DeTable, DeValue};
-use toml::{Table, Value};
+use toml::{Spanned, Table, Value};
+
+/// A value and where it stands.
+pub(crate) type SpannedValue<'a> = Spanned<DeValue<'a>>;
+
+/// A degree in radians: files hold degrees.
+pub(crate) const DEGREE: f32 = std::f32::consts::PI / 180.0;
+
+/// Extends a dotted path.
+pub(crate) fn join(path: &str, last: &str) -> String {
+    if path.is_empty() { last.to_owned() } else { format!("{path}.{last}") }
+}
 
 /// The tree of values without what only a reader of the text needs.
-pub(super) fn table(table: &DeTable<'_>) -> Table {
+pub(crate) fn without_spans(table: &DeTable<'_>) -> Table {
     table.iter().map(|(key, child)| (key.get_ref().to_string(), value(child.get_ref()))).collect()
 }
 
@@ -18,6 +29,6 @@ fn value(of: &DeValue<'_>) -> Value {
         DeValue::Boolean(is_so) => Value::Boolean(*is_so),
         DeValue::Datetime(time) => Value::Datetime(*time),
         DeValue::Array(array) => Value::Array(array.iter().map(|child| value(child.get_ref())).collect()),
-        DeValue::Table(table) => Value::Table(self::table(table)),
+        DeValue::Table(table) => Value::Table(without_spans(table)),
     }
 }

@@ -1,9 +1,8 @@
 //! Games: the table `[game]`, what a front-end needs to make a game of a scenario.
 
-use super::fields::Fields;
-use super::group::Group;
-use super::source::unknown;
 use crate::kind::Kind;
+use crate::scenario::reader::{Fields, unknown};
+use crate::scenario::sections::group::Group;
 
 /// Time that a game lasts if the file does not say, s (seed, 3.3.2).
 const TIME: f32 = 90.0;
@@ -39,7 +38,7 @@ impl Game {
 }
 
 /// Reads the table, if the file has it.
-pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
+pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
     let is_game = root.has("game");
     let mut fields = root.table("game");
     let time = fields.number("time", TIME, [1.0, 3600.0]);
@@ -47,21 +46,21 @@ pub(super) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
     for (name, mut fields) in fields.named("points") {
         let each = fields.number("each", 0.0, [0.0, 1e6]);
         let per_area = fields.number("per_area", 0.0, [0.0, 1e6]);
-        let (path, report) = (fields.path.clone(), fields.report);
+        let (path, context) = (fields.path.clone(), fields.context);
         fields.finish();
         match PREY.iter().find(|(known, _)| *known == name) {
             Some(&(_, kind)) => points.push((kind, Points { each, per_area })),
-            None if report.notes.is_some() => {}
+            None if context.notes.is_some() => {}
             None => {
-                let (message, accepted) = unknown("prey", &name, &PREY.map(|(known, _)| known));
-                report.refuse_key(&path, message, accepted);
+                let (message, accepted) = unknown("prey", &name, PREY.map(|(known, _)| known));
+                context.refuse_key(&path, message, accepted);
             }
         }
     }
     fields.finish();
     if is_game && !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
         let accepted = "a [[spawn]] of an amoeboid_cell with `player = true`";
-        root.report.refuse("game", "nobody plays", accepted);
+        root.context.refuse("game", "nobody plays", accepted);
     }
     is_game.then_some(Game { time, points })
 }

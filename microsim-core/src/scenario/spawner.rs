@@ -1,44 +1,44 @@
-//! Supply: organisms of a `[[spawn]]` table that come later (`from`), or again when one is gone (`respawn`).
+//! Spawners: organisms of a `[[spawn]]` table that come later (`from`), or again when one is gone (`respawn`).
 
-use super::group::{Group, Place};
 use super::placing::{self, Placed};
+use super::sections::group::{Group, Positions};
 use crate::World;
 use crate::id::OrganismId;
 use crate::rng::Rng;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// Streams of random numbers from here on are for supply; those for placing lie below.
+/// Streams of random numbers from here on are for spawners; those for placing lie below.
 const STREAM: u64 = 3 << 61;
 
 /// One table's organisms, those in the world and those to come.
 #[derive(Clone, Debug)]
-pub(super) struct Supply {
+pub(super) struct Spawner {
     group: Group,
     /// Steps until one that is gone is replaced.
     respawn: Option<u64>,
-    pub state: SupplyState,
+    pub state: SpawnerState,
 }
 
-/// What changes of a supply.
+/// What changes of a spawner.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct SupplyState {
+pub(crate) struct SpawnerState {
     rng: Rng,
     alive: Vec<OrganismId>,
     /// Steps from which on one each is to come.
     due: Vec<u64>,
 }
 
-impl Supply {
-    /// The supply of a group of which these are there already; `None` if nothing is to come.
+impl Spawner {
+    /// The spawner of a group of which these are there already; `None` if nothing is to come.
     pub(super) fn new(index: usize, group: &Group, there: &[OrganismId], world: &World) -> Option<Self> {
         let steps = |time: f32| (f64::from(time) / f64::from(world.config().dt)).round() as u64;
-        let due = if group.from > 0.0 { vec![steps(group.from); group.place.count() as usize] } else { Vec::new() };
+        let due = if group.from > 0.0 { vec![steps(group.from); group.positions.count() as usize] } else { Vec::new() };
         let respawn = group.respawn.map(steps);
         (respawn.is_some() || !due.is_empty()).then(|| Self {
             group: group.clone(),
             respawn,
-            state: SupplyState {
+            state: SpawnerState {
                 rng: Rng::new(world.config().seed, STREAM + index as u64),
                 alive: there.to_vec(),
                 due,
@@ -66,13 +66,13 @@ impl Supply {
     fn spawn(&mut self, world: &mut World) -> Option<OrganismId> {
         let (scale, angle) = placing::draw(&self.group, &mut self.state.rng);
         let radius = self.group.prototype.extent(scale);
-        let (at, gap) = match self.group.place {
-            Place::At(at) => (at, 0.0),
-            Place::Random { within: [low, high], gap, .. } => {
+        let (at, gap) = match self.group.positions {
+            Positions::At(at) => (at, 0.0),
+            Positions::Random { within: [low, high], gap, .. } => {
                 let (low, high) = (low + radius, high - radius);
                 (Vec2::new(self.state.rng.range(low.x, high.x), self.state.rng.range(low.y, high.y)), gap)
             }
-            Place::Grid(_) => return None,
+            Positions::Grid(_) => return None,
         };
         if world.organisms_in_circle(at, radius + gap).next().is_some() {
             return None;

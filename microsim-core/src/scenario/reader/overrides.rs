@@ -1,6 +1,7 @@
 //! Overrides: `key=value` pairs that change a scenario before it is read.
 
-use super::source::{Value, unknown};
+use super::name::unknown;
+use super::value::SpannedValue;
 use std::borrow::Cow;
 use std::ops::Range;
 use toml::Spanned;
@@ -15,14 +16,19 @@ const OPTIONAL: [&str; 7] = ["world", "step", "invariants", "output", "measures"
 type Refusal = (String, String);
 
 /// Sets one value by the name of a parameter or by its path. What is set stands at `span`.
-pub(super) fn apply<'a>(root: &mut Value<'a>, key: &'a str, text: &'a str, span: Range<usize>) -> Result<(), Refusal> {
+pub(crate) fn apply<'a>(
+    root: &mut SpannedValue<'a>,
+    key: &'a str,
+    text: &'a str,
+    span: Range<usize>,
+) -> Result<(), Refusal> {
     let path = path_of(root, key)?;
     let value = parse(text, &span)?;
     set(root, &path, value)
 }
 
 /// The path that a key means: a bare name is a parameter's before it is a field's.
-fn path_of<'a>(root: &Value<'_>, key: &'a str) -> Result<Vec<&'a str>, Refusal> {
+fn path_of<'a>(root: &SpannedValue<'_>, key: &'a str) -> Result<Vec<&'a str>, Refusal> {
     let parameters = root.get_ref().get("parameters").and_then(|table| table.get_ref().as_table());
     let names: Vec<&str> =
         parameters.into_iter().flat_map(|table| table.keys()).map(|key| key.get_ref().as_ref()).collect();
@@ -32,15 +38,14 @@ fn path_of<'a>(root: &Value<'_>, key: &'a str) -> Result<Vec<&'a str>, Refusal> 
     }
     let is_field = name == key && (key.contains('.') || SETTABLE.contains(&key));
     if !is_field {
-        let known: Vec<&str> = names.into_iter().chain(SETTABLE).collect();
-        let (message, accepted) = unknown("parameter", name, &known);
+        let (message, accepted) = unknown("parameter", name, names.into_iter().chain(SETTABLE));
         return Err((message, format!("{accepted}, or a path such as world.damping")));
     }
     Ok(key.split('.').collect())
 }
 
 /// The value that TOML text means; bare words become strings.
-fn parse<'a>(text: &'a str, span: &Range<usize>) -> Result<Value<'a>, Refusal> {
+fn parse<'a>(text: &'a str, span: &Range<usize>) -> Result<SpannedValue<'a>, Refusal> {
     let is_word = text.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '$');
     let mut value = match DeValue::parse(text) {
         Ok(value) => value,
@@ -55,7 +60,7 @@ fn parse<'a>(text: &'a str, span: &Range<usize>) -> Result<Value<'a>, Refusal> {
 }
 
 /// Makes every part of a value stand at `span`.
-fn move_to(value: &mut Value<'_>, span: &Range<usize>) {
+fn move_to(value: &mut SpannedValue<'_>, span: &Range<usize>) {
     match value.get_mut() {
         DeValue::Table(table) => table.iter_mut().for_each(|(_, child)| move_to(child, span)),
         DeValue::Array(array) => array.iter_mut().for_each(|child| move_to(child, span)),
@@ -66,7 +71,7 @@ fn move_to(value: &mut Value<'_>, span: &Range<usize>) {
 }
 
 /// Sets the value at a path.
-fn set<'a>(parent: &mut Value<'a>, path: &[&'a str], value: Value<'a>) -> Result<(), Refusal> {
+fn set<'a>(parent: &mut SpannedValue<'a>, path: &[&'a str], value: SpannedValue<'a>) -> Result<(), Refusal> {
     let [part, rest @ ..] = path else {
         *parent = value;
         return Ok(());
@@ -95,12 +100,12 @@ fn entry<'t, 'a>(
     key: &'a str,
     may_be_new: bool,
     span: Range<usize>,
-) -> Result<&'t mut Value<'a>, Refusal> {
+) -> Result<&'t mut SpannedValue<'a>, Refusal> {
     if may_be_new && !table.contains_key(key) {
         let nothing = Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
         table.insert(Spanned::new(span, Cow::Borrowed(key)), nothing);
     }
     let known: Vec<String> = table.keys().map(|key| key.get_ref().to_string()).collect();
-    let missing = || unknown("part", key, &known.iter().map(String::as_str).collect::<Vec<_>>());
+    let missing = || unknown("part", key, known.iter().map(String::as_str));
     table.get_mut(key).ok_or_else(missing)
 }

@@ -1,10 +1,8 @@
 //! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
 
-use super::fields::{Fields, Read, Report};
-use super::shape::Shape;
-use super::source::Value;
 use crate::error::Error;
 use crate::organism::OrganismSpec;
+use crate::scenario::reader::{Fields, Keyword};
 use crate::solver::fluid::{FluidMode, FluidParams};
 use crate::{
     AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, DivisionParams, FluidBlockSpec, IngestionWay,
@@ -14,7 +12,7 @@ use std::collections::BTreeMap;
 
 /// An organism that can be spawned by name.
 #[derive(Clone, Debug)]
-pub(super) struct Prototype {
+pub(crate) struct Prototype {
     pub name: String,
     spec: OrganismSpec,
     /// Farthest that it reaches from its centre, units.
@@ -22,7 +20,7 @@ pub(super) struct Prototype {
 }
 
 /// Prototypes by name; `None` where its table is wrong, which is reported once, there.
-pub(super) type Prototypes = BTreeMap<String, Option<Prototype>>;
+pub(crate) type Prototypes = BTreeMap<String, Option<Prototype>>;
 
 type ReadSpec = fn(&mut Fields<'_>) -> OrganismSpec;
 
@@ -40,21 +38,31 @@ const KINDS: [(&str, ReadSpec); 9] = [
 ];
 
 /// Reads all prototypes of a file.
-pub(super) fn read(root: &mut Fields<'_>) -> Prototypes {
+pub(crate) fn read(root: &mut Fields<'_>) -> Prototypes {
     let mut prototypes = Prototypes::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
-            let (path, report) = (fields.path.clone(), fields.report);
-            let prototype = report.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
+            let (path, context) = (fields.path.clone(), fields.context);
+            let prototype = context.check_all(&path, || Prototype::new(name.clone(), read(&mut fields)));
             fields.finish();
             if prototypes.contains_key(&name) {
                 let accepted = "a name that no other prototype has";
-                report.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
+                context.refuse_key(&path, format!("the name `{name}` is taken"), accepted.to_owned());
             }
             prototypes.insert(name, prototype);
         }
     }
     prototypes
+}
+
+/// The prototype that the field `of` names, if it is sound; reports it if there is none of that name.
+pub(crate) fn read_named(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Option<Prototype> {
+    let of: String = fields.required("of")?;
+    if let Some(prototype) = prototypes.get(&of) {
+        return prototype.clone();
+    }
+    fields.refuse_unknown("of", "prototype", &of, prototypes.keys().map(String::as_str));
+    None
 }
 
 impl Prototype {
@@ -64,29 +72,29 @@ impl Prototype {
     }
 
     /// Whether anything can steer it.
-    pub(super) fn can_move(&self) -> bool {
+    pub(crate) fn can_move(&self) -> bool {
         self.spec.can_move()
     }
 
     /// Whether it takes others in and grows.
-    pub(super) fn can_grow(&self) -> bool {
+    pub(crate) fn can_grow(&self) -> bool {
         matches!(self.spec, OrganismSpec::AmoeboidCell(_))
     }
 
     /// Farthest that it reaches from its centre when scaled, units.
-    pub(super) fn extent(&self, scale: f32) -> f32 {
+    pub(crate) fn extent(&self, scale: f32) -> f32 {
         self.extent * scale
     }
 
     /// Particles that one of it takes.
-    pub(super) fn particles(&self, scale: f32) -> Result<u64, Error> {
+    pub(crate) fn particles(&self, scale: f32) -> Result<u64, Error> {
         let (spec, _) = self.scaled(scale);
         spec.particle_count().map(|count| count as u64)
     }
 
     /// Its spec in another size, and what is left for [`crate::Placement::scale`] to do. Where fluid is part of it the
     /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (seed, 3.1.2).
-    pub(super) fn scaled(&self, scale: f32) -> (OrganismSpec, f32) {
+    pub(crate) fn scaled(&self, scale: f32) -> (OrganismSpec, f32) {
         match self.spec.clone() {
             OrganismSpec::AmoeboidCell(spec) => {
                 let radii = spec.radii * scale;
@@ -232,54 +240,10 @@ fn fluid(fields: &mut Fields<'_>) -> OrganismSpec {
     })
 }
 
-impl Read for IngestionWay {
-    fn accepted() -> String {
-        "\"gate\" or \"cup\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(&["gate", "cup"])
-    }
-
-    fn written(&self) -> String {
-        match self {
-            Self::Gate => "\"gate\"",
-            Self::Cup => "\"cup\"",
-        }
-        .to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_str() {
-            Some("gate") => Some(Self::Gate),
-            Some("cup") => Some(Self::Cup),
-            _ => super::fields::mismatch(value, path, report),
-        }
-    }
+impl Keyword for IngestionWay {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("gate", Self::Gate), ("cup", Self::Cup)];
 }
 
-impl Read for FluidMode {
-    fn accepted() -> String {
-        "\"density\" or \"granular\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(&["density", "granular"])
-    }
-
-    fn written(&self) -> String {
-        match self {
-            Self::Density => "\"density\"",
-            Self::Granular => "\"granular\"",
-        }
-        .to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_str() {
-            Some("density") => Some(Self::Density),
-            Some("granular") => Some(Self::Granular),
-            _ => super::fields::mismatch(value, path, report),
-        }
-    }
+impl Keyword for FluidMode {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("density", Self::Density), ("granular", Self::Granular)];
 }

@@ -1,11 +1,10 @@
 //! Static geometry: the tables `[[wall]]`, `[[block]]`, `[[disc]]` and `[[polygon]]`.
 
-use super::fields::Fields;
-use super::source::DEGREE;
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{is_simple, signed_area, triangulate};
 use crate::particle::Material;
+use crate::scenario::reader::{DEGREE, Fields};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
@@ -23,31 +22,29 @@ type ReadShape = fn(&mut Fields<'_>) -> Option<(SharedShape, Pose)>;
 const KINDS: [(&str, ReadShape); 4] = [("wall", wall), ("block", block), ("disc", disc), ("polygon", polygon)];
 
 /// Reads all obstacles of a file for a room of this size.
-pub(super) fn read(root: &mut Fields<'_>, size: Vec2) -> Vec<Obstacle> {
+pub(crate) fn read(root: &mut Fields<'_>, size: Vec2) -> Vec<Obstacle> {
     let mut obstacles = Vec::new();
     for (kind, read) in KINDS {
         for mut fields in root.list(kind) {
             let shape = read(&mut fields);
             let friction = fields.number("friction", Material::default().friction, [0.0, 10.0]);
-            if let Some((shape, pose)) = &shape {
-                check_place(&fields, shape.compute_aabb(pose), size);
+            if let Some((shape, pose)) = shape {
+                check_place(&fields, shape.compute_aabb(&pose), size);
+                let material = Material { friction, ..Material::default() };
+                obstacles.push(Obstacle { material, ..Obstacle::new(shape, pose) });
             }
             fields.finish();
-            obstacles.extend(shape.map(|(shape, pose)| {
-                let material = Material { friction, ..Material::default() };
-                Obstacle { material, ..Obstacle::new(shape, pose) }
-            }));
         }
     }
     obstacles
 }
 
-/// An obstacle that nothing in the room can touch is a slip.
+/// Refuses an obstacle outside the room: it would have no effect.
 fn check_place(fields: &Fields<'_>, bounds: Aabb, size: Vec2) {
     if !bounds.intersects(&Aabb::new(Vec2::ZERO, size)) {
         let place = ["at", "from", "points"].into_iter().find(|field| fields.has(field)).unwrap_or_default();
         let accepted = format!("something within 0 to {} by 0 to {}", size.x, size.y);
-        fields.report.refuse(&fields.at(place), "lies wholly outside the room", accepted);
+        fields.refuse(place, "lies wholly outside the room", accepted);
     }
 }
 
@@ -58,7 +55,7 @@ fn wall(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
     let thickness = length(fields, "thickness");
     let (from, to, thickness) = (from?, to?, thickness?);
     if (to - from).length() < LENGTH[0] {
-        fields.report.refuse(&fields.at("to"), "the wall has no length", "a point away from `from`");
+        fields.refuse("to", "the wall has no length", "a point away from `from`");
         return None;
     }
     let middle = (from + to) * 0.5;
@@ -93,7 +90,7 @@ fn disc(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
 /// A simple polygon, convex or not, as triangles.
 fn polygon(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
     let points: Vec<Vec2> = fields.required("points")?;
-    let refuse = |message: &str, accepted: String| fields.report.refuse(&fields.at("points"), message, accepted);
+    let refuse = |message: &str, accepted: String| fields.refuse("points", message, accepted);
     if !(3..=MAX_CORNERS).contains(&points.len()) {
         refuse(&format!("{} corners", points.len()), format!("3 to {MAX_CORNERS} corners"));
         return None;

@@ -1,4 +1,4 @@
-//! Frames: kind (one byte), length of the content (four bytes), content, and half of a checksum over everything before it in
+//! Chunks: kind (one byte), length of the content (four bytes), content, and half of a checksum over everything before it in
 //! the file (four bytes). Numbers are little-endian.
 
 use super::{MAGIC, ReplayError, VERSION};
@@ -6,13 +6,13 @@ use crate::fnv::Fnv1a;
 
 const NUMBER: usize = 4;
 const CONTENT_AT: usize = 1 + NUMBER;
-const FRAMES_AT: usize = MAGIC.len() + NUMBER;
+const CHUNKS_AT: usize = MAGIC.len() + NUMBER;
 
-/// Writes frames one after the other.
+/// Writes chunks one after the other.
 #[derive(Clone, Debug)]
-pub(super) struct Framer(Fnv1a);
+pub(super) struct ChunkWriter(Fnv1a);
 
-impl Framer {
+impl ChunkWriter {
     /// Returns also what the file begins with.
     pub(super) fn new() -> (Self, Vec<u8>) {
         let mut bytes = MAGIC.to_vec();
@@ -22,8 +22,8 @@ impl Framer {
         (Self(hash), bytes)
     }
 
-    /// One frame. Content is far shorter than four gigabytes.
-    pub(super) fn frame(&mut self, kind: u8, content: &[u8]) -> Vec<u8> {
+    /// One chunk. Content is far shorter than four gigabytes.
+    pub(super) fn write(&mut self, kind: u8, content: &[u8]) -> Vec<u8> {
         let mut bytes = vec![kind];
         bytes.extend((content.len() as u32).to_le_bytes());
         bytes.extend(content);
@@ -35,36 +35,36 @@ impl Framer {
     }
 }
 
-/// Why there is no frame where one should be.
+/// Why there is no chunk where one should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FrameEnd {
+pub(super) enum ChunkError {
     CutOff,
     Damaged,
 }
 
-/// Reads frames one after the other, up to the first that is not whole.
+/// Reads chunks one after the other, up to the first that is not whole.
 #[derive(Clone, Debug)]
-pub(super) struct Frames<'a> {
+pub(super) struct ChunkReader<'a> {
     bytes: &'a [u8],
     at: usize,
     hash: Fnv1a,
 }
 
-impl<'a> Frames<'a> {
+impl<'a> ChunkReader<'a> {
     pub(super) fn open(bytes: &'a [u8]) -> Result<Self, ReplayError> {
         if !bytes.iter().zip(MAGIC).all(|(&found, expected)| found == expected) {
             return Err(ReplayError::Foreign);
         }
-        let found = bytes.get(MAGIC.len()..FRAMES_AT).and_then(number).ok_or(ReplayError::NoHeader)?;
+        let found = bytes.get(MAGIC.len()..CHUNKS_AT).and_then(number).ok_or(ReplayError::NoHeader)?;
         if found != VERSION {
             return Err(ReplayError::Version { found, accepted: VERSION });
         }
         let mut hash = Fnv1a::new();
-        hash.bytes(&bytes[..FRAMES_AT]);
-        Ok(Self { bytes, at: FRAMES_AT, hash })
+        hash.bytes(&bytes[..CHUNKS_AT]);
+        Ok(Self { bytes, at: CHUNKS_AT, hash })
     }
 
-    /// Where the next frame begins.
+    /// Where the next chunk begins.
     pub(super) fn place(&self) -> u64 {
         self.at as u64
     }
@@ -73,23 +73,23 @@ impl<'a> Frames<'a> {
         self.at == self.bytes.len()
     }
 
-    fn read(&mut self) -> Result<(u8, &'a [u8]), FrameEnd> {
+    fn read(&mut self) -> Result<(u8, &'a [u8]), ChunkError> {
         let rest = &self.bytes[self.at..];
-        let length = rest.get(1..CONTENT_AT).and_then(number).ok_or(FrameEnd::CutOff)? as usize;
-        let (frame, after) = rest.split_at_checked(CONTENT_AT.saturating_add(length)).ok_or(FrameEnd::CutOff)?;
-        let sum = after.get(..NUMBER).ok_or(FrameEnd::CutOff)?;
-        self.hash.bytes(frame);
+        let length = rest.get(1..CONTENT_AT).and_then(number).ok_or(ChunkError::CutOff)? as usize;
+        let (chunk, after) = rest.split_at_checked(CONTENT_AT.saturating_add(length)).ok_or(ChunkError::CutOff)?;
+        let sum = after.get(..NUMBER).ok_or(ChunkError::CutOff)?;
+        self.hash.bytes(chunk);
         if checksum(self.hash) != sum {
-            return Err(FrameEnd::Damaged);
+            return Err(ChunkError::Damaged);
         }
         self.hash.bytes(sum);
-        self.at += frame.len() + NUMBER;
-        Ok((frame[0], &frame[CONTENT_AT..]))
+        self.at += chunk.len() + NUMBER;
+        Ok((chunk[0], &chunk[CONTENT_AT..]))
     }
 }
 
-impl<'a> Iterator for Frames<'a> {
-    type Item = Result<(u8, &'a [u8]), FrameEnd>;
+impl<'a> Iterator for ChunkReader<'a> {
+    type Item = Result<(u8, &'a [u8]), ChunkError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         (!self.is_at_end()).then(|| self.read())

@@ -1,9 +1,7 @@
-//! What a run leaves behind: the table `[output]`. The library writes no files; whoever runs a scenario does.
+//! Files that a run writes: the table `[output]`. The library itself writes none; the program that runs a scenario does.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, unknown};
 use crate::Measure;
+use crate::scenario::reader::{Fields, Keyword};
 
 /// Longest time that makes sense, s.
 const LONGEST: f32 = 1e6;
@@ -70,17 +68,16 @@ pub enum TableFormat {
 impl TableFormat {
     /// All formats.
     pub const ALL: [Self; 3] = [Self::Csv, Self::Jsonl, Self::Parquet];
-    const NAMES: &'static [&'static str] = &["csv", "jsonl", "parquet"];
 
     /// Its name, which is also the end of a file's.
     #[must_use]
     pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
+        self.keyword()
     }
 }
 
 /// Reads the `[output]` table.
-pub(super) fn read(root: &mut Fields<'_>) -> OutputPlan {
+pub(crate) fn read(root: &mut Fields<'_>) -> OutputPlan {
     let mut fields = root.table("output");
     let mut measures = fields.table("measures");
     let measured = read_measured(&mut measures);
@@ -116,9 +113,8 @@ fn read_measured(fields: &mut Fields<'_>) -> Vec<Measure> {
         match Measure::named(name) {
             Some(measure) => measured.push(measure),
             None => {
-                let known: Vec<&str> = Measure::ALL.iter().map(|measure| measure.name()).collect();
-                let (message, accepted) = unknown("measure", name, &known);
-                fields.report.refuse(&fields.at(&format!("of.{index}")), message, accepted);
+                let known = Measure::ALL.iter().map(|measure| measure.name());
+                fields.refuse_unknown(&format!("of.{index}"), "measure", name, known);
             }
         }
     }
@@ -130,7 +126,7 @@ fn read_frames(mut fields: Fields<'_>) -> FramePlan {
     let every = fields.number("every", 0.0, [0.0, LONGEST]);
     let width = fields.or("width", WIDTH);
     if !(16..=8192).contains(&width) {
-        fields.report.refuse(&fields.at("width"), format!("{width} is out of range"), "16 to 8192");
+        fields.refuse("width", format!("{width} is out of range"), "16 to 8192");
     }
     fields.finish();
     FramePlan { at, every, width }
@@ -143,22 +139,7 @@ fn times(fields: &mut Fields<'_>, field: &'static str) -> Vec<f32> {
     times.iter().enumerate().filter(is_sound).map(|(_, time)| *time).collect()
 }
 
-impl Read for TableFormat {
-    fn accepted() -> String {
-        "\"csv\", \"jsonl\" or \"parquet\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(Self::NAMES)
-    }
-
-    fn written(&self) -> String {
-        format!("{:?}", self.name())
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        let name = value.get_ref().as_str();
-        let format = Self::ALL.into_iter().find(|format| Some(format.name()) == name);
-        format.or_else(|| mismatch(value, path, report))
-    }
+impl Keyword for TableFormat {
+    const KEYWORDS: &'static [(&'static str, Self)] =
+        &[("csv", Self::Csv), ("jsonl", Self::Jsonl), ("parquet", Self::Parquet)];
 }

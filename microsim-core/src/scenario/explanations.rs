@@ -1,6 +1,6 @@
-//! What every field of the format means, for editors and the reference: paths as in [`super::Description`].
+//! An explanation of every field of the format, for editors and the reference: paths as in [`super::Description`].
 
-use super::checks;
+use super::sections::checks;
 
 /// What the field at a path means.
 pub(super) fn of(path: &str) -> Option<&'static str> {

@@ -1,9 +1,7 @@
 //! Controllers: the tables `[wander.NAME]`, `[patrol.NAME]` and so on.
 
-use super::chemical::{self, Chemicals};
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{DEGREE, Value, unknown};
+use crate::scenario::reader::{DEGREE, Fields, Keyword};
+use crate::scenario::sections::chemical::{self, Chemicals};
 use crate::{
     AvoidanceParams, BrownianParams, ChemicalId, ChemotaxisParams, Controller, FleeParams, PersistentWalkParams,
     PursueParams, RunAndTumbleParams,
@@ -12,20 +10,19 @@ use glam::Vec2;
 use std::collections::BTreeMap;
 
 /// Controllers by name.
-pub(super) type Controllers = BTreeMap<String, Controller>;
+pub(crate) type Controllers = BTreeMap<String, Controller>;
 
-/// What controllers refer to.
+/// What controllers may refer to.
 struct Known<'a> {
     size: Vec2,
     chemicals: &'a Chemicals,
-    /// Those that were read before.
+    /// Those of the kinds above.
     controllers: &'a Controllers,
 }
 
 type ReadController = fn(&mut Fields<'_>, &Known<'_>) -> Option<Controller>;
 
-/// Tables of controllers and how they are read. What does something else otherwise refers to a controller of a kind before
-/// its own.
+/// Tables of controllers and how they are read. `otherwise` can name controllers of the kinds above.
 const KINDS: [(&str, ReadController); 11] = [
     ("wander", |fields, _| wander(fields)),
     ("patrol", patrol),
@@ -41,21 +38,21 @@ const KINDS: [(&str, ReadController); 11] = [
 ];
 
 /// Reads all controllers of a file for a room of this size.
-pub(super) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> Controllers {
+pub(crate) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> Controllers {
     let mut controllers = Controllers::new();
     for (kind, read) in KINDS {
         for (name, mut fields) in root.named(kind) {
             let known = Known { size, chemicals, controllers: &controllers };
-            let (path, report) = (fields.path.clone(), fields.report);
+            let (path, context) = (fields.path.clone(), fields.context);
             let read = || {
                 let controller = read(&mut fields, &known).unwrap_or_default();
                 controller.validate().map(|()| controller)
             };
-            let controller = report.check_all(&path, read).unwrap_or_default();
+            let controller = context.check_all(&path, read).unwrap_or_default();
             fields.finish();
             if controllers.contains_key(&name) {
                 let accepted = "a name that no other controller has".to_owned();
-                report.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
+                context.refuse_key(&path, format!("the name `{name}` is taken"), accepted);
             }
             controllers.insert(name, controller);
         }
@@ -64,7 +61,7 @@ pub(super) fn read(root: &mut Fields<'_>, size: Vec2, chemicals: &Chemicals) -> 
 }
 
 /// The controller that a field names, if it is there; reports it if there is none of that name.
-pub(super) fn read_named(
+pub(crate) fn read_named(
     fields: &mut Fields<'_>,
     field: &'static str,
     controllers: &Controllers,
@@ -72,9 +69,7 @@ pub(super) fn read_named(
     let name = fields.get::<String>(field)?;
     let found = controllers.get(&name).cloned();
     if found.is_none() {
-        let names: Vec<&str> = controllers.keys().map(String::as_str).collect();
-        let (message, accepted) = unknown("controller", &name, &names);
-        fields.report.refuse(&fields.at(field), message, accepted);
+        fields.refuse_unknown(field, "controller", &name, controllers.keys().map(String::as_str));
     }
     found
 }
@@ -95,7 +90,7 @@ fn patrol(fields: &mut Fields<'_>, known: &Known<'_>) -> Option<Controller> {
             let is_inside = point.cmpge(Vec2::ZERO).all() && point.cmple(Vec2::ONE).all();
             if !is_inside {
                 let field = fields.at(&format!("through.{index}"));
-                fields.report.refuse(&field, "lies outside the room", "fractions of the room, 0 to 1 each");
+                fields.context.refuse(&field, "lies outside the room", "fractions of the room, 0 to 1 each");
             }
             *point *= known.size;
         }
@@ -122,7 +117,7 @@ fn persistent_walk(fields: &mut Fields<'_>) -> Controller {
 
 fn chemotaxis(fields: &mut Fields<'_>, known: &Known<'_>) -> Option<Controller> {
     let name: Option<String> = fields.required("chemical");
-    let chemical = name.and_then(|name| chemical::find(&name, &fields.at("chemical"), known.chemicals, fields.report));
+    let chemical = name.and_then(|name| chemical::find(&name, &fields.at("chemical"), known.chemicals, fields.context));
     let default = ChemotaxisParams::towards(chemical.unwrap_or(ChemicalId(0)));
     let params = ChemotaxisParams {
         chemical: default.chemical,
@@ -139,7 +134,7 @@ fn chemotaxis(fields: &mut Fields<'_>, known: &Known<'_>) -> Option<Controller> 
 fn run_and_tumble(fields: &mut Fields<'_>, known: &Known<'_>) -> Option<Controller> {
     let default = RunAndTumbleParams::default();
     let name = fields.get::<String>("chemical");
-    let find = |name: String| chemical::find(&name, &fields.at("chemical"), known.chemicals, fields.report);
+    let find = |name: String| chemical::find(&name, &fields.at("chemical"), known.chemicals, fields.context);
     let chemical = name.and_then(find);
     Some(Controller::run_and_tumble(RunAndTumbleParams {
         run: fields.or("run", default.run),
@@ -203,28 +198,6 @@ enum Unit {
     Rooms,
 }
 
-impl Read for Unit {
-    fn accepted() -> String {
-        "\"units\" or \"room\"".to_owned()
-    }
-
-    fn shape() -> Shape {
-        Shape::Word(&["units", "room"])
-    }
-
-    fn written(&self) -> String {
-        match self {
-            Self::Micrometres => "\"units\"",
-            Self::Rooms => "\"room\"",
-        }
-        .to_owned()
-    }
-
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        match value.get_ref().as_str() {
-            Some("units") => Some(Self::Micrometres),
-            Some("room") => Some(Self::Rooms),
-            _ => mismatch(value, path, report),
-        }
-    }
+impl Keyword for Unit {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("units", Self::Micrometres), ("room", Self::Rooms)];
 }

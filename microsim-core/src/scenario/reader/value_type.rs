@@ -1,8 +1,8 @@
-//! What values of a field look like: enough for an editor to check a file while it is being written.
+//! Types of values: enough for an editor to check a file while it is being written.
 
-/// The form of a value.
+/// The type of a value.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum ValueType {
     /// `true` or `false`.
     Boolean,
     /// Any number.
@@ -12,34 +12,34 @@ pub enum Shape {
     /// Any string.
     Text,
     /// One of these words.
-    Word(&'static [&'static str]),
-    /// An array of so many values of one form; of any number without it.
+    Word(Vec<&'static str>),
+    /// An array of so many values of one type; of any number without it.
     Array(Box<Self>, Option<usize>),
-    /// A table of any names, with a value of one form each.
+    /// A table of any names, with a value of one type each.
     Table(Box<Self>),
     /// Any of these.
     Either(Vec<Self>),
 }
 
-impl Shape {
+impl ValueType {
     /// An array of so many.
-    pub(super) fn array(of: Self, count: usize) -> Self {
+    pub(crate) fn array(of: Self, count: usize) -> Self {
         Self::Array(Box::new(of), Some(count))
     }
 
     /// An array of any length.
-    pub(super) fn list(of: Self) -> Self {
+    pub(crate) fn list(of: Self) -> Self {
         Self::Array(Box::new(of), None)
     }
 
-    /// A value of this form, as a file would have it, that is a number or consists of numbers far beyond any range; `None`
+    /// A value of this type, as a file would have it, that is a number or consists of numbers far beyond any range; `None`
     /// for what has no range.
-    pub(super) fn extreme(&self) -> Option<String> {
+    pub(crate) fn extreme(&self) -> Option<String> {
         match self {
             Self::Number => Some("1e30".to_owned()),
             Self::Whole(_) => Some(u32::MAX.to_string()),
             Self::Array(of, Some(length)) => Some(format!("[{}]", vec![of.extreme()?; *length].join(", "))),
-            Self::Either(shapes) => shapes.iter().find_map(Self::extreme),
+            Self::Either(types) => types.iter().find_map(Self::extreme),
             _ => None,
         }
     }

@@ -1,15 +1,13 @@
-//! Chemicals: the tables `[chemical.NAME]`, and who secretes and takes up what.
+//! Chemicals: the tables `[chemical.NAME]`, and the fields `secretes` and `takes_up` of organisms.
 
-use super::fields::{Fields, Read, Report, mismatch};
-use super::shape::Shape;
-use super::source::{Value, join, unknown};
+use crate::scenario::reader::{Fields, Read, ReadContext, SpannedValue, ValueType, join, mismatch};
 use crate::{ChemicalId, ChemicalSpec, Exchange, WorldConfig};
 
 /// Chemicals with their names, in the order in which the world gets them.
-pub(super) type Chemicals = Vec<(String, ChemicalSpec)>;
+pub(crate) type Chemicals = Vec<(String, ChemicalSpec)>;
 
 /// Reads all chemicals of a file.
-pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
+pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
     let mut chemicals = Chemicals::new();
     for (name, mut fields) in root.named("chemical") {
         let default = ChemicalSpec::default();
@@ -19,7 +17,7 @@ pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
             spacing: fields.or("spacing", default.spacing),
             initial: fields.or("initial", default.initial),
         };
-        fields.report.check(&fields.path, spec.validate(config));
+        fields.context.check(&fields.path, spec.validate(config));
         fields.finish();
         chemicals.push((name, spec));
     }
@@ -27,24 +25,22 @@ pub(super) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
 }
 
 /// The chemical of the name at a path; reports it if there is none.
-pub(super) fn find(name: &str, path: &str, chemicals: &Chemicals, report: &Report<'_>) -> Option<ChemicalId> {
+pub(crate) fn find(name: &str, path: &str, chemicals: &Chemicals, context: &ReadContext<'_>) -> Option<ChemicalId> {
     let found = (0..).zip(chemicals).find(|(_, (known, _))| known == name).map(|(k, _)| ChemicalId(k));
     if found.is_none() {
-        let names: Vec<&str> = chemicals.iter().map(|(name, _)| name.as_str()).collect();
-        let (message, accepted) = unknown("chemical", name, &names);
-        report.refuse(path, message, accepted);
+        context.refuse_unknown(path, "chemical", name, chemicals.iter().map(|(name, _)| name.as_str()));
     }
     found
 }
 
 /// Reads the fields `secretes` and `takes_up` of a `[[spawn]]` table.
-pub(super) fn read_exchanges(fields: &mut Fields<'_>, chemicals: &Chemicals) -> Vec<Exchange> {
+pub(crate) fn read_exchanges(fields: &mut Fields<'_>, chemicals: &Chemicals) -> Vec<Exchange> {
     let mut exchanges: Vec<Exchange> = Vec::new();
     for field in ["secretes", "takes_up"] {
         let Rates(rates) = fields.or(field, Rates(Vec::new()));
         for (name, rate) in rates {
             let path = join(&fields.at(field), &name);
-            let Some(chemical) = find(&name, &path, chemicals, fields.report) else { continue };
+            let Some(chemical) = find(&name, &path, chemicals, fields.context) else { continue };
             let known = exchanges.iter().position(|exchange| exchange.chemical == chemical);
             let at = known.unwrap_or_else(|| {
                 exchanges.push(Exchange { chemical, secretion: 0.0, uptake: 0.0 });
@@ -67,8 +63,8 @@ impl Read for Rates {
         "{ CHEMICAL = NUMBER }".to_owned()
     }
 
-    fn shape() -> Shape {
-        Shape::Table(Box::new(Shape::Number))
+    fn value_type() -> ValueType {
+        ValueType::Table(Box::new(ValueType::Number))
     }
 
     fn written(&self) -> String {
@@ -76,11 +72,11 @@ impl Read for Rates {
         format!("{{ {} }}", rates.collect::<Vec<_>>().join(", "))
     }
 
-    fn read(value: &Value<'_>, path: &str, report: &Report<'_>) -> Option<Self> {
-        let Some(table) = value.get_ref().as_table() else { return mismatch(value, path, report) };
+    fn read(value: &SpannedValue<'_>, path: &str, context: &ReadContext<'_>) -> Option<Self> {
+        let Some(table) = value.get_ref().as_table() else { return mismatch(value, path, context) };
         let rates = table.iter().map(|(name, rate)| {
             let name = name.get_ref().to_string();
-            f32::read(rate, &join(path, &name), report).map(|rate| (name, rate))
+            f32::read(rate, &join(path, &name), context).map(|rate| (name, rate))
         });
         rates.collect::<Option<_>>().map(Self)
     }

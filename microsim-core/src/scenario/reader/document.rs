@@ -1,0 +1,160 @@
+//! The text of a scenario as a tree of values, with overrides and parameters put in, and the span of each value.
+
+use super::value::{SpannedValue, join};
+use super::{overrides, parameters};
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, line_and_column};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The text and the spans of every value in it, by dotted path.
+///
+/// A value that an override brought does not stand in the text: its span begins beyond the end of the text, by one plus
+/// the index of the override. Values that a parameter brought stand where the parameter does: there they can be changed.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Document {
+    pub text: String,
+    pub overrides: Vec<(String, String)>,
+    spans: BTreeMap<String, Spans>,
+}
+
+/// Where a value and its key stand, bytes of the text.
+#[derive(Clone, Debug)]
+struct Spans {
+    key: Range<usize>,
+    value: Range<usize>,
+}
+
+impl Document {
+    /// Parses the text, applies the overrides and puts parameters in.
+    pub(crate) fn read<'a>(
+        text: &'a str,
+        overrides: &'a [(String, String)],
+    ) -> Result<(DeTable<'a>, Self), Diagnostics> {
+        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans: BTreeMap::new() };
+        let (root, errors) = DeTable::parse_recoverable(text);
+        // One syntax error for each line: others there are consequences of it.
+        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| document.syntax_error(error)).collect();
+        broken.dedup_by_key(|diagnostic| diagnostic.line);
+        broken.truncate(MAX_ERRORS);
+        Diagnostics::check(broken)?;
+        let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+        let mut found = Vec::new();
+        for (index, (key, value)) in overrides.iter().enumerate() {
+            let span = text.len() + 1 + index;
+            if let Err((message, accepted)) = overrides::apply(&mut root, key, value, span..span) {
+                found.push(document.diagnostic_at(span..span, key.clone(), message, Some(accepted)));
+            }
+        }
+        parameters::substitute(&mut root, &mut |span, field, message, accepted| {
+            found.push(document.diagnostic_at(span, field.to_owned(), message, Some(accepted)));
+        });
+        document.record("", 0..0, &root);
+        Diagnostics::check(found)?;
+        match root.into_inner() {
+            DeValue::Table(table) => Ok((table, document)),
+            _ => Ok((DeTable::new(), document)),
+        }
+    }
+
+    /// The diagnostic for the value at a path; for one that is not in the file, at the table that it belongs to.
+    pub(crate) fn diagnostic(&self, field: &str, message: impl Into<String>, accepted: Option<String>) -> Diagnostic {
+        let (field, spans) = self.locate(field);
+        self.diagnostic_at(spans.value, field, message.into(), accepted)
+    }
+
+    /// The diagnostic for the key at a path.
+    pub(crate) fn key_diagnostic(&self, field: &str, message: String, accepted: String) -> Diagnostic {
+        let (field, spans) = self.locate(field);
+        self.diagnostic_at(spans.key, field, message, Some(accepted))
+    }
+
+    /// Whether the file has a value at a path.
+    pub(crate) fn has(&self, path: &str) -> bool {
+        self.spans.contains_key(path)
+    }
+
+    fn diagnostic_at(
+        &self,
+        span: Range<usize>,
+        field: String,
+        mut message: String,
+        accepted: Option<String>,
+    ) -> Diagnostic {
+        let beyond = span.start.checked_sub(self.text.len() + 1);
+        if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
+            message = format!("{message}, as set by `{key}={value}`");
+        }
+        let (line, column) = line_and_column(&self.text, span.start);
+        let is_in_text = beyond.is_none();
+        Diagnostic {
+            field,
+            message,
+            accepted,
+            span: is_in_text.then_some(span),
+            line: is_in_text.then_some(line),
+            column: is_in_text.then_some(column),
+        }
+    }
+
+    fn syntax_error(&self, error: &toml::de::Error) -> Diagnostic {
+        let span = error.span().unwrap_or(0..0);
+        let key = self.text.get(span.clone()).unwrap_or_default();
+        let is_duplicate = error.message().contains("duplicate key");
+        let field = if is_duplicate { key.to_owned() } else { String::new() };
+        let accepted = match error.message() {
+            _ if is_duplicate => "each key once".to_owned(),
+            _ => "TOML: `key = value` lines under `[table]` headers, strings in quotes".to_owned(),
+        };
+        self.diagnostic_at(span, field, error.message().to_owned(), Some(accepted))
+    }
+
+    /// The path as the file spells it (`at.0` for `at.x`) and the place of it or of the nearest table around it.
+    fn locate(&self, path: &str) -> (String, Spans) {
+        let path = self.in_file(path);
+        let mut around = path.as_str();
+        loop {
+            if let Some(spans) = self.spans.get(around) {
+                return (path.clone(), spans.clone());
+            }
+            around = match around.rsplit_once('.') {
+                Some((parent, _)) => parent,
+                None if around.is_empty() => return (path.clone(), Spans { key: 0..0, value: 0..0 }),
+                None => "",
+            };
+        }
+    }
+
+    /// Turns the library's `[1]`, `.x` and `.y` into positions where the file has an array there.
+    fn in_file(&self, path: &str) -> String {
+        let path = path.replace('[', ".").replace(']', "");
+        let element = path.rsplit_once('.').and_then(|(parent, last)| match last {
+            "x" => Some(format!("{parent}.0")),
+            "y" => Some(format!("{parent}.1")),
+            _ => None,
+        });
+        match element {
+            Some(element) if !self.has(&path) && self.has(&element) => element,
+            _ => path,
+        }
+    }
+
+    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) {
+        let spans = Spans { key, value: value.span() };
+        self.spans.insert(path.to_owned(), spans);
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                for (key, child) in table {
+                    self.record(&join(path, key.get_ref()), key.span(), child);
+                }
+            }
+            DeValue::Array(array) => {
+                for (index, child) in array.iter().enumerate() {
+                    self.record(&join(path, &index.to_string()), child.span(), child);
+                }
+            }
+            _ => {}
+        }
+    }
+}

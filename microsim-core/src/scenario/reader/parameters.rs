@@ -1,0 +1,74 @@
+//! Parameters: the table `[parameters]`, whose values stand wherever the text says `"$name"`.
+
+use super::name::{NAME, is_name, unknown};
+use super::value::{SpannedValue, join};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::DeValue;
+
+/// Takes a refused value or key: where it stands, its path, what is wrong with it and what is accepted.
+type Refuse<'r> = &'r mut dyn FnMut(Range<usize>, &str, String, String);
+
+/// Replaces every string `$name` outside `[parameters]` by that parameter.
+pub(super) fn substitute(root: &mut SpannedValue<'_>, refuse: Refuse<'_>) {
+    let parameters = parameters(root, refuse);
+    substitute_in(root, "", &parameters, refuse);
+}
+
+/// The `[parameters]` table.
+fn parameters<'a>(root: &SpannedValue<'a>, refuse: Refuse<'_>) -> BTreeMap<String, SpannedValue<'a>> {
+    let Some(parameters) = root.get_ref().get("parameters") else {
+        return BTreeMap::new();
+    };
+    let Some(table) = parameters.get_ref().as_table() else {
+        refuse(parameters.span(), "parameters", "not a table".to_owned(), "a [parameters] table".to_owned());
+        return BTreeMap::new();
+    };
+    for (key, value) in table {
+        let path = join("parameters", key.get_ref());
+        if !is_name(key.get_ref()) {
+            refuse(key.span(), &path, "not a usable name".to_owned(), NAME.to_owned());
+        }
+        if value.get_ref().is_table() || value.get_ref().is_array() {
+            let accepted = "a number, a string or a boolean".to_owned();
+            refuse(value.span(), &path, "not a single value".to_owned(), accepted);
+        }
+    }
+    let entry = |(key, value): (&Spanned<Cow<'_, str>>, &SpannedValue<'a>)| (key.get_ref().to_string(), value.clone());
+    table.iter().map(entry).collect()
+}
+
+fn substitute_in<'a>(
+    value: &mut SpannedValue<'a>,
+    path: &str,
+    parameters: &BTreeMap<String, SpannedValue<'a>>,
+    refuse: Refuse<'_>,
+) {
+    let name = value.get_ref().as_str().and_then(|text| text.strip_prefix('$'));
+    if let Some(name) = name.filter(|name| is_name(name)) {
+        match parameters.get(name) {
+            Some(parameter) => *value = parameter.clone(),
+            None => {
+                let (message, accepted) = unknown("parameter", name, parameters.keys().map(String::as_str));
+                refuse(value.span(), path, message, accepted);
+            }
+        }
+        return;
+    }
+    match value.get_mut() {
+        DeValue::Table(table) => {
+            let is_parameters = |key: &str| path.is_empty() && key == "parameters";
+            for (key, child) in table.iter_mut().filter(|(key, _)| !is_parameters(key.get_ref())) {
+                substitute_in(child, &join(path, key.get_ref()), parameters, refuse);
+            }
+        }
+        DeValue::Array(array) => {
+            for (index, child) in array.iter_mut().enumerate() {
+                substitute_in(child, &join(path, &index.to_string()), parameters, refuse);
+            }
+        }
+        _ => {}
+    }
+}

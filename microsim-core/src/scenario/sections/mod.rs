@@ -1,0 +1,14 @@
+//! One file for each section of the format: its fields with their defaults and ranges, and what is made of them.
+
+pub(crate) mod checks;
+pub(crate) mod chemical;
+pub(crate) mod command;
+pub(crate) mod controller;
+pub(crate) mod field;
+pub(crate) mod game;
+pub(crate) mod group;
+pub(crate) mod obstacle;
+pub(crate) mod output;
+pub(crate) mod prototype;
+pub(crate) mod spawn;
+pub(crate) mod world;
