@@ -9,14 +9,13 @@
 //!   ring does not buckle under its own compression;
 //! - bending: `C = x_i - (x_{i-s} + x_{i+s}) / 2 - n h_s`, `h_s = R (1 - cos(2 pi s / M))` the sagitta of the circle, for
 //!   strides `s = 2` and `1` (Mueller et al. 2007, section 4, a stretch of the midpoint);
-//! - area: `C = A - A_t <= 0`, see [`super::area`], limited in speed;
+//! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed;
 //!
 //! and [`Membrane::limit_strain`], last in the substep, keeps every link below [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance
 //! joint that will respect a maximum length limit").
 
-use super::area::{Polygon, enforce};
+use super::constraint::{MeasuredRing, Rope, enforce};
 use super::lanes::{Pair, ratio};
-use super::{Rope, rope};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
@@ -135,12 +134,12 @@ impl Membrane {
             bend(ring, stride, radius * (1.0 - cosine), share, particles);
         }
         let particles = &mut particles.columns();
-        let polygon = Polygon::measure(ring, particles);
-        let excess = polygon.area - self.target_area;
+        let measured = MeasuredRing::measure(ring, particles);
+        let excess = measured.area - self.target_area;
         if excess > 0.0 {
             let fastest = self.rest_perimeter * h * self.rest_length;
             let error = if excess < fastest { excess } else { fastest };
-            enforce(&polygon, ring, error, AREA_COMPLIANCE / (h * h), particles);
+            enforce(&measured, ring, error, AREA_COMPLIANCE / (h * h), particles);
         }
     }
 
@@ -152,7 +151,7 @@ impl Membrane {
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
             let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
             if is_long {
-                rope::project(&[Rope { a, b, max_length }], Span::LOOSE, particles);
+                Rope { a, b, max_length }.shorten(Span::LOOSE, particles);
             }
             is_long
         };
