@@ -63,13 +63,13 @@ pub(crate) struct Membrane {
     /// Present total rest length of the links.
     rest_perimeter: f32,
     target_area: f32,
-    /// See [`Content::lobes`].
+    /// See [`MembraneContent::lobes`].
     lobes: f32,
 }
 
 /// What a membrane holds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Content {
+pub(crate) struct MembraneContent {
     /// Area at rest, square units.
     pub area: f32,
     /// Rest spacing of the fluid.
@@ -103,7 +103,14 @@ impl Membrane {
     }
 
     /// Finds this step's targets from what the membrane holds and whether it is being driven.
-    pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
+    pub(crate) fn relax(
+        &mut self,
+        ring: &[u32],
+        particles: &Particles,
+        content: MembraneContent,
+        is_driven: bool,
+        dt: f32,
+    ) {
         let drive = if is_driven { 1.0 } else { 0.0 };
         self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
         let radius = (content.area / (PI * content.lobes)).sqrt() + self.node_radius + CLEARANCE * content.spacing;
@@ -225,7 +232,7 @@ mod tests {
         p.live().map(|i| p.position(i)).collect()
     }
 
-    fn relaxed(p: &mut Particles, content: Content, steps: usize) -> Membrane {
+    fn relaxed(p: &mut Particles, content: MembraneContent, steps: usize) -> Membrane {
         let indices: Vec<u32> = (0..p.len() as u32).collect();
         let mut membrane = Membrane::new(1.0, 0.5, indices.len());
         for _ in 0..steps {
@@ -245,7 +252,7 @@ mod tests {
             p.x[i] *= 0.7;
         }
         let before = momentum(&p);
-        relaxed(&mut p, Content { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
+        relaxed(&mut p, MembraneContent { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let points = positions(&p);
         let centre = points.iter().sum::<glam::Vec2>() / 40.0;
         let radii: Vec<f32> = points.iter().map(|&at| (at - centre).length()).collect();
@@ -257,7 +264,7 @@ mod tests {
     #[test]
     fn perimeter_and_area_approach_the_circle_around_the_content() {
         let mut p = ring(40, 6.4);
-        relaxed(&mut p, Content { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
+        relaxed(&mut p, MembraneContent { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
         let area = signed_area(&positions(&p));
         assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");

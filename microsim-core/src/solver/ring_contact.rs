@@ -44,17 +44,17 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     for contact in contacts {
         let links = &links[contact.range()];
         let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
-        let reach = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+        let radii = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
         let is_wrong = is_wrong(contact.side, &relation);
-        contact.is_close = is_wrong || relation.squared < reach * reach;
+        contact.is_close = is_wrong || relation.squared < radii * radii;
         if is_wrong {
             wrong += 1;
-            separate(contact, nearest, &relation, reach + relation.squared.sqrt(), p);
+            separate(contact, nearest, &relation, radii + relation.squared.sqrt(), p);
         } else if contact.is_close {
             for &link in links {
                 let relation = relate(contact.particle, link, p);
-                if relation.squared < reach * reach {
-                    separate(contact, link, &relation, reach - relation.squared.sqrt(), p);
+                if relation.squared < radii * radii {
+                    separate(contact, link, &relation, radii - relation.squared.sqrt(), p);
                 }
             }
         }
@@ -70,8 +70,8 @@ pub(crate) fn gaps<'a>(
 ) -> impl Iterator<Item = (u32, f32)> + 'a {
     rings.links_of(contact).iter().map(|&link| {
         let relation = relate(contact.particle, link, p);
-        let reach = p.radius[contact.particle as usize] + p.radius[link.a as usize];
-        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - reach)
+        let radii = p.radius[contact.particle as usize] + p.radius[link.a as usize];
+        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radii)
     })
 }
 
