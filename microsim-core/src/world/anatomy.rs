@@ -55,7 +55,7 @@ mod tests {
         let membrane = world.view().organisms().last().unwrap().outline().len();
         assert_eq!(count(|bond| bond == Bond::Membrane), membrane);
         assert_eq!(count(|bond| matches!(bond, Bond::Constraint(Constraint::Anchor(_)))), 1);
-        assert_eq!(count(|bond| matches!(bond, Bond::Constraint(Constraint::Distance(_)))), 28 + 28);
+        assert_eq!(count(|bond| matches!(bond, Bond::Constraint(Constraint::Distance(_)))), 28 + 28 + 1);
         assert_eq!(world.view().bonds().count(), world.census().constraints);
     }
 
