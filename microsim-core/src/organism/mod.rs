@@ -28,7 +28,7 @@ use crate::rng::Rng;
 use crate::solver::block::Block;
 use crate::solver::fluid::{self, Fluid, FluidParams};
 use crate::solver::lanes::LANES;
-use crate::solver::membrane::{Content, Membrane};
+use crate::solver::membrane::{Membrane, MembraneContent};
 use crate::template::Template;
 use glam::Vec2;
 use parry2d::bounding_volume::Aabb;
@@ -373,10 +373,10 @@ impl Organism {
         let (Body::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else { return };
         let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
-        let content = Content { area, spacing, lobes, folds };
+        let content = MembraneContent { area, spacing, lobes, folds };
         membrane.relax(&self.outline, particles, content, is_driven, dt);
         for phagosome in &mut self.phagosomes {
-            let content = Content { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
             phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
         }
     }
