@@ -1,6 +1,6 @@
 //! How a world is seen: through the microscope, on the graphics card, or drawn, where that is too slow.
 
-use crate::draw::{Frame, Painter};
+use crate::draw::{Painter, SceneFrame};
 use crate::microscope::{Quality, Renderer};
 use crate::viewer::Pace;
 use macroquad::window::screen_dpi_scale;
@@ -163,7 +163,7 @@ impl Scenery {
     }
 
     /// Draws a frame.
-    pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
+    pub fn paint(&mut self, frame: &SceneFrame<'_>, sight: Sight, effort: Effort) {
         let quality = match effort {
             Effort::Automatic => STEPS_DOWN[self.given_up].1,
             Effort::High => Some(Quality::High),
@@ -179,7 +179,7 @@ impl Scenery {
         }
     }
 
-    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: Quality) -> bool {
+    fn photograph(&mut self, frame: &SceneFrame<'_>, optics: Optics, quality: Quality) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
         let screen = frame.camera.screen();
         let pixels = (screen * screen_dpi_scale()).max(Vec2::ONE);

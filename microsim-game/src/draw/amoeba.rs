@@ -1,6 +1,6 @@
 //! Amoeboid cells (seed, 3.2.2): a triangulated surface, cytoplasm as soft sprites on it, and the membrane.
 
-use super::Frame;
+use super::SceneFrame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
 use super::palette::{CELL_BODY, CYTOPLASM, GROWN, HALO, INK, chance, fade, mix};
@@ -13,14 +13,14 @@ const BLUR: f32 = 2.3;
 /// Share of the outline that looks like a front.
 const FRONT: f32 = 0.25;
 
-pub(super) fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_halo(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     let (outline, width) = membrane(frame, organism);
     let (bright, faint) = (fade(HALO, 0.75), fade(HALO, 0.45));
     let far = 4.0 * width + 3.0;
     canvas.band(&outline, &[(0.5 * width, bright), (1.6 * width + 1.0, faint), (far, fade(HALO, 0.0))]);
 }
 
-pub(super) fn draw(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     let (outline, width) = membrane(frame, organism);
     let triangles = triangulate(&organism.outline().collect::<Vec<_>>());
     canvas.fill(&outline, &triangles, fade(CELL_BODY, 0.80));
@@ -33,13 +33,13 @@ pub(super) fn draw(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismVie
 }
 
 /// Its outline and the radius of the discs on it, in picture pixels.
-fn membrane(frame: &Frame<'_>, organism: OrganismView<'_>) -> (Vec<Vec2>, f32) {
+fn membrane(frame: &SceneFrame<'_>, organism: OrganismView<'_>) -> (Vec<Vec2>, f32) {
     let node = organism.particles().find(|particle| particle.role == Role::Membrane);
     let radius = node.map_or(0.5, |node| node.radius);
     (organism.outline().map(|point| frame.camera.to_screen(point)).collect(), radius * frame.camera.scale())
 }
 
-fn draw_cytoplasm(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+fn draw_cytoplasm(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     let camera = frame.camera;
     let is_fluid = |particle: &ParticleView| matches!(particle.role, Role::Cytoplasm | Role::GrownCytoplasm);
     for disc in organism.particles().filter(is_fluid) {
@@ -58,7 +58,7 @@ fn draw_cytoplasm(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView
 }
 
 /// Bright fluid around prey within a thin membrane of its own.
-fn draw_phagosomes(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>, width: f32) {
+fn draw_phagosomes(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>, width: f32) {
     let (clear, dark) = (fade(INK, 0.0), fade(INK, 0.55));
     for (_, ring) in organism.phagosomes() {
         let triangles = triangulate(&ring);

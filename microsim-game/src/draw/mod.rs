@@ -18,7 +18,7 @@ use microsim_core::{Kind, OrganismView, View};
 
 /// What is drawn in one frame.
 #[derive(Debug)]
-pub struct Frame<'a> {
+pub struct SceneFrame<'a> {
     /// The world at one moment.
     pub view: View<'a>,
     /// What is seen of it.
@@ -50,7 +50,7 @@ impl Painter {
     }
 
     /// Draws a frame with the present camera.
-    pub fn paint(&mut self, frame: &Frame<'_>) {
+    pub fn paint(&mut self, frame: &SceneFrame<'_>) {
         clear_background(palette::SLIDE);
         let canvas = &mut self.canvas;
         self.background.draw(canvas, frame.camera, frame.time);
@@ -74,7 +74,7 @@ impl Default for Painter {
     }
 }
 
-fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+fn draw_halo(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     match organism.kind() {
         Kind::AmoeboidCell => amoeba::draw_halo(canvas, frame, organism),
         Kind::RigidCell | Kind::Platelet | Kind::RedCell => soft_body::draw_halo(canvas, frame, organism),
@@ -83,7 +83,7 @@ fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>)
     }
 }
 
-fn draw_organism(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+fn draw_organism(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     match organism.kind() {
         Kind::AmoeboidCell => amoeba::draw(canvas, frame, organism),
         Kind::RigidCell => soft_body::draw_rigid_cell(canvas, frame, organism),
@@ -98,7 +98,7 @@ fn draw_organism(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<
 }
 
 /// Whether any of it may lie in the picture.
-fn is_seen(frame: &Frame<'_>, organism: OrganismView<'_>) -> bool {
+fn is_seen(frame: &SceneFrame<'_>, organism: OrganismView<'_>) -> bool {
     let (camera, margin, (low, high)) = (frame.camera, 12.0, organism.bounds());
     let (upper_left, lower_right) =
         (camera.to_screen(Vec2::new(low.x, high.y)), camera.to_screen(Vec2::new(high.x, low.y)));
@@ -127,7 +127,7 @@ mod tests {
     /// What is drawn of an organism.
     fn drawn(world: &World, id: OrganismId) -> Canvas {
         let (mut canvas, camera) = (Canvas::bare(), camera(world));
-        let frame = Frame { view: world.view(), camera: &camera, time: 0.0 };
+        let frame = SceneFrame { view: world.view(), camera: &camera, time: 0.0 };
         draw_organism(&mut canvas, &frame, frame.view.organism(id).unwrap());
         canvas
     }

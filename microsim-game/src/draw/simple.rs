@@ -1,6 +1,6 @@
 //! Things made of single discs: agar, probes, fluid, and bodies that the library does not know.
 
-use super::Frame;
+use super::SceneFrame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
 use super::palette::{AGAR, COCCUS, CUSTOM, FLUID, HALO, INK, PROBE, fade, mix};
@@ -13,18 +13,18 @@ const BLUR: f32 = 2.4;
 const FOAM_SPEED: f32 = 60.0;
 
 /// Discs of an organism in picture pixels.
-fn discs(frame: &Frame<'_>, organism: OrganismView<'_>) -> impl Iterator<Item = (Vec2, f32, Role)> {
+fn discs(frame: &SceneFrame<'_>, organism: OrganismView<'_>) -> impl Iterator<Item = (Vec2, f32, Role)> {
     let camera = frame.camera;
     organism.particles().map(|disc| (camera.to_screen(disc.position), disc.radius * camera.scale(), disc.role))
 }
 
-pub(super) fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_halo(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     for (at, radius, _) in discs(frame, organism).filter(|(_, radius, _)| *radius > 0.0) {
         canvas.sprite(at, 1.5 * radius + 3.0, Tile::Soft, fade(HALO, 0.9));
     }
 }
 
-pub(super) fn draw_agar(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_agar(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     for (at, radius, _) in discs(frame, organism) {
         canvas.sprite(at, radius + 0.5, Tile::Disc, fade(mix(AGAR, INK, 0.55), 0.9));
         canvas.sprite(at, 0.86 * radius, Tile::Disc, AGAR);
@@ -33,7 +33,7 @@ pub(super) fn draw_agar(canvas: &mut Canvas, frame: &Frame<'_>, organism: Organi
 }
 
 /// Bacteria, round or rods: dark bodies with a bright middle. The discs of a rod run into each other.
-pub(super) fn draw_bacterium(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_bacterium(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     for (at, radius, _) in discs(frame, organism) {
         canvas.sprite(at, radius + 0.5, Tile::Disc, mix(COCCUS, INK, 0.7));
     }
@@ -45,7 +45,7 @@ pub(super) fn draw_bacterium(canvas: &mut Canvas, frame: &Frame<'_>, organism: O
     }
 }
 
-pub(super) fn draw_probe(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_probe(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     for (at, radius, _) in discs(frame, organism) {
         canvas.sprite(at + 0.18 * radius, 1.25 * radius, Tile::Soft, fade(INK, 0.5));
         canvas.sprite(at, radius, Tile::Disc, mix(PROBE, INK, 0.6));
@@ -55,7 +55,7 @@ pub(super) fn draw_probe(canvas: &mut Canvas, frame: &Frame<'_>, organism: Organ
     }
 }
 
-pub(super) fn draw_fluid(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_fluid(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     for (at, radius, _) in discs(frame, organism) {
         canvas.sprite(at, BLUR * radius, Tile::Soft, fade(FLUID, 0.5));
     }
@@ -68,7 +68,7 @@ pub(super) fn draw_fluid(canvas: &mut Canvas, frame: &Frame<'_>, organism: Organ
     }
 }
 
-pub(super) fn draw_discs(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
+pub(super) fn draw_discs(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
     let solid = |(_, radius, _): &(Vec2, f32, Role)| *radius > 0.0;
     for (at, radius, _) in discs(frame, organism).filter(solid) {
         canvas.sprite(at, radius, Tile::Disc, mix(CUSTOM, INK, 0.65));

@@ -1,6 +1,6 @@
 //! Soft bodies (seed, 3.2.1): a fan from the nucleus over the pushed-out outline, textured, and the nucleus on its own.
 
-use super::Frame;
+use super::SceneFrame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
 use super::palette::{HALO, INK, NUCLEUS, PLATELET, RED_CELL, RIGID, chance, fade};
@@ -15,15 +15,15 @@ const HAIR_LENGTH: f32 = 0.9;
 const WAVES: f32 = 7.0;
 const BEAT: f64 = 9.0;
 
-pub(super) fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    let Some(body) = Body::of(frame, organism) else { return };
+pub(super) fn draw_halo(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = SoftOutline::of(frame, organism) else { return };
     let width = 3.0 + 0.4 * frame.camera.scale();
     let (bright, faint) = (fade(HALO, 0.80), fade(HALO, 0.40));
     canvas.band(&body.surface, &[(-0.5, bright), (0.4 * width, faint), (width, fade(HALO, 0.0))]);
 }
 
-pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    let Some(body) = Body::of(frame, organism) else { return };
+pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = SoftOutline::of(frame, organism) else { return };
     body.draw_hairs(canvas, frame);
     canvas.fan(body.centre, &body.surface, Tile::Cell, fade(RIGID, 0.96));
     body.draw_rim(canvas, 0.75);
@@ -42,8 +42,8 @@ pub(super) fn draw_rigid_cell(canvas: &mut Canvas, frame: &Frame<'_>, organism: 
 }
 
 /// A disc that is thinner in its middle.
-pub(super) fn draw_red_cell(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    let Some(body) = Body::of(frame, organism) else { return };
+pub(super) fn draw_red_cell(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = SoftOutline::of(frame, organism) else { return };
     canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(RED_CELL, organism));
     let size = (body.surface[0] - body.centre).length();
     canvas.sprite(body.centre, 0.62 * size, Tile::Soft, fade(HALO, 0.38));
@@ -56,8 +56,8 @@ fn tinted(colour: Color, organism: OrganismView<'_>) -> Color {
     Color::new(colour.r * tint, colour.g * tint, colour.b * tint, 0.93)
 }
 
-pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    let Some(body) = Body::of(frame, organism) else { return };
+pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &SceneFrame<'_>, organism: OrganismView<'_>) {
+    let Some(body) = SoftOutline::of(frame, organism) else { return };
     let size = (body.surface[0] - body.centre).length();
     canvas.fan(body.centre, &body.surface, Tile::Platelet, tinted(PLATELET, organism));
     body.draw_rim(canvas, 0.45);
@@ -67,13 +67,13 @@ pub(super) fn draw_platelet(canvas: &mut Canvas, frame: &Frame<'_>, organism: Or
 }
 
 /// What the picture shows of a soft body, in picture pixels.
-struct Body {
+struct SoftOutline {
     centre: Vec2,
     surface: Vec<Vec2>,
 }
 
-impl Body {
-    fn of(frame: &Frame<'_>, organism: OrganismView<'_>) -> Option<Self> {
+impl SoftOutline {
+    fn of(frame: &SceneFrame<'_>, organism: OrganismView<'_>) -> Option<Self> {
         let surface: Vec<Vec2> = organism.surface().iter().map(|&point| frame.camera.to_screen(point)).collect();
         let centre = organism.nucleus().map_or_else(|| organism.centroid(), |nucleus| nucleus.position);
         (!surface.is_empty()).then(|| Self { centre: frame.camera.to_screen(centre), surface })
@@ -86,7 +86,7 @@ impl Body {
     }
 
     /// Cilia, beating in waves that run along the body.
-    fn draw_hairs(&self, canvas: &mut Canvas, frame: &Frame<'_>) {
+    fn draw_hairs(&self, canvas: &mut Canvas, frame: &SceneFrame<'_>) {
         let (count, length) = (self.surface.len(), HAIR_LENGTH * frame.camera.scale());
         let total = (count * HAIRS) as f32;
         let beat = (frame.view.time() * BEAT % f64::from(TAU)) as f32;
