@@ -35,6 +35,8 @@ mod capability;
 mod chemical;
 mod collision;
 mod config;
+#[cfg(feature = "drawing")]
+pub mod drawing;
 mod error;
 mod event;
 mod fnv;
