@@ -242,7 +242,7 @@ mod tests {
         let points = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
         let ends = |geometry: Geometry| {
             let end = |segment| if let Segment::Cubic(_, _, end) = segment { Some(end) } else { None };
-            shape.segments().into_iter().filter_map(end).collect::<Vec<_>>()
+            geometry.segments().into_iter().filter_map(end).collect::<Vec<_>>()
         };
         assert_eq!(ends(Geometry::Outline(points.clone())), [Vec2::X, Vec2::ONE, Vec2::Y, Vec2::ZERO]);
         assert_eq!(ends(Geometry::Curve(points)), [Vec2::X, Vec2::ONE, Vec2::Y]);
