@@ -1,7 +1,7 @@
 //! The strip below the room: a scale bar and the time, in letters made of lines so that no font is needed.
 
 use microsim_core::drawing::palette::INK;
-use microsim_core::drawing::shape::{Colour, Item, Part, Shape, Stroke};
+use microsim_core::drawing::shape::{Colour, DrawnPart, Geometry, Item, Stroke};
 use microsim_core::glam::Vec2;
 
 /// Height of a digit as a share of the strip.
@@ -43,7 +43,7 @@ pub(crate) fn scale_bar(length: f32, pixels: f32, height: f32, margin: f32, colo
 }
 
 fn lines(lines: Vec<Vec<Vec2>>, stroke: Stroke) -> Item {
-    Item::stroked(Part::Caption, Shape::Lines(lines), stroke)
+    Item::stroked(DrawnPart::Caption, Geometry::Lines(lines), stroke)
 }
 
 /// The largest of 1, 2, 5, 10, ... that is at most a fifth of the width.

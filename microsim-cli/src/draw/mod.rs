@@ -7,12 +7,12 @@ pub(crate) mod svg;
 use microsim_core::World;
 use microsim_core::drawing::palette::PAGE;
 use microsim_core::drawing::shape::{Colour, Item};
-use microsim_core::drawing::{self, Layer, MARGIN};
+use microsim_core::drawing::{self, DrawingLayer, MARGIN};
 use microsim_core::glam::Vec2;
 
 /// A page with a world on it, in the world's units, y upwards.
 #[derive(Clone, Debug)]
-pub(crate) struct Page {
+pub(crate) struct PicturePage {
     low: Vec2,
     high: Vec2,
     background: Colour,
@@ -29,7 +29,7 @@ struct Viewport {
     height: u32,
 }
 
-impl Page {
+impl PicturePage {
     /// Pixels such that the longer side has `longest`.
     fn viewport(&self, longest: u32) -> Viewport {
         let size = self.high - self.low;
@@ -47,12 +47,12 @@ impl Viewport {
 }
 
 /// Draws everything that is in the world, with a margin around the room that holds the caption.
-pub(crate) fn draw(world: &World) -> Page {
+pub(crate) fn draw(world: &World) -> PicturePage {
     let size = world.config().size;
     let margin = Vec2::splat(size.max_element() * MARGIN);
-    let mut items = drawing::draw(world.view(), [Vec2::MIN, Vec2::MAX], &Layer::ALL);
+    let mut items = drawing::draw(world.view(), [Vec2::MIN, Vec2::MAX], &DrawingLayer::ALL);
     items.extend(caption::draw(size, margin.x, world.time()));
-    Page { low: -margin, high: size + margin, background: PAGE, items }
+    PicturePage { low: -margin, high: size + margin, background: PAGE, items }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Painting on the processor, and PNG files.
 
-use super::{Page, Viewport};
+use super::{PicturePage, Viewport};
 use crate::failure::Failure;
-use microsim_core::drawing::shape::{Colour, Item, Paint, Segment, Shape, Stroke};
+use microsim_core::drawing::shape::{Colour, Geometry, Item, Paint, Segment, Stroke};
 use microsim_core::glam::Vec2;
 use tiny_skia::{
     Color, FillRule, GradientStop, LineCap, LineJoin, PathBuilder, Pixmap, Point, RadialGradient, Shader, SpreadMode,
@@ -19,7 +19,7 @@ pub(crate) struct Picture {
 
 impl Picture {
     /// Paints a page so that its longer side has `longest` pixels.
-    pub(crate) fn of(page: &Page, longest: u32) -> Self {
+    pub(crate) fn of(page: &PicturePage, longest: u32) -> Self {
         let viewport = page.viewport(longest);
         // Only a side of zero has no pixels, and a viewport has none.
         let Some(mut pixmap) = Pixmap::new(viewport.width, viewport.height) else {
@@ -147,7 +147,7 @@ fn columns(tile: &Picture, count: usize) -> usize {
 }
 
 fn paint(pixmap: &mut Pixmap, item: &Item, viewport: &Viewport) {
-    let Some(path) = path(&item.shape, viewport) else {
+    let Some(path) = path(&item.geometry, viewport) else {
         return;
     };
     let identity = Transform::identity();
@@ -184,9 +184,9 @@ fn shader(paint: Paint, viewport: &Viewport) -> Option<Shader<'static>> {
     }
 }
 
-fn path(shape: &Shape, viewport: &Viewport) -> Option<tiny_skia::Path> {
+fn path(geometry: &Geometry, viewport: &Viewport) -> Option<tiny_skia::Path> {
     let mut builder = PathBuilder::new();
-    for segment in shape.segments() {
+    for segment in geometry.segments() {
         match segment {
             Segment::Move(p) => {
                 let p = viewport.place(p);

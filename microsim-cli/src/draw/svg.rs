@@ -1,12 +1,12 @@
 //! SVG by hand: text that can be compared line by line.
 
-use super::{Page, Viewport};
+use super::{PicturePage, Viewport};
 use microsim_core::drawing::shape::{Colour, Item, Paint, Segment};
 use microsim_core::glam::Vec2;
 use std::fmt::Write;
 
 /// The page as a document whose longer side has `longest` pixels.
-pub(crate) fn write(page: &Page, longest: u32) -> String {
+pub(crate) fn write(page: &PicturePage, longest: u32) -> String {
     let viewport = page.viewport(longest);
     let (width, height) = (viewport.width, viewport.height);
     let background = colour(page.background);
@@ -23,7 +23,7 @@ pub(crate) fn write(page: &Page, longest: u32) -> String {
 }
 
 fn add(text: &mut String, item: &Item, number: usize, viewport: &Viewport) {
-    if item.shape.is_empty() {
+    if item.geometry.is_empty() {
         return;
     }
     let mut style = String::new();
@@ -43,7 +43,7 @@ fn add(text: &mut String, item: &Item, number: usize, viewport: &Viewport) {
         style += &format!(" stroke=\"{colour}\"{alpha} stroke-width=\"{width}\"");
     }
     text.push_str("<path d=\"");
-    for segment in item.shape.segments() {
+    for segment in item.geometry.segments() {
         add_segment(text, segment, viewport);
     }
     let _ = writeln!(text, "\"{style}/>");

@@ -2,7 +2,7 @@
 
 use crate::draw::{caption, png::Picture};
 use microsim_core::World;
-use microsim_core::drawing::{self, Layer, shape::Colour};
+use microsim_core::drawing::{self, DrawingLayer, shape::Colour};
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Optics};
 
@@ -20,7 +20,7 @@ const LEAST: [usize; 2] = [160, 90];
 pub(crate) fn with_chemicals(picture: Picture, field: &Field, world: &World) -> Picture {
     let pixel = field.pixel();
     let corner = field.centre - 0.5 * pixel * Vec2::new(field.pixels[0] as f32, field.pixels[1] as f32);
-    let items = drawing::draw(world.view(), [Vec2::MIN, Vec2::MAX], &[Layer::Chemicals]);
+    let items = drawing::draw(world.view(), [Vec2::MIN, Vec2::MAX], &[DrawingLayer::Chemicals]);
     picture.painted_over(&items, corner, 1.0 / pixel)
 }
 

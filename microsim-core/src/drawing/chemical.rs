@@ -1,6 +1,6 @@
 //! Chemicals as shades: each band is where there is at least half as much as in the next one.
 
-use super::shape::{Colour, Item, Paint, Part, Shape};
+use super::shape::{Colour, DrawnPart, Geometry, Item, Paint};
 use crate::{Chemical, View};
 use glam::Vec2;
 
@@ -21,8 +21,8 @@ fn bands(chemical: &Chemical, colour: Colour) -> Vec<Item> {
     let highest =
         chemical.values().iter().copied().fold(0.0, |most: f32, value| if value > most { value } else { most });
     let band = |k: u32| {
-        let area = Shape::Polygons(area(chemical, highest / (1_u32 << k) as f32));
-        Item::filled(Part::Chemical, area, Paint::Flat(colour.faded(COVER)))
+        let area = Geometry::Polygons(area(chemical, highest / (1_u32 << k) as f32));
+        Item::filled(DrawnPart::Chemical, area, Paint::Flat(colour.faded(COVER)))
     };
     if highest > 0.0 { (1..=BANDS).rev().map(band).collect() } else { Vec::new() }
 }
@@ -64,7 +64,7 @@ mod tests {
         let source = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
         world.set_exchange(source, Exchange { chemical, secretion: 1.0, uptake: 0.0 }).unwrap();
         (0..30).for_each(|_| world.step(&Inputs::new()));
-        let pieces: Vec<usize> = draw(world.view()).iter().map(|band| band.shape.segments().len()).collect();
+        let pieces: Vec<usize> = draw(world.view()).iter().map(|band| band.geometry.segments().len()).collect();
         assert_eq!(pieces.len(), BANDS as usize);
         assert!(
             pieces.windows(2).all(|pair| pair[0] >= pair[1]) && pieces[0] > pieces[BANDS as usize - 1],

@@ -12,14 +12,14 @@ pub mod shape;
 use crate::{Kind, View};
 use glam::Vec2;
 use palette::{PAGE, ROOM, ROOM_EDGE, WALL};
-use shape::{Item, Paint, Part, Shape, Stroke};
+use shape::{DrawnPart, Geometry, Item, Paint, Stroke};
 
 /// Width of the border around the room, as a share of the room's longer side.
 pub const MARGIN: f32 = 0.035;
 
 /// A group of items that lies above or below another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layer {
+pub enum DrawingLayer {
     /// The floor of the room.
     Room,
     /// Chemicals.
@@ -34,7 +34,7 @@ pub enum Layer {
     Walls,
 }
 
-impl Layer {
+impl DrawingLayer {
     /// All layers, the lowest first.
     pub const ALL: [Self; 6] =
         [Self::Room, Self::Chemicals, Self::Halos, Self::Obstacles, Self::Organisms, Self::Walls];
@@ -43,7 +43,7 @@ impl Layer {
 /// Draws these layers of a world, in this order. Organisms that lie outside of `window` (its low and high corners) are
 /// left out, as is whatever is not finite.
 #[must_use]
-pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[Layer]) -> Vec<Item> {
+pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<Item> {
     let [low, high] = window;
     let is_seen = |(from, to): (Vec2, Vec2)| from.cmple(high).all() && to.cmpge(low).all();
     let mut organisms: Vec<_> = view.organisms().filter(|organism| is_seen(organism.bounds())).collect();
@@ -52,15 +52,15 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[Layer]) -> Vec<Item> {
     let mut items = Vec::new();
     for layer in layers {
         match layer {
-            Layer::Room => items.push(room(size)),
-            Layer::Chemicals => items.extend(chemical::draw(view)),
-            Layer::Halos => items.extend(organisms.iter().copied().filter_map(organism::halo)),
-            Layer::Obstacles => items.extend(view.world().obstacles().flat_map(obstacle::draw)),
-            Layer::Organisms => organisms.iter().for_each(|&organism| organism::draw(organism, &mut items)),
-            Layer::Walls => items.extend(walls(size)),
+            DrawingLayer::Room => items.push(room(size)),
+            DrawingLayer::Chemicals => items.extend(chemical::draw(view)),
+            DrawingLayer::Halos => items.extend(organisms.iter().copied().filter_map(organism::halo)),
+            DrawingLayer::Obstacles => items.extend(view.world().obstacles().flat_map(obstacle::draw)),
+            DrawingLayer::Organisms => organisms.iter().for_each(|&organism| organism::draw(organism, &mut items)),
+            DrawingLayer::Walls => items.extend(walls(size)),
         }
     }
-    items.retain(|item| item.shape.is_finite());
+    items.retain(|item| item.geometry.is_finite());
     items
 }
 
@@ -79,7 +79,7 @@ fn height(kind: Kind) -> u8 {
 
 fn room(size: Vec2) -> Item {
     let paint = Paint::Radial { centre: size * 0.5, radius: size.length() * 0.5, inner: ROOM, outer: ROOM_EDGE };
-    Item::filled(Part::Room, Shape::Polygons(vec![corners(size).into()]), paint)
+    Item::filled(DrawnPart::Room, Geometry::Polygons(vec![corners(size).into()]), paint)
 }
 
 /// The line around the room lies outside of it, above a border that hides what obstacles have beyond the room.
@@ -88,9 +88,9 @@ fn walls(size: Vec2) -> [Item; 2] {
     let around = |part, width: f32, colour| {
         let half = Vec2::splat(width * 0.5);
         let outside = corners(size + half * 2.0).map(|corner| corner - half);
-        Item::stroked(part, Shape::Polygons(vec![outside.into()]), Stroke { colour, width })
+        Item::stroked(part, Geometry::Polygons(vec![outside.into()]), Stroke { colour, width })
     };
-    [around(Part::Border, longest * MARGIN * 2.0, PAGE), around(Part::Wall, longest * 0.004, WALL)]
+    [around(DrawnPart::Border, longest * MARGIN * 2.0, PAGE), around(DrawnPart::Wall, longest * 0.004, WALL)]
 }
 
 fn corners(size: Vec2) -> [Vec2; 4] {
@@ -104,19 +104,27 @@ mod tests {
 
     const EVERYWHERE: [Vec2; 2] = [Vec2::MIN, Vec2::MAX];
 
-    fn parts(world: &World, window: [Vec2; 2]) -> Vec<Part> {
-        draw(world.view(), window, &Layer::ALL).iter().map(|item| item.part).collect()
+    fn parts(world: &World, window: [Vec2; 2]) -> Vec<DrawnPart> {
+        draw(world.view(), window, &DrawingLayer::ALL).iter().map(|item| item.part).collect()
     }
 
     #[test]
     fn the_layers_lie_in_order() {
         let mut world = World::new(WorldConfig::default()).unwrap();
-        assert_eq!(parts(&world, EVERYWHERE), [Part::Room, Part::Border, Part::Wall]);
+        assert_eq!(parts(&world, EVERYWHERE), [DrawnPart::Room, DrawnPart::Border, DrawnPart::Wall]);
         world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
         world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
         let found = parts(&world, EVERYWHERE);
         let at = |part| found.iter().position(|&found| found == part).unwrap();
-        let expected = [Part::Room, Part::Halo, Part::Bead, Part::Body, Part::Membrane, Part::Border, Part::Wall];
+        let expected = [
+            DrawnPart::Room,
+            DrawnPart::Halo,
+            DrawnPart::Bead,
+            DrawnPart::Body,
+            DrawnPart::Membrane,
+            DrawnPart::Border,
+            DrawnPart::Wall,
+        ];
         assert!(expected.windows(2).all(|pair| at(pair[0]) < at(pair[1])), "{found:?}");
     }
 
@@ -124,7 +132,7 @@ mod tests {
     fn organisms_outside_of_the_window_are_left_out() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
-        assert!(parts(&world, [Vec2::splat(15.0), Vec2::splat(19.9)]).contains(&Part::Bead));
-        assert!(!parts(&world, [Vec2::splat(40.0), Vec2::splat(50.0)]).contains(&Part::Bead));
+        assert!(parts(&world, [Vec2::splat(15.0), Vec2::splat(19.9)]).contains(&DrawnPart::Bead));
+        assert!(!parts(&world, [Vec2::splat(40.0), Vec2::splat(50.0)]).contains(&DrawnPart::Bead));
     }
 }

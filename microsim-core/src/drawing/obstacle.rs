@@ -1,7 +1,7 @@
 //! Obstacles: any shape of the geometry library, as an area or as lines.
 
 use super::palette::STONE;
-use super::shape::{Item, Paint, Part, Shape, Stroke};
+use super::shape::{DrawnPart, Geometry, Item, Paint, Stroke};
 use crate::Obstacle;
 use crate::geometry::signed_area;
 use glam::Vec2;
@@ -18,15 +18,15 @@ pub(super) fn draw(obstacle: &Obstacle) -> impl Iterator<Item = Item> {
     let size = obstacle.shape.compute_local_aabb().half_extents().min_element();
     let rim = Stroke { colour: STONE.line, width: (size * 0.16).clamp(0.1, 0.8) };
     let line = Stroke { colour: STONE.line, width: 0.5 };
-    let (discs, polygons) = (Shape::Discs(parts.discs), Shape::Polygons(parts.polygons));
+    let (discs, polygons) = (Geometry::Discs(parts.discs), Geometry::Polygons(parts.polygons));
     let items = [
-        Item::stroked(Part::ObstacleRim, discs.clone(), rim),
-        Item::stroked(Part::ObstacleRim, polygons.clone(), rim),
-        Item::filled(Part::Obstacle, discs, Paint::Flat(STONE.inner)),
-        Item::filled(Part::Obstacle, polygons, Paint::Flat(STONE.inner)),
-        Item::stroked(Part::ObstacleLine, Shape::Lines(parts.lines), line),
+        Item::stroked(DrawnPart::ObstacleRim, discs.clone(), rim),
+        Item::stroked(DrawnPart::ObstacleRim, polygons.clone(), rim),
+        Item::filled(DrawnPart::Obstacle, discs, Paint::Flat(STONE.inner)),
+        Item::filled(DrawnPart::Obstacle, polygons, Paint::Flat(STONE.inner)),
+        Item::stroked(DrawnPart::ObstacleLine, Geometry::Lines(parts.lines), line),
     ];
-    items.into_iter().filter(|item| !item.shape.is_empty())
+    items.into_iter().filter(|item| !item.geometry.is_empty())
 }
 
 /// The parts of an obstacle, in the world.
@@ -125,6 +125,6 @@ mod tests {
             (Pose::translation(3.0, 0.0), ball),
         ]);
         let items: Vec<Item> = draw(&Obstacle::new(pair, Pose::translation(0.0, 0.0))).collect();
-        assert!(items.len() == 2 && matches!(&items[0].shape, Shape::Discs(discs) if discs.len() == 2));
+        assert!(items.len() == 2 && matches!(&items[0].geometry, Geometry::Discs(discs) if discs.len() == 2));
     }
 }

@@ -60,7 +60,7 @@ pub struct Stroke {
 
 /// Where something is, units.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum Geometry {
     /// Discs as one area: centres and radii.
     Discs(Vec<(Vec2, f32)>),
     /// A closed smooth line through all points.
@@ -88,7 +88,7 @@ pub enum Segment {
     Close,
 }
 
-impl Shape {
+impl Geometry {
     /// A single disc.
     #[must_use]
     pub fn disc(centre: Vec2, radius: f32) -> Self {
@@ -157,7 +157,7 @@ fn cubic([before, from, to, after]: [Vec2; 4]) -> Segment {
 
 /// What an item is a part of; painters may have a way of their own for some parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum DrawnPart {
     /// The floor of the room.
     Room,
     /// Where there is at least so much of a chemical.
@@ -208,9 +208,9 @@ pub enum Part {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
     /// What it is.
-    pub part: Part,
+    pub part: DrawnPart,
     /// Where it is.
-    pub shape: Shape,
+    pub geometry: Geometry,
     /// How its area is filled.
     pub fill: Option<Paint>,
     /// The line along it.
@@ -222,14 +222,14 @@ pub struct Item {
 impl Item {
     /// An area.
     #[must_use]
-    pub fn filled(part: Part, shape: Shape, paint: Paint) -> Self {
-        Self { part, shape, fill: Some(paint), stroke: None, owner: None }
+    pub fn filled(part: DrawnPart, geometry: Geometry, paint: Paint) -> Self {
+        Self { part, geometry, fill: Some(paint), stroke: None, owner: None }
     }
 
     /// A line.
     #[must_use]
-    pub fn stroked(part: Part, shape: Shape, stroke: Stroke) -> Self {
-        Self { part, shape, fill: None, stroke: Some(stroke), owner: None }
+    pub fn stroked(part: DrawnPart, geometry: Geometry, stroke: Stroke) -> Self {
+        Self { part, geometry, fill: None, stroke: Some(stroke), owner: None }
     }
 }
 
@@ -240,26 +240,26 @@ mod tests {
     #[test]
     fn a_smooth_line_passes_through_its_points() {
         let points = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-        let ends = |shape: Shape| {
+        let ends = |geometry: Geometry| {
             let end = |segment| if let Segment::Cubic(_, _, end) = segment { Some(end) } else { None };
-            shape.segments().into_iter().filter_map(end).collect::<Vec<_>>()
+            geometry.segments().into_iter().filter_map(end).collect::<Vec<_>>()
         };
-        assert_eq!(ends(Shape::Outline(points.clone())), [Vec2::X, Vec2::ONE, Vec2::Y, Vec2::ZERO]);
-        assert_eq!(ends(Shape::Curve(points)), [Vec2::X, Vec2::ONE, Vec2::Y]);
+        assert_eq!(ends(Geometry::Outline(points.clone())), [Vec2::X, Vec2::ONE, Vec2::Y, Vec2::ZERO]);
+        assert_eq!(ends(Geometry::Curve(points)), [Vec2::X, Vec2::ONE, Vec2::Y]);
     }
 
     #[test]
     fn what_is_not_finite_is_known() {
-        assert!(Shape::disc(Vec2::ONE, 1.0).is_finite());
-        assert!(!Shape::disc(Vec2::NAN, 1.0).is_finite() && !Shape::Outline(vec![Vec2::INFINITY]).is_finite());
+        assert!(Geometry::disc(Vec2::ONE, 1.0).is_finite());
+        assert!(!Geometry::disc(Vec2::NAN, 1.0).is_finite() && !Geometry::Outline(vec![Vec2::INFINITY]).is_finite());
     }
 
     #[test]
     fn short_lines_have_segments() {
         for count in 0..3 {
             let points = vec![Vec2::ONE; count];
-            assert!(Shape::Outline(points.clone()).segments().len() <= count + 1);
-            assert_eq!(Shape::Curve(points).segments().len(), count);
+            assert!(Geometry::Outline(points.clone()).segments().len() <= count + 1);
+            assert_eq!(Geometry::Curve(points).segments().len(), count);
         }
     }
 }

@@ -145,7 +145,7 @@ impl Canvas {
         }
     }
 
-    /// Part of a ring, clockwise from its top; `share` of it.
+    /// DrawnPart of a ring, clockwise from its top; `share` of it.
     pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
         let steps = (ARC_STEPS * share).ceil().max(1.0);
         let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;

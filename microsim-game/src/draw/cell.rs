@@ -1,10 +1,10 @@
 //! Textures, cilia and granules: the parts of cells that are more than plain areas (seed, 3.2.1 and 3.2.2).
 
-use super::SceneFrame;
 use super::atlas::Tile;
 use super::canvas::Canvas;
-use super::item::{area, sprite};
+use super::frame::SceneFrame;
 use super::palette::{HALO, INK, chance, fade, mix, scene};
+use super::plain::{area, sprite};
 use crate::camera::Camera;
 use macroquad::color::Color;
 use microsim_core::drawing::shape::{Item, Paint};

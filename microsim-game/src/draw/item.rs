@@ -1,14 +1,14 @@
 //! Paints the items of a drawing as triangles: some parts in a way of their own, all others as plain areas and lines.
 
-use super::SceneFrame;
 use super::atlas::Tile;
-use super::canvas::{Canvas, Rim};
+use super::canvas::Canvas;
 use super::cell;
+use super::frame::SceneFrame;
 use super::palette::{HALO, fade, scene};
+use super::plain::{self, area, placed, sprite};
 use crate::camera::Camera;
 use macroquad::color::Color;
-use microsim_core::drawing::shape::{Item, Paint, Part, Shape, Stroke};
-use microsim_core::geometry::triangulate;
+use microsim_core::drawing::shape::{DrawnPart, Geometry, Item};
 use microsim_core::glam::Vec2;
 use std::f32::consts::TAU;
 
@@ -19,31 +19,22 @@ const SOFT: f32 = 2.5;
 
 pub(super) fn paint(canvas: &mut Canvas, frame: &SceneFrame<'_>, item: &Item) {
     let camera = frame.camera;
-    match (item.part, &item.shape) {
-        (Part::Body, Shape::Outline(points)) => cell::paint_body(canvas, frame, item, &placed(points, camera)),
-        (Part::Cytoplasm | Part::GrownCytoplasm, Shape::Discs(discs)) => {
+    match (item.part, &item.geometry) {
+        (DrawnPart::Body, Geometry::Outline(points)) => cell::paint_body(canvas, frame, item, &placed(points, camera)),
+        (DrawnPart::Cytoplasm | DrawnPart::GrownCytoplasm, Geometry::Discs(discs)) => {
             cell::paint_cytoplasm(canvas, camera, discs, area(item));
         }
-        (Part::Nucleus, Shape::Discs(discs)) => cell::paint_nucleus(canvas, camera, discs, area(item)),
-        (Part::Fluid, Shape::Discs(discs)) => cell::paint_fluid(canvas, frame, item, discs),
-        (Part::Halo, Shape::Outline(points)) => paint_halo(canvas, item, &placed(points, camera), camera),
-        (Part::Spot, Shape::Discs(discs)) if item.stroke.is_none() => {
+        (DrawnPart::Nucleus, Geometry::Discs(discs)) => cell::paint_nucleus(canvas, camera, discs, area(item)),
+        (DrawnPart::Fluid, Geometry::Discs(discs)) => cell::paint_fluid(canvas, frame, item, discs),
+        (DrawnPart::Halo, Geometry::Outline(points)) => paint_halo(canvas, item, &placed(points, camera), camera),
+        (DrawnPart::Spot, Geometry::Discs(discs)) if item.stroke.is_none() => {
             discs.iter().for_each(|&disc| sprite(canvas, camera, disc, SOFT, Tile::Soft, area(item)));
         }
-        (Part::ObstacleRim | Part::Obstacle, shape) => {
-            outlines(shape, camera).iter().for_each(|outline| paint_outline(canvas, camera, item, outline));
+        (DrawnPart::ObstacleRim | DrawnPart::Obstacle, geometry) => {
+            outlines(geometry, camera).iter().for_each(|outline| paint_obstacle(canvas, camera, item, outline));
         }
-        (Part::Border, _) => paint_border(canvas, camera, line(item)),
-        _ => paint_plain(canvas, camera, item),
-    }
-}
-
-/// The colour of an item's area, at its edge.
-pub(super) fn area(item: &Item) -> Color {
-    match item.fill {
-        Some(Paint::Flat(colour)) => scene(colour),
-        Some(Paint::Radial { outer, .. }) => scene(outer),
-        None => Color::default(),
+        (DrawnPart::Border, _) => paint_border(canvas, camera, line(item)),
+        _ => plain::paint(canvas, camera, item),
     }
 }
 
@@ -51,91 +42,27 @@ fn line(item: &Item) -> Color {
     item.stroke.map_or(Color::default(), |stroke| scene(stroke.colour))
 }
 
-/// Points in picture pixels.
-fn placed(points: &[Vec2], camera: &Camera) -> Vec<Vec2> {
-    points.iter().map(|&point| camera.to_screen(point)).collect()
-}
-
-/// A sprite at a disc, `scale` times as large.
-pub(super) fn sprite(
-    canvas: &mut Canvas,
-    camera: &Camera,
-    (centre, radius): (Vec2, f32),
-    scale: f32,
-    tile: Tile,
-    colour: Color,
-) {
-    canvas.sprite(camera.to_screen(centre), scale * radius * camera.scale(), tile, colour);
-}
-
 /// The closed lines of an obstacle, in picture pixels.
-fn outlines(shape: &Shape, camera: &Camera) -> Vec<Vec<Vec2>> {
+fn outlines(geometry: &Geometry, camera: &Camera) -> Vec<Vec<Vec2>> {
     let around = |k: usize| Vec2::from_angle(k as f32 / ROUND as f32 * TAU);
-    match shape {
-        Shape::Discs(discs) => {
+    match geometry {
+        Geometry::Discs(discs) => {
             let outline = |&(centre, radius): &(Vec2, f32)| {
                 (0..ROUND).map(|k| camera.to_screen(centre + around(k) * radius)).collect()
             };
             discs.iter().map(outline).collect()
         }
-        Shape::Polygons(polygons) => polygons.iter().map(|points| placed(points, camera)).collect(),
+        Geometry::Polygons(polygons) => polygons.iter().map(|points| placed(points, camera)).collect(),
         _ => Vec::new(),
     }
 }
 
-fn paint_plain(canvas: &mut Canvas, camera: &Camera, item: &Item) {
-    match &item.shape {
-        Shape::Discs(discs) => discs.iter().for_each(|&disc| paint_disc(canvas, camera, item, disc)),
-        Shape::Outline(points) => paint_outline(canvas, camera, item, &placed(points, camera)),
-        Shape::Polygons(polygons) => {
-            polygons.iter().for_each(|points| paint_outline(canvas, camera, item, &placed(points, camera)));
-        }
-        Shape::Curve(points) => paint_line(canvas, camera, item, &placed(points, camera)),
-        Shape::Lines(lines) => {
-            lines.iter().for_each(|points| paint_line(canvas, camera, item, &placed(points, camera)));
-        }
+/// An obstacle, or its edge on a bright seam.
+fn paint_obstacle(canvas: &mut Canvas, camera: &Camera, item: &Item, outline: &[Vec2]) {
+    if item.part == DrawnPart::ObstacleRim {
+        canvas.band(outline, &[(-1.0, fade(HALO, 0.8)), (3.0, fade(HALO, 0.5)), (11.0, fade(HALO, 0.0))]);
     }
-}
-
-fn paint_disc(canvas: &mut Canvas, camera: &Camera, item: &Item, disc: (Vec2, f32)) {
-    if item.fill.is_some() {
-        sprite(canvas, camera, disc, 1.0, Tile::Disc, area(item));
-    }
-    if let Some(Paint::Radial { inner, .. }) = item.fill {
-        sprite(canvas, camera, disc, 1.0, Tile::Soft, scene(inner));
-    }
-    if let Some(stroke) = item.stroke {
-        let width = (stroke.width * camera.scale()).max(1.0);
-        canvas.circle(camera.to_screen(disc.0), disc.1 * camera.scale(), width, scene(stroke.colour));
-    }
-}
-
-fn paint_outline(canvas: &mut Canvas, camera: &Camera, item: &Item, points: &[Vec2]) {
-    if item.fill.is_some() {
-        canvas.fill(points, &triangulate(points), area(item));
-    }
-    if item.part == Part::ObstacleRim {
-        canvas.band(points, &[(-1.0, fade(HALO, 0.8)), (3.0, fade(HALO, 0.5)), (11.0, fade(HALO, 0.0))]);
-    }
-    if let Some(stroke) = item.stroke {
-        canvas.band(points, &rims(stroke, camera));
-    }
-}
-
-fn paint_line(canvas: &mut Canvas, camera: &Camera, item: &Item, points: &[Vec2]) {
-    if item.fill.is_some() {
-        canvas.fill(points, &triangulate(points), area(item));
-    }
-    if let Some(stroke) = item.stroke {
-        canvas.line(points, &rims(stroke, camera));
-    }
-}
-
-/// A line of the stroke's width, at least a pixel, with soft edges.
-pub(super) fn rims(stroke: Stroke, camera: &Camera) -> [Rim; 4] {
-    let (half, colour) = ((0.5 * stroke.width * camera.scale()).max(0.5), scene(stroke.colour));
-    let clear = fade(colour, 0.0);
-    [(-half - 0.8, clear), (-half, colour), (half, colour), (half + 0.8, clear)]
+    plain::paint_outline(canvas, camera, item, outline);
 }
 
 /// A seam that fades outwards.

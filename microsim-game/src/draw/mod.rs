@@ -5,27 +5,18 @@ mod atlas;
 mod background;
 pub(crate) mod canvas;
 mod cell;
+mod frame;
 mod item;
 pub(crate) mod palette;
+mod plain;
 
-use crate::camera::Camera;
+pub use frame::SceneFrame;
+
 use background::Background;
 use canvas::Canvas;
 use macroquad::window::clear_background;
-use microsim_core::View;
-use microsim_core::drawing::{self, Layer};
+use microsim_core::drawing::{self, DrawingLayer};
 use microsim_core::glam::Vec2;
-
-/// What is drawn in one frame.
-#[derive(Debug)]
-pub struct SceneFrame<'a> {
-    /// The world at one moment.
-    pub view: View<'a>,
-    /// What is seen of it.
-    pub camera: &'a Camera,
-    /// For what moves in the scenery, s.
-    pub time: f32,
-}
 
 /// Draws frames. Holds the textures.
 #[derive(Debug)]
@@ -35,7 +26,8 @@ pub struct Painter {
 }
 
 /// The layers that are painted; chemicals are part of the debug view.
-const LAYERS: [Layer; 4] = [Layer::Halos, Layer::Obstacles, Layer::Organisms, Layer::Walls];
+const LAYERS: [DrawingLayer; 4] =
+    [DrawingLayer::Halos, DrawingLayer::Obstacles, DrawingLayer::Organisms, DrawingLayer::Walls];
 /// How far beyond the picture halos and hairs reach into it, pixels.
 const REACH: f32 = 12.0;
 
@@ -75,6 +67,7 @@ mod tests {
     use super::atlas::Tile;
     use super::palette::scene;
     use super::*;
+    use crate::camera::Camera;
     use microsim_core::drawing::palette::{AMOEBOID, GROWN};
     use microsim_core::{
         AmoeboidCellSpec, OrganismId, OrganismSpec, Placement, RigidCellSpec, Role, World, WorldConfig,
