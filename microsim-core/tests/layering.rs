@@ -15,6 +15,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("rng", &[]),
     ("fnv", &[]),
     ("walk", &[]),
+    ("look", &[]),
+    ("spec_field", &["error"]),
     ("geometry", &[]),
     ("shared", &[]),
     ("particle", &["shared"]),
@@ -23,10 +25,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("inputs", &["error", "id"]),
     ("event", &["id", "kind"]),
     ("collision", &["geometry", "parallel", "particle", "shared"]),
-    ("solver", &["collision", "config", "error", "geometry", "parallel", "particle"]),
+    ("solver", &["collision", "config", "error", "geometry", "parallel", "particle", "spec_field"]),
     ("template", &["error", "geometry", "particle", "solver"]),
     ("chemical", &["config", "error"]),
-    ("capability", &["chemical", "collision::obstacle", "config", "error", "geometry", "id", "rng"]),
+    ("capability", &["chemical", "collision::obstacle", "config", "error", "geometry", "id", "rng", "spec_field"]),
     (
         "organism",
         &[
@@ -36,10 +38,12 @@ const LAYERS: &[(&str, &[&str])] = &[
             "geometry",
             "id",
             "kind",
+            "look",
             "particle",
             "rng",
             "shared",
             "solver",
+            "spec_field",
             "template",
         ],
     ),
@@ -103,7 +107,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ),
     ("snapshot", &["collision", "fnv", "id", "scenario", "world"]),
     ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
-    ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
+    (
+        "microscope",
+        &["collision::obstacle", "error", "geometry", "kind", "look", "organism::look", "template", "world"],
+    ),
 ];
 
 /// Modules that see the crate as an embedder does: only what `lib.rs` makes public.

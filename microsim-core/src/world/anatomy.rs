@@ -1,7 +1,7 @@
 //! Anatomy: the constraints and contacts of a world, for drawing how it works.
 
 use super::view::View;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::ConstraintSet;
 use glam::Vec2;
 
@@ -39,7 +39,7 @@ impl<'a> View<'a> {
         let rings = organism.membranes().map(|(_, ring)| ring);
         let links = rings.flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]));
         let mut bonds: Vec<_> = links.map(|link| (Bond::Membrane, link)).collect();
-        if let (Some(set), Body::Lane { .. }) = (self.world.constraints_of(organism), &organism.body) {
+        if let (Some(set), Storage::Lane { .. }) = (self.world.constraints_of(organism), &organism.body) {
             bonds.extend(pairs(set).map(|(bond, pair)| (bond, pair.map(|node| organism.body.particle(node)))));
         }
         bonds

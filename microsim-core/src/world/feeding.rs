@@ -9,7 +9,7 @@ use crate::capability::Locomotion;
 use crate::capability::phagocytosis::{Encounter, Engulfer, IngestionWay, Meal, MealPhase};
 use crate::event::Event;
 use crate::id::OrganismId;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::fluid::rest_area;
 use crate::solver::lanes::LANES;
 use glam::Vec2;
@@ -225,7 +225,7 @@ impl World {
     /// Sets the size of a templated organism relative to its size when spawned.
     pub(super) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
-        let Body::Lane { block: index, first } = organism.body else { return };
+        let Storage::Lane { block: index, first } = organism.body else { return };
         let block = &mut self.blocks[index as usize];
         let lane = (first - block.base) as usize;
         block.scale[lane] = organism.spawn_scale * factor;

@@ -4,7 +4,7 @@ use super::World;
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::ConstraintSet;
 use crate::template::Role;
 use glam::Vec2;
@@ -61,10 +61,10 @@ impl World {
     /// The constraints that hold a templated organism together.
     pub(super) fn constraints_of(&self, organism: &Organism) -> Option<&ConstraintSet> {
         match organism.body {
-            Body::Lane { block, .. } => {
+            Storage::Lane { block, .. } => {
                 Some(self.templates[self.blocks[block as usize].template as usize].constraints())
             }
-            Body::Loose { .. } => None,
+            Storage::Loose { .. } => None,
         }
     }
 

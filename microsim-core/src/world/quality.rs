@@ -4,7 +4,7 @@ use super::World;
 use super::membrane_quality::CrawlQuality;
 use super::touching::NearPair;
 use crate::capability::phagocytosis::MealPhase;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::Distance;
 use crate::solver::lanes::ratio;
 use crate::solver::membrane::links;
@@ -126,11 +126,11 @@ impl World {
     /// Scale of an organism's constraints.
     pub(crate) fn scale_of(&self, organism: &Organism) -> f32 {
         match organism.body {
-            Body::Lane { block, first } => {
+            Storage::Lane { block, first } => {
                 let block = &self.blocks[block as usize];
                 block.scale[(first - block.base) as usize]
             }
-            Body::Loose { .. } => 1.0,
+            Storage::Loose { .. } => 1.0,
         }
     }
 

@@ -8,7 +8,7 @@ use crate::event::Event;
 use crate::geometry::polygon::{centroid, contains_point};
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, set_outline};
-use crate::organism::{Body, Organism, Phagosome};
+use crate::organism::{Organism, Phagosome, Storage};
 use crate::rng::Rng;
 use glam::Vec2;
 
@@ -74,7 +74,7 @@ impl World {
         let Self { organisms, particles, fluids, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
         let before = organism.outline.len();
-        if let Body::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
+        if let Storage::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
             *membrane = membrane.resized(before, lobe.outline.len());
             *body = lobe.outline.iter().chain(lobe.phagosomes.iter().flat_map(|inner| &inner.ring)).copied().collect();
             body.iter().for_each(|&node| particles.owner[node as usize] = id.index);
@@ -100,7 +100,7 @@ impl World {
         let Self { organisms, particles, .. } = self;
         let Some(cell) = organisms.get_mut(id) else { return };
         let before = cell.outline.len();
-        if let (Body::Loose { particles: body, membrane: Some(membrane) }, Body::Loose { particles: added, .. }) =
+        if let (Storage::Loose { particles: body, membrane: Some(membrane) }, Storage::Loose { particles: added, .. }) =
             (&mut cell.body, &other.body)
         {
             body.extend(added);

@@ -7,8 +7,8 @@
 use super::outline::{DistanceMap, smooth, united};
 use super::spot::{Spot, Thread};
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
+use crate::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::formula::Formula;
-use crate::microscope::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
 use crate::microscope::noise::{Dice, octaves, scramble, shift_of, wobble};

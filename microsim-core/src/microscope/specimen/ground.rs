@@ -2,8 +2,8 @@
 //! is stored.
 
 use super::spot::Spot;
+use crate::look::SpotShape;
 use crate::microscope::formula::Formula;
-use crate::microscope::look::SpotShape;
 use crate::microscope::maths::smoothstep;
 use crate::microscope::matter::{Matter, Plate};
 use crate::microscope::noise::{Dice, hash, octaves, shift_of, wobble};

@@ -1,7 +1,7 @@
 //! Small things: round spots and thin threads.
 
+use crate::look::SpotShape;
 use crate::microscope::formula::Formula;
-use crate::microscope::look::SpotShape;
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, Plate};
 use crate::microscope::recipe::{Program, QUAD, Slide};
