@@ -43,8 +43,8 @@ struct Last {
     goal: [u32; 2],
 }
 
-/// What encoder and decoder know: what is often the same in the next change (steps, organism, whether it digests), and the
-/// last that every organism was told.
+/// What encoder and decoder know: steps, organism and digestion of the last change, if it had a goal, and what every
+/// organism was told last.
 #[derive(Clone, Debug, Default)]
 struct History {
     change: Option<(u32, OrganismId, bool)>,
@@ -53,27 +53,24 @@ struct History {
 
 impl History {
     fn encode(&mut self, gap: u32, (organism, intent): Change) -> Delta {
-        let Some(intent) = intent else {
-            self.change = None;
-            return Delta::Other(gap, organism, Told::Nothing);
+        let told = match intent.map(|intent| (intent.digests(), intent.goal())) {
+            None => Told::Nothing,
+            Some((digests, None)) => Told::Rest { digests },
+            Some((digests, Some(goal))) => {
+                let goal = goal.to_array().map(f32::to_bits);
+                let last = std::mem::replace(&mut self.organisms.entry(organism).or_default().goal, goal);
+                Told::Go { digests, by: [0, 1].map(|k| goal[k].wrapping_sub(last[k]).cast_signed()) }
+            }
         };
-        let digests = intent.digests();
-        let Some(goal) = intent.goal() else {
-            self.change = None;
-            return Delta::Other(gap, organism, Told::Rest { digests });
-        };
-        let goal = goal.to_array().map(f32::to_bits);
-        let last = std::mem::replace(&mut self.organisms.entry(organism).or_default().goal, goal);
-        let by = [0, 1].map(|k| goal[k].wrapping_sub(last[k]).cast_signed());
-        let head = (gap, organism, digests);
-        if self.change.replace(head) == Some(head) {
-            Delta::Goal(by)
-        } else {
-            Delta::Other(gap, organism, Told::Go { digests, by })
+        let head = if let Told::Go { digests, .. } = told { Some((gap, organism, digests)) } else { None };
+        let before = std::mem::replace(&mut self.change, head);
+        match told {
+            Told::Go { by, .. } if before == head => Delta::Goal(by),
+            _ => Delta::Other(gap, organism, told),
         }
     }
 
-    /// Fails where nothing changes, or to what cannot be told.
+    /// `None` if nothing changes, or the goal is not finite.
     fn decode(&mut self, delta: Delta) -> Option<(u32, Change)> {
         let (gap, organism, told) = match delta {
             Delta::Goal(by) => {
@@ -153,7 +150,7 @@ pub(super) struct Decoder {
 }
 
 impl Decoder {
-    /// The record that a chunk holds, unless it is none that an encoder writes.
+    /// The record that a chunk holds; `None` if no encoder writes such a chunk.
     pub(super) fn record(&mut self, content: &[u8]) -> Option<Record> {
         let (Steps { count: steps, changes: deltas, digest }, rest) = postcard::take_from_bytes(content).ok()?;
         let (mut changes, mut done) = (Vec::new(), 0u32);

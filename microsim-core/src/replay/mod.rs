@@ -93,7 +93,7 @@ pub enum Ending {
     },
 }
 
-/// Why bytes are no replay.
+/// Why bytes are not a replay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReplayError {

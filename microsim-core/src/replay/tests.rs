@@ -144,10 +144,10 @@ fn hand(every: u32) -> impl FnMut(u32, &mut Rng) -> Option<Vec2> {
 #[test]
 fn ninety_seconds_of_play_are_small() {
     let bytes = [6, 2, 1].map(|every| bytes_of_play(hand(every)));
-    assert!(bytes[0] < 15_000 && bytes[1] < 24_000 && bytes[2] < 36_000, "{bytes:?}");
+    assert!(bytes[0] < 17_500 && bytes[1] < 29_000 && bytes[2] < 42_000, "{bytes:?}");
     // Nothing is known of the next goal: a new place anywhere in every step.
     let bytes = bytes_of_play(|_, rng| Some(Vec2::new(rng.range(0.0, 160.0), rng.range(0.0, 90.0))));
-    assert!(bytes < 50_000, "{bytes}");
+    assert!(bytes < 57_000, "{bytes}");
 }
 
 #[test]

@@ -59,7 +59,7 @@ impl Scenario {
         Ok(built)
     }
 
-    /// Puts everything into the world that is there from the beginning, and returns what is to come.
+    /// Puts everything into the world that is there from the beginning; returns the spawners of the rest.
     fn fill(&self, built: &mut Built, context: &ReadContext<'_>) -> Vec<Spawner> {
         let File { config, chemicals, obstacles, groups, .. } = &self.file;
         for (name, spec) in chemicals {
@@ -93,7 +93,7 @@ impl Scenario {
 }
 
 impl Built {
-    /// Takes a step: organisms do what they are `told`; those that are not, what the script tells them.
+    /// Takes a step with these inputs, and the script's for organisms without one.
     pub fn step(&mut self, told: &Inputs) {
         let mut inputs = self.script.before_step(&mut self.world).clone();
         for (organism, intent) in told.iter() {

@@ -29,9 +29,9 @@
 //!
 //! # Format
 //!
-//! Lengths are in micrometres, times in seconds, angles in degrees. Each kind of thing has a table of its own, and a
-//! field that is not known is an error, as is anything else that cannot be meant: nothing is guessed. A field without a
-//! default below is required. The fields of prototypes are those of the specs, with their ranges and defaults.
+//! Lengths are in micrometres, times in seconds, angles in degrees. An unknown field is an error, as is a value out of
+//! range. A field without a default below is required. The fields of prototypes are those of the specs, with their ranges
+//! and defaults.
 //!
 //! | table | fields |
 //! |---|---|
@@ -74,8 +74,8 @@
 //! | `[output.frames]` | `at = [times]`, `every = 0.0`, `width = 1280` |
 //! | `[[expect]]` | `measure`: a measure or a kind of events; `min`: what it must reach at least once, `by`: so many seconds |
 //!
-//! Commands are done in the order of the file. What an organism is told to do it does until it is told something else, in
-//! place of what its controller wants; what follows another one rests when somebody takes that in.
+//! Commands are done in the order of the file. An organism obeys a command until the next one, in place of its controller.
+//! A follower rests when the organism that it follows is taken in.
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
@@ -124,8 +124,8 @@ impl Scenario {
     /// `spawn.0.count`. A value is TOML text; bare words become strings.
     ///
     /// # Errors
-    /// Everything that is wrong with the text and the overrides, each with its place. What depends on the seed, and
-    /// whether organisms overlap, shows only in [`Scenario::build`].
+    /// All errors in the text and the overrides, each with its place. [`Scenario::build`] reports those that depend on the
+    /// seed, and overlaps of organisms.
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
         let (table, document) = Document::read(text, overrides)?;
         let file = file::read(&table, &document)?;
@@ -186,8 +186,8 @@ impl Scenario {
         &self.file.output
     }
 
-    /// The scenario as it is run: a file with overrides, parameters and seed put in and keys in order, so that scenarios that
-    /// differ only in how they are written have equal texts.
+    /// The scenario as it is run: a file with overrides, parameters and seed put in and sorted keys. Scenarios that differ
+    /// only in how they are written have equal texts.
     #[must_use]
     pub fn effective(&self) -> String {
         let mut table = self.effective.clone();

@@ -1,6 +1,7 @@
 //! What parts of a scenario do together; whole files are tested in `tests/scenario.rs`.
 
 use super::*;
+use crate::World;
 use glam::Vec2;
 
 const ROOM: &str = "schema = 1\n[world]\nsize = [60.0, 40.0]\n[agar.a]\nradius = 1.0\n";

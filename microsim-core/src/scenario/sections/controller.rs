@@ -12,18 +12,17 @@ use std::collections::BTreeMap;
 /// Controllers by name.
 pub(crate) type Controllers = BTreeMap<String, Controller>;
 
-/// What controllers refer to.
+/// What controllers may refer to.
 struct Known<'a> {
     size: Vec2,
     chemicals: &'a Chemicals,
-    /// Those that were read before.
+    /// Those of the kinds above.
     controllers: &'a Controllers,
 }
 
 type ReadController = fn(&mut Fields<'_>, &Known<'_>) -> Option<Controller>;
 
-/// Tables of controllers and how they are read. What does something else otherwise refers to a controller of a kind before
-/// its own.
+/// Tables of controllers and how they are read. `otherwise` can name controllers of the kinds above.
 const KINDS: [(&str, ReadController); 11] = [
     ("wander", |fields, _| wander(fields)),
     ("patrol", patrol),
