@@ -101,3 +101,40 @@ impl OrganismSpec {
         self.blueprint().map(|blueprint| blueprint.extent())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec_field::FieldValue;
+
+    #[test]
+    fn every_kind_has_a_sound_default_a_table_of_its_own_and_fields() {
+        let defaults = OrganismSpec::defaults();
+        for (k, spec) in defaults.iter().enumerate() {
+            assert_eq!(spec.blueprint().unwrap().kind, spec.kind());
+            assert!(defaults[..k].iter().all(|other| other.table().name != spec.table().name), "{spec:?}");
+            let mut required = 0;
+            spec.clone().fields(&mut |field, _| required += u32::from(field.is_required));
+            assert!(required > 0, "{spec:?}");
+        }
+    }
+
+    #[test]
+    fn a_field_beyond_its_range_is_refused_by_its_name() {
+        for spec in OrganismSpec::defaults() {
+            let mut names = Vec::new();
+            spec.clone().fields(&mut |field, value| {
+                names.extend(matches!(value, FieldValue::Number(..)).then_some(field.name));
+            });
+            for name in names {
+                let mut spec = spec.clone();
+                spec.fields(&mut |field, value| match value {
+                    FieldValue::Number(value, [_, high]) if field.name == name => *value = 2.0 * high,
+                    _ => {}
+                });
+                let error = spec.validate().unwrap_err();
+                assert_eq!(error.field().trim_start_matches("fluid."), name);
+            }
+        }
+    }
+}
