@@ -116,7 +116,7 @@ fn type_schema(value_type: &ValueType, range: Option<[f64; 2]>) -> Value {
         }
         ValueType::Table(of) => json!({ "type": "object", "additionalProperties": type_schema(of, range) }),
         ValueType::Either(types) => {
-            json!({ "anyOf": shapes.iter().map(|shape| type_schema(value_type, range)).collect::<Vec<_>>() })
+            json!({ "anyOf": types.iter().map(|of| type_schema(of, range)).collect::<Vec<_>>() })
         }
     }
 }

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 /// Without protection of its membranes a world lets things move so many times faster than its speed limit.
 const UNPROTECTED: f32 = 15.0;
 
-/// A body that is as slow as this, units/s, for so long, s, falls asleep. On a screen with ten pixels to a unit that is a
-/// pixel in five seconds.
-const CALM_SPEED: f32 = 0.02;
-const PATIENCE: f32 = 0.5;
+/// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
+const SLEEP_SPEED: f32 = 0.02;
+/// Time below the sleep speed after which a body falls asleep, s.
+const TIME_TO_SLEEP: f32 = 0.5;
 
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,25 +88,25 @@ impl WorldConfig {
         if self.protects_membranes { self.max_speed } else { UNPROTECTED * self.max_speed }
     }
 
-    /// Steps for which a body has to be calm before it sleeps.
-    pub(crate) fn patience(&self) -> u16 {
-        (PATIENCE / self.dt) as u16
+    /// Steps below the sleep speed after which a body falls asleep.
+    pub(crate) fn steps_to_sleep(&self) -> u16 {
+        (TIME_TO_SLEEP / self.dt) as u16
     }
 
-    /// A body is calm when none of its particles is faster than this, units/s. Never so fast as half of what it would be that
-    /// has fallen freely through the medium for as long as a body is given to fall asleep.
-    pub(crate) fn calm_speed(&self) -> f32 {
-        let fall = self.gravity.length() * PATIENCE / (1.0 + self.damping * PATIENCE);
-        if fall > 0.0 && 0.5 * fall < CALM_SPEED { 0.5 * fall } else { CALM_SPEED }
+    /// Speed of its fastest particle below which a body counts as at rest, units/s. At most half of the speed of free fall
+    /// through the medium after the time to sleep, so that nothing falls asleep on its way down.
+    pub(crate) fn sleep_speed(&self) -> f32 {
+        let fall = self.gravity.length() * TIME_TO_SLEEP / (1.0 + self.damping * TIME_TO_SLEEP);
+        if fall > 0.0 && 0.5 * fall < SLEEP_SPEED { 0.5 * fall } else { SLEEP_SPEED }
     }
 
-    /// Farthest that a particle moves in one step.
-    pub(crate) fn reach(&self) -> f32 {
+    /// Largest displacement of a particle in a step, units.
+    pub(crate) fn max_displacement(&self) -> f32 {
         self.max_speed * self.dt
     }
 
-    /// Farthest that a particle moves in one substep.
-    pub(crate) fn substep_reach(&self) -> f32 {
+    /// Largest displacement of a particle in a substep, units.
+    pub(crate) fn max_substep_displacement(&self) -> f32 {
         self.speed_limit() * self.substep()
     }
 }

@@ -1,10 +1,10 @@
-//! What happened in a step. Events are kept until the next step begins, in an order that depends on the state only.
+//! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
 use crate::id::OrganismId;
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
 
-/// One thing that happened.
+/// Something that happened in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Event {
@@ -94,7 +94,7 @@ pub enum Event {
     },
     /// Two cells became one.
     Fused {
-        /// The larger one, which has it all now.
+        /// The larger one, which contains both now.
         into: OrganismId,
         /// The smaller one; the handle is stale.
         from: OrganismId,

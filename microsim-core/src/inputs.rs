@@ -1,4 +1,4 @@
-//! What organisms are told to do in a step: small, copyable, the same for mouse, bot and replay.
+//! Inputs: what organisms are told to do in a step, the same for mouse, bot and replay.
 
 use crate::error::{Error, in_range};
 use crate::id::OrganismId;
@@ -6,7 +6,7 @@ use glam::Vec2;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// The wish of one organism for one step.
+/// The command to one organism for one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Intent {
     #[serde(deserialize_with = "read_goal")]
@@ -15,7 +15,7 @@ pub struct Intent {
 }
 
 impl Intent {
-    /// To stay: no command at all.
+    /// To stay where it is.
     pub const REST: Self = Self { goal: None, digests: false };
 
     /// To move towards a point. The speed does not depend on how far away it is.
@@ -25,7 +25,7 @@ impl Intent {
     pub fn toward(goal: Vec2) -> Result<Self, Error> {
         in_range("goal.x", goal.x, -1e6, 1e6)?;
         in_range("goal.y", goal.y, -1e6, 1e6)?;
-        // One zero, not two that are equal and have other bits.
+        // Turns -0 into +0: equal intents have equal bits.
         Ok(Self { goal: Some(goal + Vec2::ZERO), digests: false })
     }
 
@@ -91,12 +91,12 @@ impl Inputs {
         self.intents.iter().copied()
     }
 
-    /// Takes the command given to `organism` back, if there is one.
+    /// Removes the command given to `organism`, if there is one.
     pub fn remove(&mut self, organism: OrganismId) {
         self.intents.retain(|&(id, _)| id != organism);
     }
 
-    /// Takes all commands back.
+    /// Removes all commands.
     pub fn clear(&mut self) {
         self.intents.clear();
     }

@@ -58,6 +58,11 @@ impl Matter {
         [self.phase, self.haemoglobin, self.cytoplasm, self.nucleus]
     }
 
+    /// Whether matter is missing rather than there, and how much: it adds to a target or is taken from it.
+    pub(crate) fn magnitude(self) -> (bool, Self) {
+        if self.phase < 0.0 { (true, self * -1.0) } else { (false, self) }
+    }
+
     /// Nothing but a delay.
     pub(crate) const fn phase(phase: f32) -> Self {
         Self { phase, ..Self::NONE }

@@ -6,14 +6,14 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Particles that are worked on in one go, a fixed number whatever the number of threads.
-pub(crate) const STRETCH: usize = 2048;
+pub(crate) const CHUNK: usize = 2048;
 /// Particles from which on threads are worth their trouble.
 #[cfg(feature = "parallel")]
 const LARGE: usize = 8192;
 
-/// Does work with parts. If it is on many particles, it goes to the pool as a whole, unless it is on one of its threads
-/// already: going there and back with each part would cost more than some parts do.
-pub(crate) fn enter(particles: usize, work: impl FnOnce() + Send) {
+/// Does work with parts. If it is on many particles, it runs as a whole in the pool, unless it is on one of its threads
+/// already: entering the pool with each part would cost more than some parts do.
+pub(crate) fn in_pool(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     if particles > LARGE && !is_inside() {
         return rayon::scope(|_| work());
@@ -42,9 +42,9 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
     parts.into_iter().map(work).collect()
 }
 
-/// Does work that has no parts. If it is on many particles, another thread is kept from falling asleep meanwhile: to be
-/// woken takes it longer than many parts take. The work must not use the pool.
-pub(crate) fn alone(particles: usize, work: impl FnOnce() + Send) {
+/// Does work that has no parts. If it is on many particles, another thread spins meanwhile, because to wake it up takes longer
+/// than many parts take. The work must not use the pool.
+pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     if particles > LARGE && is_inside() {
         let is_done = AtomicBool::new(false);
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn nobody_waits_for_work_that_has_panicked() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
-        let panicking = AssertUnwindSafe(|| alone(LARGE + 1, || panic!("on purpose")));
+        let panicking = AssertUnwindSafe(|| serial(LARGE + 1, || panic!("on purpose")));
         assert!(pool.install(|| catch_unwind(panicking)).is_err());
     }
 }

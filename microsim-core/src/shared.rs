@@ -1,11 +1,11 @@
-//! What clones share until one of them changes it.
+//! Values that clones share until one of them changes its own.
 
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A value of its own, to whoever looks: the first change after a clone copies it. For what seldom changes, so that a
-/// snapshot need not copy it. A mutable borrow counts as a change, and asks each time whether the value is shared.
+/// A value of its own, to whoever looks: the first change after a clone copies it. For values that seldom change, so that a
+/// snapshot need not copy them. A mutable borrow counts as a change, and asks each time whether the value is shared.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Shared<T>(Arc<T>);
@@ -17,8 +17,8 @@ impl<T> Shared<T> {
 }
 
 impl<T: Clone> Shared<T> {
-    /// To be filled anew: `blank`, made from the old, while clones share that.
-    pub(crate) fn renew(&mut self, blank: impl FnOnce(&T) -> T) -> &mut T {
+    /// The value, to be filled; while clones share it, a `blank` one made from it takes its place.
+    pub(crate) fn get_mut_or(&mut self, blank: impl FnOnce(&T) -> T) -> &mut T {
         if Arc::get_mut(&mut self.0).is_none() {
             *self = Self::new(blank(self));
         }
@@ -74,12 +74,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_filled_anew_keeps_its_memory_unless_it_is_shared() {
+    fn memory_is_kept_unless_it_is_shared() {
         let mut one = Shared::new(Vec::with_capacity(100));
-        one.renew(|_| Vec::new()).push(1);
+        one.get_mut_or(|_| Vec::new()).push(1);
         assert_eq!(one.capacity(), 100);
         let other = one.clone();
-        one.renew(|_| Vec::new()).push(2);
+        one.get_mut_or(|_| Vec::new()).push(2);
         assert_eq!((&*one, &*other), (&vec![2], &vec![1]));
     }
 }

@@ -1,14 +1,12 @@
-//! The step, as a table of contents. Every phase is one function elsewhere; the names are those of [`Phase`].
+//! The step, as a table of contents: the order of its phases, and what each hands to which function elsewhere. The names are
+//! those of [`Phase`].
 
-use crate::behavior::{constrict, cup, draw_in_prey, exchange, sensing, steer_organisms};
+use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
-use crate::collision::broad_phase::Surroundings;
-use crate::collision::leeway::Reach;
-use crate::collision::ring::Ring;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
-use crate::particle::{BlockRange, outside_of};
+use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
 use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
@@ -20,7 +18,7 @@ use glam::Vec2;
 pub enum Phase {
     /// Inputs and controllers become the velocities that organisms give to their own particles.
     SteerOrganisms,
-    /// Pairs that are expected to touch before the next step are found, who sleeps in this one, and the neighbours of fluid.
+    /// Pairs that may touch in this step are found, blocks that sleep in it, and the neighbours of fluid particles.
     FindPairs,
     /// Velocities are applied and limited, positions of loose particles predicted.
     PredictPositions,
@@ -30,15 +28,15 @@ pub enum Phase {
     ProjectConstraints,
     /// Pairs of bodies that got faster than expected are found; discs and obstacles push each other apart.
     ProjectContacts,
-    /// What has moved gets the velocity of its move; restitution.
+    /// Velocities follow from the changes of position; restitution.
     UpdateVelocities,
-    /// What is on the wrong side of a membrane is taken back; prey is touched, taken in and digested; engulfers grow.
+    /// Discs on the wrong side of a membrane are returned; prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
     /// Furrows close, cells divide and fuse.
     DivideAndFuse,
     /// Organisms secrete and take up chemicals, which diffuse and decay.
     DiffuseChemicals,
-    /// Contacts become events, and what is no longer finite is frozen.
+    /// Contacts become events, organisms that are no longer finite are frozen, origins are moved.
     Conclude,
 }
 
@@ -77,17 +75,30 @@ impl Phase {
     }
 }
 
-pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
+impl World {
+    /// Advances the world by [`crate::WorldConfig::dt`]. Cannot fail and does not panic.
+    pub fn step(&mut self, inputs: &Inputs) {
+        self.step_observed(inputs, |_| {});
+    }
+
+    /// The same as [`World::step`]; calls `finished` after each phase, once per substep for those inside the loop. For
+    /// measuring times: the core itself reads no clock.
+    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
+        parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+    }
+}
+
+fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
-    alone(world, |world| steer(world, inputs));
+    serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
-    find_pairs(world);
+    world.find_pairs();
     find_neighbours(world);
-    quieten_sleepers(world);
+    stop_sleepers(world);
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
-        alone(world, |world| predict_positions(world, h));
+        serial(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
@@ -95,12 +106,12 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
         project_constraints(world, h, substep > 0);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        alone(world, project_contacts);
+        serial(world, project_contacts);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
     }
-    catch_strays(world);
+    repair_membranes(world);
     world.advance_phagocytosis();
     finished(Phase::AdvancePhagocytosis);
     world.divide_and_fuse();
@@ -112,38 +123,30 @@ pub(crate) fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl Fn
     world.step_index += 1;
 }
 
-/// Does what no other thread takes part in.
-fn alone(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
-    parallel::alone(world.particles.len(), || phase(world));
+/// Runs a phase on one thread.
+fn serial(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
+    parallel::serial(world.particles.len(), || phase(world));
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
     let World { config, particles, organisms, blocks, sleep, fluids, obstacles, chemicals, events, scratch, .. } =
         world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
-    let surroundings = senses::Surroundings { size, dt, chemicals, obstacles, others };
-    steer_organisms(organisms, inputs, particles, &surroundings, &mut scratch.drives, events);
-    draw_in_prey(organisms, particles, &mut scratch.drives);
+    let environment = senses::Environment { size, dt, chemicals, obstacles, others };
+    steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, events);
+    phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
-    constrict::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
-    cup::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
-    // What wants to move does not sleep, even where it cannot.
+    // An organism with a drive stays awake, even if it is blocked.
     for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
         let owner = organisms.id_at(particles.owner[drive.particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
-        lane.into_iter().for_each(|(block, lane)| sleep.disturb(block, lane));
+        if let Some((block, lane)) = lane {
+            sleep.wake_up(block, lane);
+        }
     }
-}
-
-pub(crate) fn find_pairs(world: &mut World) {
-    let World { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = world;
-    let (size, reach) = (config.size, Reach { step: config.reach(), substep: config.substep_reach(), dt: config.dt });
-    let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
-    let (rings, homes) = (rings.as_slice(), &organisms.homes());
-    let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-    let around = Surroundings { particles, blocks, obstacles, exemptions, rings, homes, size, reach };
-    scratch.broad_phase.find_pairs(around, sleep, config.patience());
 }
 
 fn find_neighbours(world: &mut World) {
@@ -151,9 +154,9 @@ fn find_neighbours(world: &mut World) {
     scratch.fluid.find_neighbours(fluids, particles, config.size);
 }
 
-fn quieten_sleepers(world: &mut World) {
+fn stop_sleepers(world: &mut World) {
     let World { particles, blocks, sleep, .. } = world;
-    sleep.quieten(blocks.iter().map(Block::range), particles);
+    sleep.stop_sleepers(blocks.iter().map(Block::range), particles);
 }
 
 fn predict_positions(world: &mut World, h: f32) {
@@ -178,14 +181,14 @@ fn project_fluids(world: &mut World, h: f32) {
 
 fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
-    let leeways = scratch.broad_phase.leeway.blocks_mut();
-    let awake = blocks.iter().zip(leeways).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
+    let margins = scratch.broad_phase.margins.blocks_mut();
+    let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     block::predict_and_project(
         awake,
         #[inline(always)]
-        |block, leeway| {
+        |block, margins| {
             if has_moved {
-                block::note_way(block, leeway);
+                block::subtract_displacement(block, margins);
             }
             integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
         },
@@ -209,7 +212,7 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 fn project_contacts(world: &mut World) {
     let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
-    broad_phase.widen(particles, exemptions, sleep, config.substep_reach());
+    broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, &mut scratch.impacts);
     }
@@ -223,23 +226,23 @@ fn project_contacts(world: &mut World) {
 fn update_velocities(world: &mut World, h: f32) {
     let World { config, particles, blocks, sleep, organisms, guard, scratch, dispatch, .. } = world;
     let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
-    integrate::in_stretches(
+    integrate::for_each_chunk(
         particles,
         awake,
         *dispatch,
         #[inline(always)]
-        |stretch| integrate::update_velocities(stretch, config.damping, config.speed_limit(), h),
+        |chunk| integrate::update_velocities(chunk, config.damping, config.speed_limit(), h),
     );
-    // The medium's drag is on the membrane; a cell at rest comes to rest with all that it holds.
+    // Drag acts on the membrane only: the cytoplasm of a crawling cell is not damped.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
-        integrate::take_back_damping(&cell.fluid_particles, particles, config.damping, h);
+        integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
-/// The safety net: lays out what crosses itself, and casts a ray from every disc near a membrane.
-fn catch_strays(world: &mut World) {
+/// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.
+fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
         guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles));
@@ -260,7 +263,12 @@ fn conclude(world: &mut World) {
     let is_asleep = |id| lane(id).is_some_and(|(block, _)| sleep.is_asleep(block));
     touching.update(scratch.broad_phase.touched(), is_asleep, particles, organisms, events);
     if config.sleeps {
-        sleep.note(blocks.iter().map(Block::range), particles, config.calm_speed(), config.patience());
+        sleep.update_sleep_times(
+            blocks.iter().map(Block::range),
+            particles,
+            config.sleep_speed(),
+            config.steps_to_sleep(),
+        );
     }
     world.quarantine();
     world.rebase();

@@ -1,5 +1,5 @@
-//! Walks through anything that can be serialised, field by field in the order of declaration. What the state of a world is
-//! is said once, by its types; digests and comparisons are visitors of the same walk.
+//! A walk through any serialisable value, field by field in the order of declaration. Digests and comparisons of worlds are
+//! visitors of this walk.
 
 use serde::Serialize;
 use serde::ser::{self, Serializer};
@@ -21,42 +21,42 @@ pub(crate) enum Leaf<'a> {
     Count(usize),
 }
 
-/// The way to a part.
+/// One step of the path to a value: a field or an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Part {
+pub(crate) enum PathSegment {
     Field(&'static str),
     Element(usize),
 }
 
-/// Is shown every leaf, in order, and the way to it.
+/// Receives every leaf in order, and the path to it.
 pub(crate) trait Visitor {
-    fn enter(&mut self, _: Part) {}
+    fn enter(&mut self, _: PathSegment) {}
     fn leave(&mut self) {}
     fn leaf(&mut self, leaf: Leaf<'_>);
 }
 
-/// Shows all of `value` to a visitor.
+/// Passes every leaf of `value` to a visitor.
 pub(crate) fn walk(value: &(impl Serialize + ?Sized), visitor: &mut impl Visitor) {
-    let walked = value.serialize(Walker(visitor));
-    debug_assert!(walked.is_ok(), "state has no maps, and no parts that refuse to be serialised");
+    let walked = value.serialize(ValueWalker(visitor));
+    debug_assert!(walked.is_ok(), "state has no maps, and every part can be serialised");
 }
 
 /// Walks one value.
-struct Walker<'a, V>(&'a mut V);
+struct ValueWalker<'a, V>(&'a mut V);
 
-/// Walks the parts of a value.
-struct Parts<'a, V> {
+/// Walks the fields or elements of a value.
+struct CompoundWalker<'a, V> {
     visitor: &'a mut V,
     count: usize,
 }
 
-/// Why a walk ends early: a map, or a type that refuses to be serialised.
+/// Error of a walk: a map, or a type that cannot be serialised.
 #[derive(Debug)]
 struct Refused;
 
 impl Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("this is no state")
+        f.write_str("a value that cannot be walked")
     }
 }
 
@@ -68,33 +68,35 @@ impl ser::Error for Refused {
     }
 }
 
-impl<'a, V: Visitor> Walker<'a, V> {
+impl<'a, V: Visitor> ValueWalker<'a, V> {
     fn show(self, leaf: Leaf<'_>) -> Result<(), Refused> {
         self.0.leaf(leaf);
         Ok(())
     }
 
-    fn parts(self, leaf: Option<Leaf<'_>>) -> Result<Parts<'a, V>, Refused> {
-        leaf.into_iter().for_each(|leaf| self.0.leaf(leaf));
-        Ok(Parts { visitor: self.0, count: 0 })
+    fn parts(self, leaf: Option<Leaf<'_>>) -> Result<CompoundWalker<'a, V>, Refused> {
+        if let Some(leaf) = leaf {
+            self.0.leaf(leaf);
+        }
+        Ok(CompoundWalker { visitor: self.0, count: 0 })
     }
 }
 
-impl<V: Visitor> Parts<'_, V> {
-    fn part(&mut self, part: Part, value: &(impl Serialize + ?Sized)) -> Result<(), Refused> {
+impl<V: Visitor> CompoundWalker<'_, V> {
+    fn part(&mut self, part: PathSegment, value: &(impl Serialize + ?Sized)) -> Result<(), Refused> {
         self.visitor.enter(part);
-        let walked = value.serialize(Walker(&mut *self.visitor));
+        let walked = value.serialize(ValueWalker(&mut *self.visitor));
         self.visitor.leave();
         walked
     }
 
     fn element(&mut self, value: &(impl Serialize + ?Sized)) -> Result<(), Refused> {
         self.count += 1;
-        self.part(Part::Element(self.count - 1), value)
+        self.part(PathSegment::Element(self.count - 1), value)
     }
 }
 
-/// What has no parts.
+/// Methods of the serialiser for values without parts.
 macro_rules! leaves {
     ($($method:ident($kind:ty) => $leaf:expr;)*) => {
         $(fn $method(self, value: $kind) -> Result<(), Refused> {
@@ -103,16 +105,16 @@ macro_rules! leaves {
     };
 }
 
-impl<'a, V: Visitor> Serializer for Walker<'a, V> {
+impl<'a, V: Visitor> Serializer for ValueWalker<'a, V> {
     type Ok = ();
     type Error = Refused;
-    type SerializeSeq = Parts<'a, V>;
-    type SerializeTuple = Parts<'a, V>;
-    type SerializeTupleStruct = Parts<'a, V>;
-    type SerializeTupleVariant = Parts<'a, V>;
+    type SerializeSeq = CompoundWalker<'a, V>;
+    type SerializeTuple = CompoundWalker<'a, V>;
+    type SerializeTupleStruct = CompoundWalker<'a, V>;
+    type SerializeTupleVariant = CompoundWalker<'a, V>;
     type SerializeMap = ser::Impossible<(), Refused>;
-    type SerializeStruct = Parts<'a, V>;
-    type SerializeStructVariant = Parts<'a, V>;
+    type SerializeStruct = CompoundWalker<'a, V>;
+    type SerializeStructVariant = CompoundWalker<'a, V>;
 
     leaves! {
         serialize_bool(bool) => |value| Leaf::Word(u32::from(value));
@@ -170,15 +172,15 @@ impl<'a, V: Visitor> Serializer for Walker<'a, V> {
         value.serialize(self)
     }
 
-    fn serialize_seq(self, count: Option<usize>) -> Result<Parts<'a, V>, Refused> {
+    fn serialize_seq(self, count: Option<usize>) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(Some(Leaf::Count(count.ok_or(Refused)?)))
     }
 
-    fn serialize_tuple(self, _: usize) -> Result<Parts<'a, V>, Refused> {
+    fn serialize_tuple(self, _: usize) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(None)
     }
 
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Parts<'a, V>, Refused> {
+    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(None)
     }
 
@@ -188,7 +190,7 @@ impl<'a, V: Visitor> Serializer for Walker<'a, V> {
         place: u32,
         name: &'static str,
         _: usize,
-    ) -> Result<Parts<'a, V>, Refused> {
+    ) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(Some(Leaf::Variant(place, name)))
     }
 
@@ -196,7 +198,7 @@ impl<'a, V: Visitor> Serializer for Walker<'a, V> {
         Err(Refused)
     }
 
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Parts<'a, V>, Refused> {
+    fn serialize_struct(self, _: &'static str, _: usize) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(None)
     }
 
@@ -206,15 +208,15 @@ impl<'a, V: Visitor> Serializer for Walker<'a, V> {
         place: u32,
         name: &'static str,
         _: usize,
-    ) -> Result<Parts<'a, V>, Refused> {
+    ) -> Result<CompoundWalker<'a, V>, Refused> {
         self.parts(Some(Leaf::Variant(place, name)))
     }
 }
 
-/// What has parts: the method that each of these traits has for one of them.
+/// Implements the traits of values with parts, each with its method for one part.
 macro_rules! compounds {
     ($($compound:ident::$method:ident($($name:ident)?);)*) => {
-        $(impl<V: Visitor> ser::$compound for Parts<'_, V> {
+        $(impl<V: Visitor> ser::$compound for CompoundWalker<'_, V> {
             type Ok = ();
             type Error = Refused;
 
@@ -228,7 +230,7 @@ macro_rules! compounds {
         })*
     };
     (@ $parts:ident $value:ident) => { $parts.element($value) };
-    (@ $parts:ident $value:ident $name:ident) => { $parts.part(Part::Field($name), $value) };
+    (@ $parts:ident $value:ident $name:ident) => { $parts.part(PathSegment::Field($name), $value) };
 }
 
 compounds! {
@@ -245,7 +247,7 @@ mod tests {
     use super::*;
 
     #[derive(Serialize)]
-    enum Shape {
+    enum Outline {
         Point,
         Disc { radius: f32 },
         Pair(u8, Option<u64>),
@@ -254,7 +256,7 @@ mod tests {
     #[derive(Serialize)]
     struct Scene<'a> {
         name: &'a str,
-        shapes: Vec<Shape>,
+        shapes: Vec<Outline>,
         corner: [f64; 2],
     }
 
@@ -262,10 +264,10 @@ mod tests {
     struct Listing(Vec<String>, Vec<String>);
 
     impl Visitor for Listing {
-        fn enter(&mut self, part: Part) {
+        fn enter(&mut self, part: PathSegment) {
             self.0.push(match part {
-                Part::Field(name) => name.to_owned(),
-                Part::Element(index) => index.to_string(),
+                PathSegment::Field(name) => name.to_owned(),
+                PathSegment::Element(index) => index.to_string(),
             });
         }
 
@@ -279,8 +281,8 @@ mod tests {
     }
 
     #[test]
-    fn every_leaf_is_shown_once_with_the_way_to_it() {
-        let shapes = vec![Shape::Point, Shape::Disc { radius: 2.0 }, Shape::Pair(7, Some(9))];
+    fn a_walk_visits_every_leaf_once_with_its_path() {
+        let shapes = vec![Outline::Point, Outline::Disc { radius: 2.0 }, Outline::Pair(7, Some(9))];
         let mut listing = Listing::default();
         walk(&Scene { name: "a", shapes, corner: [0.0, -1.0] }, &mut listing);
         let expected = [

@@ -159,7 +159,7 @@ fn digests_do_not_depend_on_the_instruction_set() {
 #[cfg(feature = "parallel")]
 #[test]
 fn digests_do_not_depend_on_the_number_of_threads() {
-    // Enough platelets for several strips, batches and stretches, all stirred.
+    // Enough platelets for several strips, batches and chunks, all stirred.
     let crowded = Scenario::parse(builtin("platelets").unwrap().text, &[("count".into(), "400".into())]).unwrap();
     let worlds = [crowded.build().unwrap().world, build("demo", None), build("dam-break", None)];
     for (which, world) in worlds.iter().enumerate() {

@@ -145,7 +145,7 @@ fn nothing_to_see_or_hardly_a_pixel_is_no_problem() {
 #[test]
 fn absurd_sizes_and_films_are_refused_by_name() {
     let world = World::new(WorldConfig::default()).unwrap();
-    let microscope = Microscope { optics: Optics::Dic, film: Film::CINE };
+    let microscope = Microscope { optics: Optics::DIC, film: Film::CINE };
     let refused =
         |microscope: Microscope, field: Field| microscope.expose(&world, field).unwrap_err().field().to_owned();
     assert_eq!(refused(microscope, Field { pixels: [1 << 20, 1], ..EVERYTHING }), "pixels[0]");
@@ -179,7 +179,7 @@ fn nothing_pops_or_flickers_while_a_cell_crawls() {
     let mut inputs = Inputs::new();
     inputs.set(cell, Intent::toward(Vec2::new(60.0, 17.0)).unwrap());
     let film = Film { grain: 0.0, ..Film::DIGITAL };
-    let microscope = Microscope { optics: Optics::PhaseContrast, film };
+    let microscope = Microscope { optics: Optics::PHASE_CONTRAST, film };
     let field = Field { centre: Vec2::new(20.0, 17.0), width: 40.0, pixels: [320, 180] };
     let mut last: Option<Vec<u8>> = None;
     // While it sets out, its front forms within a second.
@@ -225,7 +225,7 @@ fn nuclei_do_not_jump_when_daughters_part() {
     let spec = AmoeboidCellSpec { radii: Vec2::splat(7.5), node_radius: 0.7, ..Default::default() };
     let cell = world.spawn(&spec.into(), Placement::at(31.0, 17.0)).unwrap();
     world.divide(cell).unwrap();
-    let microscope = Microscope { optics: Optics::Fluorescence, film: Film { grain: 0.0, ..Film::DIGITAL } };
+    let microscope = Microscope { optics: Optics::FLUORESCENCE, film: Film { grain: 0.0, ..Film::DIGITAL } };
     let field = Field { centre: Vec2::new(31.0, 17.5), width: 48.0, pixels: [96, 70] };
     let mut last: Option<Vec<i32>> = None;
     for step in 0..2000 {

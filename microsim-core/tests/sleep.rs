@@ -24,8 +24,8 @@ fn probe(world: &mut World, at: Vec2, to: Vec2) -> OrganismId {
     world.spawn(&ProbeSpec { radius: 2.0, speed: 6.0, ..ProbeSpec::default() }.into(), placement).unwrap()
 }
 
-fn are_calm(world: &World, all: &[OrganismId]) -> bool {
-    all.iter().all(|&id| world.view().organism(id).unwrap().is_calm())
+fn are_at_rest(world: &World, all: &[OrganismId]) -> bool {
+    all.iter().all(|&id| world.view().organism(id).unwrap().is_at_rest())
 }
 
 fn positions(world: &World, id: OrganismId) -> Vec<Vec2> {
@@ -36,7 +36,7 @@ fn positions(world: &World, id: OrganismId) -> Vec<Vec2> {
 fn what_lies_still_stays_to_the_bit() {
     let (mut world, platelets) = field(WorldConfig::default());
     run(&mut world, &Inputs::new(), 300);
-    assert!(are_calm(&world, &platelets));
+    assert!(are_at_rest(&world, &platelets));
     let before: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
     run(&mut world, &Inputs::new(), 300);
     let after: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
@@ -47,7 +47,7 @@ fn what_lies_still_stays_to_the_bit() {
 fn nothing_sleeps_where_nothing_may() {
     let (mut world, platelets) = field(WorldConfig { sleeps: false, ..WorldConfig::default() });
     run(&mut world, &Inputs::new(), 300);
-    assert!(!platelets.iter().any(|&id| are_calm(&world, &[id])));
+    assert!(!platelets.iter().any(|&id| are_at_rest(&world, &[id])));
 }
 
 /// How far platelets are from where they would be without sleep, after a probe has passed through them.
@@ -55,7 +55,7 @@ fn apart_after_a_probe(from: Vec2, to: Vec2, rest: u32) -> f32 {
     let swept = |sleeps: bool| {
         let (mut world, platelets) = field(WorldConfig { sleeps, ..WorldConfig::default() });
         run(&mut world, &Inputs::new(), rest);
-        assert_eq!(are_calm(&world, &platelets), sleeps && rest > 100);
+        assert_eq!(are_at_rest(&world, &platelets), sleeps && rest > 100);
         probe(&mut world, from, to);
         run(&mut world, &Inputs::new(), 600);
         assert!(world.quality().penetration_max < 0.5, "{:?}", world.quality());
@@ -84,7 +84,7 @@ fn what_leans_on_something_falls_when_that_is_gone() {
     let lower = agar(&mut world, radius);
     let upper = agar(&mut world, 3.0 * radius);
     run(&mut world, &Inputs::new(), 240);
-    assert!(are_calm(&world, &[lower, upper]));
+    assert!(are_at_rest(&world, &[lower, upper]));
     let began = |world: &World| world.events().iter().any(|event| matches!(event, Event::ContactEnded { .. }));
     assert!((0..60).all(|_| {
         world.step(&Inputs::new());
@@ -112,7 +112,7 @@ fn a_push_wakes() {
     let mut world = World::new(WorldConfig::default()).unwrap();
     let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
     run(&mut world, &Inputs::new(), 120);
-    assert!(are_calm(&world, &[agar]));
+    assert!(are_at_rest(&world, &[agar]));
     world.push(agar, Vec2::new(1.0, 0.0)).unwrap();
     run(&mut world, &Inputs::new(), 30);
     assert!(world.centroid(agar).unwrap().x > 50.2);
@@ -123,7 +123,7 @@ fn a_command_wakes() {
     let mut world = World::new(WorldConfig::default()).unwrap();
     let probe = world.spawn(&ProbeSpec::default().into(), Placement::at(90.0, 50.0)).unwrap();
     run(&mut world, &Inputs::new(), 120);
-    assert!(are_calm(&world, &[probe]));
+    assert!(are_at_rest(&world, &[probe]));
     let mut inputs = Inputs::new();
     inputs.set(probe, Intent::toward(Vec2::new(120.0, 50.0)).unwrap());
     run(&mut world, &inputs, 30);
@@ -136,7 +136,7 @@ fn cells_take_sleeping_prey_in() {
     let agar = world.spawn(&AgarSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
     let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
     run(&mut world, &Inputs::new(), 120);
-    assert!(are_calm(&world, &[agar]));
+    assert!(are_at_rest(&world, &[agar]));
     let mut inputs = Inputs::new();
     inputs.set(cell, Intent::toward(Vec2::new(80.0, 45.0)).unwrap());
     run(&mut world, &inputs, 900);
@@ -149,7 +149,7 @@ fn a_clone_of_a_sleeping_world_has_the_same_future() {
     let (mut world, platelets) = field(WorldConfig::default());
     run(&mut world, &Inputs::new(), 300);
     let mut clone = world.clone();
-    assert!(are_calm(&clone, &platelets));
+    assert!(are_at_rest(&clone, &platelets));
     for world in [&mut world, &mut clone] {
         probe(world, Vec2::new(45.0, 42.0), Vec2::new(90.0, 55.0));
     }

@@ -7,7 +7,7 @@ use microsim_core::microscope::recipe::Precision;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::scenario::{self, Scenario};
 use microsim_core::{Inputs, World};
-use microsim_game::microscope::{Quality, Renderer};
+use microsim_game::microscope::{RenderQuality, Renderer};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -25,14 +25,14 @@ const FLOAT: Tolerance = Tolerance { mean: 1.3, most: 12.0 };
 const BYTES: Tolerance = Tolerance { mean: 5.0, most: 30.0 };
 
 /// What is looked at: a scenario, a time in seconds, where, and a width.
-struct Sight(&'static str, f64, Vec2, f32);
+struct Shot(&'static str, f64, Vec2, f32);
 
 /// Blood; a ciliate; an amoeba between obstacles; free fluid and walls.
-const SIGHTS: [Sight; 4] = [
-    Sight("hunt", 2.0, Vec2::new(44.0, 37.0), 50.0),
-    Sight("pond", 0.5, Vec2::new(110.0, 120.0), 130.0),
-    Sight("squeeze", 3.0, Vec2::new(60.0, 45.0), 100.0),
-    Sight("dam-break", 1.0, Vec2::new(30.0, 25.0), 80.0),
+const SHOTS: [Shot; 4] = [
+    Shot("hunt", 2.0, Vec2::new(44.0, 37.0), 50.0),
+    Shot("pond", 0.5, Vec2::new(110.0, 120.0), 130.0),
+    Shot("squeeze", 3.0, Vec2::new(60.0, 45.0), 100.0),
+    Shot("dam-break", 1.0, Vec2::new(30.0, 25.0), 80.0),
 ];
 
 /// Without grain, so that every difference counts.
@@ -52,13 +52,13 @@ fn main() -> ExitCode {
 }
 
 fn compare_all(folder: Option<&Path>) -> Result<bool, String> {
-    let worlds = SIGHTS.iter().map(|sight| world_at(sight.0, sight.1)).collect::<Result<Vec<World>, String>>()?;
+    let worlds = SHOTS.iter().map(|sight| world_at(sight.0, sight.1)).collect::<Result<Vec<World>, String>>()?;
     let mut all_agree = true;
     for (precision, tolerance) in [(Precision::Float, FLOAT), (Precision::Bytes, BYTES)] {
         let mut renderer = Renderer::with_precision(precision)?;
-        for (Sight(name, _, centre, width), world) in SIGHTS.iter().zip(&worlds) {
+        for (Shot(name, _, centre, width), world) in SHOTS.iter().zip(&worlds) {
             let field = Field { centre: *centre, width: *width, pixels: SIZE };
-            let films: &[Film] = if *name == SIGHTS[0].0 { &[CLEAN, Film::CINE] } else { &[CLEAN] };
+            let films: &[Film] = if *name == SHOTS[0].0 { &[CLEAN, Film::CINE] } else { &[CLEAN] };
             for (optics, &film) in
                 Optics::ALL.into_iter().flat_map(|optics| films.iter().map(move |film| (optics, film)))
             {
@@ -90,7 +90,7 @@ fn both(
     microscope: Microscope,
 ) -> Result<(Vec<u8>, Vec<u8>), String> {
     let reference = microscope.expose(world, field).map_err(|error| error.to_string())?;
-    let recipe = renderer.recipe(world.view(), field, microscope, Quality::High)?;
+    let recipe = renderer.recipe(world.view(), field, microscope, RenderQuality::High)?;
     let picture = renderer.draw(&recipe);
     Ok((pixels(&picture), reference.rows(0..SIZE[1] as usize)))
 }

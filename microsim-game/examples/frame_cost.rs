@@ -19,7 +19,7 @@ fn main() -> Result<(), String> {
         let goal =
             Intent::toward(stage.world().config().size * Vec2::new(0.9, 0.5)).map_err(|error| error.to_string())?;
         stage.steer(goal);
-        let modes = [Optics::PhaseContrast, Optics::Dic, Optics::Classic];
+        let modes = [Optics::PHASE_CONTRAST, Optics::DIC, Optics::CLASSIC];
         let (mut steps, mut recipes) = (Vec::new(), modes.map(|_| Vec::new()));
         for _ in 0..FRAMES {
             let before = stage.world().moment();

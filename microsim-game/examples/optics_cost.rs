@@ -3,7 +3,7 @@
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::scenario::{self, Scenario};
-use microsim_game::microscope::{Quality, Renderer};
+use microsim_game::microscope::{RenderQuality, Renderer};
 use std::time::Instant;
 
 const FRAMES: u32 = 10;
@@ -23,9 +23,9 @@ fn measure() -> Result<(), String> {
     let mut renderer = Renderer::new()?;
     for pixels in [[640, 360], [1280, 720]] {
         let field = Field { centre: Vec2::new(60.0, 38.0), width: 106.667, pixels };
-        for optics in [Optics::PhaseContrast, Optics::Dic, Optics::Stained, Optics::Classic] {
+        for optics in [Optics::PHASE_CONTRAST, Optics::DIC, Optics::STAINED, Optics::CLASSIC] {
             let microscope = Microscope { optics, film: Film::CINE };
-            for quality in [Quality::Low, Quality::Medium, Quality::High] {
+            for quality in [RenderQuality::Low, RenderQuality::Medium, RenderQuality::High] {
                 let mut draw = || {
                     let recipe = renderer.recipe(world.view(), field, microscope, quality)?;
                     Ok::<_, String>(renderer.draw(&recipe))

@@ -1,7 +1,7 @@
 //! How a world is seen: through the microscope, on the graphics card, or drawn, where that is too slow.
 
 use crate::draw::{Frame, Painter};
-use crate::microscope::{Quality, Renderer};
+use crate::microscope::{RenderQuality, Renderer};
 use crate::viewer::Pace;
 use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
@@ -9,11 +9,11 @@ use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
-/// A frame that takes longer than this is slow, s; one that takes longer than that is hopeless.
+/// Frame times above which frames are slow, and far too slow, s.
 const SLOW_FRAME: f32 = 0.04;
-const HOPELESS_FRAME: f32 = 0.2;
-/// Slow frames may take so long in all, s, less what fluent ones have taken in between.
-const PATIENCE: f32 = 1.2;
+const VERY_SLOW_FRAME: f32 = 0.2;
+/// Time of slow frames, less that of fluent ones, after which quality falls, s.
+const SLOW_TIME_LIMIT: f32 = 1.2;
 
 /// How a world is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ pub enum Effort {
     Low,
 }
 
-/// One that another version may have is the usual one.
+/// An unknown name, such as another version's, is the default.
 impl From<String> for Effort {
     fn from(name: String) -> Self {
         Self::named(&name).unwrap_or_default()
@@ -109,21 +109,21 @@ impl Effort {
 #[derive(Debug)]
 pub struct Scenery {
     painter: Painter,
-    /// Not there where the driver does not take its programs.
+    /// None if the driver refuses its programs.
     renderer: Option<Renderer>,
-    /// How far automatic effort has come down: high, medium, low, drawn.
-    given_up: usize,
-    /// Time that slow frames have taken, s.
-    slow: f32,
-    /// Time for which the graphics card was told what to do, since it was last asked for.
+    /// Index into [`QUALITY_STEPS`] for automatic effort.
+    step: usize,
+    /// Time of slow frames, less that of fluent ones, s.
+    slow_time: f32,
+    /// Time spent on commands to the graphics card since it was last asked for.
     submitting: Duration,
 }
 
-/// What automatic effort comes down to, one after the other.
-const STEPS_DOWN: [(&str, Option<Quality>); 4] = [
-    ("high", Some(Quality::High)),
-    ("medium", Some(Quality::Medium)),
-    ("low", Some(Quality::Low)),
+/// What automatic effort goes through while frames are slow.
+const QUALITY_STEPS: [(&str, Option<RenderQuality>); 4] = [
+    ("high", Some(RenderQuality::High)),
+    ("medium", Some(RenderQuality::Medium)),
+    ("low", Some(RenderQuality::Low)),
     ("that of the drawn view", None),
 ];
 
@@ -132,32 +132,32 @@ impl Scenery {
     #[must_use]
     pub fn new() -> Self {
         let (painter, renderer) = (Painter::new(), Renderer::new().ok());
-        Self { painter, renderer, given_up: 0, slow: 0.0, submitting: Duration::ZERO }
+        Self { painter, renderer, step: 0, slow_time: 0.0, submitting: Duration::ZERO }
     }
 
-    /// Lowers automatic effort when frames stay slow, and says so.
+    /// Lowers automatic effort while frames are slow; returns the notice to show.
     pub fn pass(&mut self, pace: Pace, effort: Effort, sight: Sight) -> Option<String> {
         let elapsed = pace.elapsed.min(0.5);
         let is_slow = !pace.is_exact && elapsed > SLOW_FRAME;
-        self.slow = if is_slow { self.slow + elapsed } else { (self.slow - elapsed).max(0.0) };
-        if self.slow <= PATIENCE {
+        self.slow_time = if is_slow { self.slow_time + elapsed } else { (self.slow_time - elapsed).max(0.0) };
+        if self.slow_time <= SLOW_TIME_LIMIT {
             return None;
         }
-        self.slow = 0.0;
-        let steps = if elapsed > HOPELESS_FRAME { STEPS_DOWN.len() } else { 1 };
-        let lower = (self.given_up + steps).min(STEPS_DOWN.len() - 1);
-        let is_lower = std::mem::replace(&mut self.given_up, lower) != lower;
+        self.slow_time = 0.0;
+        let steps = if elapsed > VERY_SLOW_FRAME { QUALITY_STEPS.len() } else { 1 };
+        let lower = (self.step + steps).min(QUALITY_STEPS.len() - 1);
+        let is_lower = std::mem::replace(&mut self.step, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", STEPS_DOWN[lower].0))
+            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", QUALITY_STEPS[lower].0))
     }
 
-    /// Begins anew with the best that automatic effort gives.
+    /// Puts automatic effort back to the best quality.
     pub fn take_heart(&mut self) {
-        (self.given_up, self.slow) = (0, 0.0);
+        (self.step, self.slow_time) = (0, 0.0);
     }
 
-    /// Time that went into telling the graphics card what to do since this was last asked.
+    /// Time spent on commands to the graphics card since the last call.
     pub fn take_submitting(&mut self) -> Duration {
         std::mem::take(&mut self.submitting)
     }
@@ -165,10 +165,10 @@ impl Scenery {
     /// Draws a frame.
     pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
         let quality = match effort {
-            Effort::Automatic => STEPS_DOWN[self.given_up].1,
-            Effort::High => Some(Quality::High),
-            Effort::Medium => Some(Quality::Medium),
-            Effort::Low => Some(Quality::Low),
+            Effort::Automatic => QUALITY_STEPS[self.step].1,
+            Effort::High => Some(RenderQuality::High),
+            Effort::Medium => Some(RenderQuality::Medium),
+            Effort::Low => Some(RenderQuality::Low),
         };
         let is_done = match (sight, quality) {
             (Sight::Microscope(optics), Some(quality)) => self.photograph(frame, optics, quality),
@@ -179,7 +179,7 @@ impl Scenery {
         }
     }
 
-    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: Quality) -> bool {
+    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: RenderQuality) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
         let screen = frame.camera.screen();
         let pixels = (screen * screen_dpi_scale()).max(Vec2::ONE);

@@ -147,7 +147,7 @@ mod tests {
         assert_eq!("follow:player".parse(), Ok(ViewSpec::Follow("player".into(), None)));
         assert_eq!("follow:3,20".parse(), Ok(ViewSpec::Follow("3".into(), Some(20.0))));
         assert!(["", "1,2", "1,2,3,4", "a,b,c", "follow:x,y"].iter().all(|text| text.parse::<ViewSpec>().is_err()));
-        assert_eq!("dic,stained".parse(), Ok(OpticsList(vec![Optics::Dic, Optics::Stained])));
+        assert_eq!("dic,stained".parse(), Ok(OpticsList(vec![Optics::DIC, Optics::STAINED])));
         assert!("dic,x-ray".parse::<OpticsList>().unwrap_err().contains("dark-field"));
         assert_eq!("all".parse::<OpticsList>().unwrap().0.len(), 8);
     }

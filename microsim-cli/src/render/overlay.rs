@@ -29,8 +29,7 @@ pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) ->
     if width < LEAST[0] || height < LEAST[1] {
         return picture;
     }
-    let is_light = matches!(optics, Optics::Stained | Optics::BrightField | Optics::Classic);
-    let colour = Colour::hex(if is_light { ON_LIGHT } else { ON_DARK });
+    let colour = Colour::hex(if optics.is_bright() { ON_LIGHT } else { ON_DARK });
     let length = caption::bar_length(field.width);
     let height = height as f32;
     let items =

@@ -45,7 +45,7 @@ mod tests {
     fn a_picture_does_not_depend_on_the_number_of_threads() {
         let world = World::new(WorldConfig::default()).unwrap();
         let field = Field { centre: Vec2::new(80.0, 45.0), width: 30.0, pixels: [70, 200] };
-        let microscope = Microscope { optics: Optics::PhaseContrast, film: Film::CINE };
+        let microscope = Microscope { optics: Optics::PHASE_CONTRAST, film: Film::CINE };
         let exposure = microscope.expose(&world, field).unwrap();
         let pictures = [1, 2, 5].map(|threads| develop(&exposure, threads));
         assert!(pictures[0] == pictures[1] && pictures[0] == pictures[2]);

@@ -1,7 +1,6 @@
-//! Movement of an amoeboid cell (seed, 3.1.2): every step the membrane is divided anew into front, rear and two wings.
-//! Front bodies are given the speed towards the goal, rear bodies a little less towards the centroid, so that they trail
-//! behind as a tail; the wings follow. Cytoplasm that lags behind streams after: the ring alone would take the longer to
-//! get it going the larger the cell, and leave it behind meanwhile.
+//! Crawling of an amoeboid cell (seed, 3.1.2): in every step the membrane is divided into front, rear and two wings. The front
+//! is driven towards the goal, the rear a little more slowly towards the centroid, so that it becomes a tail; the wings
+//! follow. Cytoplasm that lags behind is accelerated too: in a large cell the membrane alone would leave it behind.
 
 use super::heading;
 use crate::organism::Organism;
@@ -14,14 +13,14 @@ const HALF_WIDTH: f32 = 1.0 / 8.0;
 
 /// Speed of the rear as a share of the front's.
 const REAR_SPEED: f32 = 0.85;
-/// Share of the speed that the cytoplasm is brought to, as a whole, ...
+/// Mean speed of the cytoplasm below which it is accelerated, as a share of the cell's speed, ...
 const STREAMING_SPEED: f32 = 0.9;
 /// ... and the time constant of that, s.
 const STREAMING_TIME: f32 = 0.1;
 
-/// Goals nearer than this, in radii of the cell, are moved out to it along the same way.
+/// Least distance of a goal, in radii of the cell: closer goals are moved out to it in the same direction.
 const FAR: f32 = 2.5;
-/// A goal nearer to the centroid than this, in radii of the cell, is reached.
+/// Distance from the centroid at which a goal is reached, in radii of the cell.
 const ARRIVED: f32 = 0.3;
 
 /// Part of a moving membrane.
@@ -55,7 +54,7 @@ pub(crate) fn region(k: u32, front_centre: u32, count: u32) -> MembraneRegion {
 
 /// Drives front and rear; returns the node of the outline that is the centre of the front, the nearest one to the goal.
 pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, drives: &mut Vec<Drive>) -> Option<u32> {
-    let nodes: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
+    let nodes = organism.outline_positions(particles);
     let front_centre = crate::geometry::ring::nearest_index(&nodes, goal)? as u32;
     let count = nodes.len() as u32;
     let centroid = crate::geometry::polygon::centroid(&nodes)?;
@@ -84,8 +83,8 @@ fn stream(organism: &Organism, way: Vec2, particles: &Particles, drives: &mut Ve
     }
 }
 
-/// The goal itself, or one farther along the same way: bodies that head for a goal next to them would meet in a point.
-/// `None` if the goal is inside, near the centroid: the cell has arrived.
+/// The goal, moved out if it is close: nodes that head for a goal next to them would meet in a point. `None` if the goal is
+/// near the centroid: the cell has arrived.
 fn beyond(goal: Vec2, centroid: Vec2, nodes: &[Vec2]) -> Option<Vec2> {
     let radius = (crate::geometry::polygon::signed_area(nodes) / std::f32::consts::PI).sqrt();
     let way = goal - centroid;

@@ -1,4 +1,4 @@
-//! What organisms give to chemicals and take from them, at their outline.
+//! Secretion and uptake of chemicals at the outlines of organisms.
 
 use crate::chemical::Chemical;
 use crate::organism::table::Organisms;

@@ -20,7 +20,7 @@ pub(crate) fn drive(
     let particle = |k: u32| organism.body.particle(organism.outline[(k % count) as usize]);
     let way = |k: u32| goal - particles.position(particle(k) as usize);
     let opposite = (front + count / 2) % count;
-    if organism.pace < 0.0 {
+    if organism.relative_speed < 0.0 {
         let velocity = heading(way(opposite)) * organism.present_speed();
         drives.push(Drive { particle: particle(opposite), velocity, max_acceleration: f32::INFINITY });
         return front;

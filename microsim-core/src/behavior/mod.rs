@@ -1,15 +1,14 @@
-//! What organisms do, over the solver: how they choose a goal and how they move towards it.
+//! Behaviour: how organisms choose a goal, and the drives that move them and their prey.
 
-pub(crate) mod constrict;
 pub(crate) mod crawl;
-pub(crate) mod cup;
+pub(crate) mod division;
 pub(crate) mod exchange;
 pub(crate) mod front_pull;
+pub(crate) mod phagocytosis;
 pub(crate) mod sensing;
 
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Senses, Surroundings, Wish};
-use crate::capability::phagocytosis::MealPhase;
+use crate::capability::controller::senses::{Environment, Senses, Steering};
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::inputs::Inputs;
@@ -18,57 +17,42 @@ use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::drive::Drive;
 use glam::Vec2;
-use sensing::Body;
+use sensing::OwnBody;
 
 /// Turns inputs and controllers into the drives of this step.
 pub(crate) fn steer_organisms(
     organisms: &mut Organisms,
     inputs: &Inputs,
     particles: &Particles,
-    surroundings: &Surroundings<'_>,
+    environment: &Environment<'_>,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
     drives.clear();
     let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
     for (id, organism) in organisms.iter_mut(can_move) {
-        let body = Body::of(organism, particles);
-        let senses = body.senses(id, organism, surroundings);
+        let body = OwnBody::of(organism, particles);
+        let senses = body.senses(id, organism, environment);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
-        let wish = intent.map_or(own, |intent| intent.goal().map(Wish::to));
+        let steering = intent.map_or(own, |intent| intent.goal().map(Steering::to));
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
-        organism.goal = wish.map(|wish| wish.goal).filter(|_| may_move);
-        organism.pace = wish.map_or(1.0, |wish| wish.pace);
+        organism.goal = steering.map(|steering| steering.goal).filter(|_| may_move);
+        organism.relative_speed = steering.map_or(1.0, |steering| steering.relative_speed);
         organism.progress.note(organism.goal.is_some(), &senses);
         move_towards(id, organism, particles, drives, events);
     }
 }
 
-/// What an organism's controller wants, unless it is stuck and tries to get away first.
-fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Wish> {
+/// The steering of an organism's controller, or its way out while it is stuck.
+fn decide(organism: &mut Organism, senses: &Senses<'_>) -> Option<Steering> {
     let Organism { controller, progress, rng, .. } = organism;
-    let wish = controller.decide(senses, rng)?;
-    let way_out = if controller.insists() { None } else { progress.way_out(wish, senses, rng) };
+    let steering = controller.decide(senses, rng)?;
+    let way_out = if controller.insists() { None } else { progress.way_out(steering, senses, rng) };
     if let Some(escape) = way_out {
         controller.head(heading(escape.goal - senses.at));
     }
-    Some(way_out.unwrap_or(wish))
-}
-
-/// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
-pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives: &mut Vec<Drive>) {
-    for (_, organism) in organisms.with_membrane() {
-        let Some(engulfer) = &organism.engulfer else { continue };
-        let taken_in = engulfer.meals.iter().filter(|meal| matches!(meal.phase, MealPhase::Ingesting(_)));
-        for meal in taken_in {
-            let Some(prey) = organisms.get(meal.prey) else { continue };
-            let inwards = heading(place(organism, particles) - place(prey, particles));
-            let velocity = if meal.is_expelled { -inwards } else { inwards } * engulfer.params.pull_speed;
-            let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
-            drives.extend(prey.particles().map(pull));
-        }
-    }
+    Some(way_out.unwrap_or(steering))
 }
 
 fn move_towards(
@@ -94,7 +78,7 @@ fn move_towards(
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
         Locomotion::Tow { max_acceleration } => {
-            // The first heads for the goal and each other one for the one before: in thick water nothing swings round.
+            // The first particle heads for the goal, each other one for the one before it: at low Reynolds number nothing swings.
             let mut ahead = goal;
             for particle in (0..organism.slots).map(|slot| organism.body.particle(slot)) {
                 let at = particles.position(particle as usize);
@@ -106,13 +90,13 @@ fn move_towards(
     }
 }
 
-/// Unit vector of a way, or zero when there is no way to go.
+/// Unit vector of a displacement, or zero for none.
 pub(crate) fn heading(way: Vec2) -> Vec2 {
     crate::geometry::ring::direction_or(way, Vec2::ZERO)
 }
 
-/// Where an organism is, for its controller: the mean of its outline, or its first particle.
-pub(crate) fn place(organism: &Organism, particles: &Particles) -> Vec2 {
+/// Position of an organism for its controller: the mean of its outline, or its first particle.
+pub(crate) fn position_of(organism: &Organism, particles: &Particles) -> Vec2 {
     let count = organism.outline.len();
     if count == 0 {
         return organism.particles().next().map_or(organism.home, |i| particles.position(i as usize));

@@ -1,32 +1,32 @@
-//! What organisms can perceive: their own body, and each other.
+//! Sensing: what organisms perceive of their own body and of each other.
 
-use super::place;
+use super::position_of;
 use crate::capability::Locomotion;
-use crate::capability::controller::senses::{Other, Senses, Surroundings};
+use crate::capability::controller::senses::{Environment, Other, Senses};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use glam::Vec2;
 
-/// A goal nearer than this is reached, units, ...
+/// Distance at which a goal is reached, units, ...
 const ARRIVED: f32 = 0.25;
-/// ... or, by what has an extent, nearer than this, in its radii: more than [`super::crawl`] gets to.
+/// ... or, for organisms that pull or crawl, in their radii: more than the distance at which [`super::crawl`] stops.
 const ARRIVED_BODY: f32 = 0.4;
 
-/// An organism's own body.
+/// What an organism perceives of its own body.
 #[derive(Debug)]
-pub(crate) struct Body {
+pub(crate) struct OwnBody {
     at: Vec2,
     velocity: Vec2,
     radius: f32,
     outline: Vec<Vec2>,
 }
 
-impl Body {
+impl OwnBody {
     pub(crate) fn of(organism: &Organism, particles: &Particles) -> Self {
-        let at = place(organism, particles);
-        let outline: Vec<Vec2> = organism.outline_particles().map(|i| particles.position(i as usize)).collect();
+        let at = position_of(organism, particles);
+        let outline = organism.outline_positions(particles);
         let count = outline.len() as f32;
         if outline.is_empty() {
             let first = organism.first_node().map(|i| i as usize);
@@ -38,12 +38,7 @@ impl Body {
         Self { at, velocity, radius, outline }
     }
 
-    pub(crate) fn senses<'a>(
-        &'a self,
-        me: OrganismId,
-        organism: &Organism,
-        around: &'a Surroundings<'a>,
-    ) -> Senses<'a> {
+    pub(crate) fn senses<'a>(&'a self, me: OrganismId, organism: &Organism, around: &'a Environment<'a>) -> Senses<'a> {
         let arrival = match organism.locomotion {
             Locomotion::Crawl { .. } | Locomotion::FrontPull { .. } => ARRIVED_BODY * self.radius,
             Locomotion::None | Locomotion::Tow { .. } => ARRIVED,
@@ -60,7 +55,7 @@ pub(crate) fn others(organisms: &Organisms, particles: &Particles) -> Vec<Other>
     };
     let all = organisms.iter().filter(|(_, organism)| matters(organism));
     let seen = all.map(|(id, organism)| {
-        let at = place(organism, particles);
+        let at = position_of(organism, particles);
         let first = organism.first_node().map_or(0, |i| i as usize);
         let far = |far: f32, i: u32| {
             let distance = (particles.position(i as usize) - at).length();

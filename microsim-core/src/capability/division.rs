@@ -1,5 +1,4 @@
-//! Division and fusion of cells with a membrane, as what a cell carries: parameters, the state machine's place, and how
-//! many nodes its membrane should have.
+//! Division and fusion as a capability: parameters, state, and the number of nodes that the membrane should have.
 //!
 //! ```text
 //!            asked, nothing against it                    furrow closed
@@ -15,7 +14,7 @@ use crate::spec_field::{FieldVisitor, check, field};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// Circles that a membrane can go round at most while its furrow closes: the neck takes more than two circles need.
+/// Largest number of circles of membrane while a furrow closes: the neck needs more than two circles.
 const LOBES_AT_CLOSING: f32 = 3.0;
 /// Time in which the membrane of two fused cells shortens from two circles to one, s.
 const ROUNDING_TIME: f32 = 2.0;
@@ -23,7 +22,7 @@ const ROUNDING_TIME: f32 = 2.0;
 /// How an amoeboid cell divides and fuses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DivisionParams {
-    /// Speed with which each side of the furrow moves towards the other, units/s, 0.1 to 20.
+    /// Speed at which each side of the furrow moves towards the other, units/s, 0.1 to 20.
     pub furrow_speed: f32,
     /// Longest link that may close a ring when two links are swapped, in rest lengths, 1 to 1.5. Two cells fuse when their
     /// membranes are that near.
@@ -61,7 +60,7 @@ impl DivisionParams {
     }
 }
 
-/// What a cell is told to do with the next step.
+/// What a cell was told to do in the next step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Order {
     /// Divide along this axis, or along its longest one.
@@ -75,9 +74,9 @@ pub(crate) enum Order {
 pub(crate) struct Furrow {
     /// The membrane nodes at its bottom, on both sides.
     pub nodes: [u32; 2],
-    /// How far they were apart when it began.
+    /// Their distance when it began, units.
     pub width: f32,
-    /// For so long, s.
+    /// Time since it began, s.
     pub elapsed: f32,
 }
 
@@ -87,12 +86,12 @@ pub(crate) struct Divider {
     pub params: DivisionParams,
     pub order: Option<Order>,
     pub furrow: Option<Furrow>,
-    /// Circles that the membrane is to go round: 1 at rest, more while a furrow closes and for a while after a fusion.
+    /// Length of the membrane in circles around its content: 1 at rest, more while a furrow closes and after a fusion.
     pub lobes: f32,
-    /// Membrane nodes over the square root of the content in particles of cytoplasm, once a division, fusion or cup has made
-    /// it necessary: what both cells of a division need, and what makes their fusion give the first count back.
+    /// Membrane nodes over the square root of the content in particles of cytoplasm, recorded at the first division, fusion or
+    /// cup. With it both cells of a division get the nodes that they need, and their fusion restores the first number.
     pub nodes_per_root: Option<f32>,
-    /// Number of nodes that the membrane is on its way to, one a step.
+    /// Number of nodes that the membrane should have; it changes by one per step.
     pub wanted_nodes: Option<u32>,
 }
 
@@ -101,7 +100,7 @@ impl Divider {
         Self { params, order: None, furrow: None, lobes: 1.0, nodes_per_root: None, wanted_nodes: None }
     }
 
-    /// Moves the membrane's length towards what the furrow needs, or back to one circle.
+    /// Moves the length of the membrane towards what the furrow needs, or back to one circle.
     pub(crate) fn relax(&mut self, dt: f32) {
         let (target, rate) = match self.furrow {
             Some(furrow) => (LOBES_AT_CLOSING, 2.0 * self.params.furrow_speed / furrow.width),
@@ -112,7 +111,7 @@ impl Divider {
         self.lobes = if way.abs() <= most { target } else { self.lobes + most.copysign(way) };
     }
 
-    /// Forgets the furrow that has closed; each lobe has half of the membrane.
+    /// Ends a division: each lobe has half of the membrane.
     pub(crate) fn end(&mut self) {
         self.furrow = None;
         self.lobes = if self.lobes > 2.0 { 0.5 * self.lobes } else { 1.0 };

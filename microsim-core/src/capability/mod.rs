@@ -1,5 +1,5 @@
-//! Capabilities: what an organism can do, as data that it carries, and the rules that need nothing but that data. How they
-//! act on the world is [`crate::behavior`] and the world's feeding.
+//! Capabilities: what an organism can do, as data that it carries, and the rules that need only these data. How it moves is in
+//! [`crate::behavior`]; how it changes the world, in the rooms of the same names in `world/`.
 
 use serde::{Deserialize, Serialize};
 

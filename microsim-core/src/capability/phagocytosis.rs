@@ -7,9 +7,12 @@
 //!      +--- a condition fails ----+<----- all of it outside, time limit over
 //! ```
 //!
-//! While `Ingesting`, the membrane folds around the prey and closes behind it (a cup), or a gate is open: the front nodes of
-//! the moment ignore this prey. Everything else collides, and the membrane never opens for cytoplasm. The prey is drawn to the engulfer's centroid, and soft prey shrinks meanwhile.
-//! There are two ends only: all of it inside, or all of it outside.
+//! While `Ingesting`, the membrane folds around the prey and closes behind it (a cup), or the nodes of the front ignore this
+//! prey (a gate). Everything else collides, and the membrane never opens for cytoplasm. The prey is drawn to the engulfer's
+//! centroid, and soft prey shrinks. In the end all of the prey is inside, or all of it is outside.
+//!
+//! This file holds parameters, state and conditions. Forces are in [`crate::behavior::phagocytosis`], transitions in
+//! [`crate::world`]'s room of the same name.
 
 use crate::error::Error;
 use crate::id::OrganismId;
@@ -22,19 +25,19 @@ use serde::{Deserialize, Serialize};
 /// membrane nodes use a gate whatever is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
-    /// The seed's: the membrane next to the prey ignores it until it is inside.
+    /// The membrane next to the prey ignores it until it is inside, as in the seed.
     Gate,
-    /// Real cells': the membrane folds around the prey, the lips of the fold meet, and the ring is re-wired. The arc that is
-    /// cut off encloses the prey inside the cell: the phagosome.
+    /// The membrane folds around the prey and the lips of the fold meet, as in real cells. The arc around the prey is cut off
+    /// and encloses it inside the cell: the phagosome.
     Cup,
 }
 
-/// What the seed leaves open about phagocytosis, as numbers.
+/// Parameters of phagocytosis that the seed leaves open.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhagocytosisParams {
     /// How prey gets through the membrane.
     pub way: IngestionWay,
-    /// Time for which all conditions must hold before ingestion starts, s, 0 to 10. Any failure starts it anew.
+    /// Time for which all conditions must hold before ingestion starts, s, 0 to 10. Any failure restarts it.
     pub hold_time: f32,
     /// Largest angle between the way to the goal and the way to the prey, as a cosine, -1 to 1.
     pub heading_cosine: f32,
@@ -138,18 +141,18 @@ pub enum PreyClass {
 /// Where an engulfer and its prey stand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MealPhase {
-    /// All conditions have held for so long, s.
+    /// Time for which all conditions have held, s.
     Touching(f32),
-    /// The gate has been open, or the cup closing, for so long, s.
+    /// Time since ingestion began, s.
     Ingesting(f32),
     /// Inside.
     Ingested,
-    /// Inside, and so much of it is digested, 0 to 1. Progress stays when the command is released.
+    /// Inside, and digested by this share, 0 to 1. The share stays when the command ends.
     Digesting(f32),
 }
 
 impl MealPhase {
-    /// Whether the prey is inside for good.
+    /// Whether ingestion of the prey is complete.
     #[must_use]
     pub fn is_inside(self) -> bool {
         matches!(self, Self::Ingested | Self::Digesting(_))
@@ -162,15 +165,15 @@ pub(crate) struct Meal {
     pub prey: OrganismId,
     pub class: PreyClass,
     pub phase: MealPhase,
-    /// How it gets in; settled when it begins to.
+    /// How it gets in; fixed when ingestion begins.
     pub way: IngestionWay,
     /// Membrane nodes that ignore the prey.
     pub gate: Vec<u32>,
-    /// Whether the time limit found it with its centre outside: it is driven out.
+    /// Whether its centre was outside at the time limit: it is driven out.
     pub is_expelled: bool,
 }
 
-/// The capability to take others in.
+/// The capability to ingest prey.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Engulfer {
     pub params: PhagocytosisParams,
@@ -178,15 +181,15 @@ pub(crate) struct Engulfer {
     pub meals: Vec<Meal>,
     /// Whether it is told to digest in this step.
     pub digests: bool,
-    /// Area of what it holds or takes in, square units.
+    /// Area of the prey inside it or passing its gate, square units.
     pub held_area: f32,
-    /// Length of membrane that the folds around prey need now, units.
+    /// Length of membrane that the cups around prey need now, units.
     pub fold_length: f32,
-    /// Area that was digested and has not become cytoplasm yet, square units.
+    /// Digested area that has not become cytoplasm yet, square units.
     pub pending_growth: f32,
 }
 
-/// The capability to be taken in.
+/// The capability to be ingested.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Prey {
     pub class: PreyClass,
@@ -194,7 +197,7 @@ pub(crate) struct Prey {
     pub held_by: Option<OrganismId>,
 }
 
-/// What an engulfer notices of one prey in a step.
+/// Prey that touches the front of an engulfer in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Encounter {
     pub prey: OrganismId,
@@ -250,9 +253,9 @@ impl Engulfer {
         heads_for_it && is_absorbable && !self.is_locked()
     }
 
-    /// Advances the `Touching` meals by `dt`: starts, resets and finds those whose time has come, which begin to be
-    /// ingested. Returns their positions in `meals`.
-    pub(crate) fn touch(&mut self, encounters: &[Encounter], dt: f32) -> Vec<usize> {
+    /// Advances meals in phase `Touching` by `dt`: adds new ones, removes those whose conditions fail, and starts the ingestion
+    /// of those that have touched for the hold time. Returns the positions of these in `meals`.
+    pub(crate) fn advance_touching(&mut self, encounters: &[Encounter], dt: f32) -> Vec<usize> {
         let holds: Vec<bool> = encounters.iter().map(|encounter| self.conditions_hold(encounter)).collect();
         let holds_for = |prey| encounters.iter().zip(&holds).any(|(e, &holds)| e.prey == prey && holds);
         self.meals.retain(|meal| !matches!(meal.phase, MealPhase::Touching(_)) || holds_for(meal.prey));
@@ -300,7 +303,7 @@ mod tests {
 
     fn steps_until_ingestion(encounter: Encounter) -> Option<usize> {
         let mut engulfer = Engulfer::new(PhagocytosisParams::default());
-        (0..100).find(|_| !engulfer.touch(&[encounter], DT).is_empty())
+        (0..100).find(|_| !engulfer.advance_touching(&[encounter], DT).is_empty())
     }
 
     #[test]
@@ -317,15 +320,15 @@ mod tests {
     }
 
     #[test]
-    fn t30_any_failure_starts_the_time_anew() {
+    fn t30_any_failure_restarts_the_hold_time() {
         let mut engulfer = Engulfer::new(PhagocytosisParams::default());
         let good = encounter(1, PreyClass::Simple);
         let bad = Encounter { heading: Some(0.0), ..good };
         for round in 0..10 {
             for _ in 0..3 {
-                assert!(engulfer.touch(&[good], DT).is_empty(), "round {round}");
+                assert!(engulfer.advance_touching(&[good], DT).is_empty(), "round {round}");
             }
-            assert!(engulfer.touch(&[bad], DT).is_empty() && engulfer.meals.is_empty());
+            assert!(engulfer.advance_touching(&[bad], DT).is_empty() && engulfer.meals.is_empty());
         }
     }
 
@@ -343,22 +346,26 @@ mod tests {
     fn t32_t43_several_agar_at_once_but_one_soft_prey() {
         let mut engulfer = Engulfer::new(PhagocytosisParams::default());
         let agar: Vec<Encounter> = (0..5).map(|k| encounter(k, PreyClass::Simple)).collect();
-        let begun = (0..5).map(|_| engulfer.touch(&agar, DT).len()).sum::<usize>();
+        let begun = (0..5).map(|_| engulfer.advance_touching(&agar, DT).len()).sum::<usize>();
         assert_eq!(begun, 5, "each has its own timer");
         let soft = [encounter(10, PreyClass::Soft), encounter(11, PreyClass::Soft)];
-        let begun = (0..20).map(|_| engulfer.touch(&soft, DT).len()).sum::<usize>();
+        let begun = (0..20).map(|_| engulfer.advance_touching(&soft, DT).len()).sum::<usize>();
         assert_eq!(begun, 1, "one at a time, even if both are ready in the same step");
         let held = engulfer.meals.iter().position(|meal| meal.class == PreyClass::Soft).unwrap();
         engulfer.meals[held].phase = MealPhase::Ingested;
-        assert_eq!((0..20).map(|_| engulfer.touch(&soft[1..], DT).len()).sum::<usize>(), 0, "until consumed");
+        assert_eq!(
+            (0..20).map(|_| engulfer.advance_touching(&soft[1..], DT).len()).sum::<usize>(),
+            0,
+            "until consumed"
+        );
     }
 
     #[test]
     fn t39_the_engulfer_is_locked_while_soft_prey_goes_in() {
         let mut engulfer = Engulfer::new(PhagocytosisParams { hold_time: 0.0, ..PhagocytosisParams::default() });
-        engulfer.touch(&[encounter(1, PreyClass::Simple)], DT);
+        engulfer.advance_touching(&[encounter(1, PreyClass::Simple)], DT);
         assert!(!engulfer.is_locked());
-        engulfer.touch(&[encounter(1, PreyClass::Simple), encounter(2, PreyClass::Soft)], DT);
+        engulfer.advance_touching(&[encounter(1, PreyClass::Simple), encounter(2, PreyClass::Soft)], DT);
         assert!(engulfer.is_locked());
         engulfer.meals.last_mut().unwrap().phase = MealPhase::Ingested;
         assert!(!engulfer.is_locked());

@@ -1,34 +1,34 @@
-//! Whether what wants to move gets anywhere, and how what is stuck tries to get away: faster than it goes about, as
-//! ciliates do (Hamel et al. 2011, PNAS 108, 7290).
+//! Progress of an organism that wants to move, and its escape when it is stuck: faster than it usually moves, as ciliates
+//! do (Hamel et al. 2011, PNAS 108, 7290).
 
-use super::controller::senses::{Senses, Wish};
+use super::controller::senses::{Senses, Steering};
 use crate::geometry::ring::{direction_or, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
-/// It has got somewhere when it is so far from where it was, in its radii.
-const SOMEWHERE: f32 = 1.0 / 3.0;
-/// Time without that after which it is stuck: so many times the time to get there at its speed, and some more, s.
-const PATIENCE: [f32; 2] = [1.2, 0.3];
-/// What still gets away from where it was with this share of its speed is not stuck.
-const GOING: f32 = 0.3;
-/// Time for which it goes one way out, the same way.
-const TRY: [f32; 2] = [1.3, 0.5];
-/// Time after which a way out on which it is not going is given up, s.
-const GIVE_UP: f32 = 0.6;
-/// Speed at which it tries to get away, in its own: so many times, and more with each second without success.
-const HASTE: [f32; 2] = [1.5, 0.75];
-/// Time after which it does not push harder any more, s: what cannot get away must not crush what holds it.
-const UTMOST: f32 = 4.0;
-/// Ways that it considers, all around.
-const WAYS: u32 = 12;
-/// Weight of the way back among them, against what has been in its way.
-const BACK: f32 = 0.5;
-/// Weight of its long axis among them: what is long has to turn before it goes another way.
-const END_FIRST: f32 = 0.5;
-/// What remains of the ways that failed with each further one.
+/// Distance from its mark at which it has made progress, in its radii.
+const PROGRESS_DISTANCE: f32 = 1.0 / 3.0;
+/// Time without progress after which it is stuck: so many times the time for that distance at its speed, and some more, s.
+const STUCK_AFTER: [f32; 2] = [1.2, 0.3];
+/// Share of its speed with which it must move away from its mark not to be stuck.
+const MOVING_SPEED: f32 = 0.3;
+/// Time of an escape in one direction, composed likewise.
+const ESCAPE_TIME: [f32; 2] = [1.3, 0.5];
+/// Time after which an escape on which it does not move is given up, s.
+const GIVE_UP_AFTER: f32 = 0.6;
+/// Speed of an escape, in units of its own: at first, and more with each second without progress.
+const ESCAPE_SPEED: [f32; 2] = [1.5, 0.75];
+/// Time after which it pushes no harder, s: it must not crush what holds it.
+const MAX_EFFORT_AFTER: f32 = 4.0;
+/// Directions of escape that it compares, all around.
+const DIRECTIONS: u32 = 12;
+/// Weight of the direction back, against directions that failed.
+const WEIGHT_BACK: f32 = 0.5;
+/// Weight of its long axis: a long organism has to turn before it moves in another direction.
+const WEIGHT_AXIS: f32 = 0.5;
+/// Factor on the directions that failed with each further one.
 const MEMORY: f32 = 0.5;
 
 /// Where an organism last got to, and its way out when it is stuck.
@@ -56,7 +56,7 @@ struct Escape {
 impl Progress {
     /// Takes note of a step.
     pub(crate) fn note(&mut self, wants_to_move: bool, senses: &Senses<'_>) {
-        let distance = SOMEWHERE * senses.radius;
+        let distance = PROGRESS_DISTANCE * senses.radius;
         if (senses.at - self.mark).length_squared() > distance * distance {
             *self = Self { mark: senses.at, before: self.mark, stalled: 0.0, failed: Vec2::ZERO, ..*self };
         } else if wants_to_move {
@@ -66,47 +66,49 @@ impl Progress {
 
     /// How it tries to get away, if it is stuck: rather away from what it has tried, back the way that it came and with
     /// an end first.
-    pub(crate) fn way_out(&mut self, wish: Wish, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
-        let needed = SOMEWHERE * senses.radius / senses.speed;
-        let [due, length] = [PATIENCE, TRY].map(|[times, more]| times * needed + more);
-        let goes = |way: Vec2| senses.velocity.dot(way) > GOING * senses.speed;
+    pub(crate) fn way_out(&mut self, steering: Steering, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
+        let needed = PROGRESS_DISTANCE * senses.radius / senses.speed;
+        let [due, length] = [STUCK_AFTER, ESCAPE_TIME].map(|[times, more]| times * needed + more);
+        let goes = |way: Vec2| senses.velocity.dot(way) > MOVING_SPEED * senses.speed;
         let escape = match self.escape {
-            Some(Escape { way, age }) if age > GIVE_UP && !goes(way) && self.stalled > 0.0 => {
-                self.instead_of(way, senses, rng)
+            Some(Escape { way, age }) if age > GIVE_UP_AFTER && !goes(way) && self.stalled > 0.0 => {
+                self.next_escape(way, senses, rng)
             }
             Some(Escape { way, age }) if age < length => Escape { way, age: age + senses.around.dt },
-            _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => {
-                self.instead_of(direction_or((wish.goal - senses.at) * wish.pace, Vec2::ZERO), senses, rng)
-            }
+            _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => self.next_escape(
+                direction_or((steering.goal - senses.at) * steering.relative_speed, Vec2::ZERO),
+                senses,
+                rng,
+            ),
             _ => {
                 self.escape = None;
                 return None;
             }
         };
         self.escape = Some(escape);
-        let effort = if self.stalled < UTMOST { self.stalled } else { UTMOST };
-        Some(Wish { pace: HASTE[0] + HASTE[1] * effort, ..senses.along(escape.way) })
+        let effort = if self.stalled < MAX_EFFORT_AFTER { self.stalled } else { MAX_EFFORT_AFTER };
+        Some(Steering { relative_speed: ESCAPE_SPEED[0] + ESCAPE_SPEED[1] * effort, ..senses.along(escape.way) })
     }
 
     /// The most promising of some ways all around, after one that failed.
-    fn instead_of(&mut self, failed: Vec2, senses: &Senses<'_>, rng: &mut Rng) -> Escape {
+    fn next_escape(&mut self, failed: Vec2, senses: &Senses<'_>, rng: &mut Rng) -> Escape {
         self.failed = self.failed * MEMORY + failed;
         Escape { way: self.best_way(senses, rng), age: 0.0 }
     }
 
     fn best_way(&self, senses: &Senses<'_>, rng: &mut Rng) -> Vec2 {
-        let towards = direction_or(self.before - senses.at, Vec2::ZERO) * BACK - self.failed;
-        let axis = senses.axis() * END_FIRST;
+        let towards = direction_or(self.before - senses.at, Vec2::ZERO) * WEIGHT_BACK - self.failed;
+        let axis = senses.axis() * WEIGHT_AXIS;
         let merit = |way: Vec2| way.dot(towards) + way.dot(axis).abs();
         let first = rng.range(0.0, TAU);
-        let ways = (0..WAYS).map(|k| senses.along_walls(unit_vector(first + TAU * k as f32 / WAYS as f32)));
+        let ways = (0..DIRECTIONS).map(|k| senses.along_walls(unit_vector(first + TAU * k as f32 / DIRECTIONS as f32)));
         ways.reduce(|a, b| if merit(b) > merit(a) { b } else { a }).unwrap_or(Vec2::X)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::controller::senses::Surroundings;
+    use super::super::controller::senses::Environment;
     use super::*;
     use crate::geometry::ring::ellipse;
     use crate::id::OrganismId;
@@ -114,7 +116,7 @@ mod tests {
     /// The ways out, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
     fn ways_out(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
         const DT: f32 = 0.1;
-        let around = Surroundings { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
+        let around = Environment { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
         let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
         let way_out = |step: u32| {
             let at = Vec2::new(30.0, 30.0) + velocity * (step as f32 * DT);
@@ -123,8 +125,8 @@ mod tests {
             let (speed, radius, arrival) = (1.0, 1.5, 0.25);
             let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
             progress.note(true, &senses);
-            let wish = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
-            wish.map(|wish| direction_or(wish.goal - at, Vec2::ZERO))
+            let steering = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
+            steering.map(|steering| direction_or(steering.goal - at, Vec2::ZERO))
         };
         (0..(seconds / DT) as u32).map(way_out).collect()
     }

@@ -19,7 +19,7 @@ pub(super) fn rounds(cell: Vec2, diffusion: f32, dt: f32) -> Result<u32, f32> {
 
 /// The cells of a room and the faces between them.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub(super) struct DiffusionGrid {
     /// Columns and rows.
     pub count: [usize; 2],
     /// Width and height of a cell, units.
@@ -32,7 +32,7 @@ pub(super) struct Grid {
     upwards: Vec<f32>,
 }
 
-impl Grid {
+impl DiffusionGrid {
     pub(super) fn new(count: [usize; 2], size: Vec2) -> Self {
         let [columns, rows] = count;
         let is_inner = |k: usize, of: usize| f32::from(u8::from(k > 0 && k < of));

@@ -7,7 +7,7 @@ mod diffusion;
 
 use crate::config::WorldConfig;
 use crate::error::{Error, in_range, out_of_range};
-use diffusion::Grid;
+use diffusion::DiffusionGrid;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ impl ChemicalSpec {
 pub struct Chemical {
     spec: ChemicalSpec,
     #[serde(skip)]
-    grid: Grid,
+    grid: DiffusionGrid,
     /// Rounds of diffusion in a step.
     #[serde(skip)]
     rounds: u32,
@@ -84,21 +84,21 @@ pub struct Chemical {
     values: Vec<f32>,
 }
 
-/// What a [`Chemical`] writes; the rest follows from the world.
+/// A [`Chemical`] as it is written; the rest follows from the world.
 #[cfg(feature = "snapshot")]
 #[derive(Debug, Deserialize)]
-pub(crate) struct Record {
+pub(crate) struct ChemicalRecord {
     pub spec: ChemicalSpec,
     values: Vec<f32>,
 }
 
 impl Chemical {
-    /// Takes on the concentrations that were read.
+    /// Takes over the concentrations that were read.
     ///
     /// # Errors
     /// See [`Chemical::check`].
     #[cfg(feature = "snapshot")]
-    pub(crate) fn take_over(&mut self, record: Record, config: &WorldConfig) -> Result<(), String> {
+    pub(crate) fn restore(&mut self, record: ChemicalRecord, config: &WorldConfig) -> Result<(), String> {
         self.values = record.values;
         self.check(config)
     }
@@ -124,7 +124,7 @@ impl Chemical {
     /// A chemical in a world of these settings.
     pub(crate) fn new(spec: ChemicalSpec, config: &WorldConfig) -> Result<Self, Error> {
         let (count, rounds) = spec.plan(config)?;
-        let grid = Grid::new(count, config.size);
+        let grid = DiffusionGrid::new(count, config.size);
         Ok(Self { spec, values: vec![spec.initial; count[0] * count[1]], grid, rounds })
     }
 

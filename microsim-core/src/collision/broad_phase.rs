@@ -1,19 +1,19 @@
-//! Broad phase, once per step: pairs that may touch before the next one; of bodies that get faster than expected, once more.
+//! Broad phase, once per step: pairs that may touch before the next one; of bodies that exceed their margin, once more.
 //!
-//! Nothing moves farther in a step than the speed limit allows, so pairs within `r_i + r_j + 2 reach` are all that can
-//! touch. They are looked for in the way that suits them: soft bodies and single discs by their boxes first ([`bodies`]),
-//! membranes and fluid disc by disc ([`crowd`]). Between two soft bodies the margin is less at first ([`leeway`]).
+//! The speed limit bounds the displacement `d` of a step, so only pairs within `r_i + r_j + 2 d` can touch. Soft bodies and
+//! single discs are searched by their boxes first ([`bodies`]), membranes and fluid disc by disc ([`disc_grid`]). Between two
+//! soft bodies the margin is smaller at first ([`speculative_margin`]).
 //!
 //! [`bodies`]: super::bodies
-//! [`crowd`]: super::crowd
-//! [`leeway`]: super::leeway
+//! [`disc_grid`]: super::disc_grid
+//! [`speculative_margin`]: super::speculative_margin
 
-use super::bodies::{Bodies, Meeting};
-use super::crowd::{Crowd, Disc, Store};
-use super::filter::{Exemptions, Home};
-use super::leeway::{Leeway, Reach};
+use super::bodies::{Bodies, PairFilter};
+use super::disc_grid::{Disc, DiscColumns, DiscGrid};
+use super::exemptions::Exemptions;
 use super::obstacle::Obstacle;
-use super::ring::{Nearby, Ring, RingContacts};
+use super::ring::{Containment, Ring, RingContacts, RingQuery};
+use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
 use super::{Contact, Contacts, ObstacleContact};
 use crate::parallel;
 use crate::particle::sleep::Sleep;
@@ -28,15 +28,15 @@ pub(crate) struct BroadPhase {
     pub contacts: Shared<Contacts>,
     pub obstacle_contacts: Vec<ObstacleContact>,
     pub ring_contacts: Shared<RingContacts>,
-    pub leeway: Leeway,
+    pub margins: SpeculativeMargins,
     bodies: Bodies,
-    membranes: Crowd,
-    fluid: Crowd,
+    membranes: DiscGrid,
+    fluid: DiscGrid,
 }
 
 /// What a pair search needs to know of the world.
 #[derive(Clone, Copy)]
-pub(crate) struct Surroundings<'a> {
+pub(crate) struct SearchInput<'a> {
     pub particles: &'a Particles,
     /// The blocks, in the order in which they lie in the store.
     pub blocks: &'a [BlockRange],
@@ -44,11 +44,11 @@ pub(crate) struct Surroundings<'a> {
     pub exemptions: &'a Exemptions,
     /// Rings whose links collide. Without any, ring nodes collide as discs.
     pub rings: &'a [Ring<'a>],
-    /// On which sides of them owners stay, by owner.
-    pub homes: &'a [Home],
+    /// Which of them holds each owner, by owner.
+    pub containments: &'a [Containment],
     /// Upper right corner of the room.
     pub size: Vec2,
-    pub reach: Reach,
+    pub limits: DisplacementLimits,
 }
 
 impl BroadPhase {
@@ -58,66 +58,67 @@ impl BroadPhase {
         self.ring_contacts.clone_from(&other.ring_contacts);
     }
 
-    /// Finds the pairs of the step that begins, after those that sleep in it: its blocks that have been calm for so many
-    /// steps, unless something that moves is near.
-    pub(crate) fn find_pairs(&mut self, around: Surroundings<'_>, sleep: &mut Sleep, patience: u16) {
-        self.sort(around, sleep);
-        if sleep.fall_asleep(patience) {
-            self.wake(sleep);
+    /// Finds the pairs of the step that begins, and the blocks that sleep in it: those of which all bodies have a sleep time of
+    /// `steps_to_sleep` steps, with nothing near that moves.
+    pub(crate) fn find_pairs(&mut self, input: SearchInput<'_>, sleep: &mut Sleep, steps_to_sleep: u16) {
+        self.sort(input, sleep);
+        if sleep.fall_asleep(steps_to_sleep) {
+            self.keep_awake(sleep);
         }
         let sleep = &*sleep;
         let Self { contacts, bodies, membranes, fluid, .. } = self;
-        let contacts = contacts.renew(Contacts::blank);
+        let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
-        bodies.pairs(Meeting { particles: around.particles, exemptions: around.exemptions, sleep }, strips, others);
-        let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, around));
+        bodies.pairs(PairFilter { particles: input.particles, exemptions: input.exemptions, sleep }, strips, others);
+        let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
             bodies.pairs_with(fluid, &mut consider);
         }
-        if around.rings.is_empty() {
+        if input.rings.is_empty() {
             bodies.pairs_with(membranes, &mut consider);
             for node in membranes.iter() {
                 fluid.near(node).for_each(|other| consider(node, other));
             }
         }
-        if fluid.iter().any(|disc| is_of_another_fluid(disc, fluid, around.particles)) {
+        if fluid.iter().any(|disc| is_of_another_fluid(disc, fluid, input.particles)) {
             fluid.pairs(consider);
         }
-        self.find_obstacle_contacts(around, sleep);
-        self.find_ring_contacts(around);
+        self.find_obstacle_contacts(input, sleep);
+        self.find_ring_contacts(input);
     }
 
-    /// Finds what only bodies that move farther than expected may touch until everything has moved by `next` more than was
-    /// noted: up to the end of a substep, if noted up to its beginning.
-    pub(crate) fn widen(&mut self, particles: &Particles, exemptions: &Exemptions, sleep: &Sleep, next: f32) {
-        let Self { contacts, bodies, leeway, .. } = self;
-        if leeway.ends_within(next) {
-            bodies.widen(Meeting { particles, exemptions, sleep }, leeway, next, &mut contacts.others);
+    /// Finds the pairs of bodies that may exceed their speculative margin with another displacement of `next`: in the present
+    /// substep, if the displacements up to its beginning have been subtracted.
+    pub(crate) fn find_late_pairs(&mut self, particles: &Particles, exemptions: &Exemptions, sleep: &Sleep, next: f32) {
+        let Self { contacts, bodies, margins, .. } = self;
+        if margins.any_below(next) {
+            bodies.late_pairs(PairFilter { particles, exemptions, sleep }, margins, next, &mut contacts.others);
         }
     }
 
-    /// Wakes the blocks of sleepers near which something moves. Membranes and fluid always count as moving.
-    fn wake(&self, sleep: &mut Sleep) {
+    /// Keeps the blocks of sleepers awake near which something moves. Membranes and fluid always count as moving.
+    fn keep_awake(&self, sleep: &mut Sleep) {
         let Self { bodies, membranes, fluid, .. } = self;
         let woken = bodies.sleepers(sleep).filter(|body| {
-            let (low, high) = (body.bounds.low(), body.bounds.high());
-            let mut crowds = [membranes, fluid].into_iter();
-            bodies.is_stirred(body) || crowds.any(|crowd| crowd.in_box(low, high).next().is_some())
+            let (low, high) = (body.aabb.low(), body.aabb.high());
+            let mut disc_grids = [membranes, fluid].into_iter();
+            bodies.has_moving_neighbour(body) || disc_grids.any(|grid| grid.in_box(low, high).next().is_some())
         });
         for block in woken.map(|body| body.block).collect::<Vec<_>>() {
-            sleep.wake(block);
+            sleep.keep_awake(block);
         }
     }
 
-    fn find_ring_contacts(&mut self, around: Surroundings<'_>) {
+    fn find_ring_contacts(&mut self, input: SearchInput<'_>) {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
-        let Surroundings { particles, exemptions, homes, rings, reach, .. } = around;
-        let crowds = [&*membranes, &*fluid];
-        ring_contacts
-            .renew(|_| RingContacts::default())
-            .find(rings, Nearby { particles, exemptions, homes, bodies, crowds, margin: 2.0 * reach.step });
+        let SearchInput { particles, exemptions, containments, rings, limits, .. } = input;
+        let disc_grids = [&*membranes, &*fluid];
+        ring_contacts.get_mut_or(|_| RingContacts::default()).find(
+            rings,
+            RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step },
+        );
     }
 
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
@@ -128,61 +129,61 @@ impl BroadPhase {
     }
 
     /// Sorts the colliding particles into bodies, membranes and fluid.
-    fn sort(&mut self, around: Surroundings<'_>, sleep: &Sleep) {
-        let Surroundings { particles: p, blocks, size, reach, .. } = around;
-        let Self { bodies, membranes, fluid, leeway, .. } = self;
+    fn sort(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
+        let SearchInput { particles: p, blocks, size, limits, .. } = input;
+        let Self { bodies, membranes, fluid, margins, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
-        bodies.collect(blocks, p, sleep, reach, leeway);
-        let store = Store::of(p);
+        bodies.collect(blocks, p, sleep, limits, margins);
+        let columns = DiscColumns::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for (i, disc) in loose.filter_map(|i| store.disc(i, reach.step).map(|disc| (i, disc))) {
+        for (i, disc) in loose.filter_map(|i| columns.disc(i, limits.step).map(|disc| (i, disc))) {
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
                 _ => fluid.found.push(disc),
             }
         }
-        parallel::alone(p.len(), || {
+        parallel::serial(p.len(), || {
             bodies.sort(size);
             membranes.sort(size);
             fluid.sort(size);
         });
     }
 
-    fn find_obstacle_contacts(&mut self, around: Surroundings<'_>, sleep: &Sleep) {
+    fn find_obstacle_contacts(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
         let Self { obstacle_contacts, bodies, membranes, fluid, .. } = self;
         obstacle_contacts.clear();
-        for (obstacle, k) in around.obstacles.iter().zip(0..) {
-            let bounds = obstacle.bounds();
-            let (low, high) = (bounds.mins, bounds.maxs);
+        for (obstacle, k) in input.obstacles.iter().zip(0..) {
+            let aabb = obstacle.aabb();
+            let (low, high) = (aabb.mins, aabb.maxs);
             let is_near = |disc: &&Disc| {
                 let i = disc.index as usize;
-                let near = bounds.loosened(disc.reach);
+                let near = aabb.loosened(disc.swept_radius);
                 near.contains_local_point(disc.at)
-                    && around.particles.inv_mass[i] > 0.0
-                    && around.particles.groups[i].meets(obstacle.groups)
+                    && input.particles.inv_mass[i] > 0.0
+                    && input.particles.groups[i].meets(obstacle.groups)
             };
             let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
             let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
-            let of_crowds = [&*membranes, &*fluid].into_iter().flat_map(|crowd| crowd.in_box(low, high));
-            let near = of_bodies.chain(of_crowds).filter(is_near);
+            let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high));
+            let near = of_bodies.chain(of_grids).filter(is_near);
             obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
         }
     }
 }
 
 /// Whether a disc's fluid is not that of the first disc: then there are several.
-fn is_of_another_fluid(disc: &Disc, fluid: &Crowd, p: &Particles) -> bool {
+fn is_of_another_fluid(disc: &Disc, fluid: &DiscGrid, p: &Particles) -> bool {
     let first = fluid.iter().next();
     first.is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }
 
 /// The contact of two discs that are near each other, if they collide at all.
-fn contact(a: &Disc, b: &Disc, around: Surroundings<'_>) -> Option<Contact> {
-    let (p, i, j) = (around.particles, a.index as usize, b.index as usize);
-    let is_for_rings = !around.rings.is_empty() && is_for_rings(p, i, j);
-    (!is_for_rings && may_collide(p, i, j, around.exemptions)).then(|| Contact::new(p, i, j))
+fn contact(a: &Disc, b: &Disc, input: SearchInput<'_>) -> Option<Contact> {
+    let (p, i, j) = (input.particles, a.index as usize, b.index as usize);
+    let is_for_rings = !input.rings.is_empty() && is_for_rings(p, i, j);
+    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j))
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.
@@ -212,7 +213,7 @@ mod tests {
     use super::*;
     use crate::particle::{CollisionGroups, LANES};
     use crate::rng::Rng;
-    use crate::solver::block::note_way;
+    use crate::solver::block::subtract_displacement;
     use crate::solver::testing::{disc, overlapping};
     use std::collections::BTreeSet;
 
@@ -245,17 +246,17 @@ mod tests {
     fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
         let mut broad = BroadPhase::default();
         let size = Vec2::new(40.0, 30.0);
-        let around = Surroundings {
+        let input = SearchInput {
             particles,
             blocks: &[],
             obstacles: &[],
             exemptions,
             rings: &[],
-            homes: &[],
+            containments: &[],
             size,
-            reach: Reach { step: 0.1, substep: 0.1, dt: 0.01 },
+            limits: DisplacementLimits { step: 0.1, substep: 0.1, dt: 0.01 },
         };
-        broad.find_pairs(around, &mut Sleep::default(), 1);
+        broad.find_pairs(input, &mut Sleep::default(), 1);
         pairs_of(&broad).into_iter().collect()
     }
 
@@ -280,7 +281,7 @@ mod tests {
         }
     }
 
-    const LEEWAY: Reach = Reach { step: 0.8, substep: 0.1, dt: 0.02 };
+    const LIMITS: DisplacementLimits = DisplacementLimits { step: 0.8, substep: 0.1, dt: 0.02 };
 
     /// Bodies of four discs in blocks, somewhere, some of them fast, those of the first block large.
     fn random_blocks(rng: &mut Rng, count: u32) -> (Particles, Vec<BlockRange>) {
@@ -307,16 +308,16 @@ mod tests {
 
     /// Moves half of the bodies as far as they can in a substep, the others a little, to either side, and notes how far.
     fn move_all(p: &mut Particles, blocks: &[BlockRange], broad: &mut BroadPhase, rng: &mut Rng) {
-        for (block, left) in blocks.iter().zip(broad.leeway.blocks_mut()) {
+        for (block, left) in blocks.iter().zip(broad.margins.blocks_mut()) {
             for lane in 0..LANES {
-                let way = if lane < 4 { LEEWAY.substep } else { rng.range(0.0, 0.03) };
+                let way = if lane < 4 { LIMITS.substep } else { rng.range(0.0, 0.03) };
                 let way = if lane % 2 == 0 { way } else { -way };
                 for i in (0..4).map(|slot| block.entry(slot, lane)) {
                     (p.prev_x[i], p.prev_y[i]) = (p.x[i], p.y[i]);
                     p.x[i] += way;
                 }
             }
-            note_way(&p.columns().part(block.base..block.end()), left);
+            subtract_displacement(&p.columns().part(block.base..block.end()), left);
         }
     }
 
@@ -329,17 +330,17 @@ mod tests {
             let (exemptions, sleep) = (Exemptions::default(), &mut Sleep::default());
             let mut broad = BroadPhase::default();
             let size = Vec2::new(20.0, 15.0);
-            let surroundings = Surroundings {
+            let input = SearchInput {
                 particles: &p,
                 blocks: &blocks,
                 obstacles: &[],
                 exemptions: &exemptions,
                 rings: &[],
-                homes: &[],
+                containments: &[],
                 size,
-                reach: LEEWAY,
+                limits: LIMITS,
             };
-            broad.find_pairs(surroundings, sleep, 1);
+            broad.find_pairs(input, sleep, 1);
             let at_first = pairs_of(&broad);
             for substep in 0..8 {
                 move_all(&mut p, &blocks, &mut broad, &mut rng);
@@ -349,7 +350,7 @@ mod tests {
                     missed_at_first += usize::from(!at_first.contains(&pair));
                     assert!(known.contains(&pair), "seed {seed}, substep {substep}: {pair:?}");
                 }
-                broad.widen(&p, &exemptions, sleep, LEEWAY.substep);
+                broad.find_late_pairs(&p, &exemptions, sleep, LIMITS.substep);
                 widened += broad.contacts.iter().count() - known.len();
             }
         }

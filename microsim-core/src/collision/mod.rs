@@ -1,15 +1,15 @@
 //! Which particles may touch during a step: broad phase and filters. Knows no constraints.
 
+mod aabb;
 mod bodies;
-mod bounds;
 pub(crate) mod broad_phase;
-mod crowd;
-pub(crate) mod filter;
-pub(crate) mod grid;
-pub(crate) mod leeway;
+mod disc_grid;
+pub(crate) mod exemptions;
 pub(crate) mod obstacle;
+pub(crate) mod obstacle_record;
 pub(crate) mod ring;
-pub(crate) mod shape;
+pub(crate) mod speculative_margin;
+pub(crate) mod uniform_grid;
 
 use crate::particle::{Material, Particles};
 use glam::Vec2;
@@ -21,8 +21,7 @@ pub(crate) struct Contact {
     pub j: u32,
     /// From the origin of `i` to the origin of `j`; origins stay where they are during a step.
     pub between_origins: Vec2,
-    /// Sum of the radii.
-    pub reach: f32,
+    pub radius_sum: f32,
     pub friction: f32,
     pub restitution: f32,
     /// Touched in any substep since the pair was found.
@@ -38,7 +37,7 @@ impl Contact {
             i: i as u32,
             j: j as u32,
             between_origins: p.origin(j) - p.origin(i),
-            reach: p.radius[i] + p.radius[j],
+            radius_sum: p.radius[i] + p.radius[j],
             friction,
             restitution,
             touched: false,

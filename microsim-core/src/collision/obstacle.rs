@@ -37,7 +37,7 @@ impl Obstacle {
     }
 
     /// Axis-aligned box around it in the world.
-    pub(crate) fn bounds(&self) -> Aabb {
+    pub(crate) fn aabb(&self) -> Aabb {
         self.shape.compute_aabb(&self.pose)
     }
 

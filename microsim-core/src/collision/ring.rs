@@ -1,10 +1,10 @@
-//! Discs near rings of linked particles: which links each may touch during a step, and on which side it is at home.
+//! Discs near rings of linked particles: the links that each may touch during a step, and the side on which it stays.
 
 use super::bodies::Bodies;
 use super::combine;
-use super::crowd::{Crowd, Disc};
-use super::filter::{Exemptions, Home, Side, side_of};
-use crate::geometry::polygon::nearest_on_segment;
+use super::disc_grid::{Disc, DiscGrid};
+use super::exemptions::Exemptions;
+use crate::geometry::segment::nearest_on_segment;
 use crate::particle::{NO_OWNER, Particles};
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use std::ops::Range;
 pub(crate) struct Ring<'a> {
     pub owner: u32,
     pub nodes: &'a [u32],
-    /// The one owner whose particles are inside; otherwise those of the ring's own owner are, and those at home there.
+    /// The one owner whose particles are inside; otherwise those of the ring's own owner are, and those that it contains.
     pub holds: Option<u32>,
 }
 
@@ -29,6 +29,37 @@ impl Ring<'_> {
 pub(crate) struct Link {
     pub a: u32,
     pub b: u32,
+}
+
+/// Which ring holds an owner with all its particles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Containment {
+    /// Outside of every ring but its own.
+    Free,
+    /// Inside the ring of this owner.
+    Inside(u32),
+    /// On its way through the ring of this owner.
+    Passing(u32),
+}
+
+/// A side of a ring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Inside,
+    Outside,
+    /// The one where it is.
+    Either,
+}
+
+/// On which side of a ring an owner's particles stay. `containments` is indexed by owner; the others are free.
+fn side_of(owner: u32, ring: Ring<'_>, containments: &[Containment]) -> Side {
+    let is_inside = ring.holds.map_or(owner == ring.owner, |held| owner == held);
+    match containments.get(owner as usize) {
+        _ if is_inside => Side::Inside,
+        Some(&Containment::Inside(holder)) if holder == ring.owner && ring.holds.is_none() => Side::Inside,
+        Some(&Containment::Passing(holder)) if holder == ring.owner => Side::Either,
+        _ => Side::Outside,
+    }
 }
 
 /// A disc that may touch a ring during the step.
@@ -57,12 +88,12 @@ pub(crate) struct RingContacts {
 
 /// What the search needs to know.
 #[derive(Clone, Copy)]
-pub(super) struct Nearby<'a> {
+pub(super) struct RingQuery<'a> {
     pub particles: &'a Particles,
     pub exemptions: &'a Exemptions,
-    pub homes: &'a [Home],
+    pub containments: &'a [Containment],
     pub bodies: &'a Bodies,
-    pub crowds: [&'a Crowd; 2],
+    pub disc_grids: [&'a DiscGrid; 2],
     /// How much the gap between two particles may close in one step.
     pub margin: f32,
 }
@@ -79,7 +110,7 @@ impl RingContacts {
     }
 
     /// Finds the discs near some rings.
-    pub(super) fn find(&mut self, rings: &[Ring<'_>], near: Nearby<'_>) {
+    pub(super) fn find(&mut self, rings: &[Ring<'_>], near: RingQuery<'_>) {
         self.contacts.clear();
         self.links.clear();
         for (k, ring) in rings.iter().enumerate() {
@@ -93,14 +124,14 @@ impl RingContacts {
     }
 
     /// Turns what was found near one ring into one contact for each disc.
-    fn group(&mut self, ring: Ring<'_>, place: usize, near: Nearby<'_>) {
+    fn group(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
         let p = near.particles;
         for group in self.found.chunk_by(|a, b| a.0 == b.0) {
             let particle = group[0].0;
             let first = self.links.len() as u32;
             self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
             let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
-            let side = side_of(p.owner[particle as usize], ring, near.homes);
+            let side = side_of(p.owner[particle as usize], ring, near.containments);
             let links = first..self.links.len() as u32;
             self.contacts.push(RingContact {
                 particle,
@@ -122,19 +153,19 @@ impl RingContact {
     }
 }
 
-fn find_near_link(ring: Ring<'_>, k: usize, near: Nearby<'_>, found: &mut Vec<(u32, u32)>) {
+fn find_near_link(ring: Ring<'_>, k: usize, near: RingQuery<'_>, found: &mut Vec<(u32, u32)>) {
     let p = near.particles;
     let Link { a, b } = ring.link(k);
     let ends = [p.position(a as usize), p.position(b as usize)];
     let half_width = p.radius[a as usize] + 0.5 * near.margin;
     let (low, high) = (ends[0].min(ends[1]) - half_width, ends[0].max(ends[1]) + half_width);
     let is_near = |disc: &&Disc| {
-        let reach = disc.reach + half_width;
-        (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < reach * reach
+        let distance = disc.swept_radius + half_width;
+        (disc.at - nearest_on_segment(ends[0], ends[1], disc.at)).length_squared() < distance * distance
     };
     let in_bodies = near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body));
-    let in_crowds = near.crowds.into_iter().flat_map(|crowd| crowd.in_box(low, high));
-    let discs = in_bodies.chain(in_crowds).filter(is_near);
+    let in_grids = near.disc_grids.into_iter().flat_map(|grid| grid.in_box(low, high));
+    let discs = in_bodies.chain(in_grids).filter(is_near);
     let touching = discs.filter(|disc| may_touch(p, disc.index as usize, ring, [a, b], near.exemptions));
     found.extend(touching.map(|disc| (disc.index, k as u32)));
 }

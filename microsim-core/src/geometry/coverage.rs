@@ -2,7 +2,8 @@
 
 use glam::Vec2;
 
-use super::polygon::{contains_point, nearest_on_segment};
+use super::polygon::contains_point;
+use super::segment::nearest_on_segment;
 
 /// Most samples along one side of the raster.
 const MOST: f32 = 2048.0;

@@ -9,11 +9,13 @@ pub(crate) mod coverage;
 pub mod outline;
 pub mod polygon;
 pub mod ring;
+pub mod segment;
 pub mod triangulate;
 
 pub use outline::{excess_turning, quarter_widths};
-pub use polygon::{centroid, contains_point, is_simple, nearest_on_segment, perimeter, signed_area};
+pub use polygon::{centroid, contains_point, is_simple, perimeter, signed_area};
 pub use ring::{direction_or, ellipse, nearest_index, rotate, unit_vector};
+pub use segment::nearest_on_segment;
 pub use triangulate::triangulate;
 
 #[cfg(test)]

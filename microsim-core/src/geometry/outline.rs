@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::polygon::turn;
+use super::segment::turn;
 
 /// How much more `polygon` turns than a convex one, radians: the sum of the magnitudes of its exterior angles less 2 pi.
 ///

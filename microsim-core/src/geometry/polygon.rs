@@ -4,6 +4,7 @@
 //! vertex to the first is implied. Sums run in `f64`, because the products of large coordinates
 //! cancel badly in `f32`.
 
+use super::segment::{folds_back, offset, segments_touch, turn};
 use glam::Vec2;
 
 /// Area below which [`centroid`] takes the vertex mean, as a part of the squared perimeter.
@@ -72,44 +73,11 @@ pub fn perimeter(polygon: &[Vec2]) -> f32 {
     edges(polygon).fold(0.0, |sum, (a, b)| sum + a.distance(b))
 }
 
-/// The point of the segment from `a` to `b` that is nearest to `point`.
-///
-/// A segment of no length, or a NaN coordinate, gives `a`.
-///
-/// Source: C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.2.
-pub fn nearest_on_segment(a: Vec2, b: Vec2, point: Vec2) -> Vec2 {
-    let along = b - a;
-    let fraction = (point - a).dot(along) / along.length_squared();
-    // The order of the tests sends NaN (0 / 0) to `a`.
-    if fraction >= 1.0 {
-        b
-    } else if fraction > 0.0 {
-        a + along * fraction
-    } else {
-        a
-    }
-}
-
-/// Twice the signed area of the triangle `a b c`: positive when it turns counter-clockwise.
-///
-/// Differences and products of `f32` fit into `f64`, so for coordinates of similar size the sign
-/// is exact.
-pub(super) fn turn(a: Vec2, b: Vec2, c: Vec2) -> f64 {
-    let (bx, by) = offset(a, b);
-    let (cx, cy) = offset(a, c);
-    bx * cy - by * cx
-}
-
 /// The edges as pairs of end points, ending with the edge that closes the polygon.
 fn edges(polygon: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
     let starts = polygon.iter().copied();
     let ends = polygon.iter().copied().cycle().skip(1);
     starts.zip(ends)
-}
-
-/// `to - from`, in `f64`.
-fn offset(from: Vec2, to: Vec2) -> (f64, f64) {
-    (f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y))
 }
 
 /// Whether the ray from `point` towards +x crosses the edge.
@@ -175,28 +143,6 @@ fn is_clear_of_later(edges: &[(Vec2, Vec2)], index: usize) -> bool {
         .all(|other| !segments_touch(a, b, edges[other].0, edges[other].1))
 }
 
-/// Whether the edge `b c` runs back over the edge `a b`, or one of them has no length.
-pub(crate) fn folds_back(a: Vec2, b: Vec2, c: Vec2) -> bool {
-    let (ux, uy) = offset(a, b);
-    let (vx, vy) = offset(b, c);
-    turn(a, b, c) == 0.0 && ux * vx + uy * vy <= 0.0
-}
-
-/// Whether the closed segments `a b` and `c d` share a point: their boxes overlap, and each has
-/// its ends on different sides of the other or on it.
-pub(crate) fn segments_touch(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool {
-    ranges_overlap(a.x, b.x, c.x, d.x)
-        && ranges_overlap(a.y, b.y, c.y, d.y)
-        && turn(a, b, c) * turn(a, b, d) <= 0.0
-        && turn(c, d, a) * turn(c, d, b) <= 0.0
-}
-
-/// Whether the closed ranges between `a` and `b` and between `c` and `d` share a value.
-fn ranges_overlap(a: f32, b: f32, c: f32, d: f32) -> bool {
-    let (low, high) = if a < b { (a, b) } else { (b, a) };
-    !((c < low && d < low) || (c > high && d > high))
-}
-
 #[cfg(test)]
 mod tests {
     use glam::vec2;
@@ -204,6 +150,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::arbitrary::{convex_polygon, star_polygon, tangled_polygon};
+    use super::super::segment::nearest_on_segment;
     use super::*;
 
     fn unit_square() -> Vec<Vec2> {
@@ -323,15 +270,6 @@ mod tests {
     }
 
     #[test]
-    fn nearest_on_segment_stops_at_the_ends() {
-        let (a, b) = (vec2(0.0, 0.0), vec2(2.0, 0.0));
-        assert_eq!(nearest_on_segment(a, b, vec2(-1.0, 3.0)), a);
-        assert_eq!(nearest_on_segment(a, b, vec2(1.5, 3.0)), vec2(1.5, 0.0));
-        assert_eq!(nearest_on_segment(a, b, vec2(7.0, -3.0)), b);
-        assert_eq!(nearest_on_segment(a, a, vec2(7.0, -3.0)), a);
-    }
-
-    #[test]
     fn degenerate_input_is_answered() {
         for polygon in [&[][..], &[Vec2::ZERO], &[Vec2::ZERO, Vec2::ONE]] {
             assert!(!contains_point(polygon, vec2(0.5, 0.25)));
@@ -416,18 +354,6 @@ mod tests {
         fn centroid_lies_in_a_convex_polygon(polygon in convex_polygon()) {
             let inside = centroid(&polygon).is_some_and(|centre| contains_point(&polygon, centre));
             prop_assert!(inside);
-        }
-
-        #[test]
-        fn nearest_on_segment_beats_samples(
-            a in (-9.0f32..9.0, -9.0f32..9.0),
-            b in (-9.0f32..9.0, -9.0f32..9.0),
-            p in (-9.0f32..9.0, -9.0f32..9.0),
-            fraction in 0.0f32..1.0,
-        ) {
-            let (a, b, p) = (Vec2::from(a), Vec2::from(b), Vec2::from(p));
-            let nearest = nearest_on_segment(a, b, p).distance(p);
-            prop_assert!(nearest <= a.lerp(b, fraction).distance(p) + 1.0e-5);
         }
     }
 }

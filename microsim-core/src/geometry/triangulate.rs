@@ -2,7 +2,8 @@
 
 use glam::Vec2;
 
-use super::polygon::{signed_area, turn};
+use super::polygon::signed_area;
+use super::segment::turn;
 
 /// Splits `polygon`, of either winding, into triangles of indices into it.
 ///

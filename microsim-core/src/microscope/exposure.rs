@@ -1,17 +1,19 @@
 //! A picture being taken: from matter to bytes, in rows.
 
 use super::field::Field;
-use super::film::{Film, Frame};
-use super::maths::{gaussian, larger};
-use super::matter::Grid;
+use super::film::{Film, FilmFrame};
+use super::maths::{larger, mix};
 use super::noise::scramble;
-use super::optics::{Mode, Optics, Shade, Sight};
+use super::optics::sampler::{REACH, Sampler};
+use super::optics::{Mode, Optics, PixelShader, Shader};
 use super::painting::Painting;
+use super::raster::{PixelGrid, bilinear, blur, gaussian};
 use super::specimen::Specimen;
-use super::wave::{Surround, surround_grid};
+use super::surround_wave::{self, SurroundWave};
 use crate::error::Error;
 use crate::world::World;
-use glam::Vec2;
+use crate::world::view::View;
+use glam::{IVec2, Vec2};
 use std::ops::Range;
 
 /// Smallest pixel that an image is computed on, micrometres. No lens shows more: a picture of more pixels enlarges it.
@@ -28,23 +30,23 @@ pub struct Microscope {
 
 /// What is in front of the lens.
 #[derive(Clone, Debug)]
-enum Scene {
-    Lit { specimen: Specimen, surround: Option<Surround>, shade: fn(&Sight<'_>, usize, usize) -> [f32; 3] },
+enum ImageSource {
+    Lit { specimen: Specimen, surround: Option<SurroundWave>, shader: PixelShader },
     Painted(Painting),
 }
 
 /// One picture, ready to be computed.
 #[derive(Clone, Debug)]
 pub struct Exposure {
-    scene: Scene,
+    source: ImageSource,
     mode: &'static Mode,
-    frame: Frame,
+    frame: FilmFrame,
     pixels: [usize; 2],
     /// Grid of the image: the picture's, or a coarser one that the picture enlarges, and a margin around it.
-    image: Grid,
+    image: PixelGrid,
     margin: usize,
     /// Grid of the picture.
-    picture: Grid,
+    picture: PixelGrid,
 }
 
 impl Microscope {
@@ -53,37 +55,42 @@ impl Microscope {
     /// # Errors
     /// Names the number of the field or of the film that is out of range.
     pub fn expose(&self, world: &World, field: Field) -> Result<Exposure, Error> {
-        field.validate()?;
-        self.film.validate().map_err(|error| error.within("film"))?;
-        let seed = scramble(world.config().seed as u32 ^ 0xf11e);
-        let frame = self.film.frame(world.time(), seed);
+        let view = world.view();
+        let frame = self.frame(view, field)?;
         let mode = self.optics.mode();
         let [columns, rows] = field.pixels.map(|count| count as usize);
         let pixel = field.pixel();
         let corner = field.corner() + frame.weave * pixel;
-        let picture = Grid { corner, pixel, columns, top: 0, rows };
+        let picture = PixelGrid { corner, pixel, columns, top: 0, rows };
         let (image, margin) = image_grid(&picture, mode);
-        let scene = match mode.shade {
-            Shade::Painted => Scene::Painted(Painting::of(world.view())),
-            Shade::Light(shade, _) => {
-                let around = mode.has_surround.then(|| surround_grid(&image, image.pixel));
-                let specimen = Specimen::of(world.view(), field.centre, &around.unwrap_or(image));
-                let surround = around.map(|grid| Surround::of(&specimen, grid));
-                Scene::Lit { specimen, surround, shade }
+        let source = match mode.shader {
+            Shader::Painted => ImageSource::Painted(Painting::of(view)),
+            Shader::Light(shader, _) => {
+                let around = mode.has_surround.then(|| surround_wave::grid_around(&image, image.pixel));
+                let specimen = Specimen::of(view, field.centre, &around.unwrap_or(image));
+                let surround = around.map(|grid| SurroundWave::of(specimen.rasterize(grid)));
+                ImageSource::Lit { specimen, surround, shader }
             }
         };
-        Ok(Exposure { scene, mode, frame, pixels: [columns, rows], image, margin, picture })
+        Ok(Exposure { source, mode, frame, pixels: [columns, rows], image, margin, picture })
+    }
+
+    /// The frame of film at the time of a view; checks every number.
+    pub(super) fn frame(&self, view: View<'_>, field: Field) -> Result<FilmFrame, Error> {
+        field.validate()?;
+        self.film.validate().map_err(|error| error.within("film"))?;
+        Ok(self.film.frame(view.time(), scramble(view.world().config().seed as u32 ^ 0xf11e)))
     }
 }
 
 /// Grid of the image behind a picture, and its margin in pixels.
-fn image_grid(picture: &Grid, mode: &Mode) -> (Grid, usize) {
+fn image_grid(picture: &PixelGrid, mode: &Mode) -> (PixelGrid, usize) {
     let pixel = larger(picture.pixel, FINEST);
-    let margin = ((Mode::SIDE + 3.0 * mode.blur) / pixel).ceil() as usize + 2;
+    let margin = ((REACH + 3.0 * mode.blur) / pixel).ceil() as usize + 2;
     let scale = picture.pixel / pixel;
     let count = |count: usize| (count as f32 * scale).ceil() as usize + 2 * margin;
     let corner = picture.corner + Vec2::new(-1.0, 1.0) * (margin as f32 * pixel);
-    (Grid { corner, pixel, columns: count(picture.columns), top: 0, rows: count(picture.rows) }, margin)
+    (PixelGrid { corner, pixel, columns: count(picture.columns), top: 0, rows: count(picture.rows) }, margin)
 }
 
 impl Exposure {
@@ -134,24 +141,24 @@ impl Exposure {
     fn image<const N: usize>(&self, rows: &Range<usize>) -> Image<N> {
         let first = (self.image_place(0, rows.start).y as usize).saturating_sub(self.margin);
         let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
-        let grid = Grid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
-        let mut image = Image { grid, light: self.scene.light(grid) };
-        image.blur(self.mode.blur / grid.pixel);
-        image
+        let grid = PixelGrid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
+        let mut light = self.source.light(grid);
+        blur(&mut light, grid.columns, &gaussian(self.mode.blur / grid.pixel));
+        Image { grid, light }
     }
 }
 
-impl Scene {
+impl ImageSource {
     /// Light at each pixel of a grid.
-    fn light<const N: usize>(&self, grid: Grid) -> Vec<[f32; N]> {
+    fn light<const N: usize>(&self, grid: PixelGrid) -> Vec<[f32; N]> {
         match self {
             Self::Painted(painting) => {
                 painting.light(grid).into_iter().map(|colour| std::array::from_fn(|k| colour[k])).collect()
             }
-            Self::Lit { specimen, surround, shade } => {
-                let plate = specimen.plate(grid);
-                let sight = Sight { plate: &plate, surround: surround.as_ref() };
-                let at = |k: usize| shade(&sight, k % grid.columns, k / grid.columns);
+            Self::Lit { specimen, surround, shader } => {
+                let raster = specimen.rasterize(grid);
+                let sampler = Sampler { raster: &raster, surround: surround.as_ref() };
+                let at = |k: usize| shader(&sampler, k % grid.columns, k / grid.columns);
                 (0..grid.len()).map(at).map(|light| std::array::from_fn(|k| light[k])).collect()
             }
         }
@@ -160,60 +167,19 @@ impl Scene {
 
 /// Light on a part of the image's grid.
 struct Image<const N: usize> {
-    grid: Grid,
+    grid: PixelGrid,
     light: Vec<[f32; N]>,
 }
 
 impl<const N: usize> Image<N> {
     /// Light at a place in pixels of the whole image, from the nearest four.
     fn at(&self, place: Vec2) -> [f32; N] {
-        let (columns, rows) = (self.grid.columns, self.grid.rows);
-        let (x, y) = (place.x as usize, place.y as usize - self.grid.top);
-        let share = place - place.floor();
-        let pick = |x: usize, y: usize| self.light[y.min(rows - 1) * columns + x.min(columns - 1)];
+        let (whole, share) = (place.floor(), place - place.floor());
+        let pixel = whole.as_ivec2() - IVec2::new(0, self.grid.top as i32);
         if share == Vec2::ZERO {
-            return pick(x, y);
+            return self.light[pixel.y as usize * self.grid.columns + pixel.x as usize];
         }
-        let corners = [pick(x, y), pick(x + 1, y), pick(x, y + 1), pick(x + 1, y + 1)];
-        std::array::from_fn(|k| {
-            let upper = corners[0][k] + (corners[1][k] - corners[0][k]) * share.x;
-            let lower = corners[2][k] + (corners[3][k] - corners[2][k]) * share.x;
-            upper + (lower - upper) * share.y
-        })
-    }
-
-    /// Blurs by a normal distribution of `sigma` pixels; a border of three times as many stays as it is.
-    fn blur(&mut self, sigma: f32) {
-        let weights = gaussian(sigma);
-        let reach = weights.len() / 2;
-        let (columns, rows) = (self.grid.columns, self.grid.rows);
-        if columns <= 2 * reach || rows <= 2 * reach {
-            return;
-        }
-        let mut across = self.light.clone();
-        for (line, blurred) in self.light.chunks_exact(columns).zip(across.chunks_exact_mut(columns)) {
-            let lines = (0..weights.len()).map(|k| &line[k..]);
-            weighted_sum(&mut blurred[reach..columns - reach], &weights, lines);
-        }
-        for y in reach..rows - reach {
-            let lines = (0..weights.len()).map(|k| &across[(y + k - reach) * columns..]);
-            weighted_sum(&mut self.light[y * columns..(y + 1) * columns], &weights, lines);
-        }
-    }
-}
-
-/// Sets a line to the weighted sum of others.
-fn weighted_sum<'a, const N: usize>(
-    sum: &mut [[f32; N]],
-    weights: &[f32],
-    lines: impl Iterator<Item = &'a [[f32; N]]>,
-) {
-    sum.fill([0.0; N]);
-    for (weight, line) in weights.iter().zip(lines) {
-        for (sum, light) in sum.iter_mut().zip(line) {
-            for k in 0..N {
-                sum[k] += weight * light[k];
-            }
-        }
+        let mix = |a: [f32; N], b: [f32; N], share| std::array::from_fn(|k| mix(a[k], b[k], share));
+        bilinear([self.grid.columns, self.grid.rows], pixel, share, |k| self.light[k], mix)
     }
 }

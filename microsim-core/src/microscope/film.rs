@@ -1,8 +1,8 @@
 //! What records the image: film with grain, weave and flicker, or a camera.
 
-use super::formula::Formula;
+use super::glsl::Glsl;
 use super::maths::{larger, mix};
-use super::noise::{Dice, grain, hash, shift, wobble};
+use super::noise::{HashRng, grain, hash, shift, wobble};
 use crate::error::{Error, in_range};
 use glam::{IVec2, Vec2};
 
@@ -46,25 +46,25 @@ impl Film {
     }
 
     /// One frame of it, at a time in seconds.
-    pub(super) fn frame(&self, time: f64, seed: u32) -> Frame {
+    pub(super) fn frame(&self, time: f64, seed: u32) -> FilmFrame {
         let number = (time * f64::from(self.rate)).floor() as i64 as i32;
-        let mut dice = Dice::new(hash(IVec2::new(number, 0), seed));
+        let mut rng = HashRng::new(hash(IVec2::new(number, 0), seed));
         // A slow walk of the gate and a little shake on it.
         let slow = number as f32 / 17.0;
         let walk = Vec2::new(wobble(slow, 101), wobble(slow, 102)) * 1.5;
-        let shake = Vec2::new(dice.normal(), dice.normal()) * 0.3;
-        let mut part = || shift(dice.bits());
-        let grain = Parts { fine: part(), coarse: part(), colours: [part(), part(), part()] };
-        let level = 1.0 + self.flicker * dice.normal();
-        Frame { film: *self, grain, weave: (walk + shake) * self.weave, level }
+        let shake = Vec2::new(rng.normal(), rng.normal()) * 0.3;
+        let mut part = || shift(rng.bits());
+        let grain = GrainShifts { fine: part(), coarse: part(), colours: [part(), part(), part()] };
+        let level = 1.0 + self.flicker * rng.normal();
+        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level }
     }
 }
 
 /// A frame of film.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct FilmFrame {
     film: Film,
-    grain: Parts,
+    grain: GrainShifts,
     /// By how much the picture is shifted, pixels.
     pub weave: Vec2,
     level: f32,
@@ -72,7 +72,7 @@ pub(super) struct Frame {
 
 /// Which parts of the table of noise a frame's grain is.
 #[derive(Clone, Copy, Debug)]
-struct Parts {
+struct GrainShifts {
     fine: IVec2,
     coarse: IVec2,
     colours: [IVec2; 3],
@@ -83,10 +83,10 @@ const FINE: f32 = 0.6;
 const COARSE: f32 = 0.4;
 const OWN: f32 = 0.4;
 
-pub(super) const FORMULA: Formula =
-    Formula { source: include_str!("film.glsl"), constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE])] };
+pub(super) const GLSL: Glsl =
+    Glsl { source: include_str!("film.glsl"), constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE])] };
 
-impl Frame {
+impl FilmFrame {
     /// Records light at a pixel: 0 to 255 for each channel. `half` is half the picture's size.
     pub(super) fn record<const N: usize>(
         &self,
@@ -122,7 +122,7 @@ impl Frame {
         FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>()
     }
 
-    /// What [`FORMULA`] is fed for a picture of this size: levels and vignette, grain, and its parts.
+    /// Uniforms of [`GLSL`] for a picture of this size.
     pub(super) fn uniforms(&self, strength: f32, is_grey: bool, [width, height]: [usize; 2]) -> Vec<f32> {
         let [black, white] = self.film.levels;
         let own = if is_grey { 0.0 } else { OWN };

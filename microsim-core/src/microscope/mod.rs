@@ -21,7 +21,7 @@
 //! let mut world = World::new(WorldConfig::default())?;
 //! world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0))?;
 //! let field = Field { centre: Vec2::new(80.0, 45.0), width: 40.0, pixels: [64, 48] };
-//! let microscope = Microscope { optics: Optics::PhaseContrast, film: Film::CINE };
+//! let microscope = Microscope { optics: Optics::PHASE_CONTRAST, film: Film::CINE };
 //! let exposure = microscope.expose(&world, field)?;
 //! let bytes = exposure.rows(0..48);
 //! assert_eq!(bytes.len(), 64 * 48 * 3);
@@ -31,14 +31,17 @@
 mod exposure;
 mod field;
 mod film;
-mod formula;
+mod glsl;
+mod gpu;
 mod maths;
 mod matter;
 mod noise;
 mod optics;
 mod painting;
+mod raster;
 pub mod recipe;
 mod specimen;
+mod surround_wave;
 mod wave;
 
 pub use exposure::{Exposure, Microscope};

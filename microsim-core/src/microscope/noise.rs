@@ -3,10 +3,10 @@
 //! What pixels are asked for comes from one table of random bytes, which repeats itself: a graphics card, which may know no
 //! integers, holds it as a texture. A seed is a shift of the table.
 
-use super::formula::Formula;
+use super::glsl::Glsl;
 use glam::{IVec2, Vec2};
 
-pub(super) const FORMULA: Formula = Formula {
+pub(super) const GLSL: Glsl = Glsl {
     source: include_str!("noise.glsl"),
     constants: &[("TABLE", &[SIDE as f32]), ("NEXT_OCTAVE", &[NEXT_OCTAVE.x as f32, NEXT_OCTAVE.y as f32])],
 };
@@ -33,6 +33,15 @@ pub(super) const fn shift_of(seed: u32) -> [f32; 2] {
     [shift.x as f32, shift.y as f32]
 }
 
+/// The texture that programs take noise from: its side in texels, and four bytes for each. Beyond its edges it repeats
+/// itself, and between texels it is interpolated.
+#[must_use]
+pub fn noise_table() -> (u16, Vec<u8>) {
+    let side = SIDE;
+    let texels = (0..side * side).flat_map(|k| entry(IVec2::new(k % side, k / side)));
+    (side as u16, texels.collect())
+}
+
 /// 32 bits for a place on the lattice (the finaliser of MurmurHash3, applied to each coordinate in turn).
 pub(super) fn hash(at: IVec2, seed: u32) -> u32 {
     scramble(scramble(scramble(seed).wrapping_add(at.x as u32)).wrapping_add(at.y as u32))
@@ -53,9 +62,9 @@ pub(super) fn unit(bits: u32) -> f32 {
 
 /// The numbers of one thing that looks a little different from its neighbours.
 #[derive(Clone, Debug)]
-pub(super) struct Dice(u32);
+pub(super) struct HashRng(u32);
 
-impl Dice {
+impl HashRng {
     pub(super) fn new(seed: u32) -> Self {
         Self(scramble(seed))
     }
@@ -142,10 +151,10 @@ mod tests {
 
     #[test]
     fn dice_are_fair() {
-        let mut dice = Dice::new(7);
+        let mut rng = HashRng::new(7);
         let (mut sum, mut squares) = (0.0, 0.0);
         for _ in 0..4000 {
-            let x = dice.normal();
+            let x = rng.normal();
             sum += x;
             squares += x * x;
         }

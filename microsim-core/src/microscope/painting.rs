@@ -7,11 +7,11 @@
 //!   particles, blurred (3.2.2).
 //! - Background: sprites at points that wander (3.2.3).
 
-use super::formula::Formula;
+use super::glsl::Glsl;
 use super::maths::{mix, smoothstep};
-use super::matter::Grid;
-use super::noise::{Dice, octaves, scramble, shift_of, wobble};
-use super::recipe::{Program, QUAD, Slide};
+use super::noise::{HashRng, octaves, scramble, shift_of, wobble};
+use super::raster::PixelGrid;
+use super::recipe::{DrawList, Program, QUAD};
 use super::specimen::chamber::obstacle_map;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
@@ -32,19 +32,19 @@ const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
 /// The noise that mottles the page.
 const PAGE_SEED: u32 = 1;
 
-pub(super) const FORMULA: Formula =
-    Formula { source: include_str!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
+pub(super) const GLSL: Glsl =
+    Glsl { source: include_str!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
 
-/// A painted picture: things that cover each other, the lowest first.
+/// A painted picture: primitives that cover each other, the lowest first.
 #[derive(Clone, Debug)]
 pub(super) struct Painting {
     room: Vec2,
     obstacles: Vec<Obstacle>,
-    things: Vec<Thing>,
+    primitives: Vec<Primitive>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Thing {
+enum Primitive {
     Triangle { corners: [Vec2; 3], texture: [Vec2; 3], skin: Skin },
     Disc { at: Vec2, radius: f32, colour: Vec3, alpha: f32, softness: f32 },
 }
@@ -63,7 +63,7 @@ impl Painting {
     pub(super) fn of(view: View<'_>) -> Self {
         let world = view.world();
         let room = world.config().size;
-        let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), things: Vec::new() };
+        let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), primitives: Vec::new() };
         painting.background(world.config().seed as u32, view.time() as f32);
         let mut organisms: Vec<OrganismView<'_>> = view.organisms().collect();
         organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
@@ -75,12 +75,12 @@ impl Painting {
 
     fn background(&mut self, seed: u32, time: f32) {
         for k in 0..DRIFTING {
-            let mut dice = Dice::new(seed ^ scramble(k));
-            let walk = Vec2::new(wobble(time * 0.1, dice.bits()), wobble(time * 0.1, dice.bits())) * 6.0;
-            let at = Vec2::new(dice.unit(), dice.unit()) * self.room + walk;
-            let colour = PAGE * dice.range([0.82, 1.12]);
-            let radius = dice.range([0.01, 0.035]) * self.room.max_element();
-            self.things.push(Thing::Disc { at, radius, colour, alpha: 0.5, softness: 0.9 });
+            let mut rng = HashRng::new(seed ^ scramble(k));
+            let walk = Vec2::new(wobble(time * 0.1, rng.bits()), wobble(time * 0.1, rng.bits())) * 6.0;
+            let at = Vec2::new(rng.unit(), rng.unit()) * self.room + walk;
+            let colour = PAGE * rng.range([0.82, 1.12]);
+            let radius = rng.range([0.01, 0.035]) * self.room.max_element();
+            self.primitives.push(Primitive::Disc { at, radius, colour, alpha: 0.5, softness: 0.9 });
         }
     }
 
@@ -90,8 +90,8 @@ impl Painting {
         let skin = Skin { body, rim, mottle, seed };
         let surface = organism.surface();
         if surface.len() < 3 {
-            let disc = |at, radius| Thing::Disc { at, radius, colour: body, alpha: 0.95, softness: 0.15 };
-            self.things.extend(organism.particles().map(|particle| disc(particle.position, particle.radius)));
+            let disc = |at, radius| Primitive::Disc { at, radius, colour: body, alpha: 0.95, softness: 0.15 };
+            self.primitives.extend(organism.particles().map(|particle| disc(particle.position, particle.radius)));
         } else if organism.kind() == Kind::AmoeboidCell {
             self.filled_chain(organism, &surface, skin);
         } else {
@@ -107,10 +107,10 @@ impl Painting {
         let bound = |k: usize| unit_vector(TAU * k as f32 / count as f32);
         for k in 0..count {
             let corners = [hub, surface[k], surface[(k + 1) % count]];
-            self.things.push(Thing::Triangle { corners, texture: [Vec2::ZERO, bound(k), bound(k + 1)], skin });
+            self.primitives.push(Primitive::Triangle { corners, texture: [Vec2::ZERO, bound(k), bound(k + 1)], skin });
         }
-        let sprite = |at, radius| Thing::Disc { at, radius, colour: skin.rim * 0.75, alpha: 0.7, softness: 0.4 };
-        self.things.extend(kernel.map(|kernel| sprite(kernel.position, kernel.radius)));
+        let sprite = |at, radius| Primitive::Disc { at, radius, colour: skin.rim * 0.75, alpha: 0.7, softness: 0.4 };
+        self.primitives.extend(kernel.map(|kernel| sprite(kernel.position, kernel.radius)));
     }
 
     /// One colour, and the blurred particles on it.
@@ -118,18 +118,18 @@ impl Painting {
         let flat = Skin { mottle: 0.0, rim: skin.body, ..skin };
         for corners in triangulate(surface) {
             let corners = corners.map(|k| surface[k as usize]);
-            self.things.push(Thing::Triangle { corners, texture: [Vec2::ZERO; 3], skin: flat });
+            self.primitives.push(Primitive::Triangle { corners, texture: [Vec2::ZERO; 3], skin: flat });
         }
         let fluid = organism.particles().filter(|p| matches!(p.role, Role::Cytoplasm | Role::GrownCytoplasm));
-        self.things.extend(fluid.map(|particle| cytoplasm(&particle, &skin)));
-        let node = |at, radius| Thing::Disc { at, radius, colour: skin.rim * 0.8, alpha: 0.8, softness: 0.5 };
+        self.primitives.extend(fluid.map(|particle| cytoplasm(&particle, &skin)));
+        let node = |at, radius| Primitive::Disc { at, radius, colour: skin.rim * 0.8, alpha: 0.8, softness: 0.5 };
         let membrane = organism.particles().filter(|particle| particle.role == Role::Membrane);
-        self.things.extend(membrane.map(|particle| node(particle.position, particle.radius)));
+        self.primitives.extend(membrane.map(|particle| node(particle.position, particle.radius)));
     }
 
     /// Colours on a grid, each channel 0 to 1.
-    pub(super) fn light(&self, grid: Grid) -> Vec<Vec3> {
-        let fine = Grid {
+    pub(super) fn light(&self, grid: PixelGrid) -> Vec<Vec3> {
+        let fine = PixelGrid {
             pixel: grid.pixel / SAMPLES as f32,
             columns: grid.columns * SAMPLES,
             top: grid.top * SAMPLES,
@@ -138,8 +138,8 @@ impl Painting {
         };
         let place = |k: usize| fine.place(k % fine.columns, k / fine.columns);
         let mut canvas: Vec<Vec3> = (0..fine.len()).map(|k| self.page(place(k))).collect();
-        for thing in &self.things {
-            thing.paint(&fine, &mut canvas);
+        for primitive in &self.primitives {
+            primitive.paint(&fine, &mut canvas);
         }
         let mean = |k: usize| {
             let (x, y) = (k % grid.columns * SAMPLES, k / grid.columns * SAMPLES);
@@ -149,18 +149,18 @@ impl Painting {
         (0..grid.len()).map(mean).collect()
     }
 
-    /// The same for [`FORMULA`].
-    pub(super) fn draw_on(&self, slide: &mut Slide) {
+    /// Its triangles, for [`GLSL`].
+    pub(super) fn draw_on(&self, draws: &mut DrawList) {
         let [x, y] = shift_of(PAGE_SEED);
         let room = vec![self.room.x, self.room.y, x, y];
         let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
-        slide.add_apart(Program::Page, &corners, QUAD.to_vec(), room.clone(), None);
+        draws.add_apart(Program::Page, &corners, QUAD.to_vec(), room.clone(), None);
         for obstacle in &self.obstacles {
-            if let Some((_, map)) = obstacle_map(obstacle, slide) {
-                slide.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(&map));
+            if let Some((_, map)) = obstacle_map(obstacle, draws) {
+                draws.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(map.texture()));
             }
         }
-        self.things.iter().for_each(|thing| thing.draw_on(slide));
+        self.primitives.iter().for_each(|primitive| primitive.draw_on(draws));
     }
 
     /// The page, darker where the chamber is.
@@ -171,15 +171,15 @@ impl Painting {
     }
 }
 
-impl Thing {
-    fn draw_on(&self, slide: &mut Slide) {
+impl Primitive {
+    fn draw_on(&self, draws: &mut DrawList) {
         match *self {
             Self::Triangle { corners, texture, skin } => {
                 let [x, y] = shift_of(skin.seed);
                 let colours = [skin.body.x, skin.body.y, skin.body.z, 1.0, skin.rim.x, skin.rim.y, skin.rim.z, 1.0];
                 let vertex = |k: usize| [corners[k].to_array(), texture[k].to_array()].concat();
                 let vertices = (0..3).map(|k| [&vertex(k)[..], &colours, &[skin.mottle, x, y]].concat());
-                slide.add(Program::Painted, false, &vertices.collect::<Vec<_>>().concat(), [0, 1, 2]);
+                draws.add(Program::Painted, false, &vertices.collect::<Vec<_>>().concat(), [0, 1, 2]);
             }
             Self::Disc { at, radius, colour, alpha, softness } => {
                 // A negative rim tells discs from triangles.
@@ -187,12 +187,12 @@ impl Thing {
                 let corners = [Vec2::NEG_ONE, Vec2::new(1.0, -1.0), Vec2::ONE, Vec2::new(-1.0, 1.0)];
                 let vertex = |way: Vec2| [(at + way * radius).to_array(), way.to_array()].concat();
                 let vertices = corners.map(|way| [&vertex(way)[..], &colours, &[softness, 0.0, 0.0]].concat());
-                slide.add(Program::Painted, false, &vertices.concat(), QUAD);
+                draws.add(Program::Painted, false, &vertices.concat(), QUAD);
             }
         }
     }
 
-    fn paint(&self, grid: &Grid, canvas: &mut [Vec3]) {
+    fn paint(&self, grid: &PixelGrid, canvas: &mut [Vec3]) {
         match *self {
             Self::Triangle { corners: [a, b, c], texture, skin } => {
                 let area = (b - a).perp_dot(c - a);
@@ -227,17 +227,17 @@ impl Skin {
 }
 
 /// A blurred particle; colours and sizes differ, and what growth has added is yellow.
-fn cytoplasm(particle: &ParticleView, skin: &Skin) -> Thing {
-    let mut dice = Dice::new(particle.index);
-    let own = mix_colours(skin.rim, skin.body, dice.unit());
+fn cytoplasm(particle: &ParticleView, skin: &Skin) -> Primitive {
+    let mut rng = HashRng::new(particle.index);
+    let own = mix_colours(skin.rim, skin.body, rng.unit());
     let colour = if particle.role == Role::GrownCytoplasm { mix_colours(own, GROWN, 0.6) } else { own };
-    let radius = particle.radius * dice.range([1.6, 2.2]);
-    Thing::Disc { at: particle.position, radius, colour, alpha: 0.55, softness: 1.0 }
+    let radius = particle.radius * rng.range([1.6, 2.2]);
+    Primitive::Disc { at: particle.position, radius, colour, alpha: 0.55, softness: 1.0 }
 }
 
 /// Body, rim and mottling of a kind.
 fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
-    let shade = 0.92 + 0.16 * Dice::new(seed).unit();
+    let shade = 0.92 + 0.16 * HashRng::new(seed).unit();
     let (body, rim, mottle) = match kind {
         Kind::AmoeboidCell => (Vec3::new(0.70, 0.82, 0.56), Vec3::new(0.38, 0.55, 0.34), 0.0),
         Kind::RigidCell => (Vec3::new(0.80, 0.72, 0.44), Vec3::new(0.45, 0.36, 0.18), 0.22),
@@ -265,8 +265,8 @@ mod tests {
     fn disc(index: u32, role: Role) -> (f32, Vec3) {
         let particle = ParticleView { index, position: Vec2::ZERO, velocity: Vec2::ZERO, radius: 1.0, role };
         match cytoplasm(&particle, &SKIN) {
-            Thing::Disc { radius, colour, .. } => (radius, colour),
-            Thing::Triangle { .. } => unreachable!("cytoplasm is made of discs"),
+            Primitive::Disc { radius, colour, .. } => (radius, colour),
+            Primitive::Triangle { .. } => unreachable!("cytoplasm is made of discs"),
         }
     }
 

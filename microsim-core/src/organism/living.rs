@@ -5,7 +5,7 @@ use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::{Engulfer, Prey};
+use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
 use crate::capability::progress::Progress;
 use crate::id::OrganismId;
 use crate::kind::Kind;
@@ -62,7 +62,7 @@ pub(crate) struct Organism {
     /// Where it wanted to go in the last step.
     pub goal: Option<Vec2>,
     /// Speed that it wanted then, in its own; negative: backwards.
-    pub pace: f32,
+    pub relative_speed: f32,
     /// Whether it gets anywhere.
     pub progress: Progress,
     /// Where it was spawned.
@@ -118,7 +118,7 @@ impl Organism {
 
     /// Speed that it wants to move with, units/s; negative: backwards.
     pub(crate) fn present_speed(&self) -> f32 {
-        self.pace * self.own_speed()
+        self.relative_speed * self.own_speed()
     }
 
     /// Speed that it is capable of, units/s: less while it digests.
@@ -151,6 +151,16 @@ impl Organism {
         }
     }
 
+    /// The prey that it touches or holds; empty for organisms that are no engulfers.
+    pub(crate) fn meals(&self) -> &[Meal] {
+        self.engulfer.as_ref().map_or(&[], |engulfer| &engulfer.meals)
+    }
+
+    /// Positions of its outline.
+    pub(crate) fn outline_positions(&self, particles: &Particles) -> Vec<Vec2> {
+        self.outline_particles().map(|i| particles.position(i as usize)).collect()
+    }
+
     /// All membranes with their rings: its own, and those of its phagosomes.
     pub(crate) fn membranes(&self) -> impl Iterator<Item = (&Membrane, &[u32])> {
         let own = self.body.membrane().map(|membrane| (membrane, self.outline.as_slice()));
@@ -166,21 +176,21 @@ impl Organism {
 
     /// Remembers how many nodes its membrane has for its content, so that it can have as many again, unless it remembers a
     /// number already: that of a membrane on its way, or rounded to whole nodes, would grow with each division and fusion.
-    pub(crate) fn note_first_nodes(&mut self, fluids: &[Fluid]) {
+    pub(crate) fn record_nodes_per_root(&mut self, fluids: &[Fluid]) {
         if self.divider.as_ref().is_some_and(|divider| divider.nodes_per_root.is_none()) {
-            self.note_nodes(self.outline.len() as u32, fluids);
+            self.set_nodes_per_root(self.outline.len() as u32, fluids);
         }
     }
 
     /// Takes nodes that it was given for more than its content asks for.
-    pub(crate) fn keep_added_nodes(&mut self, added: u32, fluids: &[Fluid]) {
+    pub(crate) fn add_wanted_nodes(&mut self, added: u32, fluids: &[Fluid]) {
         let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
         divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
         let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
-        self.note_nodes(nodes, fluids);
+        self.set_nodes_per_root(nodes, fluids);
     }
 
-    fn note_nodes(&mut self, nodes: u32, fluids: &[Fluid]) {
+    fn set_nodes_per_root(&mut self, nodes: u32, fluids: &[Fluid]) {
         let nodes_per_root = nodes as f32 / self.content(fluids).sqrt();
         if let Some(divider) = &mut self.divider {
             divider.nodes_per_root = Some(nodes_per_root);
@@ -188,7 +198,7 @@ impl Organism {
     }
 
     /// Sends its membrane on the way to the number of nodes that suits its content.
-    pub(crate) fn adapt_nodes(&mut self, fluids: &[Fluid]) {
+    pub(crate) fn update_wanted_nodes(&mut self, fluids: &[Fluid]) {
         let root = self.content(fluids).sqrt();
         if let Some(divider) = &mut self.divider {
             divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);

@@ -2,8 +2,7 @@
 
 use super::living::{Organism, Phagosome};
 use crate::capability::phagocytosis::MealPhase;
-use crate::collision::filter::Home;
-use crate::collision::ring::Ring;
+use crate::collision::ring::{Containment, Ring};
 use crate::id::OrganismId;
 use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
@@ -158,25 +157,25 @@ impl Organisms {
         })
     }
 
-    /// On which side of the membranes each organism is at home.
-    pub(crate) fn homes(&self) -> Vec<Home> {
-        let mut homes = vec![Home::Free; self.slots.len()];
+    /// Which membrane holds each organism.
+    pub(crate) fn containments(&self) -> Vec<Containment> {
+        let mut containments = vec![Containment::Free; self.slots.len()];
         for (id, organism) in self.with_membrane() {
-            let meals = organism.engulfer.iter().flat_map(|engulfer| &engulfer.meals);
+            let meals = organism.meals().iter();
             // Another organism may live in the place of prey that was removed.
             for meal in meals.filter(|meal| self.get(meal.prey).is_some()) {
                 match meal.phase {
                     MealPhase::Touching(_) => {}
                     // Through a gate; a cup closes around prey that stays outside of the membrane.
                     MealPhase::Ingesting(_) if meal.is_in_cup() => {}
-                    MealPhase::Ingesting(_) => homes[meal.prey.index as usize] = Home::Passing(id.index),
+                    MealPhase::Ingesting(_) => containments[meal.prey.index as usize] = Containment::Passing(id.index),
                     MealPhase::Ingested | MealPhase::Digesting(_) => {
-                        homes[meal.prey.index as usize] = Home::Inside(id.index);
+                        containments[meal.prey.index as usize] = Containment::Inside(id.index);
                     }
                 }
             }
         }
-        homes
+        containments
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -216,7 +215,7 @@ mod tests {
         world.remove(prey).unwrap();
         let other = world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 45.0)).unwrap();
         assert_eq!(other.index, prey.index);
-        assert_eq!(world.organisms.homes()[other.index as usize], Home::Free);
+        assert_eq!(world.organisms.containments()[other.index as usize], Containment::Free);
         assert_eq!(world.organisms.rings().count(), 1, "the phagosome of what is gone holds nothing");
     }
 }

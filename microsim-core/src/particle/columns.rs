@@ -1,5 +1,5 @@
-//! The part of the store that moves: what constraints and integration read and write, for all particles or a stretch of
-//! neighbouring ones. Stretches that do not overlap can be worked on at the same time.
+//! The part of the store that moves: what constraints and integration read and write, for all particles or a chunk of
+//! neighbouring ones. Chunks that do not overlap can be worked on at the same time.
 
 use glam::Vec2;
 use std::ops::Range;
@@ -69,18 +69,18 @@ impl<'a> Columns<'a> {
         (Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }, rest)
     }
 
-    /// Stretches of at most `count` entries that together are these ranges, of which each lies after the one before.
-    pub(crate) fn stretches(self, ranges: impl Iterator<Item = Range<usize>>, count: usize) -> Vec<Self> {
-        let (mut stretches, mut rest, mut start) = (Vec::new(), self, 0);
+    /// Chunks of at most `count` entries that together are these ranges, of which each lies after the one before.
+    pub(crate) fn chunks(self, ranges: impl Iterator<Item = Range<usize>>, count: usize) -> Vec<Self> {
+        let (mut chunks, mut rest, mut start) = (Vec::new(), self, 0);
         for range in ranges {
             for first in range.clone().step_by(count) {
                 let end = range.end.min(first + count);
                 let (_, from_first) = rest.split_at(first - start);
-                let (stretch, others) = from_first.split_at(end - first);
-                stretches.push(stretch);
+                let (chunk, others) = from_first.split_at(end - first);
+                chunks.push(chunk);
                 (rest, start) = (others, end);
             }
         }
-        stretches
+        chunks
     }
 }

@@ -16,14 +16,19 @@
 //!
 //! A dead entry (an empty lane, a freed index) has inverse mass 0, owner [`NO_OWNER`] and belongs to no collision group.
 
+mod block_range;
+mod collision_groups;
 mod columns;
+mod material;
 pub(crate) mod sleep;
 
 use crate::shared::Shared;
+pub(crate) use block_range::{BlockRange, LANES, outside_of};
+pub use collision_groups::CollisionGroups;
 pub(crate) use columns::Columns;
 use glam::Vec2;
+pub use material::Material;
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
@@ -32,80 +37,6 @@ pub(crate) const NO_OWNER: u32 = u32::MAX;
 const MAX_RADIUS: f32 = 1e5;
 #[cfg(feature = "snapshot")]
 const MAX_COORDINATE: f32 = 1e6;
-
-/// Instances of a template in one block.
-pub(crate) const LANES: usize = 8;
-
-/// Where a block lies in the store.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BlockRange {
-    /// Entry of slot 0 in lane 0.
-    pub base: usize,
-    pub slots: usize,
-}
-
-impl BlockRange {
-    /// Entry of a slot in a lane.
-    pub(crate) fn entry(&self, slot: usize, lane: usize) -> usize {
-        self.base + slot * LANES + lane
-    }
-
-    /// Number of its entries.
-    pub(crate) fn len(&self) -> usize {
-        self.slots * LANES
-    }
-
-    /// One past its last entry.
-    pub(crate) fn end(&self) -> usize {
-        self.base + self.len()
-    }
-}
-
-/// Stretches of a store of `len` entries that are in no block, of blocks in the order in which they lie there.
-pub(crate) fn outside_of(
-    blocks: impl Iterator<Item = BlockRange> + Clone,
-    len: usize,
-) -> impl Iterator<Item = Range<usize>> {
-    let starts = std::iter::once(0).chain(blocks.clone().map(|block| block.end()));
-    starts.zip(blocks.map(|block| block.base).chain([len])).map(|(start, end)| start..end)
-}
-
-/// Which particles collide: `a` meets `b` when each one's filter contains one of the other's memberships.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct CollisionGroups {
-    /// Groups that this particle is in, one bit each.
-    pub memberships: u32,
-    /// Groups that it collides with, one bit each.
-    pub filter: u32,
-}
-
-impl CollisionGroups {
-    /// In every group, colliding with every group.
-    pub const ALL: Self = Self { memberships: u32::MAX, filter: u32::MAX };
-    /// Colliding with nothing.
-    pub const NONE: Self = Self { memberships: 0, filter: 0 };
-
-    /// Whether particles of these two groups collide.
-    #[must_use]
-    pub fn meets(self, other: Self) -> bool {
-        self.memberships & other.filter != 0 && other.memberships & self.filter != 0
-    }
-}
-
-/// Surface of a particle in contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Material {
-    /// Coulomb friction coefficient, 0 to 10; of two materials the geometric mean counts.
-    pub friction: f32,
-    /// Fraction of the approach speed kept after an impact, 0 to 1; of two materials the larger counts.
-    pub restitution: f32,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Self { friction: 0.2, restitution: 0.0 }
-    }
-}
 
 /// One particle, as it is put into the store.
 #[derive(Clone, Copy, Debug)]
@@ -143,7 +74,7 @@ pub(crate) struct Particles {
     /// Position relative to the origin, length units.
     pub x: Vec<f32>,
     pub y: Vec<f32>,
-    /// Position at the start of the substep; the next one sets it anew.
+    /// Position at the start of the substep; the next one sets it.
     #[serde(skip)]
     pub prev_x: Vec<f32>,
     #[serde(skip)]
@@ -199,7 +130,7 @@ impl Clone for Particles {
         self.origin_y.clone_from(origin_y);
         self.x.clone_from(x);
         self.y.clone_from(y);
-        // Set anew before anyone reads them.
+        // Set before anyone reads them.
         self.prev_x.resize(prev_x.len(), 0.0);
         self.prev_y.resize(prev_y.len(), 0.0);
         self.vx.clone_from(vx);
@@ -293,7 +224,7 @@ impl Particles {
 
     /// Frees a loose particle; its index is handed out again.
     pub(crate) fn remove(&mut self, index: u32) {
-        self.kill(index as usize);
+        self.clear_entry(index as usize);
         self.free.push(index);
     }
 
@@ -374,7 +305,7 @@ impl Particles {
     }
 
     /// Makes entry `i` dead without freeing its index (a lane of a block).
-    pub(crate) fn kill(&mut self, i: usize) {
+    pub(crate) fn clear_entry(&mut self, i: usize) {
         self.live_count -= usize::from(self.is_live(i));
         self.vx[i] = 0.0;
         self.vy[i] = 0.0;

@@ -1,4 +1,4 @@
-//! A world in the midst of what its organisms do: the state that most of them do not have most of the time.
+//! A busy world for tests of snapshots: organisms that eat, divide, fuse, sense and sleep.
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
@@ -11,8 +11,7 @@ use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 
-/// Meals in every phase, a furrow, orders, all controllers, an exchange, places that
-/// nothing takes any more, and everything that can happen in a step.
+/// A world with meals in every phase, a furrow, orders, all controllers, an exchange, free places and every kind of event.
 pub(super) fn world() -> World {
     let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
@@ -60,7 +59,7 @@ fn steer(world: &mut World, chemical: ChemicalId) {
     world.set_exempt(ids[0], ids[1], true).unwrap();
 }
 
-/// One that smells something and is stuck.
+/// An organism that senses a chemical and is stuck.
 fn cage(world: &mut World, chemical: ChemicalId) {
     let [a, b] = [Vec2::new(4.3, 2.8), Vec2::new(4.3, -2.8)];
     let bars = SharedShape::polyline(vec![a, b, -a, -b], Some(vec![[0, 1], [1, 2], [2, 3], [3, 0]]));
@@ -70,7 +69,7 @@ fn cage(world: &mut World, chemical: ChemicalId) {
     world.spawn(&spec.into(), Placement::at(140.0, 75.0).steered_by(Controller::chemotaxis(nose))).unwrap();
 }
 
-/// A body of an embedder's own.
+/// A custom body.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
@@ -79,7 +78,7 @@ fn roped(world: &mut World) {
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
 }
 
-/// Lets cells eat until the first one digests, the next one takes in, the third one touches and the last one divides.
+/// Lets cells eat until the first one digests, the second one ingests, the third one touches and the last one divides.
 fn dine(world: &mut World, [eater, taker, toucher, divider]: [OrganismId; 4]) {
     let agar = AgarSpec::default().into();
     let mut inputs = Inputs::new();

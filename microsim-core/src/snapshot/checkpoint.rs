@@ -1,4 +1,4 @@
-//! A run in the midst of it: the world, and what its scenario does and checks.
+//! Checkpoints: a run of a scenario as bytes, with its world, script and checks.
 
 use super::envelope::Format;
 use super::{SnapshotError, decode, encode, invalid};
@@ -10,11 +10,11 @@ use crate::world::World;
 /// Changes with every change of a type that is part of a run, but not with one of a world.
 pub(super) const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 3 };
 
-/// What a checkpoint holds; the world as a snapshot.
+/// Content of a checkpoint; the world is a snapshot.
 pub(super) type Content =
     (Origin, Option<OrganismId>, Vec<(String, OrganismId)>, Script, Vec<SpawnerState>, Checks, Vec<u8>);
 
-/// A run of a scenario that can be resumed: it goes on as if it had not been interrupted.
+/// A run of a scenario that can be resumed with the same results as without the interruption.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     /// What the scenario was read from.
@@ -48,8 +48,8 @@ impl Checkpoint {
         Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game } })
     }
 
-    /// What two runs do not share beside their worlds, if anything, in a word: the player, the names of organisms, the
-    /// script with the organisms that are to come, or the checks. What the scenarios were read from is not compared.
+    /// The first difference of two runs other than in their worlds: `player`, `names` of organisms, `script` (with its supplies
+    /// of organisms) or `checks`. The sources of the scenarios are not compared.
     #[must_use]
     pub fn difference_beside_worlds(&self, other: &Self) -> Option<&'static str> {
         let parts = |Built { player, named, script, checks, .. }: &Built| {

@@ -1,5 +1,5 @@
-//! How bytes lie in a file: eight bytes that say what it is, a version, the length of the content, the content, and a
-//! checksum over all of that. Numbers are little-endian.
+//! Envelope of a file: eight bytes that name its format, a version, the length of the content, the content, and a checksum of
+//! all of these. Numbers are little-endian.
 
 use super::SnapshotError;
 use crate::fnv::Fnv1a;
@@ -9,7 +9,7 @@ const LENGTH_AT: usize = VERSION_AT + 4;
 const CONTENT_AT: usize = LENGTH_AT + 8;
 const CHECKSUM: usize = 8;
 
-/// A kind of file.
+/// A file format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Format {
     pub magic: [u8; VERSION_AT],
@@ -17,7 +17,7 @@ pub(super) struct Format {
 }
 
 impl Format {
-    /// Wraps up content.
+    /// Content with its envelope.
     pub(super) fn seal(self, content: &[u8]) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(CONTENT_AT + content.len() + CHECKSUM);
         bytes.extend(self.magic);
@@ -28,7 +28,7 @@ impl Format {
         bytes
     }
 
-    /// The content, if all of the wrapping is right.
+    /// The content, if the envelope is valid.
     pub(super) fn open(self, bytes: &[u8]) -> Result<&[u8], SnapshotError> {
         let begins = bytes.iter().zip(self.magic).all(|(&found, expected)| found == expected);
         if !begins {

@@ -1,9 +1,8 @@
-//! What values of a type look like when they are written, found by noting what a type wants to
-//! read. It must not change without a new version of the format.
+//! Layout of serialised types, recorded while they are deserialised. It must not change without a new version of the format.
 
 use super::tests::worlds;
 use super::{Content, ObstacleRecord, WORLD};
-use crate::walk::{Leaf, Part, Visitor, walk};
+use crate::walk::{Leaf, PathSegment, Visitor, walk};
 use serde::de::value::{Error, U32Deserializer};
 use serde::de::{
     self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, IntoDeserializer, MapAccess,
@@ -12,20 +11,20 @@ use serde::de::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Parts of values, each once, with the kind of each.
+/// Paths of all values in a type, each once, with its kind.
 #[derive(Default)]
 struct Layout {
     way: Vec<String>,
     parts: Vec<(String, &'static str)>,
     known: BTreeSet<(String, &'static str)>,
-    /// How often each enum was met, by the way to it.
+    /// Number of visits of each enum, by path.
     visits: BTreeMap<String, usize>,
 }
 
 impl Layout {
-    /// Everything that a value of this type may hold.
+    /// Layout of a type with all variants of its enums.
     fn of<T: DeserializeOwned>() -> Self {
-        /// Enough to meet each variant of an enum within the rarest variant of another several times.
+        /// Enough rounds to visit each variant of an enum inside the rarest variant of another one several times.
         const ROUNDS: usize = 100;
         let mut layout = Self::default();
         loop {
@@ -48,7 +47,7 @@ impl Layout {
         }
     }
 
-    /// Goes on within what was just noted.
+    /// Continues below the last path.
     fn within(&mut self, what: &str) {
         match self.way.last_mut() {
             Some(last) => last.push_str(what),
@@ -56,7 +55,7 @@ impl Layout {
         }
     }
 
-    /// The next variant of an enum, each in its turn.
+    /// The next variant of an enum, in turn.
     fn turn(&mut self, variants: &[&'static str]) -> u32 {
         let visits = self.visits.entry(self.way.concat()).or_default();
         *visits += 1;
@@ -71,12 +70,12 @@ impl Layout {
 }
 
 impl Visitor for Layout {
-    fn enter(&mut self, part: Part) {
+    fn enter(&mut self, part: PathSegment) {
         let is_listed = self.way.last().is_some_and(|last| last.ends_with("[]"));
         self.way.push(match part {
-            Part::Field(name) => format!(".{name}"),
-            Part::Element(_) if is_listed => String::new(),
-            Part::Element(index) => format!(".{index}"),
+            PathSegment::Field(name) => format!(".{name}"),
+            PathSegment::Element(_) if is_listed => String::new(),
+            PathSegment::Element(index) => format!(".{index}"),
         });
     }
 
@@ -104,11 +103,11 @@ impl Visitor for Layout {
     }
 }
 
-/// Notes what a type wants to read, and gives it zeros, lists of one element, and each variant in its turn.
+/// A deserialiser that records what a type reads, and gives it zeros, lists of one element, and all variants in turn.
 struct Wishes<'a>(&'a mut Layout);
 
 impl<'a> Wishes<'a> {
-    fn parts(self, parts: impl Iterator<Item = Part>, is_list: bool) -> Parts<'a> {
+    fn parts(self, parts: impl Iterator<Item = PathSegment>, is_list: bool) -> Parts<'a> {
         Parts { layout: self.0, parts: parts.collect::<Vec<_>>().into_iter(), is_list }
     }
 }
@@ -163,16 +162,16 @@ impl<'de> Deserializer<'de> for Wishes<'_> {
 
     fn deserialize_seq<V: de::Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         self.0.leaf(Leaf::Count(1));
-        visitor.visit_seq(self.parts(std::iter::once(Part::Element(0)), true))
+        visitor.visit_seq(self.parts(std::iter::once(PathSegment::Element(0)), true))
     }
 
     fn deserialize_map<V: de::Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         self.0.note("map");
-        visitor.visit_map(self.parts(["key", "value"].into_iter().map(Part::Field), false))
+        visitor.visit_map(self.parts(["key", "value"].into_iter().map(PathSegment::Field), false))
     }
 
     fn deserialize_tuple<V: de::Visitor<'de>>(self, count: usize, visitor: V) -> Result<V::Value, Error> {
-        visitor.visit_seq(self.parts((0..count).map(Part::Element), false))
+        visitor.visit_seq(self.parts((0..count).map(PathSegment::Element), false))
     }
 
     fn deserialize_tuple_struct<V: de::Visitor<'de>>(
@@ -190,7 +189,7 @@ impl<'de> Deserializer<'de> for Wishes<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Error> {
-        visitor.visit_seq(self.parts(fields.iter().copied().map(Part::Field), false))
+        visitor.visit_seq(self.parts(fields.iter().copied().map(PathSegment::Field), false))
     }
 
     fn deserialize_enum<V: de::Visitor<'de>>(
@@ -204,7 +203,7 @@ impl<'de> Deserializer<'de> for Wishes<'_> {
     }
 }
 
-/// A variant and what it holds.
+/// A variant and its content.
 struct Chosen<'a> {
     place: u32,
     content: Wishes<'a>,
@@ -247,7 +246,7 @@ impl<'de> VariantAccess<'de> for Wishes<'_> {
 /// Fields, or the one element of a list.
 struct Parts<'a> {
     layout: &'a mut Layout,
-    parts: std::vec::IntoIter<Part>,
+    parts: std::vec::IntoIter<PathSegment>,
     is_list: bool,
 }
 
@@ -257,7 +256,7 @@ impl Parts<'_> {
         self.layout.enter(part);
         let value = seed.deserialize(Wishes(&mut *self.layout));
         self.layout.leave();
-        // A list may do without an element that takes no zeros: all of its parts are noted.
+        // An element that refuses zeros is left out of the list: its parts are recorded already.
         if self.is_list { Ok(value.ok()) } else { value.map(Some) }
     }
 }
@@ -282,7 +281,7 @@ impl<'de> MapAccess<'de> for Parts<'_> {
     }
 }
 
-/// Compares a layout with the one that is known for this version.
+/// Compares a layout with the stored one of this version.
 fn check(layout: &Layout, version: u32, file: &str) {
     let now = format!("version {version}\n{}", layout.text());
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(file);
@@ -292,7 +291,7 @@ fn check(layout: &Layout, version: u32, file: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(&file, &now).unwrap();
     } else {
-        assert_eq!(golden, now, "write {} anew with UPDATE_GOLDEN=1", file.display());
+        assert_eq!(golden, now, "update {} with UPDATE_GOLDEN=1", file.display());
     }
 }
 
@@ -310,7 +309,7 @@ fn the_version_changes_with_the_layout_of_a_run() {
 
 #[test]
 fn the_worlds_of_the_tests_hold_everything_that_can_be_written() {
-    /// Shapes that no compound takes, and what comes and goes within a few steps.
+    /// Shapes that a compound cannot contain, and state that lasts a few steps only.
     const EXCEPT: [&str; 3] = [
         "0[].shape.Several[].1.Polyline",
         "0[].shape.Several[].1.Several",

@@ -1,4 +1,4 @@
-//! Worlds as bytes: everything that the future of a world depends on, exact to the bit.
+//! Snapshots: worlds as bytes, with everything that their future depends on, exact to the bit.
 //!
 //! ```
 //! use microsim_core::{AgarSpec, Inputs, Placement, World, WorldConfig};
@@ -13,8 +13,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The content is that of the types themselves, in the order in which they declare their fields, as `postcard` writes it.
-//! So a version of the format goes with the types: another version is refused, never guessed at.
+//! The content is the serialised state in the order in which its types declare their fields, written by `postcard`. A change
+//! of these types is a new version of the format, and only the present version is read.
 
 #[cfg(feature = "scenario")]
 mod checkpoint;
@@ -24,9 +24,9 @@ mod envelope;
 pub use checkpoint::Checkpoint;
 
 use crate::collision::obstacle::Obstacle;
-use crate::collision::shape::ObstacleRecord;
+use crate::collision::obstacle_record::ObstacleRecord;
 use crate::world::World;
-use crate::world::restore::State;
+use crate::world::state::restore::WorldState;
 use envelope::Format;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -35,14 +35,14 @@ use std::fmt;
 /// Changes with every change of a type that is part of a world.
 const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 3 };
 
-/// What a snapshot of a world holds.
-type Content = (Vec<ObstacleRecord>, State);
+/// Content of a snapshot of a world.
+type Content = (Vec<ObstacleRecord>, WorldState);
 
-/// Why bytes are no snapshot, or why there cannot be one.
+/// Error of reading or writing a snapshot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The first bytes are not those of such a file.
+    /// The first bytes are not those of a snapshot.
     Foreign,
     /// Another version of the format.
     Version {
@@ -53,27 +53,27 @@ pub enum SnapshotError {
     },
     /// The end is missing.
     Truncated {
-        /// How many bytes there should be.
+        /// Expected number of bytes.
         expected: u64,
-        /// How many there are.
+        /// Number of bytes found.
         found: u64,
     },
     /// Something follows the end.
     Trailing {
-        /// How many bytes too many.
+        /// Number of surplus bytes.
         count: u64,
     },
-    /// Something in it was changed: the checksum is wrong.
+    /// The content was changed: the checksum is wrong.
     Corrupt,
-    /// The checksum is right, but the content is no state of a world.
+    /// The checksum is right, but the content is not a valid state of a world.
     Invalid {
-        /// What cannot be.
+        /// What is wrong with it.
         flaw: String,
     },
     /// The world cannot be written: the shape of an obstacle is of a kind that the format does not know. It knows balls,
     /// cuboids, capsules, segments, triangles, convex polygons, polylines, and compounds of all but the last.
     UnknownShape {
-        /// Which of [`World::obstacles`].
+        /// Its position in [`World::obstacles`].
         obstacle: usize,
     },
 }
@@ -109,11 +109,11 @@ impl World {
         Ok(WORLD.seal(&encode(&(obstacles, self))?))
     }
 
-    /// The world that was written: it has the same digest, and the same future.
+    /// Restores a world: it has the same digest and the same future as the one that was written.
     ///
     /// # Errors
-    /// When the bytes are not what [`World::to_snapshot`] wrote, see [`SnapshotError`]. Nothing in them is trusted: what is
-    /// returned can be stepped.
+    /// When the bytes are not what [`World::to_snapshot`] wrote, see [`SnapshotError`]. All of them are checked: the
+    /// returned world can be stepped.
     pub fn from_snapshot(bytes: &[u8]) -> Result<Self, SnapshotError> {
         let (records, state): Content = decode(WORLD.open(bytes)?)?;
         let obstacle = |(k, record): (usize, ObstacleRecord)| {

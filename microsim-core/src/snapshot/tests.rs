@@ -1,4 +1,4 @@
-//! What a damaged or forged snapshot may not do.
+//! Tests with damaged and forged snapshots.
 
 use super::*;
 use crate::{
@@ -10,7 +10,7 @@ use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 use proptest::prelude::*;
 
-/// A small world with a bit of everything, after some steps.
+/// A small world with all kinds of organisms and obstacles, after some steps.
 fn menagerie() -> World {
     let mut world =
         World::new(WorldConfig { size: Vec2::new(80.0, 50.0), substeps: 4, ..WorldConfig::default() }).unwrap();
@@ -58,7 +58,7 @@ fn menagerie() -> World {
     world
 }
 
-/// One of every shape that snapshots know.
+/// One obstacle of every shape that can be written.
 fn shapes(corners: Vec<Vec2>) -> Vec<SharedShape> {
     let [a, b, c] = [corners[0], corners[1], corners[2]];
     let simple = [
@@ -77,7 +77,7 @@ fn shapes(corners: Vec<Vec2>) -> Vec<SharedShape> {
     simple.into_iter().chain([polyline, compound]).collect()
 }
 
-/// Together they hold nearly everything that a world can hold, as a test in `layout.rs` sees to.
+/// Together they contain nearly all state that a world can have: a test in `layout.rs` checks this.
 pub(super) fn worlds() -> [World; 2] {
     [menagerie(), busy::world()]
 }
@@ -86,7 +86,7 @@ fn content(world: &World) -> Vec<u8> {
     WORLD.open(&world.to_snapshot().unwrap()).unwrap().to_vec()
 }
 
-/// Restores forged content; what is accepted must bear to be used.
+/// Restores forged content; a world that is accepted must be usable without a panic.
 fn forge(content: &[u8]) -> Result<World, SnapshotError> {
     let mut world = World::from_snapshot(&WORLD.seal(content))?;
     let digest = world.digest();
@@ -125,7 +125,7 @@ fn the_digest_covers_everything_that_is_written() {
     for (k, world) in worlds().into_iter().enumerate() {
         let (content, digest) = (content(&world), world.digest());
         let (mut accepted, mut tried) = (0, 0);
-        // A prime stride: over the columns it meets every byte of a number.
+        // A prime stride reaches every byte of a number in each column.
         for at in (0..content.len()).step_by(31) {
             let mut changed = content.clone();
             changed[at] ^= 1;

@@ -50,7 +50,7 @@ impl Block {
         BlockRange { base: self.base as usize, slots: self.slots as usize }
     }
 
-    /// Where it lies in a stretch of the store that begins at `start`.
+    /// Where it lies in a chunk of the store that begins at `start`.
     fn span(&self, start: usize) -> Span<LANES> {
         Span { base: self.base as usize - start, scale: self.scale }
     }
@@ -94,9 +94,9 @@ pub(crate) fn predict_and_project<'a, T: Send>(
     });
 }
 
-/// Takes from what is left to each body of a block how far the farthest of its particles has moved in the last substep.
+/// Subtracts from the remaining margin of each body of a block the largest displacement of its particles in the last substep.
 #[inline(always)]
-pub(crate) fn note_way(block: &Columns<'_>, left: &mut [f32; LANES]) {
+pub(crate) fn subtract_displacement(block: &Columns<'_>, margins: &mut [f32; LANES]) {
     let mut farthest = [0.0; LANES];
     for at in (0..block.x.len()).step_by(LANES) {
         let (x, y) = (load::<LANES>(block.x, at), load::<LANES>(block.y, at));
@@ -105,7 +105,7 @@ pub(crate) fn note_way(block: &Columns<'_>, left: &mut [f32; LANES]) {
         let squared = each::<LANES>(|l| dx[l] * dx[l] + dy[l] * dy[l]);
         farthest = each::<LANES>(|l| if squared[l] > farthest[l] { squared[l] } else { farthest[l] });
     }
-    *left = each::<LANES>(|l| left[l] - farthest[l].sqrt());
+    *margins = each::<LANES>(|l| margins[l] - farthest[l].sqrt());
 }
 
 #[cfg(test)]
@@ -157,14 +157,14 @@ mod tests {
     }
 
     #[test]
-    fn the_way_of_a_body_is_that_of_its_farthest_particle() {
+    fn the_displacement_of_a_body_is_that_of_its_farthest_particle() {
         let mut particles = Particles::default();
         let block = Block::new(0, 3, &mut particles);
         particles.prev_x[block.particle(1, 4) as usize] = 3.0;
         particles.y[block.particle(1, 4) as usize] = -4.0;
         particles.x[block.particle(2, 4) as usize] = 1.0;
         let mut left = [6.0; LANES];
-        note_way(&particles.columns(), &mut left);
+        subtract_displacement(&particles.columns(), &mut left);
         assert_eq!(left, [6.0, 6.0, 6.0, 6.0, 1.0, 6.0, 6.0, 6.0]);
     }
 

@@ -32,7 +32,7 @@ pub(crate) fn project(contacts: &mut [Contact], particles: &mut Particles, impac
         let (i, j) = (contact.i as usize, contact.j as usize);
         let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
         let squared = between.length_squared();
-        if squared < contact.reach * contact.reach {
+        if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
             separate(contact, between, squared, particles, impacts);
         }
@@ -44,7 +44,7 @@ fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
     let (wi, wj) = weights(c, p);
-    let depth = c.reach - length;
+    let depth = c.radius_sum - length;
     if c.restitution > 0.0 {
         impacts.extend(Impact::of(c, normal, p));
     }

@@ -3,22 +3,22 @@
 use super::instruction_set::Dispatch;
 use super::lanes::{LANES, each, load, store};
 use super::ratio_limit;
-use crate::parallel::{self, STRETCH};
+use crate::parallel::{self, CHUNK};
 use crate::particle::{Columns, Particles};
 use glam::Vec2;
 use std::ops::Range;
 
-/// Does the same to all particles of some ranges, a stretch at a time.
-pub(crate) fn in_stretches(
+/// Does the same to all particles of some ranges, a chunk at a time.
+pub(crate) fn for_each_chunk(
     p: &mut Particles,
     ranges: impl Iterator<Item = Range<usize>>,
     dispatch: Dispatch,
     kernel: impl Fn(&mut Columns<'_>) + Send + Sync,
 ) {
-    parallel::for_each(p.columns().stretches(ranges, STRETCH), |mut stretch| {
+    parallel::for_each(p.columns().chunks(ranges, CHUNK), |mut chunk| {
         dispatch.run(
             #[inline(always)]
-            || kernel(&mut stretch),
+            || kernel(&mut chunk),
         );
     });
 }
@@ -99,7 +99,7 @@ fn in_lanes(particles: &Columns<'_>) -> (usize, usize) {
 }
 
 /// Takes back the damping of [`update_velocities`] from some particles.
-pub(crate) fn take_back_damping(of: &[u32], particles: &mut Particles, damping: f32, h: f32) {
+pub(crate) fn undo_damping(of: &[u32], particles: &mut Particles, damping: f32, h: f32) {
     let undo = 1.0 + damping * h;
     for &i in of {
         particles.vx[i as usize] *= undo;
@@ -153,7 +153,7 @@ mod tests {
         for _ in 0..1000 {
             predict_positions(&mut p.columns(), Vec2::ZERO, 10.0, 0.001);
             update_velocities(&mut p.columns(), 0.5, 10.0, 0.001);
-            take_back_damping(&[1], &mut p, 0.5, 0.001);
+            undo_damping(&[1], &mut p, 0.5, 0.001);
         }
         assert!(p.vx[0] < 0.7 && (p.vx[1] - 1.0).abs() < 1e-3, "{} {}", p.vx[0], p.vx[1]);
     }

@@ -14,8 +14,7 @@
 
 use super::contact::{friction, moved, no_heavier, shift};
 use super::lanes::ratio;
-use crate::collision::filter::Side;
-use crate::collision::ring::{Link, Ring, RingContact, RingContacts};
+use crate::collision::ring::{Link, Ring, RingContact, RingContacts, Side};
 use crate::geometry::polygon::contains_point;
 use crate::particle::Particles;
 use glam::Vec2;
@@ -44,17 +43,17 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     for contact in contacts {
         let links = &links[contact.range()];
         let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
-        let reach = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+        let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
         let is_wrong = is_wrong(contact.side, &relation);
-        contact.is_close = is_wrong || relation.squared < reach * reach;
+        contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
             wrong += 1;
-            separate(contact, nearest, &relation, reach + relation.squared.sqrt(), p);
+            separate(contact, nearest, &relation, radius_sum + relation.squared.sqrt(), p);
         } else if contact.is_close {
             for &link in links {
                 let relation = relate(contact.particle, link, p);
-                if relation.squared < reach * reach {
-                    separate(contact, link, &relation, reach - relation.squared.sqrt(), p);
+                if relation.squared < radius_sum * radius_sum {
+                    separate(contact, link, &relation, radius_sum - relation.squared.sqrt(), p);
                 }
             }
         }
@@ -70,8 +69,8 @@ pub(crate) fn gaps<'a>(
 ) -> impl Iterator<Item = (u32, f32)> + 'a {
     rings.links_of(contact).iter().map(|&link| {
         let relation = relate(contact.particle, link, p);
-        let reach = p.radius[contact.particle as usize] + p.radius[link.a as usize];
-        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - reach)
+        let radius_sum = p.radius[contact.particle as usize] + p.radius[link.a as usize];
+        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radius_sum)
     })
 }
 
@@ -112,14 +111,14 @@ pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p
         };
         if is_stray {
             caught += 1;
-            take_back(contact, ring, p);
+            return_to_side(contact, ring, p);
         }
     }
     caught
 }
 
 /// Moves a disc to its own side of the link of a whole ring that is nearest to it.
-fn take_back(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
+fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
     let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
     let i = contact.particle as usize;
@@ -204,9 +203,10 @@ fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f
 mod tests {
     use super::super::testing::{disc, momentum};
     use super::*;
-    use crate::collision::broad_phase::{BroadPhase, Surroundings};
-    use crate::collision::filter::{Exemptions, Home};
-    use crate::collision::leeway::Reach;
+    use crate::collision::broad_phase::{BroadPhase, SearchInput};
+    use crate::collision::exemptions::Exemptions;
+    use crate::collision::ring::Containment;
+    use crate::collision::speculative_margin::DisplacementLimits;
     use crate::geometry::arbitrary::star_polygon;
     use crate::geometry::polygon::contains_point;
     use crate::particle::Particle;
@@ -223,17 +223,17 @@ mod tests {
         p.link_ring(&nodes);
         p.insert(&particle(at, owner));
         let mut broad_phase = BroadPhase::default();
-        let around = Surroundings {
+        let input = SearchInput {
             particles: &p,
             blocks: &[],
             obstacles: &[],
             exemptions: &Exemptions::default(),
             rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
-            homes: &[Home::Free, Home::Free, Home::Inside(0), Home::Passing(0)],
+            containments: &[Containment::Free, Containment::Free, Containment::Inside(0), Containment::Passing(0)],
             size: Vec2::ONE,
-            reach: Reach { step: 50.0, substep: 50.0, dt: 1.0 },
+            limits: DisplacementLimits { step: 50.0, substep: 50.0, dt: 1.0 },
         };
-        broad_phase.find_pairs(around, &mut Sleep::default(), 1);
+        broad_phase.find_pairs(input, &mut Sleep::default(), 1);
         (p, broad_phase.ring_contacts.into_inner(), nodes)
     }
 
@@ -243,7 +243,7 @@ mod tests {
 
     fn distance(outline: &[u32], p: &Particles, at: Vec2) -> f32 {
         let ends = |k: usize| (p.position(outline[k] as usize), p.position(outline[(k + 1) % outline.len()] as usize));
-        let gap = |k| (crate::geometry::polygon::nearest_on_segment(ends(k).0, ends(k).1, at) - at).length();
+        let gap = |k| (crate::geometry::segment::nearest_on_segment(ends(k).0, ends(k).1, at) - at).length();
         (0..outline.len()).map(gap).fold(f32::INFINITY, f32::min)
     }
 

@@ -3,7 +3,7 @@
 //! itself within a few links is laid out straight.
 
 use super::contact::shift;
-use crate::geometry::polygon::{folds_back, segments_touch};
+use crate::geometry::segment::{folds_back, segments_touch};
 use crate::particle::Particles;
 use glam::Vec2;
 

@@ -1,48 +1,37 @@
-//! The world: owns all state and hands it to the step. Spawning, queries, measures, the view and the digest are files of
-//! their own.
+//! The world owns all state. What it can do is in files of their own: spawning, obstacles, queries, eating
+//! ([`phagocytosis`]), division, fusion and growth ([`membrane`]), [`measure`]s, the [`view`], digest and validation
+//! ([`state`]).
 
-pub(crate) mod anatomy;
-mod behaving;
-mod cup;
-pub(crate) mod difference;
-pub(crate) mod digest;
-mod division;
-mod feeding;
-mod fusion;
-mod growth;
-mod ingestion;
+mod chemical;
+pub(crate) mod contacts;
+mod controller;
 pub(crate) mod measure;
-pub(crate) mod membrane_quality;
-pub(crate) mod moment;
-pub(crate) mod named_measure;
+mod membrane;
+mod obstacle;
+mod phagocytosis;
 mod push;
-pub(crate) mod quality;
 mod quarantine;
 pub(crate) mod query;
 mod rebase;
-#[cfg(feature = "snapshot")]
-pub(crate) mod restore;
-mod rewire;
-mod sleeping;
+mod scale;
 mod spawn;
-pub(crate) mod touching;
-pub(crate) mod validate;
+pub(crate) mod state;
 pub(crate) mod view;
+mod wake;
 
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
-use crate::collision::filter::Exemptions;
+use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
-use crate::error::{Error, ErrorKind, in_range};
+use crate::error::{Error, ErrorKind};
 use crate::event::Event;
-use crate::id::{ObstacleId, OrganismId, TemplateId};
-use crate::inputs::Inputs;
+use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
+use crate::organism::Organism;
 use crate::organism::table::Organisms;
-use crate::parallel;
+use crate::particle::Particles;
 use crate::particle::sleep::Sleep;
-use crate::particle::{Material, Particles};
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
@@ -50,16 +39,10 @@ use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
-use crate::step::{self, Phase};
 use crate::template::Template;
+use contacts::Touching;
 use glam::Vec2;
-use parry2d::math::Pose;
-use parry2d::shape::SharedShape;
 use serde::{Deserialize, Serialize};
-use touching::Touching;
-
-/// Obstacles that every world has: its four walls.
-const WALLS: usize = 4;
 
 /// A room with organisms in it. Cloning it is a snapshot: the clone has the same future and answers every question alike.
 ///
@@ -81,8 +64,7 @@ const WALLS: usize = 4;
 /// # Ok::<(), microsim_core::Error>(())
 /// ```
 ///
-/// Serialised, it is its whole state but the shapes of obstacles, for which a digest stands; feature `snapshot` keeps those
-/// too.
+/// A serialised world has a digest in place of each obstacle's shape; feature `snapshot` writes the shapes too.
 #[derive(Debug, Serialize)]
 pub struct World {
     pub(crate) step_index: u64,
@@ -98,7 +80,7 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
-    /// Of each obstacle, see [`digest::of_obstacle`].
+    /// Of each obstacle, see [`obstacle::digest`].
     obstacle_digests: Vec<u64>,
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -108,7 +90,7 @@ pub struct World {
     pub(crate) dispatch: Dispatch,
 }
 
-/// How often the membranes' protections had to do what must never be needed, since the world was made.
+/// Counts of discs that crossed a membrane since the world was made. Both should stay 0.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Guard {
     /// A disc was found on the wrong side of the link nearest to it.
@@ -117,7 +99,7 @@ pub(crate) struct Guard {
     pub net_fired: u64,
 }
 
-/// What a step works with and the next one does not need. Of it, a clone has the pairs that were found.
+/// Buffers of a step, which the next one does not need. Of them, a clone has the pairs that were found.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
@@ -181,7 +163,7 @@ impl World {
     /// Names the field of `config` that is out of range.
     pub fn new(config: WorldConfig) -> Result<Self, Error> {
         config.validate()?;
-        let walls = walls(&config);
+        let walls = obstacle::walls(&config);
         Ok(Self::of(config, Shared::new(walls)))
     }
 
@@ -208,18 +190,7 @@ impl World {
         }
     }
 
-    /// Advances the world by [`WorldConfig::dt`]. Cannot fail and does not panic.
-    pub fn step(&mut self, inputs: &Inputs) {
-        self.step_observed(inputs, |_| {});
-    }
-
-    /// The same as [`World::step`]; `finished` is told after each phase, once per substep for those inside the loop. For
-    /// measuring: the core itself reads no clock.
-    pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::enter(self.particles.len(), || step::advance(self, inputs, &mut finished));
-    }
-
-    /// Restricts the instructions that stepping uses, for measuring; results do not depend on it.
+    /// Restricts the processor instructions that steps use, for measuring times; results do not depend on it.
     pub fn set_instruction_set(&mut self, set: InstructionSet) {
         self.dispatch = Dispatch::new(set);
     }
@@ -248,7 +219,7 @@ impl World {
         self.step_index as f64 * f64::from(self.config.dt)
     }
 
-    /// Adds a recipe for bodies of an embedder's own, see [`World::spawn_template`].
+    /// Adds a template for custom bodies, see [`World::spawn_template`].
     pub fn add_template(&mut self, template: Template) -> TemplateId {
         TemplateId(self.template_index(template))
     }
@@ -262,35 +233,6 @@ impl World {
         }) as u32
     }
 
-    /// Adds static geometry: any `parry2d` shape.
-    ///
-    /// # Errors
-    /// When the pose is not finite, the shape's box is not finite, a material number is out of range, or the obstacle would
-    /// overlap an organism. Nothing is changed then.
-    pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
-        let Material { friction, restitution } = obstacle.material;
-        in_range("material.friction", friction, 0.0, 10.0)?;
-        in_range("material.restitution", restitution, 0.0, 1.0)?;
-        in_range("pose.translation.x", obstacle.pose.translation.x, -1e5, 1e5)?;
-        in_range("pose.translation.y", obstacle.pose.translation.y, -1e5, 1e5)?;
-        let bounds = obstacle.bounds();
-        if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
-            return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
-        }
-        if let Some(with) = self.overlapped_by(&obstacle) {
-            return Err(Error::new(ErrorKind::Overlap { with }, "pose"));
-        }
-        self.obstacle_digests.push(digest::of_obstacle(&obstacle));
-        self.chemicals.iter_mut().for_each(|chemical| chemical.close(|at| obstacle.nearest(at).1));
-        self.obstacles.push(obstacle);
-        Ok(ObstacleId(self.obstacles.len() as u32 - 1))
-    }
-
-    /// The obstacles that were added, without the walls.
-    pub fn obstacles(&self) -> impl Iterator<Item = &Obstacle> {
-        self.obstacles.iter().skip(WALLS)
-    }
-
     /// Lets two organisms pass through each other, or collide again.
     ///
     /// # Errors
@@ -302,7 +244,8 @@ impl World {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
-        [a, b].into_iter().for_each(|id| self.disturb(id));
+        self.wake_up(a);
+        self.wake_up(b);
         Ok(())
     }
 
@@ -323,33 +266,21 @@ impl World {
         Some(self.view().organism(id)?.centroid())
     }
 
+    /// The discs of an organism that can move.
+    pub(in crate::world) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
+        let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
+        particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
+    }
+
     pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {
         self.organisms.get(id).map(drop).ok_or_else(|| Error::new(ErrorKind::Stale, field))
     }
 }
 
-/// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step.
-fn walls(config: &WorldConfig) -> Vec<Obstacle> {
-    let size = config.size;
-    let thickness = size.x + size.y + 4.0 * config.reach();
-    let half = size * 0.5;
-    let slab = |half_extents: Vec2, centre: Vec2| {
-        Obstacle::new(SharedShape::cuboid(half_extents.x, half_extents.y), Pose::translation(centre.x, centre.y))
-    };
-    let (across, along) =
-        (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
-    vec![
-        slab(across, Vec2::new(half.x, -0.5 * thickness)),
-        slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
-        slab(along, Vec2::new(-0.5 * thickness, half.y)),
-        slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Controller, Placement, PlateletSpec, ProbeSpec};
+    use crate::{Controller, Inputs, Placement, PlateletSpec, ProbeSpec};
 
     #[test]
     fn a_step_leaves_shared_with_clones_what_it_does_not_change() {

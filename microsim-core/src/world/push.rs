@@ -1,4 +1,4 @@
-//! Pushing: an experimenter's hand on one organism.
+//! Pushing an organism: a change of its velocity.
 
 use super::World;
 use crate::error::{Error, in_range};
@@ -7,7 +7,7 @@ use glam::Vec2;
 
 impl World {
     /// Adds a velocity to everything in an organism that can move: its own particles, and what it holds, up to the speed
-    /// limit. All constraints and contacts act on it as ever, so nothing is pushed through anything.
+    /// limit. Constraints and contacts act as usual, so nothing is pushed through anything.
     ///
     /// # Errors
     /// When the handle is stale, or a coordinate is not finite or beyond ±1000 units/s. Nothing is changed then.
@@ -19,7 +19,7 @@ impl World {
         let inside = held.filter(|(_, phase)| phase.is_inside()).map(|(prey, _)| prey);
         let limit = self.config.speed_limit();
         for organism in std::iter::once(id).chain(inside).collect::<Vec<_>>() {
-            self.disturb(organism);
+            self.wake_up(organism);
             for i in self.discs_of(organism).collect::<Vec<_>>() {
                 let Vec2 { x, y } = (self.particles.velocity(i) + velocity).clamp_length_max(limit);
                 (self.particles.vx[i], self.particles.vy[i]) = (x, y);
@@ -35,7 +35,7 @@ mod tests {
     use glam::Vec2;
 
     #[test]
-    fn what_is_pushed_moves_and_nothing_else() {
+    fn only_the_pushed_organism_moves() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let agar = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 40.0)).unwrap();
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_changes_nothing() {
+    fn invalid_pushes_are_refused_and_change_nothing() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let agar = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
         let before = world.digest();

@@ -4,43 +4,43 @@ use super::World;
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::Organism;
-use crate::parallel::{self, STRETCH};
+use crate::parallel::{self, CHUNK};
 use crate::particle::Particles;
 use glam::Vec2;
 use std::ops::Range;
 
 impl World {
-    /// Freezes every organism with a particle of which a number is not finite or that has left the room by more than the
+    /// Freezes every organism with a particle that has a number that is not finite, or is farther outside the room than the
     /// room's size.
     pub(crate) fn quarantine(&mut self) {
-        // Hardly ever is there anything to find.
-        if !self.all_is_sane() {
-            for id in self.freeze_insane() {
+        // The fast check of whole columns nearly always succeeds.
+        if !self.all_are_valid() {
+            for id in self.freeze_invalid() {
                 self.release_meals(id);
-                self.disturb_what_touches(id);
+                self.wake_up_touching(id);
             }
         }
     }
 
-    /// The same as asking each organism, column by column and without asking whose the particles are.
-    fn all_is_sane(&self) -> bool {
+    /// Whether all particles are valid: the same check as for each organism, but column by column.
+    fn all_are_valid(&self) -> bool {
         let (p, size) = (&self.particles, self.config.size);
-        let stretches = (0..p.len()).step_by(STRETCH).map(|first| first..p.len().min(first + STRETCH));
-        let is_sane = |at: Range<usize>| {
+        let chunks = (0..p.len()).step_by(CHUNK).map(|first| first..p.len().min(first + CHUNK));
+        let is_valid = |at: Range<usize>| {
             are_near(&p.origin_x[at.clone()], &p.x[at.clone()], size.x)
                 && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], size.y)
                 && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].iter().all(|column| are_within(&column[at.clone()], -f32::MAX))
                 && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
         };
-        parallel::map(stretches.collect(), is_sane).into_iter().all(|is_sane| is_sane)
+        parallel::map(chunks.collect(), is_valid).into_iter().all(|is_valid| is_valid)
     }
 
-    /// Freezes them and returns which.
-    fn freeze_insane(&mut self) -> Vec<OrganismId> {
+    /// Freezes all organisms with an invalid particle and returns them.
+    fn freeze_invalid(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_sane = |i: u32| is_sane(particles, i as usize, config.size);
+        let is_valid = |i: u32| is_valid(particles, i as usize, config.size);
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
-        let is_lost = |organism: &Organism| !organism.is_quarantined && !organism.particles().all(is_sane);
+        let is_lost = |organism: &Organism| !organism.is_quarantined && !organism.particles().all(is_valid);
         for (id, organism) in organisms.iter_mut(is_lost) {
             organism.is_quarantined = true;
             organism.fluid = None;
@@ -59,19 +59,19 @@ impl World {
     }
 }
 
-/// Whether all places, each an origin and an offset, are less than a room's size away from the room.
+/// Whether all positions, each an origin and an offset, are less than the room's size outside the room.
 fn are_near(origins: &[f32], offsets: &[f32], size: f32) -> bool {
     let places = origins.iter().zip(offsets).map(|(origin, offset)| origin + offset);
     places.fold(true, |all, at| all & (at > -size) & (at < 2.0 * size))
 }
 
-/// Whether all numbers of a column are finite and not below a least one.
+/// Whether all numbers of a column are finite and at least `least`.
 fn are_within(column: &[f32], least: f32) -> bool {
     column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
 }
 
-/// Whether a particle of a room of this size has numbers that a step can go on with.
-fn is_sane(p: &Particles, i: usize, size: Vec2) -> bool {
+/// Whether a particle is finite and near a room of this size.
+fn is_valid(p: &Particles, i: usize, size: Vec2) -> bool {
     let at = p.position(i);
     let is_near = at.cmpgt(-size).all() && at.cmplt(2.0 * size).all();
     let is_number = |value: f32| value.is_finite() && value >= 0.0;

@@ -1,7 +1,9 @@
-//! Queries: what is at a point, in a circle, in a box, along a ray. Results are in the order of the organisms.
+//! Queries: organisms at a point, in a circle, in a box, and the first disc along a ray. Results are in the order of the
+//! organisms.
 
 use super::World;
-use crate::geometry::polygon::{contains_point, nearest_on_segment};
+use crate::geometry::polygon::contains_point;
+use crate::geometry::segment::nearest_on_segment;
 use crate::id::OrganismId;
 use glam::Vec2;
 
@@ -64,10 +66,7 @@ impl World {
             let discs = organism.particles().map(|i| i as usize);
             let mut solid = discs.filter(|&i| self.particles.groups[i].memberships != 0);
             solid.any(|i| meets(self.particles.position(i), self.particles.radius[i]))
-                || inside.is_some_and(|(centre, radius)| {
-                    let outline = organism.outline_particles().map(|i| self.particles.position(i as usize));
-                    reaches_into(&outline.collect::<Vec<_>>(), centre, radius)
-                })
+                || inside.is_some_and(|(centre, radius)| reaches_into(&self.outline_of(organism), centre, radius))
         });
         found.map(|(id, _)| id)
     }

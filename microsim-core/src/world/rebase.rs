@@ -1,13 +1,13 @@
-//! Keeps organisms near their origins, where coordinates are fine.
+//! Origin rebasing: keeps organisms near their origins, where `f32` is precise.
 
 use super::World;
 use glam::Vec2;
 
-/// An organism whose first particle gets farther than this from its origin takes the origin along, units.
+/// Distance of an organism's first particle from its origin beyond which the origin moves, units.
 const FARTHEST: f32 = 16.0;
 
 impl World {
-    /// Moves the origins of organisms that have wandered off. Free fluid keeps its origin: it has no rigid parts.
+    /// Moves the origins of organisms that are too far from theirs. Free fluid keeps its origin: it has no rigid parts.
     pub(crate) fn rebase(&mut self) {
         let Self { particles, organisms, .. } = self;
         for (_, organism) in organisms.iter() {

@@ -1,4 +1,4 @@
-//! Putting organisms into the world and taking them out. Everything is checked before anything changes.
+//! Spawning and removing organisms. Everything is checked before anything changes.
 
 use super::World;
 use crate::capability::division::Divider;
@@ -19,7 +19,7 @@ use crate::template::{Node, Role, Template};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
-/// Discs may overlap by this share of the sum of their radii when they are spawned: neighbours may touch.
+/// Overlap of two discs that is allowed at spawning, as a share of the sum of their radii: neighbours may touch.
 const OVERLAP_TOLERANCE: f32 = 0.02;
 
 impl World {
@@ -32,7 +32,7 @@ impl World {
         self.spawn_blueprint(spec.blueprint()?, placement)
     }
 
-    /// Puts an instance of an embedder's own template into the world.
+    /// Puts an instance of a custom template into the world.
     ///
     /// # Errors
     /// As for [`World::spawn`], and when the template is not one of this world's.
@@ -42,14 +42,14 @@ impl World {
         self.spawn_blueprint(Blueprint::custom(template), placement)
     }
 
-    /// Takes an organism out of the world. What it holds is free again, in its full size.
+    /// Removes an organism. Prey that it holds is released and returns to its full size.
     ///
     /// # Errors
     /// When the handle is stale.
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         self.release_meals(id);
-        self.disturb_what_touches(id);
+        self.wake_up_touching(id);
         let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
         if let Some(fluid) = organism.fluid {
@@ -60,7 +60,7 @@ impl World {
             Storage::Lane { block, first } => {
                 let block = &mut self.blocks[block as usize];
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
-                (0..organism.slots).for_each(|slot| self.particles.kill(first as usize + slot as usize * LANES));
+                (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
             }
             Storage::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
@@ -117,7 +117,7 @@ impl World {
             divider: blueprint.divider.map(Divider::new),
             exchanges: Vec::new(),
             goal: None,
-            pace: 1.0,
+            relative_speed: 1.0,
             progress: Progress::default(),
             home: placement.at,
             spawned: (self.step_index, bounds_of(&planned)),
@@ -144,7 +144,7 @@ impl World {
         Ok(())
     }
 
-    /// Names what the discs overlap, if anything.
+    /// Describes an obstacle or organism that overlaps the discs, if there is one.
     fn overlap(&self, discs: &[Particle]) -> Option<String> {
         if self.obstacles().any(|obstacle| discs.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
@@ -154,7 +154,7 @@ impl World {
         self.with_its_place(hit)
     }
 
-    /// Names what an obstacle that is to be added would overlap, if anything.
+    /// Describes an organism that a new obstacle would overlap, if there is one.
     pub(super) fn overlapped_by(&self, obstacle: &Obstacle) -> Option<String> {
         let is_hit =
             |organism: &Organism| organism.particles().any(|i| is_blocked(obstacle, &self.particles.get(i as usize)));
@@ -169,7 +169,7 @@ impl World {
 
     /// Whether an organism overlaps discs within these bounds.
     fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
-        // Where it was spawned it still is, if there was no step since: that makes filling a world linear in its particles.
+        // Without a step since it was spawned it is still there: this makes filling a world linear in its particles.
         let (step, spawn_bounds) = &organism.spawned;
         if *step == self.step_index && !spawn_bounds.intersects(bounds) {
             return false;
@@ -202,14 +202,14 @@ impl World {
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
-        self.sleep.disturb(index as u32, lane);
+        self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
         }
         Storage::Lane { block: index as u32, first: block.particle(0, lane) }
     }
 
-    /// Puts the nodes of a membrane (or none) at indices of their own; the nodes are its outline.
+    /// Adds the nodes of a membrane (or none) as loose particles; the nodes are its outline.
     fn add_loose(&mut self, planned: &[Particle]) -> (Storage, Vec<u32>) {
         let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
         let membrane = planned.first().map(|node| {

@@ -54,9 +54,9 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, targets
             other => other,
         };
         let bob = style.time.map_or(0.0, |time| 0.12 * unit * (5.0 * time).sin());
-        let (at, reach) = (style.camera.to_screen(target.at), target.reach * style.camera.scale());
-        let tip = Vec2::new(at.x, (at.y - reach - 0.25 * unit).max(BELOW_STATUS * unit));
-        let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all() && tip.y < at.y + reach;
+        let (at, half_extent) = (style.camera.to_screen(target.at), target.half_extent * style.camera.scale());
+        let tip = Vec2::new(at.x, (at.y - half_extent - 0.25 * unit).max(BELOW_STATUS * unit));
+        let is_seen = tip.cmpge(Vec2::ZERO).all() && tip.cmple(pen.screen()).all() && tip.y < at.y + half_extent;
         let down = Vec2::new(0.0, half.y);
         let tip = if is_seen { taken.place(tip - down, half) + down } else { tip };
         match readiness {
@@ -118,7 +118,7 @@ pub fn draw_held(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, held: &[He
     let mut highest: Option<(Vec2, bool)> = None;
     for held in held {
         let at = style.camera.to_screen(held.at);
-        let radius = held.reach * style.camera.scale() + 0.3 * unit;
+        let radius = held.half_extent * style.camera.scale() + 0.3 * unit;
         match held.state {
             State::Touching(share) => {
                 ring(pen, at, radius, 0.2 * unit, 1.0, fade(HALO, 0.45));
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn t69_t75_the_green_arrow_is_for_what_can_be_taken_in() {
         let arrows = |readiness, at, is_classic| {
-            let target = Target { prey: prey(), at, reach: 5.0, readiness };
+            let target = Target { prey: prey(), at, half_extent: 5.0, readiness };
             drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), is_classic)
                 .canvas()
                 .count(READY)
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn marks_at_one_place_stand_apart() {
-        let target = Target { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 5.0, readiness: Readiness::Ready };
+        let target = Target { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 5.0, readiness: Readiness::Ready };
         let lowest = |count| {
             let pen =
                 &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &vec![target; count]), false);
@@ -250,7 +250,7 @@ mod tests {
     fn marks_leave_the_status_line_free() {
         for height in 60..90 {
             let at = Vec2::new(80.0, height as f32);
-            let target = Target { prey: prey(), at, reach: 5.0, readiness: Readiness::TooLarge(0.5) };
+            let target = Target { prey: prey(), at, half_extent: 5.0, readiness: Readiness::TooLarge(0.5) };
             let pen = &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), false);
             let free = 2.0 * pen.line(Size::Body);
             assert!(pen.canvas().corners().all(|(at, ..)| at.y > free), "{height}");
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn t71_the_key_cap_stands_at_what_is_inside_and_lights_up_while_it_is_digested() {
         let held = |state| {
-            let held = Held { prey: prey(), at: Vec2::new(80.0, 45.0), reach: 2.0, state };
+            let held = Held { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 2.0, state };
             drawn(|pen, style| draw_held(pen, style, &mut Taken::default(), &[held]), false)
         };
         let cap = |state, face| held(state).canvas().count(face);

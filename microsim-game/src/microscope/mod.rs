@@ -2,11 +2,11 @@
 //!
 //! ```no_run
 //! # use microsim_core::microscope::{Field, Film, Microscope, Optics};
-//! # use microsim_game::microscope::{Quality, Renderer};
+//! # use microsim_game::microscope::{RenderQuality, Renderer};
 //! # fn frame(world: &microsim_core::World, field: Field) -> Result<(), String> {
 //! let mut renderer = Renderer::new()?; // once, with an open window
-//! let microscope = Microscope { optics: Optics::Dic, film: Film::CINE };
-//! let recipe = renderer.recipe(world.view(), field, microscope, Quality::High)?;
+//! let microscope = Microscope { optics: Optics::DIC, film: Film::CINE };
+//! let recipe = renderer.recipe(world.view(), field, microscope, RenderQuality::High)?;
 //! let picture = renderer.draw(&recipe);
 //! renderer.show(&picture, 0.0, 0.0, 1280.0, 720.0);
 //! # Ok(())
@@ -23,7 +23,7 @@ use macroquad::texture::{DrawTextureParams, Texture2D, draw_texture_ex};
 use macroquad::window::get_internal_gl;
 use microsim_core::View;
 use microsim_core::microscope::recipe::{
-    Card, Content, Draw, Input, Map, Precision, Program, Recipe, Target, noise_table,
+    Card, Draw, Map, PassContent, Precision, Program, Recipe, RenderTarget, TextureInput, noise_table,
 };
 use microsim_core::microscope::{Field, Microscope};
 use pipelines::Pipelines;
@@ -32,7 +32,7 @@ use targets::Targets;
 
 /// How much of the machine pictures may take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Quality {
+pub enum RenderQuality {
     /// A quarter of the pixels, and no blur: for graphics in software.
     Low,
     /// Half of the pixels.
@@ -42,7 +42,7 @@ pub enum Quality {
     High,
 }
 
-impl Quality {
+impl RenderQuality {
     fn card(self, precision: Precision) -> Card {
         match self {
             Self::Low => Card { precision, detail: 0.5, is_soft: false },
@@ -61,7 +61,7 @@ pub struct Renderer {
     maps: Vec<TextureId>,
     /// Corners of a whole target.
     square: Mesh,
-    slide: Vec<Mesh>,
+    draws: Vec<Mesh>,
 }
 
 impl fmt::Debug for Renderer {
@@ -103,7 +103,7 @@ impl Renderer {
             noise,
             maps: Vec::new(),
             square,
-            slide: Vec::new(),
+            draws: Vec::new(),
         })
     }
 
@@ -116,7 +116,7 @@ impl Renderer {
         view: View<'_>,
         field: Field,
         microscope: Microscope,
-        quality: Quality,
+        quality: RenderQuality,
     ) -> Result<Recipe, String> {
         microscope.recipe(view, field, quality.card(self.precision)).map_err(|error| error.to_string())
     }
@@ -137,32 +137,32 @@ impl Renderer {
             let target = self.targets.prepare(card, pass.target, pass.size, is_float);
             card.begin_pass(Some(target), PassAction::Nothing);
             match &pass.content {
-                Content::Slide(common) => {
-                    for (draw, mesh) in recipe.slide.iter().zip(&self.slide) {
+                PassContent::Draws(common) => {
+                    for (draw, mesh) in recipe.draws.iter().zip(&self.draws) {
                         let uniforms = [common.as_slice(), &draw.uniforms].concat();
                         self.run(card, draw.program, draw.is_subtracted, *mesh, &uniforms, &draw.inputs);
                     }
                 }
-                Content::Screen { program, uniforms, inputs } => {
+                PassContent::Screen { program, uniforms, inputs } => {
                     self.run(card, *program, false, self.square, uniforms, inputs);
                 }
             }
             card.end_render_pass();
         }
-        Texture2D::from_miniquad_texture(self.targets.texture(Target::Picture).unwrap_or(self.noise))
+        Texture2D::from_miniquad_texture(self.targets.texture(RenderTarget::Picture).unwrap_or(self.noise))
     }
 
     /// Hands the recipe's triangles and maps to the card.
     fn upload(&mut self, card: &mut dyn RenderingBackend, recipe: &Recipe) {
-        while self.slide.len() < recipe.slide.len() {
-            self.slide.push(Mesh::empty(card));
+        while self.draws.len() < recipe.draws.len() {
+            self.draws.push(Mesh::empty(card));
         }
-        for (draw, mesh) in recipe.slide.iter().zip(&mut self.slide) {
+        for (draw, mesh) in recipe.draws.iter().zip(&mut self.draws) {
             let Draw { vertices, indices, .. } = draw;
             mesh.fill(card, vertices, indices);
         }
         for (k, Map { size, texels }) in recipe.maps.iter().enumerate() {
-            // Filled anew, as targets are.
+            // Resized rather than replaced, as targets are.
             match self.maps.get(k) {
                 Some(&map) => card.texture_resize(map, size[0].into(), size[1].into(), Some(texels)),
                 None => self.maps.push(targets::sharp(card, *size, texels)),
@@ -177,7 +177,7 @@ impl Renderer {
         is_subtracted: bool,
         mesh: Mesh,
         uniforms: &[f32],
-        inputs: &[Input],
+        inputs: &[TextureInput],
     ) {
         let Some(pipeline) = self.pipelines.of(program, is_subtracted) else { return };
         let textures: Option<Vec<TextureId>> = inputs.iter().map(|input| self.texture(*input)).collect();
@@ -188,11 +188,11 @@ impl Renderer {
         card.draw(0, mesh.count, 1);
     }
 
-    fn texture(&self, input: Input) -> Option<TextureId> {
+    fn texture(&self, input: TextureInput) -> Option<TextureId> {
         match input {
-            Input::Noise => Some(self.noise),
-            Input::Target(target) => self.targets.texture(target),
-            Input::Map(k) => self.maps.get(k).copied(),
+            TextureInput::Noise => Some(self.noise),
+            TextureInput::Target(target) => self.targets.texture(target),
+            TextureInput::Map(k) => self.maps.get(k).copied(),
         }
     }
 }
@@ -240,7 +240,7 @@ fn has_float_targets(version: &str) -> bool {
     !(is_small || version.starts_with('2') || version.contains("WebGL"))
 }
 
-/// The graphics card behind macroquad, which has done by then what it was told before.
+/// The graphics card behind macroquad, after its pending commands.
 #[expect(unsafe_code, reason = "macroquad has no other way to what lies below it")]
 fn card() -> &'static mut dyn RenderingBackend {
     // SAFETY: macroquad runs on one thread, and of its context nothing is borrowed while a renderer uses what this returns:

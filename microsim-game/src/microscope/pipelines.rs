@@ -4,15 +4,15 @@ use macroquad::miniquad::{
     BlendFactor, BlendState, BlendValue, BufferLayout, Equation, Pipeline, PipelineParams, RenderingBackend,
     ShaderMeta, ShaderSource, UniformBlockLayout, UniformDesc, UniformType, VertexAttribute, VertexFormat,
 };
-use microsim_core::microscope::recipe::{Program, Source};
-use std::collections::BTreeMap;
+use microsim_core::microscope::recipe::{GlslSource, Program};
+use std::collections::HashMap;
 
 /// Each program, as it adds and as it takes away.
-pub(super) struct Pipelines(BTreeMap<(Program, bool), Pipeline>);
+pub(super) struct Pipelines(HashMap<(Program, bool), Pipeline>);
 
 impl Pipelines {
     pub(super) fn new(card: &mut dyn RenderingBackend) -> Result<Self, String> {
-        let mut all = BTreeMap::new();
+        let mut all = HashMap::new();
         for program in Program::all() {
             for is_subtracted in [false, true] {
                 if !(program.covers() && is_subtracted) {
@@ -30,7 +30,7 @@ impl Pipelines {
 }
 
 fn build(card: &mut dyn RenderingBackend, program: Program, is_subtracted: bool) -> Result<Pipeline, String> {
-    let Source { vertex, fragment, attributes, uniforms, textures } = program.source();
+    let GlslSource { vertex, fragment, attributes, uniforms, textures } = program.source();
     let described = uniforms.iter().map(|&(name, floats, count)| UniformDesc::new(name, number(floats)).array(count));
     let meta = ShaderMeta {
         uniforms: UniformBlockLayout { uniforms: described.collect() },

@@ -4,14 +4,14 @@ use macroquad::miniquad::{
     FilterMode, RenderPass, RenderingBackend, TextureAccess, TextureFormat, TextureId, TextureParams, TextureSource,
     TextureWrap,
 };
-use microsim_core::microscope::recipe::Target;
-use std::collections::BTreeMap;
+use microsim_core::microscope::recipe::RenderTarget;
+use std::collections::HashMap;
 
 /// One for each target, as large as its last picture.
 #[derive(Default)]
-pub(super) struct Targets(BTreeMap<Target, Held>);
+pub(super) struct Targets(HashMap<RenderTarget, TargetTexture>);
 
-struct Held {
+struct TargetTexture {
     size: [u32; 2],
     texture: TextureId,
     pass: RenderPass,
@@ -22,14 +22,14 @@ impl Targets {
     pub(super) fn prepare(
         &mut self,
         card: &mut dyn RenderingBackend,
-        target: Target,
+        target: RenderTarget,
         size: [u32; 2],
         is_float: bool,
     ) -> RenderPass {
         let [width, height] = size;
         if let Some(held) = self.0.get_mut(&target) {
             if held.size != size {
-                // Not made anew: miniquad remembers every texture that it ever made, deleted or not.
+                // Resized, because miniquad keeps a record of every texture, deleted or not.
                 card.texture_resize(held.texture, width, height, None);
                 held.size = size;
             }
@@ -38,11 +38,11 @@ impl Targets {
         let format = if is_float { TextureFormat::RGBA16F } else { TextureFormat::RGBA8 };
         let texture = card.new_render_texture(TextureParams { width, height, format, ..TextureParams::default() });
         let pass = card.new_render_pass(texture, None);
-        self.0.insert(target, Held { size, texture, pass });
+        self.0.insert(target, TargetTexture { size, texture, pass });
         pass
     }
 
-    pub(super) fn texture(&self, target: Target) -> Option<TextureId> {
+    pub(super) fn texture(&self, target: RenderTarget) -> Option<TextureId> {
         self.0.get(&target).map(|held| held.texture)
     }
 }

@@ -22,7 +22,7 @@ pub struct Target {
     /// Its centre.
     pub at: Vec2,
     /// Half its length, units.
-    pub reach: f32,
+    pub half_extent: f32,
     /// Whether it can be taken in.
     pub readiness: Readiness,
 }
@@ -35,7 +35,7 @@ pub struct Held {
     /// Its centre.
     pub at: Vec2,
     /// Half its length, units.
-    pub reach: f32,
+    pub half_extent: f32,
     /// Where it stands.
     pub state: State,
 }
@@ -68,11 +68,16 @@ impl Hints {
         let free = |organism: &OrganismView<'_>| organism.is_soft_prey() && organism.held_by().is_none();
         let targets = view.organisms().filter(free).filter_map(|prey| {
             let readiness = readiness(engulfer, prey)?;
-            Some(Target { prey: prey.id(), at: prey.centroid(), reach: reach(prey), readiness })
+            Some(Target { prey: prey.id(), at: prey.centroid(), half_extent: half_extent(prey), readiness })
         });
         let held = engulfer.meals().filter_map(|(prey, phase)| {
             let organism = view.organism(prey)?;
-            Some(Held { prey, at: organism.centroid(), reach: reach(organism), state: state(engulfer, phase) })
+            Some(Held {
+                prey,
+                at: organism.centroid(),
+                half_extent: half_extent(organism),
+                state: state(engulfer, phase),
+            })
         });
         Self { targets: targets.collect(), held: held.collect() }
     }
@@ -108,7 +113,7 @@ fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> State {
     }
 }
 
-fn reach(organism: OrganismView<'_>) -> f32 {
+fn half_extent(organism: OrganismView<'_>) -> f32 {
     let (low, high) = organism.bounds();
     0.5 * (high - low).max_element()
 }

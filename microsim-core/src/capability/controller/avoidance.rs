@@ -4,7 +4,7 @@
 //! Jennings 1906 (Behavior of the Lower Organisms, ch. 3); times and angles Elices et al. 2023 (PLOS Comput. Biol. 19,
 //! e1010899); swimming along walls Ohmura et al. 2018 (PNAS 115, 3231).
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
@@ -79,7 +79,7 @@ impl Avoidance {
         in_range("period", period, 0.05, 600.0)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let dt = senses.around.dt;
         if self.heading == Vec2::ZERO {
             (self.heading, self.phase) = (unit_vector(rng.range(0.0, TAU)), rng.unit());
@@ -89,7 +89,7 @@ impl Avoidance {
             if self.backing <= 0.0 {
                 self.turn(rng);
             }
-            return Some(Wish { pace: -1.0, ..senses.along(self.heading) });
+            return Some(Steering { relative_speed: -1.0, ..senses.along(self.heading) });
         }
         let forwards = senses.velocity.dot(self.heading);
         self.is_cruising |= forwards > CRUISING * senses.speed;

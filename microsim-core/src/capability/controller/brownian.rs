@@ -4,7 +4,7 @@
 //! A kick is kept up for a while, and what is kicked has to be able to follow: its speed is `sqrt(2 D / interval)`. A ball of
 //! radius `a` has `D = k T / (6 pi eta a)`: 0.46 square micrometres per second for a coccus of 0.47 micrometres in water.
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
 use glam::Vec2;
@@ -45,7 +45,7 @@ impl Brownian {
         in_range("interval", self.params.interval, 0.005, 10.0)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let dt = senses.around.dt;
         if self.remaining < 0.5 * dt {
             // A kick lasts a whole number of steps.
@@ -55,8 +55,10 @@ impl Brownian {
             self.velocity = Vec2::new(rng.normal(), rng.normal()) * speed;
         }
         self.remaining -= dt;
-        let pace = self.velocity.length() / senses.speed;
-        pace.is_normal().then(|| Wish { pace, ..senses.along(self.velocity / (pace * senses.speed)) })
+        let relative_speed = self.velocity.length() / senses.speed;
+        relative_speed
+            .is_normal()
+            .then(|| Steering { relative_speed, ..senses.along(self.velocity / (relative_speed * senses.speed)) })
     }
 }
 

@@ -7,16 +7,16 @@ use serde::ser::SerializeSeq;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// One of the list, without what it does otherwise.
-struct Alone<T>(T);
+/// An element of the list: a controller without what it does otherwise.
+struct Element<T>(T);
 
-impl Serialize for Alone<&Controller> {
+impl Serialize for Element<&Controller> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         Controller::serialize(self.0, to)
     }
 }
 
-impl<'de> Deserialize<'de> for Alone<Controller> {
+impl<'de> Deserialize<'de> for Element<Controller> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         Controller::deserialize(from).map(Self)
     }
@@ -25,7 +25,7 @@ impl<'de> Deserialize<'de> for Alone<Controller> {
 impl Serialize for Controller {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let mut list = to.serialize_seq(Some(self.chain().count()))?;
-        self.chain().try_for_each(|controller| list.serialize_element(&Alone(controller)))?;
+        self.chain().try_for_each(|controller| list.serialize_element(&Element(controller)))?;
         list.end()
     }
 }
@@ -48,7 +48,7 @@ impl<'de> Visitor<'de> for Chain {
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Controller, A::Error> {
         let wrong = |length: usize| A::Error::invalid_length(length, &self);
         let mut found: Vec<Controller> = Vec::new();
-        while let Some(Alone(controller)) = list.next_element()? {
+        while let Some(Element(controller)) = list.next_element()? {
             found.push(controller);
             if found.len() > DEEPEST {
                 return Err(wrong(found.len()));
@@ -99,8 +99,8 @@ mod tests {
         let still = element(&Controller::Still);
         let flight = written(&Controller::flee(FleeParams::default(), Controller::Still));
         let flight = &flight[1..flight.len() - still.len()];
-        let calm = Controller::flee(FleeParams::default(), Controller::Still);
-        assert_eq!(read(&[&[1][..], flight].concat()), Some(calm), "it rests otherwise");
+        let fleeing = Controller::flee(FleeParams::default(), Controller::Still);
+        assert_eq!(read(&[&[1][..], flight].concat()), Some(fleeing), "it rests otherwise");
         assert_eq!(read(&[0]), None, "none");
         assert_eq!(read(&[&[2][..], &still, &still].concat()), None, "one that does nothing otherwise");
         // A million, as a number of three bytes.

@@ -7,7 +7,7 @@
 //! 8, 215).
 
 use super::persistent_walk::{PersistentWalk, PersistentWalkParams};
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::id::ChemicalId;
@@ -76,7 +76,7 @@ impl Chemotaxis {
         self.walk.validate()
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let dt = senses.around.dt;
         self.remaining -= dt;
         if self.remaining <= 0.0 {

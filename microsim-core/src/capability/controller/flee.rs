@@ -2,7 +2,7 @@
 //! several threats falling off with their distance). Where there is none it does something else.
 
 use super::Controller;
-use super::senses::{Senses, Wish, larger};
+use super::senses::{Senses, Steering, larger};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::direction_or;
 use crate::rng::Rng;
@@ -48,7 +48,7 @@ impl Flee {
         self.otherwise.validate().map_err(|error| error.within("otherwise"))
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let mut away = Vec2::ZERO;
         for threat in senses.others(|other| other.is_engulfer) {
             let way = senses.at - threat.at;

@@ -32,7 +32,7 @@ use persistent_walk::{PersistentWalk, PersistentWalkParams};
 use pursue::{Pursue, PursueParams};
 use ram::Ram;
 use run_and_tumble::{RunAndTumble, RunAndTumbleParams};
-use senses::{Senses, Wish};
+use senses::{Senses, Steering};
 use serde::{Deserialize, Serialize};
 use thrash::Thrash;
 use wander::Wander;
@@ -168,7 +168,7 @@ impl Controller {
     }
 
     /// Decides for one step.
-    pub(crate) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(crate) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         match self {
             Self::Still => None,
             Self::Wander(model) => model.decide(senses, rng),

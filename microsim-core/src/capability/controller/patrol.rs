@@ -1,7 +1,7 @@
 //! From one point to the next.
 
 use super::check_point;
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::Error;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ impl Patrol {
         self.through.iter().enumerate().try_for_each(|(k, &p)| check_point(&format!("through[{k}]"), p))
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>) -> Option<Steering> {
         let has_arrived = self.through[self.next as usize].distance(senses.at) < senses.arrival;
         let is_last = self.next as usize + 1 == self.through.len();
         if has_arrived && is_last && !self.repeats {
@@ -36,7 +36,7 @@ impl Patrol {
         if has_arrived {
             self.next = if is_last { 0 } else { self.next + 1 };
         }
-        Some(Wish::to(self.through[self.next as usize]))
+        Some(Steering::to(self.through[self.next as usize]))
     }
 }
 
@@ -52,7 +52,7 @@ mod tests {
         let mut once = Bench::new(Controller::patrol(points.clone(), false), 0.1);
         let goal = |bench: &mut Bench, at| {
             bench.at = at;
-            bench.decide().map(|wish| wish.goal)
+            bench.decide().map(|steering| steering.goal)
         };
         assert_eq!(goal(&mut once, Vec2::ZERO), Some(points[0]));
         assert_eq!(goal(&mut once, points[0]), Some(points[1]));

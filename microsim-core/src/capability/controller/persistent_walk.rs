@@ -3,7 +3,7 @@
 //! `2 S^2 P (t - P (1 - exp(-t / P)))`; for crawling cells see Gail and Boone 1970 (Biophys. J. 10, 980) and Li,
 //! Norrelykke and Cox 2008 (PLoS ONE 3, e2093).
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
@@ -41,7 +41,7 @@ impl PersistentWalk {
         in_range("persistence", self.params.persistence, 0.05, 1e4)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         self.turn(senses.around.dt, rng);
         self.heading = senses.along_walls(self.heading);
         Some(senses.along(self.heading))

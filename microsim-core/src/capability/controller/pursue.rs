@@ -2,7 +2,7 @@
 //! Characters": pursuit). Where there is none it does something else.
 
 use super::Controller;
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
 use serde::{Deserialize, Serialize};
@@ -45,7 +45,7 @@ impl Pursue {
         self.otherwise.validate().map_err(|error| error.within("otherwise"))
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let largest = self.params.largest * senses.radius;
         let prey = senses.nearest(|other| other.is_prey && other.radius <= largest);
         let Some(prey) = prey.filter(|prey| prey.at.distance(senses.at) < self.params.within) else {
@@ -53,7 +53,7 @@ impl Pursue {
         };
         let time = prey.at.distance(senses.at) / senses.speed;
         let ahead = prey.velocity * if time < FORESIGHT { time } else { FORESIGHT };
-        Some(Wish::to(prey.at + ahead))
+        Some(Steering::to(prey.at + ahead))
     }
 }
 

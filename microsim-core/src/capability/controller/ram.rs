@@ -1,6 +1,6 @@
 //! Charges at the nearest engulfer, again and again from another side. Hard on membranes.
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::unit_vector;
 use crate::rng::Rng;
@@ -31,7 +31,7 @@ impl Ram {
         in_range("distance", self.distance, 0.0, 1e4)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let target = senses.nearest(|other| other.is_engulfer)?.at;
         self.remaining -= senses.around.dt;
         if self.remaining <= 0.0 {
@@ -39,7 +39,7 @@ impl Ram {
             self.remaining = if goes_aside { self.retreat } else { self.charge };
             self.aside = goes_aside.then(|| unit_vector(rng.range(0.0, TAU)) * self.distance);
         }
-        Some(Wish::to(target + self.aside.unwrap_or(Vec2::ZERO)))
+        Some(Steering::to(target + self.aside.unwrap_or(Vec2::ZERO)))
     }
 }
 
@@ -56,7 +56,7 @@ mod tests {
         assert_eq!(bench.decide(), None);
         bench.others =
             vec![engulfer(Bench::ME.index, Vec2::ZERO), engulfer(1, Vec2::new(25.0, 5.0)), engulfer(2, near)];
-        let goals: Vec<Vec2> = (0..3000).filter_map(|_| bench.decide()).map(|wish| wish.goal).collect();
+        let goals: Vec<Vec2> = (0..3000).filter_map(|_| bench.decide()).map(|steering| steering.goal).collect();
         let aside: Vec<Vec2> = goals.iter().map(|&goal| goal - near).filter(|&way| way != Vec2::ZERO).collect();
         assert_eq!(goals.len(), 3000);
         assert!((950..1150).contains(&aside.len()), "a third of the time, not {}", aside.len());

@@ -5,7 +5,7 @@
 //! and Berg 1986 (PNAS 83, 8987). In an even field it diffuses with `v^2 tau^2 / (2 (1 - a) (tau + T))`, `a` being the mean
 //! cosine of a turn and `T` the time of a tumble (Lovely and Dahlquist 1975, J. Theor. Biol. 50, 477, in two dimensions).
 
-use super::senses::{Senses, Wish, larger};
+use super::senses::{Senses, Steering, larger};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::id::ChemicalId;
@@ -78,7 +78,7 @@ impl RunAndTumble {
         in_range("gain", gain, 0.0, 1e4)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let dt = senses.around.dt;
         let stretch = self.stretch(senses);
         if self.heading == Vec2::ZERO {

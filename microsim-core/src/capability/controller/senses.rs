@@ -13,24 +13,24 @@ const WHISKERS: f32 = 0.35;
 /// Share of its speed with which it then leaves the wall, so that it does not rub along.
 const DETACH: f32 = 0.05;
 
-/// Where an organism wants to go in a step.
+/// Where an organism steers in a step, and how fast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Wish {
+pub(crate) struct Steering {
     pub goal: Vec2,
-    /// Speed, in its own; negative: away from the goal, with the rear ahead.
-    pub pace: f32,
+    /// Speed, in units of its own; negative: away from the goal, with the rear ahead.
+    pub relative_speed: f32,
 }
 
-impl Wish {
-    /// To go to a point.
+impl Steering {
+    /// Steering to a point.
     pub(crate) fn to(goal: Vec2) -> Self {
-        Self { goal, pace: 1.0 }
+        Self { goal, relative_speed: 1.0 }
     }
 }
 
-/// What all organisms may know.
+/// What all organisms may sense.
 #[derive(Clone, Debug)]
-pub(crate) struct Surroundings<'a> {
+pub(crate) struct Environment<'a> {
     /// Upper right corner of the room.
     pub size: Vec2,
     /// Time of a step, s.
@@ -70,7 +70,7 @@ pub(crate) struct Senses<'a> {
     pub arrival: f32,
     /// Centres of its outline, counter-clockwise.
     pub outline: &'a [Vec2],
-    pub around: &'a Surroundings<'a>,
+    pub around: &'a Environment<'a>,
 }
 
 /// A wall next to an organism.
@@ -83,9 +83,9 @@ struct Wall {
 }
 
 impl Senses<'_> {
-    /// The wish to move along a direction.
-    pub(crate) fn along(&self, heading: Vec2) -> Wish {
-        Wish::to(self.at + heading * FAR)
+    /// Steering along a direction.
+    pub(crate) fn along(&self, heading: Vec2) -> Steering {
+        Steering::to(self.at + heading * FAR)
     }
 
     /// Concentration of a chemical at a point; nothing of one that is not there.

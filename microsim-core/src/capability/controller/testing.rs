@@ -1,7 +1,7 @@
 //! A bench on which a controller decides for a point-like organism of radius 1 in a room without walls.
 
 use super::Controller;
-use super::senses::{Other, Senses, Surroundings, Wish};
+use super::senses::{Environment, Other, Senses, Steering};
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::config::WorldConfig;
 use crate::geometry::ring::{direction_or, ellipse};
@@ -30,9 +30,9 @@ impl Bench {
         Self { controller, rng, dt, at, velocity, speed: 1.0, others: Vec::new(), chemicals: Vec::new() }
     }
 
-    pub(super) fn decide(&mut self) -> Option<Wish> {
+    pub(super) fn decide(&mut self) -> Option<Steering> {
         let around =
-            Surroundings { size: ROOM, dt: self.dt, chemicals: &self.chemicals, obstacles: &[], others: &self.others };
+            Environment { size: ROOM, dt: self.dt, chemicals: &self.chemicals, obstacles: &[], others: &self.others };
         let outline: Vec<Vec2> = ellipse(Vec2::ONE, 16).into_iter().map(|arm| self.at + arm).collect();
         let (at, velocity, speed) = (self.at, self.velocity, self.speed);
         let senses = Senses {
@@ -51,14 +51,15 @@ impl Bench {
     /// The direction of the next decision.
     pub(super) fn heading(&mut self) -> Option<Vec2> {
         let at = self.at;
-        self.decide().map(|wish| direction_or(wish.goal - at, Vec2::ZERO))
+        self.decide().map(|steering| direction_or(steering.goal - at, Vec2::ZERO))
     }
 
-    /// Decides and moves, as what follows its wishes exactly does.
+    /// Decides and moves, as what follows its steering exactly does.
     pub(super) fn walk(&mut self, speed: f32) {
         let (at, dt) = (self.at, self.dt);
         self.speed = speed;
-        let velocity = |wish: Wish| direction_or(wish.goal - at, Vec2::ZERO) * (wish.pace * speed);
+        let velocity =
+            |steering: Steering| direction_or(steering.goal - at, Vec2::ZERO) * (steering.relative_speed * speed);
         self.velocity = self.decide().map_or(Vec2::ZERO, velocity);
         self.at += self.velocity * dt;
     }

@@ -1,6 +1,6 @@
 //! To and fro without rest: every now and then the opposite or a random direction. Hard on membranes.
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::unit_vector;
 use crate::rng::Rng;
@@ -29,7 +29,7 @@ impl Thrash {
         in_range("reversal", self.reversal, 0.0, 1.0)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         self.remaining -= senses.around.dt;
         if self.remaining <= 0.0 {
             self.remaining = self.interval;

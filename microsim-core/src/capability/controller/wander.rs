@@ -1,6 +1,6 @@
 //! The seed's trivial random movement (3.3.1): now and then a new goal anywhere in the room, or a rest.
 
-use super::senses::{Senses, Wish};
+use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::rng::Rng;
 use glam::Vec2;
@@ -29,7 +29,7 @@ impl Wander {
         in_range("rest", self.rest, 0.0, 1.0)
     }
 
-    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Wish> {
+    pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         self.remaining -= senses.around.dt;
         if self.remaining <= 0.0 {
             self.remaining = rng.range(self.interval[0], self.interval[1]);
@@ -41,7 +41,7 @@ impl Wander {
         let room = |side: f32| if side > 2.0 * senses.radius { senses.radius } else { 0.5 * side };
         let margin = Vec2::new(room(senses.around.size.x), room(senses.around.size.y));
         let goal = self.goal?.clamp(margin, senses.around.size - margin);
-        (goal.distance(senses.at) > senses.arrival).then(|| Wish::to(goal))
+        (goal.distance(senses.at) > senses.arrival).then(|| Steering::to(goal))
     }
 }
 
@@ -54,12 +54,13 @@ mod tests {
     #[test]
     fn wandering_changes_its_goal_within_its_interval_and_stays_in_the_room() {
         let mut bench = Bench::new(Controller::wander([0.5, 1.0], 0.3), 0.1);
-        let goals: Vec<Option<Wish>> = (0..1000).map(|_| bench.decide()).collect();
+        let goals: Vec<Option<Steering>> = (0..1000).map(|_| bench.decide()).collect();
         let changes = goals.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let rests = goals.iter().filter(|goal| goal.is_none()).count();
         assert!((80..200).contains(&changes), "{changes} changes in 100 s");
         assert!((100..600).contains(&rests), "{rests} rests");
-        let is_inside = |wish: &Wish| wish.goal.cmpge(Vec2::ONE).all() && wish.goal.cmple(ROOM - 1.0).all();
+        let is_inside =
+            |steering: &Steering| steering.goal.cmpge(Vec2::ONE).all() && steering.goal.cmple(ROOM - 1.0).all();
         assert!(goals.iter().flatten().all(is_inside), "no nearer to a wall than its radius");
     }
 

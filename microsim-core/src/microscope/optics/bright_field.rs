@@ -2,8 +2,9 @@
 //!
 //! `I = exp(-OD) (1 - z Lap phi)`, the transport of intensity over a small defocus.
 
-use super::{Mode, Shade, Sight, grey};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader, grey};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::wave::transmitted;
 
 /// Defocus over the wave number, square micrometres per radian.
@@ -13,16 +14,28 @@ const STEP: f32 = 0.13;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
-const FORMULA: Formula = Formula {
+const GLSL: Glsl = Glsl {
     source: include_str!("bright_field.glsl"),
     constants: &[("DEFOCUS", &[DEFOCUS]), ("STEP", &[STEP]), ("BACKGROUND", &[BACKGROUND])],
 };
 
-pub(super) const MODE: Mode =
-    Mode { channels: 1, has_surround: false, blur: 0.10, grain: 0.7, shade: Shade::Light(shade, &FORMULA) };
+impl Optics {
+    /// Bright field without a stain: red cells, and whatever bends light a little out of focus.
+    pub const BRIGHT_FIELD: Self = Self(&MODE);
+}
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
-    let matter = sight.matter(x, y);
-    let focused = (1.0 - DEFOCUS * sight.curvature(x, y, STEP)).clamp(0.2, 2.0);
+const MODE: Mode = Mode {
+    name: "bright-field",
+    is_bright: true,
+    channels: 1,
+    has_surround: false,
+    blur: 0.10,
+    grain: 0.7,
+    shader: Shader::Light(shade, &GLSL),
+};
+
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
+    let matter = sampler.matter(x, y);
+    let focused = (1.0 - DEFOCUS * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
     grey(BACKGROUND * transmitted(matter) * focused)
 }

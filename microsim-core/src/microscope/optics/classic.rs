@@ -1,5 +1,18 @@
 //! The seed's look, painted rather than lit: see [`crate::microscope::painting`].
 
-use super::{Mode, Shade};
+use super::mode::{Mode, Optics, Shader};
 
-pub(super) const MODE: Mode = Mode { channels: 3, has_surround: false, blur: 0.0, grain: 0.5, shade: Shade::Painted };
+impl Optics {
+    /// The illustrated look of the seed (3.2): textured meshes, blurred particles, drifting things in the background.
+    pub const CLASSIC: Self = Self(&MODE);
+}
+
+const MODE: Mode = Mode {
+    name: "classic",
+    is_bright: true,
+    channels: 3,
+    has_surround: false,
+    blur: 0.0,
+    grain: 0.5,
+    shader: Shader::Painted,
+};

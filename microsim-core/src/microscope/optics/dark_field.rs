@@ -1,23 +1,36 @@
 //! Dark field: the surround wave is stopped, and what the specimen scattered is all there is. `I = |E - S|^2`.
 
-use super::{Mode, Shade, Sight, grey};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader, grey};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 
 const GAIN: f32 = 2.2;
 /// Light that gets past the stop.
 const LEAK: f32 = 0.006;
 const GAMMA: f32 = 1.0;
 
-const FORMULA: Formula = Formula {
+const GLSL: Glsl = Glsl {
     source: include_str!("dark_field.glsl"),
     constants: &[("GAIN", &[GAIN]), ("LEAK", &[LEAK]), ("GAMMA", &[GAMMA])],
 };
 
-pub(super) const MODE: Mode =
-    Mode { channels: 1, has_surround: true, blur: 0.10, grain: 0.6, shade: Shade::Light(shade, &FORMULA) };
+impl Optics {
+    /// Dark field: only light that the specimen turns aside.
+    pub const DARK_FIELD: Self = Self(&MODE);
+}
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
-    let (wave, surround) = sight.waves(x, y);
+const MODE: Mode = Mode {
+    name: "dark-field",
+    is_bright: false,
+    channels: 1,
+    has_surround: true,
+    blur: 0.10,
+    grain: 0.6,
+    shader: Shader::Light(shade, &GLSL),
+};
+
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
+    let (wave, surround) = sampler.waves(x, y);
     let light = LEAK + GAIN * (wave - surround).length_squared();
     grey(libm::powf(light, GAMMA))
 }

@@ -3,8 +3,9 @@
 //!
 //! `I = [sin((phi(x + d) - phi(x - d) + b) / 2) / sin(b / 2)]^2` with shear `d` and bias `b`.
 
-use super::{Mode, Shade, Sight, grey};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader, grey};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 use glam::Vec2;
 
 /// Half the shear, micrometres: towards the upper left, where the light seems to come from.
@@ -14,16 +15,28 @@ const BIAS: f32 = 0.9;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.43;
 
-const FORMULA: Formula = Formula {
+const GLSL: Glsl = Glsl {
     source: include_str!("dic.glsl"),
     constants: &[("SHEAR", &[SHEAR.x, SHEAR.y]), ("BIAS", &[BIAS]), ("BACKGROUND", &[BACKGROUND])],
 };
 
-pub(super) const MODE: Mode =
-    Mode { channels: 1, has_surround: false, blur: 0.09, grain: 0.8, shade: Shade::Light(shade, &FORMULA) };
+impl Optics {
+    /// Differential interference contrast (Nomarski): slopes of the delay, as if lit from the side.
+    pub const DIC: Self = Self(&MODE);
+}
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
-    let difference = sight.phase_beside(x, y, -SHEAR) - sight.phase_beside(x, y, SHEAR);
+const MODE: Mode = Mode {
+    name: "dic",
+    is_bright: false,
+    channels: 1,
+    has_surround: false,
+    blur: 0.09,
+    grain: 0.8,
+    shader: Shader::Light(shade, &GLSL),
+};
+
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
+    let difference = sampler.phase_beside(x, y, -SHEAR) - sampler.phase_beside(x, y, SHEAR);
     let ratio = libm::sinf(0.5 * (difference + BIAS)) / libm::sinf(0.5 * BIAS);
     grey(BACKGROUND * ratio * ratio)
 }

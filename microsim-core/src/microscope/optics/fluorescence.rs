@@ -1,7 +1,8 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
-use super::{Mode, Shade, Sight};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.012, 0.014, 0.016];
@@ -11,16 +12,28 @@ const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.15;
 
-const FORMULA: Formula = Formula {
+const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
     constants: &[("DARK", &DARK), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
 };
 
-pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.17, grain: 0.5, shade: Shade::Light(shade, &FORMULA) };
+impl Optics {
+    /// Fluorescence: nucleic acid in blue, cytoplasm in green.
+    pub const FLUORESCENCE: Self = Self(&MODE);
+}
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
-    let matter = sight.matter(x, y);
+const MODE: Mode = Mode {
+    name: "fluorescence",
+    is_bright: false,
+    channels: 3,
+    has_surround: false,
+    blur: 0.17,
+    grain: 0.5,
+    shader: Shader::Light(shade, &GLSL),
+};
+
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
+    let matter = sampler.matter(x, y);
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
     let (nucleus, cytoplasm) = (shines(matter.nucleus), shines(matter.cytoplasm));
     std::array::from_fn(|k| {

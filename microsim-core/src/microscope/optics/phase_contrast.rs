@@ -1,11 +1,12 @@
 //! Phase contrast: the surround wave is weakened and set back (or ahead) by a quarter of a wave before it meets the wave
 //! that the specimen scattered (Zernike 1942). Halo and shade-off come by themselves: the phase plate cannot tell the
-//! surround wave from light that the specimen scatters a little.
+//! surround wave from light that the specimen scatters a little. The width of the halo is that of the surround wave.
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
-use super::{Mode, Shade, Sight, grey};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader, grey};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 
 /// Amplitude that the phase plate leaves of the surround wave.
 const TRANSMISSION: f32 = 0.46;
@@ -14,28 +15,40 @@ const BACKGROUND: f32 = 0.40;
 const GAMMA: f32 = 0.85;
 
 const SOURCE: &str = include_str!("phase_contrast.glsl");
-const POSITIVE_FORMULA: Formula = Formula {
+const POSITIVE_GLSL: Glsl = Glsl {
     source: SOURCE,
     constants: &[("TRANSMISSION", &[TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
 };
-const NEGATIVE_FORMULA: Formula = Formula {
+const NEGATIVE_GLSL: Glsl = Glsl {
     source: SOURCE,
     constants: &[("TRANSMISSION", &[-TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
 };
 
-pub(super) const POSITIVE: Mode = Mode {
+impl Optics {
+    /// Positive phase contrast (Zernike 1942): what delays light is dark, with a bright halo.
+    pub const PHASE_CONTRAST: Self = Self(&POSITIVE);
+    /// Negative phase contrast: what delays light is bright, with a dark halo.
+    pub const NEGATIVE_PHASE_CONTRAST: Self = Self(&NEGATIVE);
+}
+
+const POSITIVE: Mode = Mode {
+    name: "phase-contrast",
+    is_bright: false,
     channels: 1,
     has_surround: true,
     blur: 0.09,
     grain: 1.0,
-    shade: Shade::Light(|sight, x, y| shade(sight, x, y, TRANSMISSION), &POSITIVE_FORMULA),
+    shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
 
-pub(super) const NEGATIVE: Mode =
-    Mode { shade: Shade::Light(|sight, x, y| shade(sight, x, y, -TRANSMISSION), &NEGATIVE_FORMULA), ..POSITIVE };
+const NEGATIVE: Mode = Mode {
+    name: "negative-phase-contrast",
+    shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, -TRANSMISSION), &NEGATIVE_GLSL),
+    ..POSITIVE
+};
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize, transmission: f32) -> [f32; 3] {
-    let (wave, surround) = sight.waves(x, y);
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize, transmission: f32) -> [f32; 3] {
+    let (wave, surround) = sampler.waves(x, y);
     let image = (wave - surround) - surround.perp() * transmission;
     let intensity = image.length_squared() / (transmission * transmission);
     grey(BACKGROUND * libm::powf(intensity, GAMMA))

@@ -4,8 +4,9 @@
 //! measured ones of stained smears. `z_rgb` is the defocus that remains: a simple objective does not focus all colours in
 //! one plane, which puts a faint coloured line along every edge.
 
-use super::{Mode, Shade, Sight};
-use crate::microscope::formula::Formula;
+use super::mode::{Mode, Optics, Shader};
+use super::sampler::Sampler;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::noise::{octaves, shift_of};
 
 /// A field without a specimen: 198, 198, 193 of 255.
@@ -27,7 +28,7 @@ const PLASMA_SEED: u32 = 0x57a1;
 /// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.
 const DRY: [f32; 2] = [0.45, 0.55];
 
-const FORMULA: Formula = Formula {
+const GLSL: Glsl = Glsl {
     source: include_str!("stained.glsl"),
     constants: &[
         ("BACKGROUND", &BACKGROUND),
@@ -43,16 +44,28 @@ const FORMULA: Formula = Formula {
     ],
 };
 
-pub(super) const MODE: Mode =
-    Mode { channels: 3, has_surround: false, blur: 0.12, grain: 0.25, shade: Shade::Light(shade, &FORMULA) };
+impl Optics {
+    /// Bright field of a smear in a Romanowsky stain, such as Wright's.
+    pub const STAINED: Self = Self(&MODE);
+}
 
-fn shade(sight: &Sight<'_>, x: usize, y: usize) -> [f32; 3] {
-    let matter = sight.matter(x, y);
+const MODE: Mode = Mode {
+    name: "stained",
+    is_bright: true,
+    channels: 3,
+    has_surround: false,
+    blur: 0.12,
+    grain: 0.25,
+    shader: Shader::Light(shade, &GLSL),
+};
+
+fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
+    let matter = sampler.matter(x, y);
     let cytoplasm = matter.cytoplasm / (DRY[0] + DRY[1] * matter.cytoplasm.abs());
     // The middle of a dry red cell sinks in.
     let haemoglobin = matter.haemoglobin * matter.haemoglobin.abs().sqrt();
-    let plasma = octaves(sight.plate.grid.place(x, y) / PLASMA_SIZE, 3, PLASMA_SEED);
-    let curvature = sight.curvature(x, y, STEP).clamp(-20.0, 20.0);
+    let plasma = octaves(sampler.raster.grid.place(x, y) / PLASMA_SIZE, 3, PLASMA_SEED);
+    let curvature = sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
     std::array::from_fn(|k| {
         let dyes = HAEMOGLOBIN[k] * haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus;
         BACKGROUND[k] * libm::expf(-dyes - PLASMA[k] * plasma) * (1.0 - DEFOCUS[k] * curvature)

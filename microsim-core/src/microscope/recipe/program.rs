@@ -1,17 +1,12 @@
-//! The programs: which formulas each is made of, and what it is fed.
+//! The programs: what each draws, and the numbers of its vertices.
 
-use super::{LIGHT_RANGE, LONGEST, WAVE_RANGE};
-use crate::microscope::formula::Formula;
-use crate::microscope::optics::{Optics, SIGHT, Shade};
-use crate::microscope::specimen::{amoeboid, chamber, ground, outline, round, spot};
-use crate::microscope::{film, maths, matter, noise, painting, wave};
-use std::fmt::Write as _;
+use crate::microscope::optics::{Optics, Shader};
 
 /// Something that a graphics card runs for each pixel of some triangles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Program {
     /// Uneven glass, on all of the slide.
-    Ground,
+    Background,
     /// What lies beyond the room.
     Walls,
     /// An obstacle.
@@ -32,7 +27,7 @@ pub enum Program {
     SpreadAcross,
     /// Its blur along columns.
     SpreadAlong,
-    /// An image; not for [`Optics::Classic`].
+    /// An image; not for [`Optics::CLASSIC`].
     Image(Optics),
     /// Blur of an image along its rows.
     Soften,
@@ -48,7 +43,7 @@ pub enum Program {
 
 /// A program's text and what it wants.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct GlslSource {
     /// GLSL 100.
     pub vertex: String,
     /// GLSL 100.
@@ -61,8 +56,6 @@ pub struct Source {
     pub textures: Vec<&'static str>,
 }
 
-type Uniforms = &'static [(&'static str, usize, usize)];
-
 const CORNER: &[(&str, usize)] = &[("corner", 2)];
 const PLACE: &[(&str, usize)] = &[("place", 2)];
 const ROUND: &[(&str, usize)] =
@@ -71,37 +64,12 @@ const SPOT: &[(&str, usize)] = &[("at", 2), ("corner", 2), ("size", 2), ("matter
 const THREAD: &[(&str, usize)] = &[("from", 2), ("to", 2), ("corner", 2), ("form", 2), ("matter", 4)];
 const PAINTED: &[(&str, usize)] = &[("place", 2), ("texture_place", 2), ("colour", 4), ("rim", 4), ("noise", 3)];
 
-const MATTER: Uniforms = &[("view", 4, 1), ("pixel", 2, 1), ("scale", 4, 1)];
-const VIEW: Uniforms = &[("view", 4, 1)];
-const MAP: Uniforms = &[("map_place", 4, 1), ("map_size", 3, 1)];
-const ROOM: Uniforms = &[("room", 4, 1)];
-const CODING: Uniforms = &[("matter_scale", 4, 1), ("matter_bias", 4, 1)];
-const AMOEBOID: Uniforms = &[
-    ("middle", 4, 1),
-    ("own_frame", 4, 1),
-    ("front", 4, 1),
-    ("lamella", 4, 1),
-    ("relief", 4, 1),
-    ("matter", 4, 1),
-    ("nucleus_matter", 4, 1),
-    ("nucleus_texture", 2, 1),
-    ("edge", 2, 1),
-    ("lobes", 3, amoeboid::LOBES),
-    ("shifts", 2, 5),
-];
-const FILM: Uniforms =
-    &[("exposure", 4, 1), ("stock", 4, 1), ("parts", 2, 5), ("image", 4, 1), ("reach", 1, 1), ("weights", 1, LONGEST)];
-
-const SCREEN: Formula = Formula { source: include_str!("../screen.glsl"), constants: &[] };
-const BOX: Formula = Formula { source: include_str!("../box.glsl"), constants: &[] };
-const SOFTEN: Formula = Formula { source: include_str!("../soften.glsl"), constants: &[] };
-
 impl Program {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
         use Program::*;
-        let lit = Optics::ALL.into_iter().filter(|optics| matches!(optics.mode().shade, Shade::Light(..)));
-        [Ground, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, SpreadAcross, SpreadAlong]
+        let lit = Optics::ALL.into_iter().filter(|optics| matches!(optics.mode().shader, Shader::Light(..)));
+        [Background, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, SpreadAcross, SpreadAlong]
             .into_iter()
             .chain(lit.map(Image))
             .chain([Soften, Film, Page, PageObstacle, Painted])
@@ -121,7 +89,7 @@ impl Program {
     }
 
     /// What each vertex has.
-    fn attributes(self) -> &'static [(&'static str, usize)] {
+    pub(in crate::microscope) fn attributes(self) -> &'static [(&'static str, usize)] {
         use Program::*;
         match self {
             Walls | Obstacle | Amoeboid => PLACE,
@@ -136,108 +104,5 @@ impl Program {
     /// Numbers of each vertex.
     pub(super) fn floats_per_vertex(self) -> usize {
         self.attributes().iter().map(|(_, floats)| floats).sum()
-    }
-
-    fn uniforms(self) -> Vec<(&'static str, usize, usize)> {
-        use Program::*;
-        let has_surround = matches!(self, Image(optics) if optics.mode().has_surround);
-        let parts: &[Uniforms] = match self {
-            Ground => &[MATTER, &[("bias", 4, 1), ("shifts", 4, 1)]],
-            Walls => &[MATTER, ROOM],
-            Obstacle => &[MATTER, MAP, ROOM],
-            Amoeboid => &[MATTER, MAP, AMOEBOID],
-            Round | Spot | Thread => &[MATTER],
-            Ciliate => &[MATTER, &[("frame", 4, 1), ("pellicle", 3, 1)]],
-            Wave => &[CODING],
-            SpreadAcross | SpreadAlong => &[&[("side", 3, 1), ("weights", 2, LONGEST)]],
-            Image(_) if has_surround => &[CODING, &[("area", 4, 1), ("to_surround", 4, 1)]],
-            Image(_) => &[CODING, &[("area", 4, 1)]],
-            Soften => &[&[("side", 3, 1), ("weights", 1, LONGEST)]],
-            Film => &[FILM],
-            Page => &[VIEW, ROOM],
-            PageObstacle => &[VIEW, MAP, ROOM],
-            Painted => &[VIEW],
-        };
-        parts.concat()
-    }
-
-    fn textures(self) -> Vec<&'static str> {
-        use Program::*;
-        match self {
-            Obstacle | Amoeboid | PageObstacle => vec!["noise_table", "map"],
-            Wave => vec!["matter_target"],
-            SpreadAcross | SpreadAlong => vec!["waves"],
-            Image(optics) if optics.mode().has_surround => vec!["matter_target", "noise_table", "surround_target"],
-            Image(_) => vec!["matter_target", "noise_table"],
-            Soften => vec!["light"],
-            Film => vec!["light", "noise_table"],
-            _ => vec!["noise_table"],
-        }
-    }
-
-    /// Words that the formulas look for.
-    fn switches(self) -> &'static [&'static str] {
-        use Program::*;
-        match self {
-            Obstacle => &["OBSTACLE"],
-            Ciliate => &["PELLICLE"],
-            SpreadAcross => &["SPREAD"],
-            SpreadAlong => &["SPREAD", "LAST"],
-            Image(optics) if optics.mode().has_surround => &["SURROUND"],
-            Page => &["PAGE"],
-            PageObstacle => &["PAGE", "OBSTACLE"],
-            _ => &[],
-        }
-    }
-
-    /// Its formulas, each after those that it uses.
-    fn formulas(self) -> Vec<&'static Formula> {
-        use Program::*;
-        let drawn = |own: &[&'static Formula]| [&[&maths::FORMULA, &noise::FORMULA, &matter::FORMULA], own].concat();
-        match self {
-            Ground => drawn(&[&ground::FORMULA]),
-            Walls => drawn(&[&BOX, &chamber::FORMULA]),
-            Obstacle => drawn(&[&BOX, &outline::FORMULA, &chamber::FORMULA]),
-            Amoeboid => drawn(&[&BOX, &outline::FORMULA, &amoeboid::FORMULA]),
-            Round | Ciliate => drawn(&[&round::FORMULA]),
-            Spot => drawn(&[&spot::SPOT]),
-            Thread => drawn(&[&spot::THREAD]),
-            Wave | SpreadAcross | SpreadAlong => vec![&wave::FORMULA, &wave::SURROUND],
-            Image(optics) => match &optics.mode().shade {
-                Shade::Light(_, formula) => vec![&noise::FORMULA, &wave::FORMULA, &SIGHT, formula],
-                Shade::Painted => Vec::new(),
-            },
-            Soften => vec![&SOFTEN],
-            Film => vec![&noise::FORMULA, &film::FORMULA],
-            Page | Painted => vec![&maths::FORMULA, &noise::FORMULA, &painting::FORMULA],
-            PageObstacle => vec![&maths::FORMULA, &noise::FORMULA, &outline::FORMULA, &painting::FORMULA],
-        }
-    }
-
-    /// Whether its vertices are those of one big square, and its formulas are for pixels only.
-    fn is_on_screen(self) -> bool {
-        use Program::*;
-        matches!(self, Wave | SpreadAcross | SpreadAlong | Image(_) | Soften | Film)
-    }
-
-    /// Its text, and what it wants.
-    #[must_use]
-    pub fn source(self) -> Source {
-        let mut head = "#version 100\nprecision highp float;\nprecision highp int;\n".to_owned();
-        self.switches().iter().for_each(|word| _ = writeln!(head, "#define {word}"));
-        _ = writeln!(head, "#define LONGEST {LONGEST}\n#define LOBES {}", amoeboid::LOBES);
-        _ = writeln!(head, "const float WAVE_RANGE = {WAVE_RANGE:?};\nconst float LIGHT_RANGE = {LIGHT_RANGE:?};");
-        let (mut vertex, mut fragment) = (format!("{head}#define VERTEX\n"), head);
-        self.formulas().into_iter().for_each(|formula| formula.write(&mut fragment));
-        if self.is_on_screen() {
-            SCREEN.write(&mut vertex);
-        } else {
-            self.formulas().into_iter().for_each(|formula| formula.write(&mut vertex));
-        }
-        if let Self::Image(_) = self {
-            fragment.push_str("\nvoid main() {\n    gl_FragColor = vec4(shade() / LIGHT_RANGE, 1.0);\n}\n");
-        }
-        let (attributes, uniforms, textures) = (self.attributes(), self.uniforms(), self.textures());
-        Source { vertex, fragment, attributes, uniforms, textures }
     }
 }

@@ -4,15 +4,17 @@
 //! particles of the cytoplasm, the nucleus on the membrane's own order of nodes, the front on how the cell moves and is
 //! shaped.
 
-use super::outline::{DistanceMap, smooth, united};
-use super::spot::{Spot, Thread};
+use super::distance_field::{DistanceField, united};
+use super::spline::smooth;
+use super::spot::Spot;
+use super::thread::Thread;
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
 use crate::look::{AmoeboidLook, GranuleLook, SpotShape};
-use crate::microscope::formula::Formula;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
-use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, scramble, shift_of, wobble};
-use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
+use crate::microscope::matter::{Matter, MatterRaster};
+use crate::microscope::noise::{HashRng, octaves, scramble, shift_of, wobble};
+use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView};
 use glam::{Mat2, Vec2};
@@ -43,8 +45,8 @@ const PULSE: f32 = 2.0;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
 
-pub(in crate::microscope) const FORMULA: Formula =
-    Formula { source: include_str!("amoeboid.glsl"), constants: &[("NECK", &[NECK]), ("RAGS", &[RAGS])] };
+pub(in crate::microscope) const GLSL: Glsl =
+    Glsl { source: include_str!("amoeboid.glsl"), constants: &[("NECK", &[NECK]), ("RAGS", &[RAGS])] };
 
 /// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
 /// nucleus.
@@ -54,7 +56,7 @@ const SALTS: [u32; 5] = [0, 7, 3, 11, 5];
 #[derive(Clone, Debug)]
 pub(super) struct AmoeboidBody {
     look: &'static AmoeboidLook,
-    map: DistanceMap,
+    field: DistanceField,
     centre: Vec2,
     /// Radius of the disc of equal area, micrometres.
     radius: f32,
@@ -89,7 +91,7 @@ impl AmoeboidBody {
         let shape = stretch(&surface, centre, radius);
         let mut body = Self {
             look,
-            map: DistanceMap::of(&outline, STEP, MARGIN),
+            field: DistanceField::of(&outline, STEP, MARGIN),
             centre,
             radius,
             from_shape: shape.inverse() * radius,
@@ -110,18 +112,18 @@ impl AmoeboidBody {
     /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
     fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
         let nucleus = &self.look.nucleus;
-        let mut dice = Dice::new(self.seed ^ 0x1ace);
+        let mut rng = HashRng::new(self.seed ^ 0x1ace);
         let [fewest, most] = nucleus.lobes;
-        let count = fewest + dice.bits() % (most - fewest + 1);
-        let first = dice.unit() * TAU;
+        let count = fewest + rng.bits() % (most - fewest + 1);
+        let first = rng.unit() * TAU;
         // A chain that does not close; the more lobes, the smaller they are.
         let step = smaller(1.35, 4.2 / count as f32);
         let size = radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
         let lobe = |k: u32| {
-            let lobe = dice.range(nucleus.radius) * size;
-            let angle = first + k as f32 * step + dice.range([-0.15, 0.15]);
-            let place = middle + shape * (unit_vector(angle) * (nucleus.spread * dice.range([0.85, 1.15])));
-            (self.map.pushed_inside(place, lobe + 0.04 * radius), lobe)
+            let lobe = rng.range(nucleus.radius) * size;
+            let angle = first + k as f32 * step + rng.range([-0.15, 0.15]);
+            let place = middle + shape * (unit_vector(angle) * (nucleus.spread * rng.range([0.85, 1.15])));
+            (self.field.pushed_inside(place, lobe + 0.04 * radius), lobe)
         };
         (0..count).map(lobe).collect()
     }
@@ -148,21 +150,21 @@ impl AmoeboidBody {
     /// Bulges of the membrane of a cell that holds prey: round ones that come and go at its sides and behind.
     pub(super) fn swell(&mut self, prey: impl Iterator<Item = (Vec2, u32)>) {
         let blebs: Vec<(Vec2, f32)> = prey.filter_map(|(at, seed)| self.bleb(at, seed)).collect();
-        blebs.into_iter().for_each(|(at, radius)| self.map.unite(at, radius, BLEB_NECK));
+        blebs.into_iter().for_each(|(at, radius)| self.field.unite(at, radius, BLEB_NECK));
     }
 
-    pub(super) fn draw(&self, plate: &mut Plate) {
-        let (low, high) = self.map.bounds();
-        let softness = larger(0.7 * plate.grid.pixel, 0.08);
-        plate.add(low, high, |p| self.at(p, softness));
+    pub(super) fn draw(&self, raster: &mut MatterRaster) {
+        let (low, high) = self.field.bounds();
+        let softness = larger(0.7 * raster.grid.pixel, 0.08);
+        raster.add(low, high, |p| self.at(p, softness));
     }
 
-    /// A box around it for [`FORMULA`].
-    pub(super) fn draw_on(&self, slide: &mut Slide) {
-        let (low, high) = self.map.bounds();
-        if slide.sees(0.5 * (low + high), (high - low).length()) {
+    /// A box around it for [`GLSL`].
+    pub(super) fn draw_on(&self, draws: &mut DrawList) {
+        let (low, high) = self.field.bounds();
+        if draws.sees(0.5 * (low + high), (high - low).length()) {
             let corners = box_corners(low, high);
-            slide.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(&self.map));
+            draws.add_apart(Program::Amoeboid, &corners, QUAD.to_vec(), self.uniforms(), Some(self.field.texture()));
         }
     }
 
@@ -193,7 +195,7 @@ impl AmoeboidBody {
     /// Its matter at a place, without what floats in it.
     fn at(&self, place: Vec2, softness: f32) -> Matter {
         let look = self.look;
-        let depth = self.map.at(place);
+        let depth = self.field.at(place);
         if depth <= -softness - 2.0 * look.lamella.rags {
             return Matter::NONE;
         }
@@ -265,24 +267,24 @@ impl AmoeboidBody {
 
     fn granules_on(&self, carrier: &ParticleView, spots: &mut Vec<Spot>) {
         // Not of the cell: in a division a particle becomes another cell's.
-        let mut dice = Dice::new(carrier.index);
+        let mut rng = HashRng::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
             let expected = look.density * 0.866 * spacing * spacing;
-            let count = (expected + dice.unit()) as u32;
-            spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut dice)));
+            let count = (expected + rng.unit()) as u32;
+            spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut rng)));
         }
     }
 
-    fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, dice: &mut Dice) -> Option<Spot> {
-        let offset = Vec2::new(dice.range([-0.5, 0.5]), dice.range([-0.5, 0.5])) * spacing;
-        let radius = look.radius * libm::expf(look.spread * dice.normal());
+    fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, rng: &mut HashRng) -> Option<Spot> {
+        let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
+        let radius = look.radius * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
-        let seed = dice.bits();
+        let seed = rng.bits();
         let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
-        let at = self.map.pushed_inside(carrier + offset + jitter, radius + 0.1);
-        let room = smoothstep(0.0, 0.5, self.map.at(at) - 0.6 * radius);
+        let at = self.field.pushed_inside(carrier + offset + jitter, radius + 0.1);
+        let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
         (share > 0.02).then_some(Spot { at, radius, matter, shape: look.shape })
@@ -290,7 +292,7 @@ impl AmoeboidBody {
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.
     pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
-        let share = smoothstep(-0.5 * radius, 4.0 * radius, self.map.at(prey));
+        let share = smoothstep(-0.5 * radius, 4.0 * radius, self.field.at(prey));
         let matter = Matter { cytoplasm: -0.35, ..Matter::phase(-0.34) } * share;
         (share > 0.0).then_some(Spot { at: prey, radius: radius * 1.15, matter, shape: SpotShape::Ring })
     }
@@ -298,23 +300,23 @@ impl AmoeboidBody {
     /// Centre and radius of the bleb that prey inside the cell brings about.
     fn bleb(&self, prey: Vec2, seed: u32) -> Option<(Vec2, f32)> {
         let [smallest, largest] = self.look.blebs;
-        let cycle = self.time / BLEB_PERIOD + Dice::new(seed).unit();
-        let mut dice = Dice::new(seed ^ scramble(cycle as u32));
-        let way = rotate(-self.front.way, unit_vector(dice.range([-1.9, 1.9])));
+        let cycle = self.time / BLEB_PERIOD + HashRng::new(seed).unit();
+        let mut rng = HashRng::new(seed ^ scramble(cycle as u32));
+        let way = rotate(-self.front.way, unit_vector(rng.range([-1.9, 1.9])));
         let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
-        let radius = dice.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.map.at(prey));
-        let reach = self.map.crossing(self.centre, way, 0.05 * self.radius)?;
+        let radius = rng.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.field.at(prey));
+        let reach = self.field.crossing(self.centre, way, 0.05 * self.radius)?;
         (radius > 0.05).then_some((self.centre + way * (reach + 0.3 * radius), radius))
     }
 
     /// Retraction fibres, which the tail leaves on the glass.
     pub(super) fn threads(&self) -> Vec<Thread> {
         let Front { way, tail: strength, behind, .. } = self.front;
-        let mut dice = Dice::new(self.seed ^ 0xf1b);
-        let tail = self.map.pushed_inside(self.centre - way * behind, 0.1);
+        let mut rng = HashRng::new(self.seed ^ 0xf1b);
+        let tail = self.field.pushed_inside(self.centre - way * behind, 0.1);
         let fibre = |_| {
-            let way = rotate(-way, unit_vector(dice.range([-0.45, 0.45])));
-            let length = dice.range([2.0, 4.0]) * strength;
+            let way = rotate(-way, unit_vector(rng.range([-0.45, 0.45])));
+            let length = rng.range([2.0, 4.0]) * strength;
             let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
             Thread { from: tail, to: tail + way * length, radius: 0.09, matter, peak: 0.0 }
         };
@@ -329,7 +331,7 @@ impl Front {
         let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
         let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
         // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
-        // the velocity does when a cell makes up its mind anew.
+        // the velocity does when a cell changes its goal.
         let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
         let way = polarity.try_normalize().unwrap_or(Vec2::X);
         let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);

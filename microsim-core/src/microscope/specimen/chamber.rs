@@ -1,12 +1,12 @@
 //! The chamber: walls and obstacles, of a clear polymer that is a little denser than the medium.
 
-use super::outline::DistanceMap;
+use super::distance_field::DistanceField;
 use crate::collision::obstacle::Obstacle;
-use crate::microscope::formula::Formula;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{larger, smaller, smoothstep};
-use crate::microscope::matter::{Matter, Plate};
+use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{octaves, shift_of};
-use crate::microscope::recipe::{Program, QUAD, Slide, box_corners};
+use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
@@ -21,7 +21,7 @@ const MOST_CELLS: f32 = 8192.0;
 const TEXTURE: f32 = 0.05;
 const TEXTURE_SIZE: f32 = 2.5;
 
-pub(in crate::microscope) const FORMULA: Formula = Formula {
+pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: include_str!("chamber.glsl"),
     constants: &[
         ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
@@ -42,28 +42,28 @@ pub(super) struct Chamber {
 }
 
 impl Chamber {
-    pub(super) fn draw(&self, plate: &mut Plate) {
-        let (low, high) = plate.grid.bounds();
+    pub(super) fn draw(&self, raster: &mut MatterRaster) {
+        let (low, high) = raster.grid.bounds();
         if low.min_element() < 0.0 || high.x > self.size.x || high.y > self.size.y {
-            plate.add(low, high, |p| self.polymer(p, (p - p.clamp(Vec2::ZERO, self.size)).length()));
+            raster.add(low, high, |p| self.polymer(p, (p - p.clamp(Vec2::ZERO, self.size)).length()));
         }
         for obstacle in &self.obstacles {
-            let bounds = obstacle.bounds();
-            plate.add(bounds.mins, bounds.maxs, |p| self.polymer(p, depth_in(obstacle, p)));
+            let bounds = obstacle.aabb();
+            raster.add(bounds.mins, bounds.maxs, |p| self.polymer(p, depth_in(obstacle, p)));
         }
     }
 
-    /// Walls and obstacles for [`FORMULA`].
-    pub(super) fn draw_on(&self, slide: &mut Slide) {
+    /// Walls and obstacles for [`GLSL`].
+    pub(super) fn draw_on(&self, draws: &mut DrawList) {
         let [x, y] = shift_of(self.seed);
         let room = vec![self.size.x, self.size.y, x, y];
-        let (low, high) = slide.bounds();
+        let (low, high) = draws.bounds();
         if low.min_element() < 0.0 || high.x > self.size.x || high.y > self.size.y {
-            slide.add_apart(Program::Walls, &box_corners(low, high), QUAD.to_vec(), room.clone(), None);
+            draws.add_apart(Program::Walls, &box_corners(low, high), QUAD.to_vec(), room.clone(), None);
         }
         for obstacle in &self.obstacles {
-            if let Some((corners, map)) = obstacle_map(obstacle, slide) {
-                slide.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(&map));
+            if let Some((corners, map)) = obstacle_map(obstacle, draws) {
+                draws.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(map.texture()));
             }
         }
     }
@@ -89,15 +89,15 @@ fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
     }
 }
 
-/// The corners of an obstacle that a slide sees, and a map of depths in all of it. Straight edges come out exactly however
+/// The corners of an obstacle that can be seen, and a map of depths in all of it. Straight edges come out exactly however
 /// coarse the map is, and it may be coarse, because it is made for every picture.
-pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, slide: &Slide) -> Option<(Vec<f32>, DistanceMap)> {
-    let bounds = obstacle.bounds();
+pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, draws: &DrawList) -> Option<(Vec<f32>, DistanceField)> {
+    let bounds = obstacle.aabb();
     let (low, high) = (bounds.mins, bounds.maxs);
     let extent = high - low;
     let finest = (extent.x * extent.y / MOST_CELLS).sqrt();
     let step = larger(finest, smaller(extent.min_element() / 10.0, extent.max_element() / 64.0));
-    let map = || DistanceMap::sampled((low, high), step, 2.0 * step, |place| depth_in(obstacle, place));
-    let is_seen = slide.sees(0.5 * (low + high), 0.5 * extent.length()) && step > 0.0;
+    let map = || DistanceField::sampled((low, high), step, 2.0 * step, |place| depth_in(obstacle, place));
+    let is_seen = draws.sees(0.5 * (low + high), 0.5 * extent.length()) && step > 0.0;
     is_seen.then(|| (box_corners(low, high), map()))
 }

@@ -1,26 +1,31 @@
 //! The specimen: what there is to see at one moment, as matter with places and sizes, free of pixels and light.
 
 pub(super) mod amoeboid;
+pub(super) mod background;
 pub(super) mod chamber;
-pub(super) mod ground;
-pub(super) mod outline;
+pub(super) mod distance_field;
+mod polar_outline;
 pub(super) mod round;
+mod spline;
 pub(super) mod spot;
+pub(super) mod thread;
 
-use super::matter::{Grid, Matter, Plate};
+use super::matter::{Matter, MatterRaster};
 use super::noise::scramble;
-use super::recipe::Slide;
+use super::raster::PixelGrid;
+use super::recipe::DrawList;
 use crate::kind::Kind;
 use crate::look::{Look, SpotShape};
 use crate::organism::look;
 use crate::template::Role;
 use crate::world::view::{OrganismView, View};
 use amoeboid::AmoeboidBody;
+use background::BackgroundMatter;
 use chamber::Chamber;
 use glam::Vec2;
-use ground::Ground;
 use round::RoundBody;
-use spot::{Spot, Thread};
+use spot::Spot;
+use thread::Thread;
 
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
@@ -33,7 +38,7 @@ const BLUR: f32 = 3.0;
 /// Everything that lies on the slide at one moment.
 #[derive(Clone, Debug)]
 pub(super) struct Specimen {
-    ground: Ground,
+    background: BackgroundMatter,
     chamber: Chamber,
     round: Vec<RoundBody>,
     amoeboid: Vec<AmoeboidBody>,
@@ -43,14 +48,17 @@ pub(super) struct Specimen {
 
 impl Specimen {
     /// What there is to see, for a camera that looks at `camera`, on a grid and on what lies within it.
-    pub(super) fn of(view: View<'_>, camera: Vec2, grid: &Grid) -> Self {
+    pub(super) fn of(view: View<'_>, camera: Vec2, grid: &PixelGrid) -> Self {
         let (world, time) = (view.world(), view.time() as f32);
         let seed = world.config().seed;
-        let ground = Ground { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
-        let chamber =
-            Chamber { size: world.config().size, obstacles: world.obstacles().cloned().collect(), seed: ground.seed };
+        let background = BackgroundMatter { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
+        let chamber = Chamber {
+            size: world.config().size,
+            obstacles: world.obstacles().cloned().collect(),
+            seed: background.seed,
+        };
         let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut specimen = Self { ground, chamber, round, amoeboid, spots, threads };
+        let mut specimen = Self { background, chamber, round, amoeboid, spots, threads };
         for organism in view.organisms().filter(|&organism| may_be_on(grid, organism)) {
             specimen.add(organism, view);
         }
@@ -59,8 +67,8 @@ impl Specimen {
 
     fn add(&mut self, organism: OrganismView<'_>, view: View<'_>) {
         let id = organism.id();
-        let seed = scramble(self.ground.seed ^ scramble(id.index() ^ (id.generation() << 16)));
-        let time = self.ground.time;
+        let seed = scramble(self.background.seed ^ scramble(id.index() ^ (id.generation() << 16)));
+        let time = self.background.time;
         match look(organism.kind()) {
             Look::Round(look) => {
                 let Some(body) = RoundBody::of(organism, look, seed) else { return };
@@ -84,34 +92,34 @@ impl Specimen {
     }
 
     /// Its matter on a grid. Rows may be asked for in any portions: a place always has the same matter.
-    pub(super) fn plate(&self, grid: Grid) -> Plate {
-        let mut plate = Plate::empty(grid);
-        self.ground.draw(&mut plate);
-        self.chamber.draw(&mut plate);
-        self.draw_organisms(&mut plate);
-        plate
+    pub(super) fn rasterize(&self, grid: PixelGrid) -> MatterRaster {
+        let mut raster = MatterRaster::empty(grid);
+        self.background.draw(&mut raster);
+        self.chamber.draw(&mut raster);
+        self.draw_organisms(&mut raster);
+        raster
     }
 
-    fn draw_organisms(&self, plate: &mut Plate) {
-        self.amoeboid.iter().for_each(|body| body.draw(plate));
-        self.round.iter().for_each(|body| body.draw(plate));
-        self.threads.iter().for_each(|thread| thread.draw(plate));
-        self.spots.iter().for_each(|spot| spot.draw(plate));
+    fn draw_organisms(&self, raster: &mut MatterRaster) {
+        self.amoeboid.iter().for_each(|body| body.draw(raster));
+        self.round.iter().for_each(|body| body.draw(raster));
+        self.threads.iter().for_each(|thread| thread.draw(raster));
+        self.spots.iter().for_each(|spot| spot.draw(raster));
     }
 
     /// The same matter for a graphics card; an empty target holds `bias`.
-    pub(super) fn draw_on(&self, slide: &mut Slide, bias: [f32; 4]) {
-        self.ground.draw_on(slide, bias);
-        self.chamber.draw_on(slide);
-        self.amoeboid.iter().for_each(|body| body.draw_on(slide));
-        self.round.iter().for_each(|body| body.draw_on(slide));
-        self.threads.iter().for_each(|thread| thread.draw_on(slide));
-        self.spots.iter().for_each(|spot| spot.draw_on(slide));
+    pub(super) fn draw_on(&self, draws: &mut DrawList, bias: [f32; 4]) {
+        self.background.draw_on(draws, bias);
+        self.chamber.draw_on(draws);
+        self.amoeboid.iter().for_each(|body| body.draw_on(draws));
+        self.round.iter().for_each(|body| body.draw_on(draws));
+        self.threads.iter().for_each(|thread| thread.draw_on(draws));
+        self.spots.iter().for_each(|spot| spot.draw_on(draws));
     }
 }
 
 /// Whether anything of an organism may lie on a grid.
-fn may_be_on(grid: &Grid, organism: OrganismView<'_>) -> bool {
+fn may_be_on(grid: &PixelGrid, organism: OrganismView<'_>) -> bool {
     let (low, high) = organism.bounds();
     let beyond = BEYOND[0] * (high - low).max_element() + BEYOND[1] + BLUR * grid.pixel;
     let (lower_left, upper_right) = grid.bounds();
@@ -165,18 +173,18 @@ mod tests {
             let mut world = scenario.build().unwrap().world;
             (0..30).for_each(|_| world.step(&crate::Inputs::new()));
             let (view, size) = (world.view(), world.config().size);
-            let small = Grid { corner: Vec2::ZERO, pixel: 0.5, columns: 24, top: 0, rows: 24 };
+            let small = PixelGrid { corner: Vec2::ZERO, pixel: 0.5, columns: 24, top: 0, rows: 24 };
             for (share, pixel) in [(0.2, 0.5), (0.35, 0.25), (0.5, 0.5), (0.7, 2.0)] {
-                let grid = Grid { corner: size * share, pixel, ..small };
-                let mut specimen = Specimen::of(view, Vec2::ZERO, &Grid { corner: -10.0 * size, ..small });
+                let grid = PixelGrid { corner: size * share, pixel, ..small };
+                let mut specimen = Specimen::of(view, Vec2::ZERO, &PixelGrid { corner: -10.0 * size, ..small });
                 assert!(specimen.round.is_empty() && specimen.spots.is_empty());
                 for organism in view.organisms().filter(|&organism| !may_be_on(&grid, organism)) {
                     specimen.add(organism, view);
                     left_out += 1;
                 }
-                let mut plate = Plate::empty(grid);
-                specimen.draw_organisms(&mut plate);
-                assert!(plate.matter.iter().all(|matter| *matter == Matter::NONE), "{name} {share}");
+                let mut raster = MatterRaster::empty(grid);
+                specimen.draw_organisms(&mut raster);
+                assert!(raster.matter.iter().all(|matter| *matter == Matter::NONE), "{name} {share}");
             }
         }
         assert!(left_out > 600, "{left_out}");

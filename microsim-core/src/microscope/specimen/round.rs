@@ -1,14 +1,16 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
-use super::outline::{Polar, smooth};
-use super::spot::{Spot, Thread};
+use super::polar_outline::PolarOutline;
+use super::spline::smooth;
+use super::spot::Spot;
+use super::thread::Thread;
 use crate::geometry::{direction_or, rotate, unit_vector};
 use crate::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
-use crate::microscope::formula::Formula;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
-use crate::microscope::matter::{Matter, Plate};
-use crate::microscope::noise::{Dice, octaves, shift_of, wobble};
-use crate::microscope::recipe::{Program, Slide};
+use crate::microscope::matter::{Matter, MatterRaster};
+use crate::microscope::noise::{HashRng, octaves, shift_of, wobble};
+use crate::microscope::recipe::{DrawList, Program};
 use crate::world::view::OrganismView;
 use glam::Vec2;
 use std::f32::consts::TAU;
@@ -24,11 +26,11 @@ const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
-/// Fewest and most directions in which a graphics card is told a body's radius, and their number where that is one pixel.
+/// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
 const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
 
-pub(in crate::microscope) const FORMULA: Formula = Formula {
+pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: include_str!("round.glsl"),
     constants: &[
         ("TURN", &[TAU]),
@@ -44,7 +46,7 @@ pub(in crate::microscope) const FORMULA: Formula = Formula {
 #[derive(Clone, Debug)]
 pub(super) struct RoundBody {
     look: &'static RoundLook,
-    polar: Polar,
+    polar: PolarOutline,
     /// Its own first direction: texture and inclusions turn with it.
     facing: Vec2,
     /// How far it reaches along that direction and square to it, micrometres.
@@ -61,33 +63,33 @@ impl RoundBody {
         let surface = organism.surface();
         let polar = if surface.is_empty() {
             let disc = organism.particles().next()?;
-            Polar::disc(disc.position, disc.radius)
+            PolarOutline::disc(disc.position, disc.radius)
         } else {
-            Polar::around(&smooth(&surface))
+            PolarOutline::around(&smooth(&surface))
         };
         let mut polar = polar?;
         let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
         let facing = direction_or(first, Vec2::X);
-        let mut dice = Dice::new(seed);
-        make_uneven(&mut polar, facing, look.unevenness, &mut dice);
+        let mut rng = HashRng::new(seed);
+        make_uneven(&mut polar, facing, look.unevenness, &mut rng);
         let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
         }
-        let variation = 1.0 + dice.range([-look.variation, look.variation]);
-        let hollow = if let Profile::Biconcave { c0, .. } = look.profile { dice.range(c0) } else { 0.0 };
+        let variation = 1.0 + rng.range([-look.variation, look.variation]);
+        let hollow = if let Profile::Biconcave { c0, .. } = look.profile { rng.range(c0) } else { 0.0 };
         Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
     }
 
-    pub(super) fn draw(&self, plate: &mut Plate) {
-        let reach = Vec2::splat(self.polar.farthest + EDGE + plate.grid.pixel);
-        let softness = larger(0.6 * plate.grid.pixel, EDGE);
-        plate.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
+    pub(super) fn draw(&self, raster: &mut MatterRaster) {
+        let reach = Vec2::splat(self.polar.farthest + EDGE + raster.grid.pixel);
+        let softness = larger(0.6 * raster.grid.pixel, EDGE);
+        raster.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
     }
 
-    /// A fan of triangles for [`FORMULA`].
-    pub(super) fn draw_on(&self, slide: &mut Slide) {
-        if !slide.sees(self.polar.centre, self.polar.farthest + 1.0) {
+    /// A fan of triangles for [`GLSL`].
+    pub(super) fn draw_on(&self, draws: &mut DrawList) {
+        if !draws.sees(self.polar.centre, self.polar.farthest + 1.0) {
             return;
         }
         let mut constant = self.facing.to_array().to_vec();
@@ -99,7 +101,7 @@ impl RoundBody {
         constant.extend([self.look.texture.amount, self.look.texture.size]);
         constant.extend(shift_of(self.seed));
         // So many that chords are hardly apart from arcs: their distance goes by the radius and by the square of the angle.
-        let in_pixels = self.polar.farthest / slide.pixel();
+        let in_pixels = self.polar.farthest / draws.pixel();
         let spokes = (SPOKES_PER_ROOT * in_pixels.sqrt()).clamp(SPOKES[0], SPOKES[1]) as usize;
         let mut vertices = Vec::with_capacity((spokes + 1) * (5 + constant.len()));
         for spoke in 0..=spokes {
@@ -113,11 +115,11 @@ impl RoundBody {
         }
         let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
         match self.look.pellicle {
-            None => slide.add(Program::Round, false, &vertices, fan),
+            None => draws.add(Program::Round, false, &vertices, fan),
             Some(pellicle) => {
                 let [x, y] = shift_of(self.seed);
                 let relief = [self.axes.x, self.axes.y, x, y, pellicle.furrows, pellicle.furrow_depth, pellicle.groove];
-                slide.add_apart(Program::Ciliate, &vertices, fan.collect(), relief.to_vec(), None);
+                draws.add_apart(Program::Ciliate, &vertices, fan.collect(), relief.to_vec(), None);
             }
         }
     }
@@ -162,9 +164,9 @@ impl RoundBody {
 
     /// What is inside.
     pub(super) fn spots(&self, time: f32) -> Vec<Spot> {
-        let mut dice = Dice::new(self.seed ^ 0x51ed);
+        let mut rng = HashRng::new(self.seed ^ 0x51ed);
         let mut spots: Vec<Spot> =
-            self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut dice)).collect();
+            self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut rng)).collect();
         if let Some(pellicle) = self.look.pellicle {
             let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };
             spots.extend(self.vacuoles(pellicle, time).map(spot));
@@ -172,19 +174,19 @@ impl RoundBody {
         spots
     }
 
-    fn include(&self, inclusion: &Inclusion, dice: &mut Dice) -> Vec<Spot> {
+    fn include(&self, inclusion: &Inclusion, rng: &mut HashRng) -> Vec<Spot> {
         let [fewest, most] = inclusion.count;
-        let count = fewest + dice.bits() % (most - fewest + 1);
+        let count = fewest + rng.bits() % (most - fewest + 1);
         let spot = |_| {
             let [nearest, farthest] = inclusion.place;
-            let rho = dice.range([nearest * nearest, farthest * farthest]).sqrt();
-            let share = dice.unit();
+            let rho = rng.range([nearest * nearest, farthest * farthest]).sqrt();
+            let share = rng.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
-            let at = self.place(dice.direction(), rho);
+            let at = self.place(rng.direction(), rho);
             // The groove is clear.
             let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
             let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
-            let matter = inclusion.matter * (dice.range([0.6, 1.3]) * (1.0 - 0.9 * clear));
+            let matter = inclusion.matter * (rng.range([0.6, 1.3]) * (1.0 - 0.9 * clear));
             Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
@@ -291,12 +293,12 @@ fn oral_groove(own: Vec2) -> [f32; 2] {
 }
 
 /// Gives an outline a few low waves of its own, which turn with the body.
-fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
+fn make_uneven(polar: &mut PolarOutline, facing: Vec2, amount: f32, rng: &mut HashRng) {
     if amount <= 0.0 {
         return;
     }
     let back = Vec2::new(facing.x, -facing.y);
-    let wave = |(order, share): (f32, f32)| (order, dice.unit() * TAU, dice.range([0.2, 1.0]) * share * amount);
+    let wave = |(order, share): (f32, f32)| (order, rng.unit() * TAU, rng.range([0.2, 1.0]) * share * amount);
     let waves = [(2.0, 1.0), (3.0, 0.6), (4.0, 0.35), (5.0, 0.25), (7.0, 0.2)].map(wave);
     polar.reshape(|way| {
         let own = rotate(way, back);
@@ -306,7 +308,7 @@ fn make_uneven(polar: &mut Polar, facing: Vec2, amount: f32, dice: &mut Dice) {
 }
 
 /// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.
-fn make_slipper(polar: &mut Polar, facing: Vec2, axes: Vec2, amount: f32) {
+fn make_slipper(polar: &mut PolarOutline, facing: Vec2, axes: Vec2, amount: f32) {
     let back = Vec2::new(facing.x, -facing.y);
     polar.reshape(|way| {
         let own = (rotate(way, back) / axes).normalize_or_zero();

@@ -1,4 +1,4 @@
-// Thin straight threads; see spot.rs.
+// Thin straight threads; see thread.rs.
 
 // Along the thread in its lengths, and across it in its radii.
 varying vec2 local;

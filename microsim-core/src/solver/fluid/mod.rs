@@ -35,8 +35,8 @@ pub enum FluidMode {
     Granular,
 }
 
-/// A kind of fluid. Neighbours are found once per step: what comes nearer than its reach within a step, because it moves by
-/// more than its spacing against others, is seen from the next one on.
+/// A kind of fluid. Neighbours are found once per step: a particle that comes within the support radius during a
+/// step, because it moves by more than its spacing against others, is seen from the next one on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidParams {
     /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
@@ -112,14 +112,14 @@ impl Fluid {
     }
 
     /// Distance at which particles no longer see each other.
-    fn reach(&self) -> f32 {
+    fn support_radius(&self) -> f32 {
         match self.params.mode {
             FluidMode::Density => SUPPORT * self.params.spacing,
             FluidMode::Granular => self.params.spacing,
         }
     }
 
-    /// How much farther neighbours are looked for, in units of the reach, because they move until the next search. At the
+    /// Margin of the search for neighbours, in units of the support radius, because they move until the next search. At the
     /// border of its support the weight of the density's kernel is next to nothing; grains are hard.
     fn margin(&self) -> f32 {
         match self.params.mode {
@@ -131,9 +131,9 @@ impl Fluid {
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
-        let reach = SUPPORT * self.params.spacing;
-        sorted.sort(&self.particles, particles, Vec2::ZERO, [reach, 0.0]);
-        sorted.read(particles, reach);
+        let support_radius = SUPPORT * self.params.spacing;
+        sorted.sort(&self.particles, particles, Vec2::ZERO, [support_radius, 0.0]);
+        sorted.read(particles, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
             let compression = density::sum(group, &sorted.sources).compression(rest_density);
@@ -148,7 +148,7 @@ impl Workspace {
     pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, size: Vec2) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
         for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, size, [fluid.reach(), fluid.margin()]);
+            sorted.sort(&fluid.particles, particles, size, [fluid.support_radius(), fluid.margin()]);
         }
     }
 
@@ -157,8 +157,8 @@ impl Workspace {
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
         let Self { rest_density, sorted, sums, shifts } = self;
         for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
-            let reach = fluid.reach();
-            sorted.read(particles, reach);
+            let support_radius = fluid.support_radius();
+            sorted.read(particles, support_radius);
             sums.resize(sorted.groups.len(), Sums::default());
             shifts.resize(sorted.groups.len(), Default::default());
             let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
@@ -175,7 +175,7 @@ impl Workspace {
                 }
                 FluidMode::Granular => find_granular_shifts(sorted, shifts, viscosity, dispatch),
             }
-            sorted.shift(shifts, reach, particles);
+            sorted.shift(shifts, support_radius, particles);
         }
     }
 }

@@ -255,12 +255,12 @@ fn every_number_is_looked_at_where_a_step_ends() {
 }
 
 #[test]
-fn every_stretch_is_looked_at() {
+fn every_chunk_is_looked_at() {
     let mut field = World::new(WorldConfig { size: Vec2::new(400.0, 200.0), ..WorldConfig::default() }).unwrap();
     let places = (0..200).map(|k| Placement::at(10.0 + 15.0 * (k % 25) as f32, 10.0 + 15.0 * (k / 25) as f32));
     let ids: Vec<_> = places.map(|at| field.spawn(&PlateletSpec::default().into(), at).unwrap()).collect();
-    assert!(field.particles.len() > 2 * super::STRETCH);
-    let edges = [0, super::STRETCH - 1, super::STRETCH, field.particles.len() - 1];
+    assert!(field.particles.len() > 2 * super::CHUNK);
+    let edges = [0, super::CHUNK - 1, super::CHUNK, field.particles.len() - 1];
     for id in ids {
         let mut found = field.organisms.get(id).unwrap().particles();
         let Some(i) = found.find(|i| edges.contains(&(*i as usize))) else { continue };

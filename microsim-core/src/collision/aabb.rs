@@ -1,0 +1,84 @@
+//! Axis-aligned bounding boxes that are quick to compare: most of a pair search asks whether two of them overlap.
+
+use glam::{Vec2, Vec4, Vec4Swizzles};
+
+/// Some units in the last place.
+const ROUNDING: f32 = 1e-6;
+
+/// A box, as `(-low, high)`: two overlap if four sums are positive, which is one comparison of four lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Aabb(Vec4);
+
+impl Aabb {
+    /// Holds nothing; its union with another box is that one.
+    pub(super) const EMPTY: Self = Self(Vec4::NEG_INFINITY);
+
+    pub(super) fn new(low: Vec2, high: Vec2) -> Self {
+        Self(Vec4::new(-low.x, -low.y, high.x, high.y))
+    }
+
+    pub(super) fn low(self) -> Vec2 {
+        -self.0.xy()
+    }
+
+    pub(super) fn high(self) -> Vec2 {
+        self.0.zw()
+    }
+
+    pub(super) fn centre(self) -> Vec2 {
+        (self.low() + self.high()) * 0.5
+    }
+
+    /// The box without a rim of this width, or with a little of it: rounding takes nothing away that is inside.
+    #[inline(always)]
+    pub(super) fn shrunk(self, rim: f32) -> Self {
+        Self(self.0 - rim + self.0.abs() * ROUNDING)
+    }
+
+    /// The larger one of width and height.
+    pub(super) fn extent(self) -> f32 {
+        let Vec2 { x, y } = self.high() - self.low();
+        if x > y { x } else { y }
+    }
+
+    /// The box around both.
+    #[inline(always)]
+    pub(super) fn union(self, other: Self) -> Self {
+        Self(Vec4::select(other.0.cmpgt(self.0), other.0, self.0))
+    }
+
+    #[inline(always)]
+    pub(super) fn overlaps(self, other: Self) -> bool {
+        self.0.cmpge(-other.0.zwxy()).all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_overlap_where_they_share_a_point() {
+        let unit = Aabb::new(Vec2::ZERO, Vec2::ONE);
+        let at = |x: f32, y: f32| Aabb::new(Vec2::new(x, y), Vec2::new(x + 2.0, y + 2.0));
+        for (other, expected) in [
+            (at(0.2, 0.2), true),
+            (at(1.0, -2.0), true),
+            (at(1.1, 0.0), false),
+            (at(0.0, 1.1), false),
+            (at(-2.1, 0.0), false),
+            (at(0.0, -2.1), false),
+            (Aabb::EMPTY, false),
+        ] {
+            assert_eq!((unit.overlaps(other), other.overlaps(unit)), (expected, expected), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn the_box_around_boxes_is_no_larger_than_it_must_be() {
+        let both = Aabb::new(Vec2::ZERO, Vec2::ONE).union(Aabb::new(Vec2::new(-1.0, 0.5), Vec2::new(0.5, 3.0)));
+        let all = Aabb::EMPTY.union(both);
+        assert_eq!((all.low(), all.high()), (Vec2::new(-1.0, 0.0), Vec2::new(1.0, 3.0)));
+        assert_eq!((all.centre(), all.extent()), (Vec2::new(0.0, 1.5), 3.0));
+    }
+}

@@ -1,0 +1,144 @@
+//! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
+
+use super::aabb::Aabb;
+use super::uniform_grid::UniformGrid;
+use crate::particle::{CollisionGroups, Particles};
+use glam::Vec2;
+
+/// What the search for pairs has to know of a particle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Disc {
+    /// Its place in the room.
+    pub at: Vec2,
+    /// Its radius and the largest displacement of a step.
+    pub swept_radius: f32,
+    /// Which particle it is.
+    pub index: u32,
+}
+
+/// The columns that discs are made from, looked up once and not for each of them.
+#[derive(Clone, Copy)]
+pub(super) struct DiscColumns<'a> {
+    origin_x: &'a [f32],
+    origin_y: &'a [f32],
+    x: &'a [f32],
+    y: &'a [f32],
+    radius: &'a [f32],
+    groups: &'a [CollisionGroups],
+}
+
+impl<'a> DiscColumns<'a> {
+    pub(super) fn of(particles: &'a Particles) -> Self {
+        let Particles { origin_x, origin_y, x, y, radius, groups, .. } = particles;
+        Self { origin_x, origin_y, x, y, radius, groups }
+    }
+
+    /// Particle `i`, if it collides with anything.
+    #[inline(always)]
+    pub(super) fn disc(&self, i: usize, displacement: f32) -> Option<Disc> {
+        let disc = || {
+            let at = Vec2::new(self.origin_x[i] + self.x[i], self.origin_y[i] + self.y[i]);
+            Disc { at, swept_radius: self.radius[i] + displacement, index: i as u32 }
+        };
+        (self.groups[i].memberships != 0).then(disc)
+    }
+}
+
+impl Disc {
+    /// The box around all places that it can get to in the step.
+    #[inline(always)]
+    pub(super) fn aabb(&self) -> Aabb {
+        Aabb::new(self.at - self.swept_radius, self.at + self.swept_radius)
+    }
+
+    /// Whether the two may touch during the step.
+    #[inline(always)]
+    pub(super) fn is_near(&self, other: &Self) -> bool {
+        self.is_within(other, 0.0)
+    }
+
+    /// The same if both together move by `slack` less than the largest displacements.
+    #[inline(always)]
+    pub(super) fn is_within(&self, other: &Self, slack: f32) -> bool {
+        let distance = self.swept_radius + other.swept_radius - slack;
+        (other.at - self.at).length_squared() < distance * distance
+    }
+}
+
+/// Discs in cell order.
+#[derive(Debug, Default)]
+pub(super) struct DiscGrid {
+    /// Not yet sorted.
+    pub found: Vec<Disc>,
+    discs: Vec<Disc>,
+    grid: UniformGrid,
+    max_swept_radius: f32,
+}
+
+impl DiscGrid {
+    /// Sorts what was found.
+    pub(super) fn sort(&mut self, size: Vec2) {
+        let Self { found, discs, grid, max_swept_radius } = self;
+        let radii = found.iter().map(|disc| disc.swept_radius);
+        *max_swept_radius = radii.fold(0.0, |max, radius| if radius > max { radius } else { max });
+        grid.fill(Vec2::ZERO, size, Vec2::splat(2.0 * *max_swept_radius), found.len(), |k| found[k].at);
+        discs.clear();
+        discs.extend(grid.order().iter().map(|&k| found[k as usize]));
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.discs.is_empty()
+    }
+
+    /// Discs that may get into a box, and some more.
+    pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
+        self.grid
+            .ranges_in_box(low - self.max_swept_radius, high + self.max_swept_radius)
+            .flat_map(|range| &self.discs[range])
+    }
+
+    /// Discs that may touch one that is not of the grid.
+    pub(super) fn near(&self, disc: &Disc) -> impl Iterator<Item = &Disc> {
+        let disc = *disc;
+        self.in_box(disc.at - disc.swept_radius, disc.at + disc.swept_radius).filter(move |other| other.is_near(&disc))
+    }
+
+    /// All discs.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Disc> {
+        self.discs.iter()
+    }
+
+    /// Calls `visit` once for each two discs that may touch.
+    pub(super) fn pairs(&self, mut visit: impl FnMut(&Disc, &Disc)) {
+        self.grid.pairs(0..self.grid.rows(), |a, b| {
+            let (a, b) = (&self.discs[a], &self.discs[b]);
+            if a.is_near(b) {
+                visit(a, b);
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+
+    #[test]
+    fn boxes_of_discs_that_are_near_enough_overlap_despite_rounding() {
+        let (mut rng, mut near) = (Rng::new(1, 1), 0);
+        for _ in 0..100_000 {
+            let disc = |at, swept_radius| Disc { at, swept_radius, index: 0 };
+            let a = disc(Vec2::new(rng.range(0.0, 20_000.0), rng.range(0.0, 200.0)), rng.range(0.2, 2.0));
+            let (radius, slack) = (rng.range(0.2, 2.0), rng.range(0.0, 0.3));
+            // Beside it, as far away as it may be and still be near.
+            let b = disc(a.at + Vec2::new(a.swept_radius + radius - slack, 0.0), radius);
+            if a.is_within(&b, slack) {
+                near += 1;
+                assert!(a.aabb().shrunk(slack).overlaps(b.aabb()), "{a:?} {b:?} {slack}");
+                assert!(b.aabb().shrunk(slack).overlaps(a.aabb()), "{b:?} {a:?} {slack}");
+            }
+        }
+        assert!(near > 10_000, "{near}");
+    }
+}

@@ -1,0 +1,153 @@
+//! Obstacles as the numbers that their shapes are made from: what digests and snapshots know of them.
+
+use super::obstacle::Obstacle;
+use crate::particle::{CollisionGroups, Material};
+use glam::Vec2;
+use parry2d::math::Pose;
+#[cfg(feature = "snapshot")]
+use parry2d::math::Rot2;
+#[cfg(feature = "snapshot")]
+use parry2d::shape::{Polyline, RoundShape};
+use parry2d::shape::{PolylineFlags, SharedShape, Triangle, TypedShape};
+use serde::{Deserialize, Serialize};
+
+/// An obstacle.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct ObstacleRecord {
+    shape: ShapeRecords,
+    pose: PoseRecord,
+    material: Material,
+    groups: CollisionGroups,
+}
+
+/// A place and the cosine and sine of an angle.
+type PoseRecord = (Vec2, [f32; 2]);
+
+/// A shape, or the shapes that it consists of.
+#[derive(Debug, Serialize, Deserialize)]
+enum ShapeRecords {
+    One(ShapeRecord),
+    Several(Vec<(PoseRecord, ShapeRecord)>),
+}
+
+/// A shape that is no collection.
+#[derive(Debug, Serialize, Deserialize)]
+enum ShapeRecord {
+    Ball(f32),
+    /// Half extents and the radius of the border.
+    Cuboid(Vec2, f32),
+    /// Ends and radius.
+    Capsule(Vec2, Vec2, f32),
+    Segment(Vec2, Vec2),
+    /// Corners and the radius of the border.
+    Triangle([Vec2; 3], f32),
+    /// Corners and the radius of the border.
+    ConvexPolygon(Vec<Vec2>, f32),
+    Polyline(Vec<Vec2>, Vec<[u32; 2]>),
+}
+
+impl ObstacleRecord {
+    /// `None` for a shape of a kind that has no record.
+    pub(crate) fn of(obstacle: &Obstacle) -> Option<Self> {
+        let shape = match obstacle.shape.as_typed_shape() {
+            TypedShape::Compound(compound) if compound.flags().is_empty() => {
+                let part = |(pose, shape): &(Pose, SharedShape)| Some((record(pose), ShapeRecord::of(shape)?));
+                ShapeRecords::Several(compound.shapes().iter().map(part).collect::<Option<_>>()?)
+            }
+            _ => ShapeRecords::One(ShapeRecord::of(&obstacle.shape)?),
+        };
+        let Obstacle { pose, material, groups, .. } = obstacle;
+        Some(Self { shape, pose: record(pose), material: *material, groups: *groups })
+    }
+
+    /// The obstacle, if its numbers make one.
+    #[cfg(feature = "snapshot")]
+    pub(crate) fn restore(self) -> Option<Obstacle> {
+        let Self { shape, pose, material, groups } = self;
+        let shape = match shape {
+            ShapeRecords::One(shape) => shape.restore()?,
+            ShapeRecords::Several(parts) if !parts.is_empty() => {
+                let is_simple = |(_, shape): &(_, ShapeRecord)| !matches!(shape, ShapeRecord::Polyline(..));
+                let part = |(place, shape): (PoseRecord, ShapeRecord)| Some((pose_of(place)?, shape.restore()?));
+                let is_sound = parts.iter().all(is_simple);
+                SharedShape::compound(parts.into_iter().map(part).collect::<Option<_>>().filter(|_| is_sound)?)
+            }
+            ShapeRecords::Several(_) => return None,
+        };
+        Some(Obstacle { shape, pose: pose_of(pose)?, material, groups })
+    }
+}
+
+impl ShapeRecord {
+    fn of(shape: &SharedShape) -> Option<Self> {
+        let corners = |Triangle { a, b, c }: &Triangle| [*a, *b, *c];
+        Some(match shape.as_typed_shape() {
+            TypedShape::Ball(ball) => Self::Ball(ball.radius),
+            TypedShape::Cuboid(cuboid) => Self::Cuboid(cuboid.half_extents, 0.0),
+            TypedShape::RoundCuboid(round) => Self::Cuboid(round.inner_shape.half_extents, round.border_radius),
+            TypedShape::Capsule(capsule) => Self::Capsule(capsule.segment.a, capsule.segment.b, capsule.radius),
+            TypedShape::Segment(segment) => Self::Segment(segment.a, segment.b),
+            TypedShape::Triangle(triangle) => Self::Triangle(corners(triangle), 0.0),
+            TypedShape::RoundTriangle(round) => Self::Triangle(corners(&round.inner_shape), round.border_radius),
+            TypedShape::ConvexPolygon(polygon) => Self::ConvexPolygon(polygon.points().to_vec(), 0.0),
+            TypedShape::RoundConvexPolygon(round) => {
+                Self::ConvexPolygon(round.inner_shape.points().to_vec(), round.border_radius)
+            }
+            TypedShape::Polyline(line) if line.flags() == PolylineFlags::empty() => {
+                Self::Polyline(line.vertices().to_vec(), line.indices().to_vec())
+            }
+            _ => return None,
+        })
+    }
+
+    #[cfg(feature = "snapshot")]
+    fn restore(self) -> Option<SharedShape> {
+        let is_sound = match &self {
+            Self::Ball(radius) => is_length(*radius),
+            Self::Cuboid(half, border) => is_length(half.x) && is_length(half.y) && is_length(*border),
+            Self::Capsule(a, b, radius) => a.is_finite() && b.is_finite() && is_length(*radius),
+            Self::Segment(a, b) => a.is_finite() && b.is_finite(),
+            Self::Triangle(corners, border) => corners.iter().all(|at| at.is_finite()) && is_length(*border),
+            Self::ConvexPolygon(corners, border) => corners.iter().all(|at| at.is_finite()) && is_length(*border),
+            Self::Polyline(corners, links) => {
+                let is_known = |&k: &u32| (k as usize) < corners.len();
+                corners.iter().all(|at| at.is_finite()) && !links.is_empty() && links.iter().flatten().all(is_known)
+            }
+        };
+        let shape = match self {
+            _ if !is_sound => return None,
+            Self::Ball(radius) => SharedShape::ball(radius),
+            Self::Cuboid(half, 0.0) => SharedShape::cuboid(half.x, half.y),
+            Self::Cuboid(half, border) => SharedShape::round_cuboid(half.x, half.y, border),
+            Self::Capsule(a, b, radius) => SharedShape::capsule(a, b, radius),
+            Self::Segment(a, b) => SharedShape::segment(a, b),
+            Self::Triangle([a, b, c], 0.0) => SharedShape::triangle(a, b, c),
+            Self::Triangle([a, b, c], border) => SharedShape::round_triangle(a, b, c, border),
+            Self::ConvexPolygon(corners, border) => {
+                let polygon = parry2d::shape::ConvexPolygon::from_convex_polyline_unmodified(corners)?;
+                if border == 0.0 {
+                    SharedShape::new(polygon)
+                } else {
+                    SharedShape::new(RoundShape { inner_shape: polygon, border_radius: border })
+                }
+            }
+            Self::Polyline(corners, links) => SharedShape::new(Polyline::new(corners, Some(links))),
+        };
+        Some(shape)
+    }
+}
+
+fn record(pose: &Pose) -> PoseRecord {
+    (pose.translation, [pose.rotation.re, pose.rotation.im])
+}
+
+#[cfg(feature = "snapshot")]
+fn pose_of((at, [cosine, sine]): PoseRecord) -> Option<Pose> {
+    let is_sound = at.is_finite() && (cosine * cosine + sine * sine - 1.0).abs() < 1e-3;
+    is_sound.then(|| Pose::from_parts(at, Rot2::from_cos_sin_unchecked(cosine, sine)))
+}
+
+#[cfg(feature = "snapshot")]
+fn is_length(value: f32) -> bool {
+    value.is_finite() && value >= 0.0
+}

@@ -1,0 +1,149 @@
+//! Contacts: the search for pairs, the pairs that it found, and one begin and one end event per pair of organisms.
+
+use super::World;
+use crate::collision::Contact;
+use crate::collision::broad_phase::SearchInput;
+use crate::collision::ring::Ring;
+use crate::collision::speculative_margin::DisplacementLimits;
+use crate::event::Event;
+use crate::id::OrganismId;
+use crate::organism::table::Organisms;
+use crate::particle::{BlockRange, Particles};
+use crate::solver::block::Block;
+use crate::solver::ring_contact;
+use serde::{Deserialize, Serialize};
+
+/// Pairs of organisms that touched in the last step, sorted.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Touching {
+    pairs: Vec<(OrganismId, OrganismId)>,
+    #[serde(skip)]
+    now: Vec<(OrganismId, OrganismId)>,
+}
+
+/// Two particles whose surfaces may have touched in the last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearPair {
+    pub i: u32,
+    /// The other disc; for a link of a membrane its nearer node. Each link is a pair of its own.
+    pub j: u32,
+    /// Present distance of the surfaces, negative where they overlap.
+    pub gap: f32,
+    pub touched: bool,
+}
+
+impl World {
+    /// Finds the pairs of bodies and discs that can touch before the next search, and which blocks are asleep.
+    pub(crate) fn find_pairs(&mut self) {
+        let Self { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = self;
+        let (step, substep) = (config.max_displacement(), config.max_substep_displacement());
+        let (size, limits) = (config.size, DisplacementLimits { step, substep, dt: config.dt });
+        let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
+        let (rings, containments) = (rings.as_slice(), &organisms.containments());
+        let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
+        let input = SearchInput { particles, blocks, obstacles, exemptions, rings, containments, size, limits };
+        scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
+    }
+
+    /// All pairs of live particles that the last step's search found.
+    pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> + '_ {
+        let (p, near) = (&self.particles, &self.scratch.broad_phase);
+        let discs = near.contacts.iter().map(|&Contact { i, j, touched, .. }| {
+            let (a, b) = (i as usize, j as usize);
+            NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
+        });
+        let links = near.ring_contacts.contacts.iter().flat_map(|contact| {
+            ring_contact::gaps(contact, &near.ring_contacts, p).map(|(j, gap)| NearPair {
+                i: contact.particle,
+                j,
+                gap,
+                touched: contact.touched == Some(j),
+            })
+        });
+        discs.chain(links).filter(|pair| p.is_live(pair.i as usize) && p.is_live(pair.j as usize))
+    }
+}
+
+impl Touching {
+    /// The pairs.
+    pub(crate) fn pairs(&self) -> &[(OrganismId, OrganismId)] {
+        &self.pairs
+    }
+
+    /// Compares the pairs that touched in this step with those of the last step and reports the differences. Pairs of
+    /// sleeping organisms keep touching.
+    pub(crate) fn update(
+        &mut self,
+        touched: impl Iterator<Item = (u32, u32)>,
+        is_asleep: impl Fn(OrganismId) -> bool,
+        particles: &Particles,
+        organisms: &Organisms,
+        events: &mut Vec<Event>,
+    ) {
+        self.now.clear();
+        for (i, j) in touched {
+            let (a, b) = (particles.owner[i as usize], particles.owner[j as usize]);
+            if a != b {
+                let ids = (organisms.id_at(a.min(b)), organisms.id_at(a.max(b)));
+                self.now.extend(ids.0.zip(ids.1));
+            }
+        }
+        self.now.extend(self.pairs.iter().filter(|(a, b)| is_asleep(*a) && is_asleep(*b)));
+        self.now.sort_unstable();
+        self.now.dedup();
+        let only = |from: &[(OrganismId, OrganismId)], other: &[_]| {
+            let missing = |pair: &&_| other.binary_search(*pair).is_err();
+            from.iter().filter(missing).copied().collect::<Vec<_>>()
+        };
+        events.extend(only(&self.pairs, &self.now).into_iter().map(|(a, b)| Event::ContactEnded { a, b }));
+        events.extend(only(&self.now, &self.pairs).into_iter().map(|(a, b)| Event::ContactBegan { a, b }));
+        std::mem::swap(&mut self.pairs, &mut self.now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::testing::overlapping;
+    use crate::{AgarSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, WorldConfig};
+    use glam::Vec2;
+    use std::collections::BTreeSet;
+
+    /// Rows of small discs at rest, platelets behind them and a cell before them, with gaps that only something fast closes
+    /// in a step.
+    fn rows(substeps: u32) -> (World, OrganismId) {
+        let mut world = World::new(WorldConfig { sleeps: false, substeps, ..WorldConfig::default() }).unwrap();
+        for k in 0..200 {
+            let at = Vec2::new(46.0 + 2.2 * (k % 20) as f32, 34.0 + 2.15 * (k / 20) as f32);
+            world.spawn(&AgarSpec::default().into(), Placement::at(at.x, at.y)).unwrap();
+        }
+        for y in [35.0, 40.0, 45.5, 51.0] {
+            world.spawn(&PlateletSpec::default().into(), Placement::at(95.0, y)).unwrap();
+        }
+        let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(30.0, 46.0)).unwrap();
+        (world, cell)
+    }
+
+    #[test]
+    fn every_overlap_after_a_step_is_a_known_pair() {
+        for substeps in [1, 3, 8] {
+            let (mut world, cell) = rows(substeps);
+            let mut overlaps = 0;
+            for step in 0..240 {
+                // The cell is thrown into others that rest, and throws them on within the step.
+                let at = world.centroid(cell).unwrap();
+                let speed = 20.0 * if step / 60 % 2 == 0 { 1.0 } else { -1.0 };
+                world.push(cell, Vec2::new(speed, 0.2 * (45.0 - at.y))).unwrap();
+                world.step(&Inputs::new());
+                let known = world.near_pairs().map(|pair| (pair.i.min(pair.j), pair.i.max(pair.j)));
+                let known: BTreeSet<_> = known.collect();
+                assert_eq!(known.len(), world.near_pairs().count(), "a pair was found twice");
+                for pair in overlapping(&world.particles) {
+                    overlaps += 1;
+                    assert!(known.contains(&pair), "{substeps} substeps, step {step}: {pair:?}");
+                }
+            }
+            assert!(overlaps > 100, "{overlaps}");
+        }
+    }
+}

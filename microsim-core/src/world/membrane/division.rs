@@ -1,0 +1,191 @@
+//! Division: a furrow closes around the equator of a cell, two links are swapped, one ring becomes two, and each lobe keeps
+//! its content.
+
+use crate::capability::Locomotion;
+use crate::capability::division::{Furrow, Order};
+use crate::capability::phagocytosis::{Engulfer, Meal};
+use crate::error::Error;
+use crate::event::{Event, Refusal};
+use crate::geometry::polygon::{centroid, contains_point};
+use crate::geometry::ring::direction_or;
+use crate::id::OrganismId;
+use crate::organism::ring_surgery::{Swap, insert_node_in, set_outline};
+use crate::organism::{Organism, Phagosome, Storage};
+use crate::particle::Particles;
+use crate::rng::Rng;
+use crate::solver::membrane::links;
+use crate::world::World;
+use glam::Vec2;
+use std::ops::Range;
+
+/// Length of a link in a closing furrow above which it gets a new node, in rest lengths.
+const LONGEST: f32 = 1.15;
+
+/// One side of a divided cell: a ring and its content.
+struct Lobe {
+    outline: Vec<u32>,
+    fluid_particles: Vec<u32>,
+    meals: Vec<Meal>,
+    phagosomes: Vec<Phagosome>,
+    centre: Vec2,
+    /// Share of the cell's cytoplasm.
+    share: f32,
+}
+
+impl World {
+    /// Tells an amoeboid cell to divide across its longest axis. In the next step [`Event::DivisionBegan`] happens, or
+    /// [`Event::DivisionRefused`] says why not; the cell rests until [`Event::Divided`] or [`Event::DivisionAbandoned`].
+    ///
+    /// Cytoplasm is conserved. The membrane gets the nodes that two cells need, some 1.41 times as many.
+    ///
+    /// # Errors
+    /// When the handle is stale or the organism is no amoeboid cell.
+    pub fn divide(&mut self, id: OrganismId) -> Result<(), Error> {
+        self.give_order(id, Order::Divide { axis: None })
+    }
+
+    /// The same, with one lobe to each side along `axis`.
+    ///
+    /// # Errors
+    /// When the handle is stale, the organism is no amoeboid cell, or the axis is zero or not finite.
+    pub fn divide_along(&mut self, id: OrganismId, axis: Vec2) -> Result<(), Error> {
+        let axis = direction_or(axis, Vec2::ZERO);
+        if axis == Vec2::ZERO {
+            return Err(Error::unsupported("axis", "a finite vector that is not zero"));
+        }
+        self.give_order(id, Order::Divide { axis: Some(axis) })
+    }
+
+    pub(super) fn begin_division(&mut self, id: OrganismId, axis: Option<Vec2>) {
+        let Some(organism) = self.organisms.get(id) else { return };
+        match self.plan_furrow(organism, axis) {
+            Ok(furrow) => {
+                let Self { organisms, fluids, .. } = self;
+                let Some(organism) = organisms.get_mut(id) else { return };
+                organism.record_nodes_per_root(fluids);
+                let Some(divider) = organism.divider.as_mut() else { return };
+                divider.furrow = Some(furrow);
+                divider.wanted_nodes = None;
+                self.events.push(Event::DivisionBegan { organism: id });
+            }
+            Err(reason) => self.events.push(Event::DivisionRefused { organism: id, reason }),
+        }
+    }
+
+    /// Advances a furrow by a step: adds nodes where the membrane is stretched, and swaps links when both sides have met.
+    pub(super) fn advance_furrow(&mut self, id: OrganismId) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        let Some(Furrow { elapsed, .. }) = organism.furrow() else { return };
+        if organism.is_quarantined {
+            return self.abandon_division(id, Refusal::Quarantined);
+        }
+        let elapsed = elapsed + self.config.dt;
+        let Some(divider) = organism.divider.as_mut() else { return };
+        divider.furrow = divider.furrow.map(|furrow| Furrow { elapsed, ..furrow });
+        let time_limit = divider.params.time_limit;
+        let room = u64::from(self.config.max_particles).saturating_sub(self.particles.live_count() as u64);
+        if room > 0 && (organism.missing_nodes() > 0 || longest_link(organism, &self.particles) > LONGEST) {
+            insert_node_in(organism, shorter_arc(organism), &mut self.particles);
+        }
+        let Some(organism) = self.organisms.get(id) else { return };
+        match self.division_swap(organism) {
+            Ok(swap) => self.split(id, &swap),
+            Err(reason) if elapsed >= time_limit => self.abandon_division(id, reason),
+            Err(_) => {}
+        }
+    }
+
+    fn abandon_division(&mut self, id: OrganismId, reason: Refusal) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        if let Some(divider) = &mut organism.divider {
+            divider.furrow = None;
+        }
+        organism.update_wanted_nodes(&self.fluids);
+        self.events.push(Event::DivisionAbandoned { organism: id, reason });
+    }
+
+    /// Splits a cell: the lobe that is cut off becomes an organism with the same properties, but a handle and random numbers
+    /// of its own.
+    pub(in crate::world) fn split(&mut self, id: OrganismId, swap: &Swap) {
+        let Some(parent) = self.organisms.get(id) else { return };
+        let (left, cut) = swap.cut(&parent.outline);
+        let (left, cut) = (self.lobe(parent, left), self.lobe(parent, cut));
+        let mut daughter = parent.clone();
+        let daughter_id = self.organisms.next_id();
+        daughter.rng = Rng::new(self.config.seed, daughter_id.stream());
+        daughter.home = cut.centre;
+        daughter.engulfer = daughter.engulfer.map(|engulfer| Engulfer::new(engulfer.params));
+        daughter.fluid = daughter.fluid.map(|fluid| {
+            let fluid = &self.fluids[fluid as usize];
+            let (params, is_enclosed) = (fluid.params, fluid.is_enclosed);
+            self.fluid_for(params, is_enclosed) as u32
+        });
+        let fluid = self.organisms.get(id).and_then(|parent| parent.fluid);
+        self.exemptions.inherit(id.index, daughter_id.index);
+        self.organisms.insert(daughter);
+        self.move_cytoplasm(&cut.fluid_particles, fluid, daughter_id);
+        self.move_meals(&cut.meals, id, daughter_id);
+        self.reduce_to_lobe(id, left);
+        self.reduce_to_lobe(daughter_id, cut);
+        self.events.push(Event::Divided { parent: id, daughter: daughter_id });
+    }
+
+    /// A ring of a cell with its content.
+    fn lobe(&self, cell: &Organism, outline: Vec<u32>) -> Lobe {
+        let ring: Vec<Vec2> = outline.iter().map(|&i| self.particles.position(i as usize)).collect();
+        let is_inside = |i: u32| contains_point(&ring, self.particles.position(i as usize));
+        let fluid_particles: Vec<u32> = cell.fluid_particles.iter().copied().filter(|&i| is_inside(i)).collect();
+        let holds = |meal: &&Meal| self.discs_of(meal.prey).next().is_some_and(|i| is_inside(i as u32));
+        let meals = cell.meals().iter().filter(|meal| meal.phase.is_inside());
+        let meals: Vec<Meal> = meals.filter(holds).cloned().collect();
+        let is_of_meal = |inner: &&Phagosome| meals.iter().any(|meal| meal.prey == inner.prey);
+        Lobe {
+            phagosomes: cell.phagosomes.iter().filter(is_of_meal).cloned().collect(),
+            share: fluid_particles.len() as f32 / cell.fluid_particles.len() as f32,
+            centre: centroid(&ring).unwrap_or(cell.home),
+            outline,
+            fluid_particles,
+            meals,
+        }
+    }
+
+    /// Reduces a divided cell to one of its lobes, at rest.
+    fn reduce_to_lobe(&mut self, id: OrganismId, lobe: Lobe) {
+        let Self { organisms, particles, fluids, .. } = self;
+        let Some(organism) = organisms.get_mut(id) else { return };
+        let before = organism.outline.len();
+        if let Storage::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
+            *membrane = membrane.resized(before, lobe.outline.len());
+            *body = lobe.outline.iter().chain(lobe.phagosomes.iter().flat_map(|inner| &inner.ring)).copied().collect();
+            body.iter().for_each(|&node| particles.owner[node as usize] = id.index);
+        }
+        organism.phagosomes = lobe.phagosomes;
+        organism.fluid_particles = lobe.fluid_particles;
+        organism.spawn_area *= lobe.share;
+        organism.locomotion = Locomotion::Crawl { front_centre: None };
+        organism.goal = None;
+        set_outline(organism, lobe.outline, particles);
+        if let Some(divider) = &mut organism.divider {
+            divider.end();
+        }
+        organism.update_wanted_nodes(fluids);
+    }
+}
+
+/// Positions in the outline of the side of the furrow with fewer nodes: lobes with equal membranes become equal.
+fn shorter_arc(organism: &Organism) -> Range<usize> {
+    let count = organism.outline.len();
+    let nodes = organism.furrow().map_or([0; 2], |furrow| furrow.nodes);
+    let [a, b] = nodes.map(|node| organism.outline.iter().position(|&other| other == node).unwrap_or(0));
+    let arcs = [(a, b), (b, a)].map(|(from, to)| from..from + (to + count - from) % count);
+    let [one, other] = arcs;
+    if one.len() < other.len() { one } else { other }
+}
+
+/// Length of the longest link over its rest length.
+fn longest_link(organism: &Organism, particles: &Particles) -> f32 {
+    let rest = organism.body.membrane().map_or(f32::INFINITY, |membrane| membrane.rest_length);
+    let length = |(a, b): (u32, u32)| particles.between(a as usize, b as usize).length();
+    links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest })
+        / rest
+}

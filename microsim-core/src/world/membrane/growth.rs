@@ -1,0 +1,202 @@
+//! Growth of an amoeboid cell (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
+
+use crate::error::{Error, ErrorKind, out_of_range};
+use crate::geometry::polygon::{contains_point, signed_area};
+use crate::geometry::ring::unit_vector;
+use crate::id::OrganismId;
+use crate::organism::Organism;
+use crate::organism::ring_surgery::{insert_node, remove_node};
+use crate::particle::{Particle, Particles};
+use crate::solver::fluid::rest_area;
+use crate::solver::membrane::STRAIN_LIMIT;
+use crate::template::Role;
+use crate::world::World;
+use glam::Vec2;
+
+/// Angle between new particles in turns of the golden ratio, radians (Vogel 1979): they never fall on one line.
+const GOLDEN_ANGLE: f32 = 2.399_963_2;
+/// Largest amount of cytoplasm in a membrane that has not stretched yet, over its content at rest. With more the pressure
+/// rises faster than the substeps of a step can spread it.
+const MOST_CROWDED: f32 = 1.5;
+/// Distance of new particle number `n` from their common centre, in spacings times the square root of `n`.
+const CROWDING: f32 = 0.3;
+
+impl World {
+    /// Grows an organism that has a membrane: `nodes` new membrane nodes, each in the middle of the link that is longest
+    /// then, and `particles` of new cytoplasm around the centroid of the membrane (around the cytoplasm particle nearest
+    /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
+    ///
+    /// # Errors
+    /// When the handle is stale, the organism has no membrane or is dividing, the membrane could not go round so much
+    /// cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
+    /// many particles. Nothing is changed then.
+    pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
+        if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
+            return Err(Error::unsupported("organism", "an organism that is not dividing"));
+        }
+        self.enlarge(id, nodes, particles)?;
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.add_wanted_nodes(nodes, &self.fluids);
+        }
+        Ok(())
+    }
+
+    /// Adds or removes one node of a membrane that has not reached its wanted number of nodes, unless prey is going in.
+    pub(super) fn adapt_membrane(&mut self, id: OrganismId) {
+        let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
+        let Self { organisms, particles, .. } = self;
+        let Some(organism) = organisms.get_mut(id).filter(|organism| Self::refusal(organism).is_none()) else {
+            return;
+        };
+        let count = organism.outline.len() as u32;
+        let Some(divider) = &mut organism.divider else { return };
+        let Some(wanted) = divider.wanted_nodes else { return };
+        if count == wanted {
+            divider.wanted_nodes = None;
+        } else if count < wanted && room {
+            insert_node(organism, particles);
+        } else if count > wanted && organism.has_spare_node() {
+            remove_node(organism, particles);
+        }
+    }
+
+    /// Adds nodes and cytoplasm; the wanted number of nodes stays.
+    pub(in crate::world) fn enlarge(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
+        let asked = self.particles.live_count() as u64 + u64::from(nodes) + u64::from(particles);
+        let limit = u64::from(self.config.max_particles);
+        if asked > limit {
+            return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
+        }
+        let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
+            return Err(Error::unsupported("organism", "an organism with a membrane"));
+        };
+        check_room(organism, &self.particles, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
+        for _ in 0..nodes {
+            insert_node(organism, &mut self.particles);
+        }
+        let fluid = &mut self.fluids[fluid as usize];
+        let added = inject(organism, particles, fluid.params.spacing, &mut self.particles);
+        fluid.particles.extend(added);
+        Ok(())
+    }
+}
+
+/// Checks that a membrane with `nodes` more nodes can hold `particles` more cytoplasm below its strain limit, and that they
+/// fit into its present area.
+fn check_room(organism: &Organism, p: &Particles, spacing: f32, nodes: u32, particles: u32) -> Result<(), Error> {
+    let Some(membrane) = organism.body.membrane() else { return Ok(()) };
+    let longest = STRAIN_LIMIT * membrane.rest_length * (organism.outline.len() as f32 + nodes as f32);
+    let radius = longest / std::f32::consts::TAU - membrane.node_radius;
+    let stretched = std::f32::consts::PI * radius * radius;
+    let (stretched, crowded) = (stretched / rest_area(1, spacing), MOST_CROWDED * room(organism, p, spacing));
+    let most = if stretched < crowded { stretched } else { crowded };
+    let count = organism.fluid_particles.len() as f32 + particles as f32;
+    let accepted = || format!("at most {} in all with {nodes} new nodes, now", most as u32);
+    (count <= most).then_some(()).ok_or_else(|| out_of_range("particles", f64::from(count), accepted()))
+}
+
+/// Number of particles of cytoplasm that the present area of a membrane holds at rest.
+fn room(organism: &Organism, p: &Particles, spacing: f32) -> f32 {
+    signed_area(&organism.outline_positions(p)) / rest_area(1, spacing)
+}
+
+/// Puts new cytoplasm near the centroid and returns its particles.
+fn inject(organism: &mut Organism, count: u32, spacing: f32, p: &mut Particles) -> Vec<u32> {
+    let outline = organism.outline_positions(p);
+    let Some(centre) = injection_point(organism, &outline, p) else { return Vec::new() };
+    let Some(&first) = organism.fluid_particles.first() else { return Vec::new() };
+    let like = Particle { role: Role::GrownCytoplasm as u8, ..p.get(first as usize) };
+    let mut added = Vec::new();
+    for k in 0..count {
+        let mut around = unit_vector(k as f32 * GOLDEN_ANGLE) * (CROWDING * spacing * (k as f32 + 0.5).sqrt());
+        // Both: an outline may bulge in between.
+        let has_room = |around: Vec2| [1.0, 2.0].iter().all(|&far| contains_point(&outline, centre + around * far));
+        while !has_room(around) {
+            around = if around.length_squared() > 1e-4 { around * 0.5 } else { break };
+        }
+        let around = if contains_point(&outline, centre + around) { around } else { Vec2::ZERO };
+        added.push(p.insert(&Particle { offset: centre + around - like.origin, velocity: Vec2::ZERO, ..like }));
+    }
+    organism.fluid_particles.extend(&added);
+    added
+}
+
+fn injection_point(organism: &Organism, outline: &[Vec2], p: &Particles) -> Option<Vec2> {
+    let centroid = crate::geometry::polygon::centroid(outline)?;
+    if contains_point(outline, centroid) {
+        return Some(centroid);
+    }
+    let cytoplasm: Vec<Vec2> = organism.fluid_particles.iter().map(|&i| p.position(i as usize)).collect();
+    crate::geometry::ring::nearest_index(&cytoplasm, centroid).map(|k| cytoplasm[k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AmoeboidCellSpec, Inputs, Placement, World, WorldConfig};
+
+    #[test]
+    fn t22_new_nodes_follow_their_neighbours_in_the_ring() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        for _ in 0..5 {
+            world.grow(cell, 3, 8).unwrap();
+            world.step(&Inputs::new());
+            let ring = &world.organisms.get(cell).unwrap().outline;
+            for (k, &node) in ring.iter().enumerate() {
+                assert_eq!(world.particles.next_in_ring[node as usize], ring[(k + 1) % ring.len()]);
+            }
+        }
+    }
+
+    #[test]
+    fn t15_a_displaced_node_is_pulled_back_by_its_links() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let node = world.organisms.get(cell).unwrap().outline[0] as usize;
+        world.particles.x[node] += 3.0;
+        (0..60).for_each(|_| world.step(&Inputs::new()));
+        assert!(world.quality().edge_stretch_max < 0.02, "{:?}", world.quality());
+    }
+
+    #[test]
+    fn new_cytoplasm_is_inside_of_a_membrane_with_folds() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        // A star with deep, narrow bays: twice as far from the centre may be in the next ray.
+        let ring = world.organisms.get(cell).unwrap().outline.clone();
+        let middle = world.centroid(cell).unwrap();
+        for &node in ring.iter().step_by(3) {
+            let p = &mut world.particles;
+            let out = p.position(node as usize) - middle;
+            (p.x[node as usize], p.y[node as usize]) = (
+                middle.x - p.origin_x[node as usize] + 0.05 * out.x,
+                middle.y - p.origin_y[node as usize] + 0.05 * out.y,
+            );
+        }
+        let outline: Vec<_> = world.view().organism(cell).unwrap().outline().collect();
+        let added = inject(world.organisms.get_mut(cell).unwrap(), 140, 1.65, &mut world.particles);
+        assert!(
+            added.len() == 140 && added.iter().all(|&i| contains_point(&outline, world.particles.position(i as usize)))
+        );
+    }
+
+    #[test]
+    fn more_cytoplasm_than_the_membrane_can_hold_is_refused() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let before = world.digest();
+        assert_eq!(world.grow(cell, 0, 400).unwrap_err().field(), "particles");
+        assert_eq!(world.digest(), before);
+        assert_eq!(world.grow(cell, 400, 2000).unwrap_err().field(), "particles", "all at once");
+        assert_eq!(world.digest(), before);
+        for step in 0..300 {
+            if step % 60 == 0 {
+                world.grow(cell, 8, 80).unwrap();
+            }
+            world.step(&Inputs::new());
+            assert_eq!(world.census().leaks, 0);
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Cells that change their membrane: growth, division (with its furrow) and fusion.
+//!
+//! Parameters and state are in [`crate::capability::division`], the contraction of the furrow in
+//! [`crate::behavior::division`], changes of single rings in [`crate::organism::ring_surgery`].
+
+mod division;
+mod furrow;
+mod fusion;
+mod growth;
+mod transfer;
+
+use crate::capability::division::{Divider, Order};
+use crate::capability::phagocytosis::{Meal, MealPhase};
+use crate::error::{Error, ErrorKind};
+use crate::event::Refusal;
+use crate::id::OrganismId;
+use crate::organism::Organism;
+use crate::world::World;
+
+impl World {
+    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content.
+    pub(crate) fn divide_and_fuse(&mut self) {
+        let dt = self.config.dt;
+        let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
+        for id in cells.map(|(id, _)| id).collect::<Vec<_>>() {
+            match self.divider_mut(id).and_then(|divider| divider.order.take()) {
+                Some(Order::Divide { axis }) => self.begin_division(id, axis),
+                Some(Order::Fuse { with }) => self.try_fusion(id, with),
+                None => {}
+            }
+            if let Some(divider) = self.divider_mut(id) {
+                divider.relax(dt);
+            }
+            self.advance_furrow(id);
+            self.adapt_membrane(id);
+        }
+    }
+
+    /// Stores an order, which the next step carries out.
+    pub(in crate::world) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
+        let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
+        let divider = organism.divider.as_mut();
+        divider.ok_or_else(|| Error::unsupported("organism", "an amoeboid cell"))?.order = Some(order);
+        Ok(())
+    }
+
+    pub(in crate::world) fn divider_mut(&mut self, id: OrganismId) -> Option<&mut Divider> {
+        self.organisms.get_mut(id).and_then(|organism| organism.divider.as_mut())
+    }
+
+    /// The reason why a cell cannot divide or fuse now, if there is one.
+    pub(in crate::world) fn refusal(organism: &Organism) -> Option<Refusal> {
+        let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
+        if organism.is_quarantined {
+            Some(Refusal::Quarantined)
+        } else if organism.furrow().is_some() {
+            Some(Refusal::Dividing)
+        } else if organism.meals().iter().any(ingests) {
+            Some(Refusal::Ingesting)
+        } else {
+            None
+        }
+    }
+}

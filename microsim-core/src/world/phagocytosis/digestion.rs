@@ -1,0 +1,83 @@
+//! Digestion: prey shrinks and is consumed, and the engulfer grows by it.
+
+use crate::capability::phagocytosis::{Engulfer, MealPhase};
+use crate::event::Event;
+use crate::id::OrganismId;
+use crate::organism::Organism;
+use crate::solver::fluid::rest_area;
+use crate::world::World;
+
+/// Size to which digestion shrinks prey before it is removed, relative to its size when it was ingested.
+const DIGESTED_SCALE: f32 = 0.25;
+/// Time in which released prey grows by its full size, s.
+const REGROWTH_TIME: f32 = 2.0;
+
+impl World {
+    /// Advances the digestion of all prey inside an engulfer that was told to digest.
+    pub(super) fn advance_digestion(&mut self, id: OrganismId, engulfer: &mut Engulfer) {
+        if !engulfer.digests {
+            return;
+        }
+        let params = engulfer.params;
+        let mut eaten = 0.0;
+        for meal in &mut engulfer.meals {
+            let before = match meal.phase {
+                MealPhase::Ingested => 0.0,
+                MealPhase::Digesting(progress) => progress,
+                MealPhase::Touching(_) | MealPhase::Ingesting(_) => continue,
+            };
+            let progress = before + self.config.dt / params.digestion_time[meal.class as usize];
+            meal.phase = MealPhase::Digesting(progress);
+            let shrunk = self.present_scale(meal.prey) * (digested_scale(progress) / digested_scale(before));
+            self.set_scale(meal.prey, shrunk);
+            if progress >= 1.0 {
+                eaten += self.consume(id, meal.prey);
+            }
+        }
+        engulfer.meals.retain(|meal| !matches!(meal.phase, MealPhase::Digesting(progress) if progress >= 1.0));
+        engulfer.pending_growth += eaten * params.growth_yield;
+    }
+
+    /// Removes digested prey and returns its area.
+    fn consume(&mut self, id: OrganismId, prey: OrganismId) -> f32 {
+        let Some((kind, area)) = self.organisms.get(prey).map(|organism| (organism.kind, organism.spawn_area)) else {
+            return 0.0;
+        };
+        let is_removed = self.remove(prey).is_ok();
+        self.events.push(Event::Consumed { engulfer: id, prey, kind });
+        if is_removed { area } else { 0.0 }
+    }
+
+    /// Turns digested area into cytoplasm, at most one particle per step so that the membrane can follow, and adds the nodes
+    /// that the membrane then needs.
+    pub(super) fn grow_from_digestion(&mut self, id: OrganismId) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        let Some(fluid) = organism.fluid else { return };
+        let each = rest_area(1, self.fluids[fluid as usize].params.spacing);
+        let Some(engulfer) = organism.engulfer.as_mut().filter(|engulfer| engulfer.pending_growth >= each) else {
+            return;
+        };
+        engulfer.pending_growth -= each;
+        let nodes = organism.missing_nodes();
+        // In a full world the cell does not grow.
+        let _ = self.enlarge(id, nodes, 1);
+    }
+
+    /// Lets released prey return to its full size, slowly enough for its neighbours to make room.
+    pub(super) fn regrow_free_prey(&mut self) {
+        let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held() && !organism.is_quarantined;
+        let free: Vec<OrganismId> = self.organisms.iter().filter(|(_, o)| is_free(o)).map(|(id, _)| id).collect();
+        for id in free {
+            let present = self.present_scale(id);
+            if present < 1.0 {
+                let grown = present + self.config.dt / REGROWTH_TIME;
+                self.set_scale(id, if grown < 1.0 { grown } else { 1.0 });
+            }
+        }
+    }
+}
+
+/// Size of prey at a progress of its digestion, relative to its size when it was ingested.
+fn digested_scale(progress: f32) -> f32 {
+    1.0 + (DIGESTED_SCALE - 1.0) * if progress < 1.0 { progress } else { 1.0 }
+}

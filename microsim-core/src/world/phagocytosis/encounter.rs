@@ -1,0 +1,76 @@
+//! Encounters: the prey that touches the front of an engulfer in a step.
+
+use crate::behavior::crawl::{MembraneRegion, region};
+use crate::behavior::heading;
+use crate::capability::Locomotion;
+use crate::capability::phagocytosis::Encounter;
+use crate::id::OrganismId;
+use crate::organism::Organism;
+use crate::world::World;
+use crate::world::contacts::NearPair;
+use glam::Vec2;
+use std::f32::consts::PI;
+
+/// Gap at which two discs still count as touching, as a share of the smaller one's radius.
+const TOUCH_GAP: f32 = 0.5;
+
+impl World {
+    /// The prey that touches the front of an engulfer in this step.
+    pub(super) fn encounters(&self, id: OrganismId) -> Vec<Encounter> {
+        let Some(organism) = self.organisms.get(id) else { return Vec::new() };
+        let front = front_nodes(organism);
+        let mut touched: Vec<OrganismId> = Vec::new();
+        for pair in self.near_pairs().filter(|pair| self.is_contact(pair)) {
+            let other = match (front.binary_search(&pair.i), front.binary_search(&pair.j)) {
+                (Ok(_), Err(_)) => pair.j,
+                (Err(_), Ok(_)) => pair.i,
+                _ => continue,
+            };
+            touched.extend(self.organisms.id_at(self.particles.owner[other as usize]).filter(|&other| other != id));
+        }
+        touched.sort_unstable();
+        let Some(centre) = self.centroid(id) else { return Vec::new() };
+        let to_goal = organism.goal.map(|goal| heading(goal - centre));
+        let area = self.engulfer_area(organism);
+        let groups = touched.chunk_by(|a, b| a == b);
+        groups.filter_map(|group| self.encounter(group[0], group.len() as u32, centre, to_goal, area)).collect()
+    }
+
+    /// Whether two discs touched in any substep of this step or are close now: contacts of soft bodies come and go from
+    /// substep to substep.
+    fn is_contact(&self, pair: &NearPair) -> bool {
+        pair.touched || pair.gap < TOUCH_GAP * self.particles.smaller_radius(pair.i, pair.j)
+    }
+
+    fn encounter(
+        &self,
+        id: OrganismId,
+        contacts: u32,
+        from: Vec2,
+        to_goal: Option<Vec2>,
+        area: f32,
+    ) -> Option<Encounter> {
+        let organism = self.organisms.get(id)?;
+        let prey = organism.prey.filter(|prey| prey.held_by.is_none() && !organism.is_quarantined)?;
+        let to_prey = heading(self.centroid(id)? - from);
+        let heading = to_goal.map(|to_goal| to_goal.dot(to_prey));
+        Some(Encounter { prey: id, class: prey.class, contacts, heading, size_ratio: area / organism.spawn_area })
+    }
+
+    /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
+    pub(in crate::world) fn engulfer_area(&self, organism: &Organism) -> f32 {
+        let radius = |&i: &u32| self.particles.radius[i as usize];
+        organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()
+    }
+}
+
+/// Particles of the front, sorted; none at rest.
+pub(in crate::world) fn front_nodes(organism: &Organism) -> Vec<u32> {
+    let Locomotion::Crawl { front_centre: Some(front) } = organism.locomotion else { return Vec::new() };
+    let count = organism.outline.len() as u32;
+    let is_front = |k: u32| region(k, front, count) == MembraneRegion::Front;
+    let mut nodes: Vec<u32> =
+        organism.outline_particles().zip(0..count).filter(|&(_, k)| is_front(k)).map(|(node, _)| node).collect();
+    nodes.sort_unstable();
+    nodes
+}

@@ -1,0 +1,112 @@
+//! Ingestion through a gate: membrane nodes that ignore the prey until all of it is on one side.
+
+use crate::capability::phagocytosis::{Meal, PhagocytosisParams};
+use crate::geometry::{polygon::contains_point, segment::nearest_on_segment};
+use crate::id::OrganismId;
+use crate::solver::contact::shift;
+use crate::world::World;
+use glam::Vec2;
+
+/// Overlap with the membrane up to which prey counts as inside, as a share of a node's radius.
+const OVERLAP: f32 = 0.25;
+/// Time after which prey that is still between both sides is moved to one of them, in time limits.
+const PLACED_AFTER: f32 = 2.0;
+
+impl World {
+    /// Widens the gate to the nodes near the prey and returns the prey's side. At the time limit prey whose centre is outside
+    /// is expelled; at twice the time limit all of the prey is moved to the side of its centre.
+    pub(super) fn advance_gate(
+        &mut self,
+        id: OrganismId,
+        meal: &mut Meal,
+        params: &PhagocytosisParams,
+        elapsed: f32,
+    ) -> PreySide {
+        self.widen_gate(id, meal);
+        let Some(organism) = self.organisms.get(id) else { return PreySide::Outside };
+        let outline = self.outline_of(organism);
+        let clearance = organism.body.membrane().map_or(0.0, |membrane| membrane.node_radius) * (1.0 - OVERLAP);
+        let side = self.side_of_prey(meal.prey, &outline, clearance);
+        if side != PreySide::Between || elapsed < params.time_limit {
+            return side;
+        }
+        if !meal.is_expelled && elapsed - self.config.dt < params.time_limit {
+            let centre = self.organisms.get(meal.prey).map(|prey| self.centre_of(prey));
+            meal.is_expelled = centre.is_some_and(|centre| !contains_point(&outline, centre));
+        }
+        if elapsed < PLACED_AFTER * params.time_limit {
+            return side;
+        }
+        self.place_prey(meal.prey, !meal.is_expelled, &outline, clearance);
+        if meal.is_expelled { PreySide::Outside } else { PreySide::Inside }
+    }
+
+    /// Moves all discs of prey to one side of an outline, each to the nearest point there.
+    fn place_prey(&mut self, prey: OrganismId, inside: bool, outline: &[Vec2], clearance: f32) {
+        for i in self.discs_of(prey).collect::<Vec<_>>() {
+            let at = self.particles.position(i);
+            let (edge, outwards) = nearest_edge(outline, at);
+            let reach = self.particles.radius[i] + clearance;
+            let is_there = contains_point(outline, at) == inside && (at - edge).length() >= reach;
+            if !is_there {
+                let by = edge + outwards * if inside { -reach } else { reach } - at;
+                shift(&mut self.particles, i, by);
+                self.particles.prev_x[i] += by.x;
+                self.particles.prev_y[i] += by.y;
+            }
+        }
+    }
+
+    /// Adds the nodes near the prey to the gate: prey may slide along the membrane.
+    fn widen_gate(&mut self, id: OrganismId, meal: &mut Meal) {
+        let (Some(engulfer), Some(prey)) = (self.organisms.get(id), self.organisms.get(meal.prey)) else { return };
+        let p = &self.particles;
+        let margin = 2.0 * self.config.max_displacement();
+        let discs: Vec<usize> = prey.particles().map(|i| i as usize).filter(|&i| p.inv_mass[i] > 0.0).collect();
+        let is_near =
+            |node: usize| discs.iter().any(|&i| p.between(node, i).length() < p.radius[node] + p.radius[i] + margin);
+        let nodes = engulfer.outline_particles().filter(|node| !meal.gate.contains(node) && is_near(*node as usize));
+        let nodes: Vec<u32> = nodes.collect();
+        self.exemptions.open_gate(&nodes, meal.prey.index);
+        meal.gate.extend(nodes);
+    }
+
+    /// Side of an outline on which all discs of prey lie. The inner surface is `clearance` inside the outline.
+    fn side_of_prey(&self, prey: OrganismId, outline: &[Vec2], clearance: f32) -> PreySide {
+        let (mut inside, mut outside) = (self.organisms.get(prey).is_some(), true);
+        for i in self.discs_of(prey) {
+            let position = self.particles.position(i);
+            let is_within = contains_point(outline, position);
+            inside &= is_within
+                && (nearest_edge(outline, position).0 - position).length() >= self.particles.radius[i] + clearance;
+            outside &= !is_within;
+        }
+        match (inside, outside) {
+            (true, _) => PreySide::Inside,
+            (_, true) => PreySide::Outside,
+            _ => PreySide::Between,
+        }
+    }
+}
+
+/// Side of a membrane on which prey lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PreySide {
+    Inside,
+    Outside,
+    Between,
+}
+
+/// The nearest point of a counter-clockwise polygon's edges, and the direction out of it there.
+fn nearest_edge(outline: &[Vec2], point: Vec2) -> (Vec2, Vec2) {
+    let mut best = (f32::INFINITY, point, Vec2::X);
+    for k in 0..outline.len() {
+        let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+        let at = nearest_on_segment(a, b, point);
+        let distance = (at - point).length();
+        if distance < best.0 {
+            best = (distance, at, -(b - a).perp().normalize_or_zero());
+        }
+    }
+    (best.1, best.2)
+}

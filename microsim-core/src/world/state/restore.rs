@@ -1,0 +1,78 @@
+//! A world from state that was read: derived parts are rebuilt, and everything that stepping relies on is checked
+//! ([`super::validate::structure`]).
+
+use super::validate;
+use crate::chemical;
+use crate::collision::exemptions::Exemptions;
+use crate::collision::obstacle::Obstacle;
+use crate::config::WorldConfig;
+use crate::event::Event;
+use crate::organism::table::Organisms;
+use crate::particle::Particles;
+use crate::particle::sleep::Sleep;
+use crate::shared::Shared;
+use crate::solver::block::Block;
+use crate::solver::fluid::Fluid;
+use crate::template::Template;
+use crate::world::contacts::Touching;
+use crate::world::{Guard, World};
+use serde::Deserialize;
+
+/// The serialised fields of a [`World`].
+#[derive(Debug, Deserialize)]
+pub(crate) struct WorldState {
+    step_index: u64,
+    config: WorldConfig,
+    particles: Particles,
+    organisms: Organisms,
+    templates: Vec<Template>,
+    blocks: Vec<Block>,
+    sleep: Sleep,
+    fluids: Vec<Fluid>,
+    chemicals: Vec<chemical::ChemicalRecord>,
+    exemptions: Exemptions,
+    touching: Touching,
+    events: Vec<Event>,
+    guard: Guard,
+    obstacle_digests: Vec<u64>,
+}
+
+impl World {
+    /// The world of this state with these obstacles.
+    ///
+    /// # Errors
+    /// Says which part of the state cannot be one of a world.
+    pub(crate) fn restore(state: WorldState, obstacles: Vec<Obstacle>) -> Result<Self, String> {
+        let mut world = Self::new(state.config).map_err(|error| error.within("config").to_string())?;
+        for (k, obstacle) in obstacles.into_iter().enumerate() {
+            world.add_obstacle(obstacle).map_err(|error| error.within(&format!("obstacles[{k}]")).to_string())?;
+        }
+        if world.obstacle_digests != state.obstacle_digests {
+            return Err("obstacles: they differ from those that were written".to_owned());
+        }
+        for (k, record) in state.chemicals.into_iter().enumerate() {
+            let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
+            let filled = added.and_then(|()| world.chemicals[k].restore(record, &world.config));
+            filled.map_err(|flaw| format!("chemicals[{k}]: {flaw}"))?;
+        }
+        world.step_index = state.step_index;
+        world.particles = state.particles;
+        world.organisms = state.organisms;
+        world.templates = Shared::new(state.templates);
+        world.blocks = Shared::new(state.blocks);
+        world.sleep = state.sleep;
+        world.fluids = state.fluids;
+        world.exemptions = state.exemptions;
+        world.touching = state.touching;
+        world.events = state.events;
+        world.guard = state.guard;
+        world.particles.complete()?;
+        world.organisms.complete();
+        validate::structure::check(&world).map_err(|violation| violation.to_string())?;
+        // Measures need the pairs of the last step, which are not part of the state.
+        if world.step_index > 0 {
+            world.find_pairs();
+        }
+        Ok(world)
+    }
+}

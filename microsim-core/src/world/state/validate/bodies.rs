@@ -1,0 +1,136 @@
+//! Single organisms: particles, membranes, cytoplasm and state.
+
+use super::{Check, Subject};
+use crate::geometry::polygon::{contains_point, is_simple, signed_area};
+use crate::organism::{Organism, Storage};
+use crate::particle::{CollisionGroups, NO_OWNER};
+use crate::solver::membrane::{Membrane, links};
+use crate::world::World;
+use glam::Vec2;
+
+/// Largest length, area or count in an organism.
+const MOST: f32 = 1e9;
+/// Largest length of a membrane, in circles around its content.
+const MOST_LOBES: f32 = 3.0;
+
+pub(super) fn check(world: &World) -> Check {
+    for (id, organism) in world.organisms.iter() {
+        let cell = Subject::organism(id, organism.kind);
+        check_particles(world, organism, cell)?;
+        check_outline(world, organism, cell)?;
+        check_rings(world, organism, cell)?;
+        check_fluid(world, organism, cell)?;
+        check_state(organism, cell)?;
+        check_divider(organism, cell)?;
+    }
+    check_links(world)
+}
+
+/// All its particles have one origin; frozen ones are at rest.
+fn check_particles(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let p = &world.particles;
+    let origin = organism.particles().next().map(|i| p.origin(i as usize));
+    for i in organism.particles() {
+        let (disc, i) = (Subject { particle: Some(i), ..cell }, i as usize);
+        disc.must(Some(p.origin(i)) == origin, || "its origin is not that of the others".to_owned())?;
+        let is_frozen = p.inv_mass[i] == 0.0 && p.velocity(i) == Vec2::ZERO && p.groups[i] == CollisionGroups::NONE;
+        disc.must(is_frozen || !organism.is_quarantined, || "it is in quarantine and not frozen".to_owned())?;
+    }
+    Ok(())
+}
+
+/// The outline is the template's, or that of its own membrane.
+fn check_outline(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let Storage::Lane { block, .. } = organism.body else { return Ok(()) };
+    let template = world.blocks.get(block as usize).and_then(|block| world.templates.get(block.template as usize));
+    let is_equal = template.is_some_and(|template| template.outline() == organism.outline);
+    cell.must(is_equal, || "its outline is not that of its template".to_owned())
+}
+
+/// Membranes are closed, simple and counter-clockwise, and all loose nodes are in exactly one.
+fn check_rings(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let Storage::Loose { particles, .. } = &organism.body else { return Ok(()) };
+    let mut nodes = particles.clone();
+    let mut linked: Vec<u32> = organism.membranes().flat_map(|(_, ring)| ring).copied().collect();
+    nodes.sort_unstable();
+    linked.sort_unstable();
+    cell.must(nodes == linked, || format!("{} nodes, of which its rings have {}", nodes.len(), linked.len()))?;
+    organism.membranes().try_for_each(|(membrane, ring)| check_ring(world, organism, cell, membrane, ring))
+}
+
+fn check_ring(world: &World, organism: &Organism, cell: Subject, membrane: &Membrane, ring: &[u32]) -> Check {
+    let p = &world.particles;
+    let loose = links(ring).find(|&(a, b)| p.next_in_ring[a as usize] != b);
+    if let Some((a, b)) = loose {
+        let node = Subject { particle: Some(a), ..cell };
+        return Err(node.violation(format!("{b} follows it in its ring, but it is linked to another")));
+    }
+    if organism.is_quarantined {
+        return Ok(());
+    }
+    let names = ["rest length", "node radius", "activity", "rest perimeter"];
+    for (name, value) in names.into_iter().zip(membrane.state()) {
+        cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST)?;
+    }
+    if !world.config.protects_membranes {
+        return Ok(());
+    }
+    let outline: Vec<Vec2> = ring.iter().map(|&i| p.position(i as usize)).collect();
+    let area = signed_area(&outline);
+    cell.must(area > 0.0, || format!("a ring of {} nodes encloses an area of {area}", ring.len()))?;
+    cell.must(is_simple(&outline), || format!("a ring of {} nodes crosses itself", ring.len()))
+}
+
+/// Nodes that are linked to a following node are in a ring.
+fn check_links(world: &World) -> Check {
+    let p = &world.particles;
+    let rings = world.organisms.iter().flat_map(|(_, organism)| organism.membranes());
+    let nodes: usize = rings.map(|(_, ring)| ring.len()).sum();
+    let linked = p.next_in_ring.iter().filter(|&&next| next != NO_OWNER).count();
+    Subject::default().must(linked == nodes, || format!("{linked} nodes are linked, {nodes} are in rings"))
+}
+
+/// Its cytoplasm is in its fluid and inside its membrane.
+fn check_fluid(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let p = &world.particles;
+    if organism.is_quarantined {
+        return cell.must(organism.fluid.is_none(), || "it is in quarantine and still part of a fluid".to_owned());
+    }
+    let own = &organism.fluid_particles;
+    let Some(fluid) = organism.fluid else {
+        return cell.must(own.is_empty(), || format!("{} particles of no fluid", own.len()));
+    };
+    let list = world.fluids.get(fluid as usize).map(|fluid| &fluid.particles);
+    let index = cell.organism.map(|(id, _)| id.index);
+    let listed = list.map(|list| list.iter().filter(|&&i| p.owner.get(i as usize).copied() == index).count());
+    cell.must(listed == Some(own.len()), || format!("fluid {fluid} has {listed:?} of its {} particles", own.len()))?;
+    if let Some(&i) = own.iter().find(|&&i| p.fluid[i as usize] != fluid + 1) {
+        return Err(Subject { particle: Some(i), ..cell }.violation(format!("it is not marked as fluid {fluid}")));
+    }
+    if organism.body.membrane().is_none() || !world.config.protects_membranes {
+        return Ok(());
+    }
+    let outline = world.outline_of(organism);
+    let leak = own.iter().find(|&&i| !contains_point(&outline, p.position(i as usize)));
+    leak.map_or(Ok(()), |&i| Err(Subject { particle: Some(i), ..cell }.violation("it has leaked out of its membrane")))
+}
+
+fn check_state(organism: &Organism, cell: Subject) -> Check {
+    cell.must_range("speed", organism.speed, 0.0, MOST)?;
+    cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
+    cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
+    let (goal, home) = (organism.goal, organism.home);
+    cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
+}
+
+fn check_divider(organism: &Organism, cell: Subject) -> Check {
+    let Some(divider) = &organism.divider else { return Ok(()) };
+    cell.must_range("lobes", divider.lobes, 1.0, MOST_LOBES)?;
+    divider.nodes_per_root.map_or(Ok(()), |nodes| cell.must_range("nodes per root", nodes, 0.0, MOST))?;
+    let Some(furrow) = divider.furrow else { return Ok(()) };
+    cell.must_range("width of its furrow", furrow.width, 0.0, MOST)?;
+    cell.must_range("age of its furrow", furrow.elapsed, 0.0, MOST)?;
+    let [a, b] = furrow.nodes;
+    let is_there = a != b && organism.outline.contains(&a) && organism.outline.contains(&b);
+    cell.must(is_there, || format!("its furrow is between {a} and {b}, which are not two of its nodes"))
+}

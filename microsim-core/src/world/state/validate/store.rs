@@ -1,0 +1,114 @@
+//! Tables: particles, free indices, blocks, fluids, obstacles.
+
+use super::{Check, Subject};
+use crate::config::WorldConfig;
+use crate::particle::{CollisionGroups, NO_OWNER, Particles};
+use crate::solver::block::Block;
+use crate::template::Role;
+use crate::world::World;
+use crate::world::obstacle::WALLS;
+use glam::Vec2;
+
+/// Largest coordinate, units: quarantine freezes organisms farther from the room than the room's size.
+const FARTHEST: f32 = 3.0 * WorldConfig::MAX_SIZE;
+/// Largest radius: of a template's node times the scale of its placement.
+const LARGEST: f32 = 1e5;
+/// Largest speed over the speed limit: impacts may exceed the limit until the next substep.
+const TIMES_SPEED_LIMIT: f32 = 10.0;
+/// Largest distance of the centre of a colliding disc beyond a wall, as a share of its radius.
+const BEYOND_WALLS: f32 = 0.5;
+
+pub(super) fn check(world: &World) -> Check {
+    (0..world.particles.len()).try_for_each(|i| check_entry(world, i))?;
+    check_places(world)?;
+    (0..world.fluids.len()).try_for_each(|k| check_fluid(world, k))?;
+    let (digests, obstacles) = (world.obstacle_digests.len(), world.obstacles.len() - WALLS);
+    let none = Subject::default();
+    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))?;
+    for (k, chemical) in world.chemicals.iter().enumerate() {
+        chemical.check(&world.config).map_err(|flaw| none.violation(format!("chemical {k}: {flaw}")))?;
+    }
+    Ok(())
+}
+
+pub(super) fn check_columns(p: &Particles) -> Check {
+    let floats = [&p.origin_x, &p.origin_y, &p.x, &p.y, &p.prev_x, &p.prev_y, &p.vx, &p.vy, &p.inv_mass, &p.radius];
+    let words: [&Vec<u32>; 3] = [&p.next_in_ring, &p.owner, &p.fluid];
+    let others = [p.groups.len(), p.material.len(), p.role.len()];
+    let lengths = floats.map(Vec::len).into_iter().chain(words.map(Vec::len)).chain(others);
+    let mut wrong = lengths.filter(|&length| length != p.len());
+    let none = Subject::default();
+    none.must(wrong.next().is_none(), || format!("a column of the particles is not {} long", p.len()))?;
+    let live = p.live().count();
+    none.must(live == p.live_count(), || format!("{live} particles live, but {} are counted", p.live_count()))
+}
+
+fn check_entry(world: &World, i: usize) -> Check {
+    let (p, disc) = (&world.particles, Subject::particle(world, i));
+    if !p.is_live(i) {
+        let is_dead = p.inv_mass[i] == 0.0
+            && p.groups[i] == CollisionGroups::NONE
+            && p.next_in_ring[i] == NO_OWNER
+            && p.fluid[i] == 0
+            && p.velocity(i) == Vec2::ZERO;
+        return disc.must(is_dead, || "it has no owner, but mass, speed, a fluid, a ring or collisions".to_owned());
+    }
+    check_numbers(world, i, disc)?;
+    disc.must((p.role[i] as usize) < Role::ALL.len(), || format!("role {} is unknown", p.role[i]))?;
+    check_within_walls(world, i, disc)
+}
+
+fn check_numbers(world: &World, i: usize, disc: Subject) -> Check {
+    let p = &world.particles;
+    for (name, column) in [("origin x", &p.origin_x), ("origin y", &p.origin_y)] {
+        disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
+        disc.must(column[i].fract() == 0.0, || format!("{name} is {}, must be whole", column[i]))?;
+    }
+    for (name, column) in [("x", &p.x), ("y", &p.y), ("previous x", &p.prev_x), ("previous y", &p.prev_y)] {
+        disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
+    }
+    let fastest = TIMES_SPEED_LIMIT * world.config.speed_limit();
+    disc.must_range("velocity x", p.vx[i], -fastest, fastest)?;
+    disc.must_range("velocity y", p.vy[i], -fastest, fastest)?;
+    disc.must_range("inverse mass", p.inv_mass[i], 0.0, f32::MAX)?;
+    disc.must_range("radius", p.radius[i], 0.0, LARGEST)?;
+    disc.must_range("friction", p.material[i].friction, 0.0, 10.0)?;
+    disc.must_range("restitution", p.material[i].restitution, 0.0, 1.0)
+}
+
+/// Discs that collide with walls have their centres within them, except in a world without protection, where discs move
+/// farther in a step than the search margin; all particles are at most a room's size outside.
+fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
+    let (p, size) = (&world.particles, world.config.size);
+    let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
+    let beyond = if is_held { Vec2::splat(BEYOND_WALLS * p.radius[i]) } else { size };
+    let at = p.position(i);
+    let is_inside = at.cmpge(-beyond).all() && at.cmple(size + beyond).all();
+    disc.must(is_inside, || format!("it is at {at}, outside the room of {size}"))
+}
+
+/// Every unused index is in a block or free.
+fn check_places(world: &World) -> Check {
+    let p = &world.particles;
+    let mut is_kept: Vec<bool> = (0..p.len()).map(|i| p.is_live(i)).collect();
+    for block in world.blocks.iter().map(Block::range) {
+        is_kept[block.base..block.base + block.len()].fill(true);
+    }
+    p.free_indices().iter().for_each(|&i| is_kept[i as usize] = true);
+    let lost = is_kept.iter().position(|is_kept| !is_kept);
+    lost.map_or(Ok(()), |i| Err(Subject::default().violation(format!("index {i} is neither in use nor free"))))
+}
+
+/// The particles of a fluid have owners with this fluid; an enclosed fluid has one owner.
+fn check_fluid(world: &World, k: usize) -> Check {
+    let (p, fluid) = (&world.particles, &world.fluids[k]);
+    for &i in &fluid.particles {
+        let disc = Subject::particle(world, i as usize);
+        let owner = disc.organism.and_then(|(id, _)| world.organisms.get(id));
+        let is_owners = owner.is_some_and(|owner| owner.fluid == Some(k as u32));
+        disc.must(is_owners, || format!("fluid {k} has a particle whose owner has another fluid"))?;
+    }
+    let owners = |i: &u32| p.owner[*i as usize];
+    let mixes = fluid.is_enclosed && fluid.particles.windows(2).any(|pair| owners(&pair[0]) != owners(&pair[1]));
+    Subject::default().must(!mixes, || format!("fluid {k} is enclosed and has several owners"))
+}

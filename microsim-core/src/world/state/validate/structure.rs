@@ -1,0 +1,196 @@
+//! Structure that stepping relies on: indices are valid, every particle has one owner, parameters are in their ranges. A world
+//! that passes may be unphysical, but cannot make a step panic; worlds from files have to pass.
+
+use super::{Check, Subject, Violation};
+use crate::capability::Locomotion;
+use crate::error::Error;
+use crate::organism::ring_surgery::LEAST_NODES;
+use crate::organism::{Organism, Phagosome, Storage};
+use crate::particle::NO_OWNER;
+use crate::solver::block::Block;
+use crate::solver::lanes::LANES;
+use crate::world::{Guard, World};
+
+/// Largest value of a counter, far from overflow.
+const MOST: u64 = 1 << 53;
+const MOST_NODES: u32 = 1 << 30;
+/// Owner of an empty lane, as opposed to a free index.
+const EMPTY_LANE: u32 = NO_OWNER - 1;
+
+/// Checks the structure of a world whose columns have equal lengths.
+pub(in crate::world) fn check(world: &World) -> Check {
+    let Guard { wrong_side, net_fired } = world.guard;
+    let is_counter = |count: u64| count < MOST;
+    let none = Subject::default();
+    none.must([world.step_index, wrong_side, net_fired].into_iter().all(is_counter), || {
+        "a counter is too large".to_owned()
+    })?;
+    check_slots(world)?;
+    let mut owned = vec![NO_OWNER; world.particles.len()];
+    check_blocks(world, &mut owned)?;
+    for (id, organism) in world.organisms.iter() {
+        let cell = Subject::organism(id, organism.kind);
+        check_organism(world, organism, cell)?;
+        claim(world, id.index, organism, cell, &mut owned)?;
+    }
+    check_fluids(world)?;
+    check_particles(world, &owned)
+}
+
+/// The free slots of organisms are exactly the empty ones.
+fn check_slots(world: &World) -> Check {
+    let organisms = &world.organisms;
+    let mut free = organisms.free_slots().to_vec();
+    free.sort_unstable();
+    let empty = (0..organisms.slot_count()).filter(|&index| organisms.id_at(index).is_none());
+    Subject::default().must(empty.eq(free), || "the free slots of organisms are not the empty ones".to_owned())
+}
+
+/// Blocks fit their template and do not overlap. Records the owners of their lanes in `owned`.
+fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
+    let (organisms, none) = (&world.organisms, Subject::default());
+    let (blocks, known) = (world.blocks.len(), world.sleep.len());
+    none.must(blocks == known, || format!("{blocks} blocks, but sleep counters of {known}"))?;
+    let mut end = 0;
+    for (k, block) in world.blocks.iter().enumerate() {
+        let template = world.templates.get(block.template as usize);
+        let slots = template.map_or(0, |template| template.nodes().len());
+        let (first, after) = (block.base as usize, block.base as usize + slots * LANES);
+        let fits = slots > 0 && slots == block.slots as usize && first >= end && after <= owned.len();
+        none.must(fits, || {
+            format!("block {k} lies at {first}, where {} slots of template {} do not", block.slots, block.template)
+        })?;
+        for (lane, (&owner, &scale)) in block.owner.iter().zip(&block.scale).enumerate() {
+            none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
+            let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
+            let place = holder.and_then(|organism| match organism.body {
+                Storage::Lane { block, first } => Some((block as usize, first)),
+                Storage::Loose { .. } => None,
+            });
+            let is_home = owner == NO_OWNER || place == Some((k, block.particle(0, lane)));
+            none.must(is_home, || format!("lane {lane} of block {k} is owned by {owner}, which does not know"))?;
+            let owner = if owner == NO_OWNER { EMPTY_LANE } else { owner };
+            (0..block.slots).for_each(|slot| owned[block.particle(slot, lane) as usize] = owner);
+        }
+        end = after;
+    }
+    Ok(())
+}
+
+/// Fields of an organism.
+fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let (nodes, membrane) = (organism.outline.len(), organism.body.membrane());
+    let in_outline = |k: u32| (k as usize) < nodes;
+    let can_move = match organism.locomotion {
+        Locomotion::None | Locomotion::Tow { .. } => true,
+        Locomotion::FrontPull { front } => in_outline(front),
+        Locomotion::Crawl { front_centre } => membrane.is_some() && front_centre.is_none_or(in_outline),
+    };
+    cell.must(can_move, || format!("it cannot move so with {nodes} nodes: {:?}", organism.locomotion))?;
+    let needs_membrane = organism.engulfer.is_some() || organism.divider.is_some() || !organism.phagosomes.is_empty();
+    cell.must(membrane.is_some() || !needs_membrane, || "it lacks a membrane".to_owned())?;
+    let is_ring = |inner: &Phagosome| inner.ring.len() >= LEAST_NODES;
+    let are_rings = (membrane.is_none() || nodes >= LEAST_NODES) && organism.phagosomes.iter().all(is_ring);
+    cell.must(are_rings, || "a ring of too few nodes".to_owned())?;
+    let fluids = world.fluids.len();
+    let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
+    cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;
+    let wanted = organism.divider.as_ref().and_then(|divider| divider.wanted_nodes);
+    cell.must(wanted.is_none_or(|nodes| nodes < MOST_NODES), || format!("it wants {wanted:?} nodes"))?;
+    check_parameters(world, organism, nodes > 0).map_err(|error| cell.violation(error.to_string()))
+}
+
+/// Parameters that the public API would refuse.
+fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Result<(), Error> {
+    let Organism { controller, exchanges, engulfer, divider, .. } = organism;
+    controller.validate().map_err(|error| error.within("controller"))?;
+    world.check_controller(controller, &organism.locomotion, has_outline)?;
+    for exchange in exchanges {
+        let is_known = world.check_chemical(exchange.chemical, "chemical").and_then(|()| exchange.validate());
+        is_known.map_err(|error| error.within("exchanges"))?;
+    }
+    let engulfer = engulfer.as_ref().map_or(Ok(()), |engulfer| engulfer.params.validate());
+    engulfer.map_err(|error| error.within("engulfer"))?;
+    let divider = divider.as_ref().map_or(Ok(()), |divider| divider.params.validate());
+    divider.map_err(|error| error.within("divider"))
+}
+
+/// Records the particles of an organism in `owned`, where they must be free, and checks its indices.
+fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &mut [u32]) -> Check {
+    let loose: &[u32] = match &organism.body {
+        Storage::Lane { block, first } => {
+            let block = world.blocks.get(*block as usize).filter(|block| block.slots == organism.slots);
+            let is_home = |block: &Block| {
+                let lane = block.owner.iter().position(|&owner| owner == index);
+                lane.is_some_and(|lane| block.particle(0, lane) == *first)
+            };
+            cell.must(block.is_some_and(is_home), || "it is not in its block".to_owned())?;
+            let in_slots = organism.outline.iter().all(|&slot| slot < organism.slots);
+            cell.must(in_slots, || "its outline names a slot that does not exist".to_owned())?;
+            &[]
+        }
+        Storage::Loose { particles, .. } => {
+            cell.must(organism.slots == 0, || "it has slots and is in no block".to_owned())?;
+            particles
+        }
+    };
+    for &i in loose.iter().chain(&organism.fluid_particles) {
+        let place = owned.get_mut(i as usize).filter(|place| **place == NO_OWNER);
+        *place.ok_or_else(|| in_cell(cell, i, "it does not exist or has another owner"))? = index;
+    }
+    let are_own = |ring: &[u32]| {
+        let mut known = ring.to_vec();
+        known.sort_unstable();
+        known.dedup();
+        known.len() == ring.len() && ring.iter().all(|&i| owned.get(i as usize) == Some(&index))
+    };
+    let is_own = are_own(&organism.outline_particles().collect::<Vec<_>>());
+    cell.must(is_own, || "its outline is not of its own particles".to_owned())?;
+    let are_own = organism.phagosomes.iter().all(|inner| are_own(&inner.ring));
+    cell.must(are_own, || "a phagosome is not of its own particles".to_owned())?;
+    let gates = organism.engulfer.iter().flat_map(|engulfer| engulfer.meals.iter().flat_map(|meal| &meal.gate));
+    let furrow = organism.furrow().map(|furrow| furrow.nodes);
+    let unknown = gates.chain(furrow.iter().flatten()).find(|&&i| i as usize >= owned.len());
+    unknown.map_or(Ok(()), |&i| Err(in_cell(cell, i, "a gate or furrow has it, and it does not exist")))
+}
+
+fn in_cell(cell: Subject, particle: u32, what: &str) -> Violation {
+    Subject { particle: Some(particle), ..cell }.violation(what)
+}
+
+fn check_fluids(world: &World) -> Check {
+    let p = &world.particles;
+    let mut is_known = vec![false; p.len()];
+    for (k, fluid) in world.fluids.iter().enumerate() {
+        let in_range = fluid.params.validate();
+        in_range.map_err(|error| Subject::default().violation(format!("fluid {k}: {error}")))?;
+        for &i in &fluid.particles {
+            let is_in_it = p.fluid.get(i as usize) == Some(&(k as u32 + 1)) && p.is_live(i as usize);
+            let is_new = is_in_it && !std::mem::replace(&mut is_known[i as usize], true);
+            let disc = Subject::particle(world, i as usize);
+            disc.must(is_new, || format!("fluid {k} has it, but it is not marked so, or it has it twice"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every index has its owner or none; free indices are not in use and are listed once.
+fn check_particles(world: &World, owned: &[u32]) -> Check {
+    let p = &world.particles;
+    for (i, &owner) in owned.iter().enumerate() {
+        let disc = Subject::particle(world, i);
+        let owner = if owner == EMPTY_LANE { NO_OWNER } else { owner };
+        disc.must(p.owner[i] == owner, || format!("its owner is {}, but {owner} has it", p.owner[i]))?;
+        let next = p.next_in_ring[i];
+        disc.must(next == NO_OWNER || (next as usize) < owned.len(), || format!("{next} follows it in its ring"))?;
+        let (fluid, fluids) = (p.fluid[i] as usize, world.fluids.len());
+        disc.must(fluid <= fluids, || format!("it belongs to fluid {fluid} of {fluids}"))?;
+    }
+    let mut is_known = vec![false; p.len()];
+    for &i in p.free_indices() {
+        let is_free = owned.get(i as usize) == Some(&NO_OWNER);
+        let is_new = is_free && !std::mem::replace(&mut is_known[i as usize], true);
+        Subject::default().must(is_new, || format!("index {i} is free, but also in use, or free twice"))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,123 @@
+//! Each kind of damage is found, and named.
+
+use crate::particle::sleep::Sleep;
+use crate::{
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Exchange, FluidBlockSpec, Inputs, Placement,
+    PlateletSpec, World, WorldConfig, glam::Vec2,
+};
+
+/// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
+fn room() -> World {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+    world.spawn(&PlateletSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+    world.spawn(&AgarSpec::default().into(), Placement::at(100.0, 45.0)).unwrap();
+    world.add_chemical(ChemicalSpec { initial: 1.0, ..ChemicalSpec::default() }).unwrap();
+    world.spawn(&FluidBlockSpec::default().into(), Placement::at(130.0, 45.0)).unwrap();
+    (0..3).for_each(|_| world.step(&Inputs::new()));
+    world
+}
+
+#[test]
+fn a_sound_world_is_sound() {
+    assert_eq!(room().validate(), Ok(()));
+    assert_eq!(World::new(WorldConfig::default()).unwrap().validate(), Ok(()));
+}
+
+/// Damages a sound world and expects these words in what validation says.
+fn finds(damage: impl Fn(&mut World), words: &str) {
+    let mut world = room();
+    damage(&mut world);
+    let violation = world.validate().expect_err(words).to_string();
+    assert!(violation.contains(words), "`{violation}` instead of `{words}`");
+}
+
+#[test]
+fn damage_to_the_store_is_found() {
+    finds(|w| w.config.dt = f32::NAN, "`dt` is NaN");
+    finds(|w| w.particles.x.truncate(3), "column");
+    finds(|w| w.particles.x[0] = f32::NAN, "amoeboid_cell 0 (generation 0): particle 0: x is NaN");
+    finds(|w| w.particles.vy[3] = f32::INFINITY, "velocity y is inf");
+    finds(|w| w.particles.prev_x[3] = 1e9, "previous x");
+    finds(|w| w.particles.origin_x[3] += 0.5, "origin x is 40.5, must be whole");
+    finds(|w| w.particles.radius[2] = -1.0, "radius is -1");
+    finds(|w| w.particles.inv_mass[2] = f32::NAN, "inverse mass");
+    finds(|w| w.particles.role[2] = 200, "role 200");
+    finds(|w| w.particles.fluid[2] = 9, "fluid 9");
+    finds(|w| w.particles.x[2] -= 80.0, "outside the room");
+    finds(|w| w.particles.owner[2] = 77, "its owner is 77");
+    finds(|w| _ = w.particles.extend(1), "neither in use nor free");
+    finds(|w| w.blocks[0].owner[1] = 1, "lane 1 of block 0");
+    finds(|w| w.blocks[0].template = 9, "template 9");
+    finds(|w| w.blocks[0].base = 1 << 20, "block 0 lies");
+    finds(|w| w.blocks[0].scale[0] = 0.0, "scale of lane 0");
+    finds(|w| w.sleep = Sleep::default(), "2 blocks, but sleep counters of 0");
+    finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
+    finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
+    finds(|w| w.obstacle_digests.push(7), "digests");
+}
+
+#[test]
+fn damage_to_chemicals_is_found() {
+    finds(|w| w.chemicals[0].add(Vec2::ZERO, f32::NAN), "chemical 0: the concentration in cell 0 is NaN");
+    finds(|w| w.chemicals[0].add(Vec2::ZERO, -50.0), "chemical 0: the concentration in cell 0 is -");
+    let narrow = WorldConfig { size: Vec2::splat(40.0), ..WorldConfig::default() };
+    finds(
+        |w| w.chemicals[0] = Chemical::new(ChemicalSpec::default(), &narrow).unwrap(),
+        "chemical 0: 400 concentrations do not fill",
+    );
+    finds(
+        |w| {
+            let id = w.organisms().next().unwrap();
+            let unknown = Exchange { chemical: ChemicalId(7), secretion: 1.0, uptake: 0.0 };
+            w.organisms.get_mut(id).unwrap().exchanges.push(unknown);
+        },
+        "`exchanges.chemical`",
+    );
+}
+
+#[test]
+fn damage_to_organisms_is_found() {
+    let cell = |w: &World| w.organisms().next().unwrap();
+    let organism = |w: &mut World, change: &dyn Fn(&mut crate::organism::Organism)| {
+        let id = cell(w);
+        change(w.organisms.get_mut(id).unwrap());
+    };
+    finds(|w| organism(w, &|o| o.outline.swap(0, 1)), "follows it in its ring");
+    finds(|w| organism(w, &|o| _ = o.outline.pop()), "nodes, of which its rings have");
+    finds(|w| organism(w, &|o| o.fluid = Some(7)), "fluid");
+    finds(|w| organism(w, &|o| o.speed = f32::NAN), "speed is NaN");
+    finds(|w| organism(w, &|o| o.goal = Some(Vec2::NAN)), "goal");
+    finds(|w| organism(w, &|o| o.is_quarantined = true), "not frozen");
+    finds(|w| organism(w, &|o| o.divider.as_mut().unwrap().lobes = 9.0), "lobes is 9");
+    finds(|w| w.particles.next_in_ring[0] = 5, "linked to another");
+    finds(|w| w.exemptions.set(0, 9, true), "0 and 9 are exempt");
+    finds(|w| w.exemptions.open_gate(&[1], 2), "gates open for");
+}
+
+#[test]
+fn tangled_and_leaking_membranes_are_found() {
+    let move_node = |w: &mut World, k: usize, by: f32| {
+        let id = w.organisms().next().unwrap();
+        let node = w.organisms.get(id).unwrap().outline[k] as usize;
+        w.particles.x[node] += by;
+    };
+    // Node 0 is at the right end: far to the left it crosses the other side.
+    finds(|w| move_node(w, 0, -30.0), "crosses itself");
+    finds(
+        |w| {
+            let id = w.organisms().next().unwrap();
+            let drop_of = w.organisms.get(id).unwrap().fluid_particles[5] as usize;
+            w.particles.x[drop_of] += 12.0;
+        },
+        "has leaked out of its membrane",
+    );
+}
+
+#[test]
+fn a_violation_names_organism_and_particle() {
+    let mut world = room();
+    world.particles.vx[4] = f32::NAN;
+    let violation = world.validate().unwrap_err();
+    assert_eq!((violation.organism(), violation.particle()), (world.organisms().next(), Some(4)));
+}
