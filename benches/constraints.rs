@@ -20,15 +20,15 @@ type Link = fn(&mut TemplateBuilder, u32, u32);
 const LINKS: [(&str, Link); 3] = [
     ("distance", |builder, a, b| {
         let (rest_length, compliance, damping) = (1.0, 1e-6, 0.01);
-        builder.distance(Distance { a, b, rest_length, compliance, damping });
+        builder.constraint(Distance { a, b, rest_length, compliance, damping });
     }),
     ("rope", |builder, a, b| {
         let max_length = 1.0;
-        builder.rope(Rope { a, b, max_length });
+        builder.constraint(Rope { a, b, max_length });
     }),
     ("min_distance", |builder, a, b| {
         let min_length = 1.05;
-        builder.min_distance(MinDistance { a, b, min_length });
+        builder.constraint(MinDistance { a, b, min_length });
     }),
 ];
 
@@ -68,7 +68,7 @@ fn blown_up() -> Template {
     let upper = (1..=last).rev().map(|column| first * SIDE + column);
     let ring = left.chain(lower).chain(right).chain(upper).collect();
     let rest_area = 0.9 * ((SIDE - 1) * (SIDE - 2)) as f32;
-    builder.area(Area { ring, rest_area, compliance: 1e-6, is_upper_bound: false });
+    builder.constraint(Area { ring, rest_area, compliance: 1e-6, is_upper_bound: false });
     builder.build().expect("the ring is valid")
 }
 

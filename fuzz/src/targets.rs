@@ -32,7 +32,7 @@ pub(crate) fn snapshot(bytes: &[u8]) {
     let Some((&kind, rest)) = bytes.split_first() else { return };
     match kind % 4 {
         0 => world(World::from_snapshot(rest).ok()),
-        1 => world(World::from_snapshot(&sealed(*b"MSIMWRLD", rest)).ok()),
+        1 => world(World::from_snapshot(&sealed(WORLD, rest)).ok()),
         2 => run(Checkpoint::from_bytes(rest).ok()),
         _ => run(Checkpoint::from_bytes(&sealed(*b"MSIMRUN\0", rest)).ok()),
     }
@@ -83,7 +83,8 @@ fn run(accepted: Option<Checkpoint>) {
 /// Content as it lies in a file (docs/determinism.md).
 pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
     let mut bytes = magic.to_vec();
-    bytes.extend(SNAPSHOT_VERSION.to_le_bytes());
+    let version: u32 = if magic == WORLD { WORLD_VERSION } else { RUN_VERSION };
+    bytes.extend(version.to_le_bytes());
     bytes.extend((content.len() as u64).to_le_bytes());
     bytes.extend(content);
     let sum = fnv1a(&bytes);
@@ -91,8 +92,11 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Of snapshots and checkpoints.
-const SNAPSHOT_VERSION: u32 = 3;
+/// How a snapshot of a world begins.
+const WORLD: [u8; 8] = *b"MSIMWRLD";
+const WORLD_VERSION: u32 = 4;
+/// Of checkpoints.
+const RUN_VERSION: u32 = 3;
 
 /// The scenario of replays that are made up.
 pub(crate) const ROOM: &str = r#"

@@ -84,7 +84,7 @@ fn jelly() -> Result<Template, Error> {
     let ring = outline();
     let width = PITCH * (SIDE - 1) as f32;
     let rest_area = width * width;
-    builder.area(Area { ring: ring.clone(), rest_area, compliance: 0.0, is_upper_bound: false });
+    builder.constraint(Area { ring: ring.clone(), rest_area, compliance: 0.0, is_upper_bound: false });
     builder.outline(&ring);
     builder.build()
 }

@@ -183,20 +183,25 @@ fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
     let margins = scratch.broad_phase.margins.blocks_mut();
     let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
-    block::predict_and_project(
-        awake,
-        #[inline(always)]
-        |block, margins| {
-            if has_moved {
-                block::subtract_displacement(block, margins);
-            }
-            integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
-        },
-        |template| templates[template as usize].constraints(),
-        particles,
-        h,
-        *dispatch,
-    );
+    let mut awake: Vec<_> = awake.collect();
+    parallel::for_each(block::batches(&mut awake, particles), |mut batch| {
+        let constraints = templates[batch.template()].constraints();
+        dispatch.run(
+            #[inline(always)]
+            || {
+                batch.for_each_block(
+                    #[inline(always)]
+                    |block, margins| {
+                        if has_moved {
+                            block::subtract_displacement(block, margins);
+                        }
+                        integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
+                    },
+                );
+                batch.project(constraints, h);
+            },
+        );
+    });
     for (membrane, ring) in membranes(organisms) {
         membrane.project(ring, particles, h);
     }

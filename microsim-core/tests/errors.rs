@@ -102,16 +102,16 @@ const CASES: &[Case] = &[
     ("Controller::validate", "Unsupported", "otherwise", |_| nested().validate().unwrap_err()),
     ("FluidParams::validate", "OutOfRange", "spacing", |_| FluidParams { spacing: 0.0, ..FluidParams::default() }.validate().unwrap_err()),
     ("TemplateBuilder::build", "OutOfRange", "nodes[2].radius", |_| build(|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -1.0)))),
-    ("TemplateBuilder::build", "OutOfRange", "distances[0].damping", |_| build(|b| _ = b.distance(Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: f32::NAN }))),
-    ("TemplateBuilder::build", "OutOfRange", "areas[0].rest_area", |_| build(|b| {
+    ("TemplateBuilder::build", "OutOfRange", "constraints[0].damping", |_| build(|b| _ = b.constraint(Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: f32::NAN }))),
+    ("TemplateBuilder::build", "OutOfRange", "constraints[0].rest_area", |_| build(|b| {
         b.node(Node::disc(Vec2::Y, 1.0, 0.5));
-        b.area(Area { ring: vec![0, 1, 2], rest_area: 0.0, compliance: 0.0, is_upper_bound: false });
+        b.constraint(Area { ring: vec![0, 1, 2], rest_area: 0.0, compliance: 0.0, is_upper_bound: false });
     })),
     ("TemplateBuilder::build", "BadReference", "nodes", |_| Template::builder().build().unwrap_err()),
-    ("TemplateBuilder::build", "BadReference", "distances[0].a", |_| build(|b| _ = b.link(0, 9, 0.0))),
-    ("TemplateBuilder::build", "BadReference", "ropes[0].a", |_| build(|b| _ = b.rope(Rope { a: 1, b: 1, max_length: 1.0 }))),
-    ("TemplateBuilder::build", "BadReference", "min_distances[0].a", |_| build(|b| _ = b.min_distance(MinDistance { a: 0, b: 2, min_length: 1.0 }))),
-    ("TemplateBuilder::build", "BadReference", "anchors[0].node", |_| build(|b| _ = b.anchor(Anchor { node: 5, anchor: 0, rest_length: 0.0, max_length: 1.0, compliance: 0.0 }))),
+    ("TemplateBuilder::build", "BadReference", "constraints[0].a", |_| build(|b| _ = b.link(0, 9, 0.0))),
+    ("TemplateBuilder::build", "BadReference", "constraints[0].a", |_| build(|b| _ = b.constraint(Rope { a: 1, b: 1, max_length: 1.0 }))),
+    ("TemplateBuilder::build", "BadReference", "constraints[0].a", |_| build(|b| _ = b.constraint(MinDistance { a: 0, b: 2, min_length: 1.0 }))),
+    ("TemplateBuilder::build", "BadReference", "constraints[0].node", |_| build(|b| _ = b.constraint(Anchor { node: 5, anchor: 0, rest_length: 0.0, max_length: 1.0, compliance: 0.0 }))),
     ("TemplateBuilder::build", "BadReference", "outline", |_| build(|b| _ = b.outline(&[0, 1]))),
     ("OrganismSpec::validate", "OutOfRange", "radius", |_| spec_error(AgarSpec { radius: 0.0, ..AgarSpec::default() })),
     ("OrganismSpec::validate", "OutOfRange", "density", |_| spec_error(CoccusSpec { density: -1.0, ..CoccusSpec::default() })),

@@ -35,8 +35,7 @@ fn play(text: &str, seed: u64, policy: Policy) -> Result<(), String> {
     }
     let step_ms = start.elapsed().as_secs_f64() * 1000.0 / round.world().step_index() as f64;
     let area = round.world().view().organism(round.player()).map_or(0.0, |cell| cell.cytoplasm_area());
-    let kinds =
-        round.referee().tallies().iter().map(|(kind, t)| format!("{} x {} = {}", t.count, kind.name(), t.points));
+    let kinds = round.referee().kinds().iter().map(|(kind, t)| format!("{} x {} = {}", t.count, kind.name(), t.points));
     let kinds = kinds.collect::<Vec<_>>().join(", ");
     let score = round.referee().score();
     println!("{seed:4} {:13} {score:5} {area:5.0} {step_ms:7.2}   {kinds}; {curve:?}", format!("{policy:?}"));

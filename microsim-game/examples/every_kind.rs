@@ -8,18 +8,18 @@ use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Error, FluidBlockSpec, Node, Obstacle, OrganismSpec, Placement, PlateletSpec,
     ProbeSpec, RigidCellSpec, Template, World, WorldConfig,
 };
-use microsim_game::app::Plan;
+use microsim_game::app::RunOptions;
 use microsim_game::stage::Stage;
 
 fn main() -> Result<(), String> {
     let world = world().map_err(|error| error.to_string())?;
-    let plan = Plan {
+    let options = RunOptions {
         screenshot: std::env::args().nth(1).map(Into::into),
         frames: std::env::args().nth(1).map(|_| 30),
         size: (1280, 720),
-        ..Plan::default()
+        ..RunOptions::default()
     };
-    microsim_game::show(Stage::new("every kind".to_owned(), world, None), plan)
+    microsim_game::show(Stage::new("every kind".to_owned(), world, None), options)
 }
 
 fn world() -> Result<World, Error> {

@@ -1,13 +1,12 @@
 //! The program: a loop of input, screens and a drawn frame.
 
-use crate::args::Scene;
 use crate::input::device::Device;
-use crate::input::script::Script;
+use crate::input::script::InputScript;
 use crate::input::{Action, Input};
-use crate::screen::play::Play;
-use crate::screen::sandbox::Sandbox;
-use crate::screen::title::Title;
-use crate::screen::{Asked, Change, Context, Screen};
+use crate::scene_source::SceneSource;
+use crate::screen::context::{AppContext, Asked};
+use crate::screen::stack::Stack;
+use crate::screen::{MainScreen, Next};
 use crate::shot::Shot;
 use crate::stage::Stage;
 use crate::timings::Timings;
@@ -23,35 +22,24 @@ const EXACT_FRAME: f32 = 1.0 / 60.0;
 /// Shortest frame, s: where nothing waits for the screen, the loop would run hot.
 const SHORTEST_FRAME: f32 = 1.0 / 250.0;
 
-/// What is shown first.
-#[derive(Debug)]
-pub enum Opening {
-    /// The title.
-    Title,
-    /// A scene to meddle with.
-    Sandbox(Box<Stage>),
-    /// The game.
-    Play,
-}
-
-/// What to do besides.
+/// How the program runs.
 #[derive(Clone, Debug, Default)]
-pub struct Plan {
+pub struct RunOptions {
     /// Input to play back instead of reading mouse and keyboard.
-    pub script: Option<Script>,
+    pub script: Option<InputScript>,
     /// Frames after which to exit.
     pub frames: Option<u32>,
     /// Picture of the last frame.
     pub screenshot: Option<PathBuf>,
     /// Size of that picture, pixels.
     pub size: (u32, u32),
-    /// What pictures shall be like, in place of what the settings say.
+    /// How pictures are made, in place of what the settings say.
     pub asked: Asked,
     /// Whether to say how long everything took.
     pub timings: bool,
 }
 
-impl Plan {
+impl RunOptions {
     /// Whether every frame must come out the same on every machine, and is exactly one step.
     #[must_use]
     pub fn is_exact(&self) -> bool {
@@ -62,10 +50,10 @@ impl Plan {
 /// The running program.
 #[derive(Debug)]
 pub struct App {
-    screens: Vec<Box<dyn Screen>>,
-    context: Context,
+    screens: Stack,
+    context: AppContext,
     device: Device,
-    plan: Plan,
+    options: RunOptions,
     shot: Shot,
     frame: u32,
     is_full: bool,
@@ -77,23 +65,16 @@ pub struct App {
 impl App {
     /// The program. Needs an open window.
     #[must_use]
-    pub fn new(opening: Opening, mut context: Context, plan: Plan) -> Self {
-        context.pen.fit(view_size(&plan), context.settings.text_factor());
-        context.pace.is_exact = plan.is_exact();
-        context.asked = plan.asked;
-        let first: Box<dyn Screen> = match opening {
-            Opening::Sandbox(stage) => Box::new(Sandbox::new(*stage, &context)),
-            Opening::Title => Box::new(Title::new(&context)),
-            Opening::Play => match Play::start(&mut context) {
-                Change::Reset(play) => play,
-                _ => Box::new(Title::new(&context)),
-            },
-        };
+    pub fn new(first: MainScreen, mut context: AppContext, options: RunOptions) -> Self {
+        context.pen.fit(view_size(&options), context.settings.text_factor());
+        context.pace.is_exact = options.is_exact();
+        context.asked = options.asked;
+        let screens = Stack::new(first, &mut context);
         Self {
-            screens: vec![first],
+            screens,
             context,
             device: Device::new(),
-            plan,
+            options,
             shot: Shot::default(),
             frame: 0,
             is_full: false,
@@ -102,7 +83,7 @@ impl App {
         }
     }
 
-    /// Runs until the player leaves or the plan is done.
+    /// Runs until the player leaves or all frames have been shown.
     ///
     /// # Errors
     /// When a planned picture cannot be written.
@@ -116,7 +97,7 @@ impl App {
             let updated = Instant::now();
             self.updating = (updated - began).as_secs_f32();
             self.frame += 1;
-            let is_last = self.plan.frames.is_some_and(|frames| self.frame >= frames);
+            let is_last = self.options.frames.is_some_and(|frames| self.frame >= frames);
             self.show(is_last)?;
             let drawn = Instant::now();
             if is_last {
@@ -127,14 +108,14 @@ impl App {
             self.timings.add([updated - began, drawn - updated - submitting, drawn.elapsed() + submitting]);
             self.rest();
         }
-        if self.plan.timings {
+        if self.options.timings {
             eprintln!("{}", self.timings);
         }
         Ok(())
     }
 
     fn begin_frame(&mut self) -> Input {
-        let is_exact = self.plan.is_exact();
+        let is_exact = self.options.is_exact();
         let elapsed = if is_exact { EXACT_FRAME } else { get_frame_time().max(0.0) };
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
@@ -142,14 +123,16 @@ impl App {
         // Less detail does not help where steps are what takes long.
         let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };
         let news = context.scenery.pass(drawing, context.effort(), context.sight());
-        news.into_iter().for_each(|news| context.tell(news));
-        let screen = view_size(&self.plan);
+        if let Some(news) = news {
+            context.tell(news);
+        }
+        let screen = view_size(&self.options);
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
         }
         // Read in any case: what nobody reads piles up.
         let input = self.device.read(&context.settings.keys);
-        match &mut self.plan.script {
+        match &mut self.options.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
             None => input,
         }
@@ -157,26 +140,22 @@ impl App {
 
     /// Returns whether the program goes on.
     fn update(&mut self, input: &Input) -> bool {
-        if !self.screens.last().is_some_and(|screen| screen.waits_for_key()) {
+        if !self.screens.waits_for_key() {
             self.press(input);
         }
-        let context = &mut self.context;
-        let change = self.screens.last_mut().map_or(Change::Quit, |screen| screen.update(input, context));
-        for change in [change].into_iter().chain(self.open_dropped(input)) {
-            match change {
-                Change::Stay => {}
-                Change::Push(screen) => self.screens.push(screen),
-                Change::Pop => drop(self.screens.pop()),
-                Change::Reset(screen) => self.screens = vec![screen],
-                Change::Quit => return false,
-            }
+        self.screens.update(input, &mut self.context);
+        if self.screens.is_empty() {
+            return false;
+        }
+        if let Some(stage) = self.open_dropped(input) {
+            self.screens.go(Next::Show(MainScreen::Simulation(Box::new(stage))), &mut self.context);
         }
         let context = &mut self.context;
-        if !self.plan.is_exact() && context.settings.full_screen != self.is_full {
+        if !self.options.is_exact() && context.settings.full_screen != self.is_full {
             self.is_full = context.settings.full_screen;
             set_fullscreen(self.is_full);
         }
-        !self.screens.is_empty()
+        true
     }
 
     /// Keys that do the same on every screen.
@@ -192,20 +171,20 @@ impl App {
         }
     }
 
-    /// Of scenario files that are dropped on the window the first is shown, and the others come into the list; where that
-    /// would end a round, all do.
-    fn open_dropped(&mut self, input: &Input) -> Option<Change> {
-        let is_at_stake = self.screens.iter().any(|screen| screen.is_at_stake());
-        let scenes: Vec<Scene> = input.dropped.iter().rev().cloned().map(Scene::File).collect();
-        let opened = scenes.iter().map(|scene| (scene, Sandbox::open(scene, &mut self.context)));
-        let mut opened: Vec<_> = opened.filter(|(_, change)| matches!(change, Change::Reset(_))).collect();
-        let are_good = opened.len() == scenes.len();
-        let shown = opened.pop_if(|_| !is_at_stake).map(|(_, change)| change);
+    /// Opens scenario files that are dropped on the window. The first is shown, unless that would end a round; the others
+    /// come into the list of simulations.
+    fn open_dropped(&mut self, input: &Input) -> Option<Stage> {
+        let sources: Vec<SceneSource> = input.dropped.iter().rev().cloned().map(SceneSource::File).collect();
+        let opened = sources.iter().filter_map(|source| Some((source, self.context.open(source)?)));
+        let mut opened: Vec<_> = opened.collect();
+        let are_good = opened.len() == sources.len();
+        let is_at_stake = self.screens.is_at_stake();
+        let shown = opened.pop_if(|_| !is_at_stake).map(|(_, stage)| stage);
         match opened.as_slice() {
             // What is wrong with one of them, which was said already, matters more.
             _ if !are_good => {}
             [] => {}
-            [(scene, _)] => self.context.tell(format!("{scene} is in the list of simulations now.")),
+            [(source, _)] => self.context.tell(format!("{source} is in the list of simulations now.")),
             more => self.context.tell(format!("{} files are in the list of simulations now.", more.len())),
         }
         shown
@@ -213,20 +192,20 @@ impl App {
 
     /// Draws the frame to the window, and into a file if one is wanted.
     fn show(&mut self, is_last: bool) -> Result<(), String> {
-        if let Some(path) = self.plan.screenshot.clone().filter(|_| is_last) {
-            let taken = self.take(&path, self.plan.size);
+        if let Some(path) = self.options.screenshot.clone().filter(|_| is_last) {
+            let taken = self.take(&path, self.options.size);
             return taken.map_err(|error| format!("cannot write {}: {error}", path.display()));
         }
         if std::mem::take(&mut self.context.wants_picture) {
-            let name = self.screens.last().map_or_else(String::new, |screen| screen.name());
+            let name = self.screens.name();
             let path = free_path(&format!("microsim-{name}"));
-            let size = if self.plan.is_exact() { self.plan.size } else { physical_size() };
+            let size = if self.options.is_exact() { self.options.size } else { physical_size() };
             let taken = self.take(&path, size);
             self.context.tell(match taken {
                 Ok(()) => format!("wrote {}", path.display()),
                 Err(error) => format!("cannot write {}: {error}", path.display()),
             });
-        } else if self.plan.screenshot.is_none() {
+        } else if self.options.screenshot.is_none() {
             // Of a planned picture nobody sees what comes before it.
             self.draw();
         }
@@ -243,20 +222,14 @@ impl App {
     /// Draws the topmost screen over the scene that it belongs to, and the message.
     fn draw(&mut self) {
         clear_background(crate::draw::palette::INK);
-        let first = self.screens.iter().rposition(|screen| !screen.is_overlay()).unwrap_or(0);
-        let top = self.screens.len() - 1;
-        for (k, screen) in self.screens.iter_mut().enumerate().filter(|(k, _)| *k == first || *k == top) {
-            self.context.is_top = k == top;
-            screen.draw(&mut self.context);
-            self.context.pen.flush();
-        }
+        self.screens.draw(&mut self.context);
         self.context.draw_message();
         self.context.pen.flush();
     }
 
     fn rest(&self) {
         let elapsed = self.context.pace.elapsed;
-        if !self.plan.is_exact() && elapsed < SHORTEST_FRAME {
+        if !self.options.is_exact() && elapsed < SHORTEST_FRAME {
             std::thread::sleep(Duration::from_secs_f32(SHORTEST_FRAME - elapsed));
         }
     }
@@ -271,9 +244,9 @@ fn free_path(name: &str) -> PathBuf {
 }
 
 /// Drawing units: those of the window, or the pixels of the planned picture.
-fn view_size(plan: &Plan) -> Vec2 {
-    if plan.is_exact() {
-        Vec2::new(plan.size.0 as f32, plan.size.1 as f32)
+fn view_size(options: &RunOptions) -> Vec2 {
+    if options.is_exact() {
+        Vec2::new(options.size.0 as f32, options.size.1 as f32)
     } else {
         Vec2::new(screen_width(), screen_height())
     }

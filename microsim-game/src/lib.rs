@@ -21,6 +21,7 @@ pub mod hud;
 pub mod input;
 pub mod microscope;
 pub mod rules;
+pub mod scene_source;
 pub mod scenery;
 pub mod screen;
 pub mod shot;
@@ -31,104 +32,146 @@ pub mod ui;
 pub mod viewer;
 mod window;
 
-use app::{App, Opening, Plan};
-use args::{Command, Options, Scene};
-use input::script::Script;
-use screen::{Asked, Context, GameChoice};
+use app::{App, RunOptions};
+use args::Args;
+use clap::Parser;
+use input::script::InputScript;
+use rules::game::GameChoice;
+use scene_source::SceneSource;
+use screen::MainScreen;
+use screen::context::{AppContext, Asked};
 use stage::Stage;
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
-use store::files::Store;
+use store::files::PlayerFolder;
 
 /// Exit code when there is no display, or a file cannot be written.
 const NO_DISPLAY: u8 = 1;
 /// Exit code when what was asked for makes no sense.
 const BAD_REQUEST: u8 = 2;
-/// Size of the window if none is asked for.
-const SIZE: (u32, u32) = (1280, 720);
 /// The scenario of the game.
 const GAME: &str = "game";
 
-/// Runs the program with these arguments (without its name).
-pub fn launch(arguments: impl IntoIterator<Item = String>) -> ExitCode {
-    match args::parse(arguments) {
-        Ok(Command::Say(text)) => {
-            println!("{text}");
-            ExitCode::SUCCESS
+/// Runs the program with these arguments, the first of which is its name.
+pub fn launch(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let args = match Args::try_parse_from(arguments) {
+        Ok(args) => args,
+        Err(answer) => {
+            // Nobody is left to tell when standard output is closed.
+            let _ = answer.print();
+            return if answer.use_stderr() { BAD_REQUEST.into() } else { ExitCode::SUCCESS };
         }
-        Ok(Command::Show(options)) => {
-            let prepared = prepare(options).map_err(|problem| (problem, BAD_REQUEST));
-            let ended = prepared.and_then(|start| start.run().map_err(|problem| (problem, NO_DISPLAY)));
-            ended.map_or_else(|(problem, code)| fail(&problem, code), |()| ExitCode::SUCCESS)
-        }
+    };
+    match Start::prepare(args).map(Start::run) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(problem)) => fail(&problem, NO_DISPLAY),
         Err(problem) => fail(&problem, BAD_REQUEST),
     }
 }
 
-/// Opens a window on a scene and runs it as planned.
+/// Opens a window on a scene and runs it with these options.
 ///
 /// # Errors
-/// When there is no display, or a planned picture cannot be written.
-pub fn show(stage: Stage, plan: Plan) -> Result<(), String> {
-    let game = GameChoice { scene: Scene::Builtin(GAME.to_owned()), overrides: Vec::new(), seed: None };
-    Start { opening: Opening::Sandbox(Box::new(stage)), game, files: Vec::new(), plan }.run()
+/// When there is no display, or the picture cannot be written.
+pub fn show(stage: Stage, options: RunOptions) -> Result<(), String> {
+    let game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
+    Start { first: MainScreen::Simulation(Box::new(stage)), game, files: Vec::new(), options }.run()
 }
 
 /// Everything that is needed to open the window.
 struct Start {
-    opening: Opening,
+    first: MainScreen,
     game: GameChoice,
-    files: Vec<Scene>,
-    plan: Plan,
+    files: Vec<SceneSource>,
+    options: RunOptions,
 }
 
 impl Start {
+    fn prepare(mut args: Args) -> Result<Self, String> {
+        take_seed(&mut args)?;
+        let options = RunOptions {
+            script: args.script.as_deref().map(read_script).transpose()?,
+            frames: args.frames(),
+            screenshot: args.screenshot.take(),
+            size: args.size,
+            asked: Asked { sight: args.sight, effort: args.effort },
+            timings: args.timings,
+        };
+        let Args { scenes, play, overrides, seed, .. } = args;
+        let files = scenes.iter().filter(|scene| matches!(scene, SceneSource::File(_))).cloned().collect();
+        let named = scenes.into_iter().next();
+        let mut game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
+        let first = match named {
+            Some(scene) if !play => {
+                let seed = seed.map(|seed| ("seed".to_owned(), seed.to_string()));
+                let overrides: Vec<_> = overrides.into_iter().chain(seed).collect();
+                MainScreen::Simulation(Box::new(Stage::open(&scene, &overrides)?))
+            }
+            named => {
+                game = GameChoice { source: named.unwrap_or(game.source), overrides, seed };
+                game.round(1)?;
+                if play { MainScreen::Round } else { MainScreen::Title }
+            }
+        };
+        Ok(Self { first, game, files, options })
+    }
+
     fn run(self) -> Result<(), String> {
-        let Self { opening, game, files, plan } = self;
-        let store = if plan.is_exact() { Store::nowhere() } else { Store::of_the_platform() };
-        let title = match &opening {
-            Opening::Sandbox(stage) => format!("microsim - {}", stage.name()),
+        let Self { first, game, files, options } = self;
+        let folder = if options.is_exact() { PlayerFolder::nowhere() } else { PlayerFolder::of_the_platform() };
+        let title = match &first {
+            MainScreen::Simulation(stage) => format!("microsim - {}", stage.name()),
             _ => "microsim".to_owned(),
         };
-        window::open(&title, plan.size, move || App::new(opening, Context::new(store, game, files), plan).run())
+        window::open(&title, options.size, move || App::new(first, AppContext::new(folder, game, files), options).run())
     }
 }
 
-fn prepare(options: Options) -> Result<Start, String> {
-    let script = read_script(&options)?;
-    let Options { scenes, plays, overrides, seed, screenshot, frames, size, timings, sight, effort, .. } = options;
-    let builtin = Scene::Builtin(GAME.to_owned());
-    let named = scenes.first().filter(|_| plays).cloned();
-    let files = scenes.iter().filter(|scene| matches!(scene, Scene::File(_))).cloned().collect();
-    let is_for_game = plays || scenes.is_empty();
-    let game_overrides = if is_for_game { overrides.clone() } else { Vec::new() };
-    let game =
-        GameChoice { scene: named.unwrap_or(builtin), overrides: game_overrides, seed: seed.filter(|_| is_for_game) };
-    let opening = match scenes.first() {
-        _ if plays => Opening::Play,
-        Some(scene) => {
-            let seed = seed.map(|seed| ("seed".to_owned(), seed.to_string()));
-            let overrides: Vec<_> = overrides.into_iter().chain(seed).collect();
-            Opening::Sandbox(Box::new(Stage::open(scene, &overrides)?))
-        }
-        None => Opening::Title,
-    };
-    if is_for_game {
-        game.check()?;
+/// `--set seed=N` is `--seed N`.
+fn take_seed(args: &mut Args) -> Result<(), String> {
+    let is_seed = |(key, _): &mut (String, String)| key == "seed";
+    if let Some((_, value)) = args.overrides.extract_if(.., is_seed).last() {
+        args.seed = Some(value.parse().map_err(|_| format!("--set seed={value}: not a whole number from 0 on"))?);
     }
-    let asked = Asked { sight, effort };
-    let plan = Plan { script, frames, screenshot, size: size.unwrap_or(SIZE), asked, timings };
-    Ok(Start { opening, game, files, plan })
+    Ok(())
 }
 
-fn read_script(options: &Options) -> Result<Option<Script>, String> {
-    let Some(path) = &options.script else {
-        return Ok(None);
-    };
+fn read_script(path: &Path) -> Result<InputScript, String> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    Script::parse(&text).map(Some).map_err(|problem| format!("{}: {problem}", path.display()))
+    InputScript::parse(&text).map_err(|problem| format!("{}: {problem}", path.display()))
 }
 
 fn fail(problem: &str, code: u8) -> ExitCode {
     eprintln!("microsim-game: {problem}");
     ExitCode::from(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn args(line: &str) -> Args {
+        Args::parse_from(["microsim-game"].into_iter().chain(line.split_whitespace()))
+    }
+
+    #[test]
+    fn the_seed_can_be_set_like_any_other_value() {
+        let mut set = args("--set seed=4 --set a=1 --set seed=5");
+        take_seed(&mut set).unwrap();
+        assert_eq!(set, args("--seed 5 --set a=1"));
+        assert!(take_seed(&mut args("--set seed=x")).is_err());
+    }
+
+    #[test]
+    fn what_was_named_is_what_is_shown_first() {
+        let start = |line: &str| Start::prepare(args(line)).map(|start| (start.first, start.game));
+        assert!(matches!(start("").unwrap(), (MainScreen::Title, _)));
+        assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));
+        let (first, game) = start("--play --seed 3 --set game.time=10").unwrap();
+        assert!(matches!(first, MainScreen::Round) && game.seed == Some(3) && game.time() == Some(10.0));
+        for line in ["nonsense", "--play empty", "demo --set a=1", "--script /nonexistent"] {
+            assert!(start(line).is_err(), "{line}");
+        }
+    }
 }

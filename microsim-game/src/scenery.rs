@@ -1,6 +1,6 @@
 //! How a world is seen: through the microscope, on the graphics card, or drawn, where that is too slow.
 
-use crate::draw::{Frame, Painter};
+use crate::draw::{Painter, SceneFrame};
 use crate::microscope::{RenderQuality, Renderer};
 use crate::viewer::Pace;
 use macroquad::window::screen_dpi_scale;
@@ -149,7 +149,7 @@ impl Scenery {
         let is_lower = std::mem::replace(&mut self.step, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", QUALITY_STEPS[lower].0))
+            .then(|| format!("Pictures are slow. RenderQuality is {} now; see the settings.", QUALITY_STEPS[lower].0))
     }
 
     /// Puts automatic effort back to the best quality.
@@ -163,7 +163,7 @@ impl Scenery {
     }
 
     /// Draws a frame.
-    pub fn paint(&mut self, frame: &Frame<'_>, sight: Sight, effort: Effort) {
+    pub fn paint(&mut self, frame: &SceneFrame<'_>, sight: Sight, effort: Effort) {
         let quality = match effort {
             Effort::Automatic => QUALITY_STEPS[self.step].1,
             Effort::High => Some(RenderQuality::High),
@@ -179,7 +179,7 @@ impl Scenery {
         }
     }
 
-    fn photograph(&mut self, frame: &Frame<'_>, optics: Optics, quality: RenderQuality) -> bool {
+    fn photograph(&mut self, frame: &SceneFrame<'_>, optics: Optics, quality: RenderQuality) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
         let screen = frame.camera.screen();
         let pixels = (screen * screen_dpi_scale()).max(Vec2::ONE);

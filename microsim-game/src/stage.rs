@@ -1,6 +1,6 @@
 //! The scene that is running: a scenario's world, and who is followed in it.
 
-use crate::args::Scene;
+use crate::scene_source::SceneSource;
 use microsim_core::scenario::{Scenario, Script};
 use microsim_core::{Census, Intent, Kind, OrganismId, World};
 
@@ -18,7 +18,7 @@ pub struct Stage {
     /// What the player tells its cell.
     orders: Option<Intent>,
     census: Census,
-    /// To begin anew; not there for a world that was made in code.
+    /// To start over; `None` for a world that was made in code.
     scenario: Option<Scenario>,
 }
 
@@ -27,19 +27,19 @@ impl Stage {
     ///
     /// # Errors
     /// Says what is wrong with it, for the user to read.
-    pub fn open(scene: &Scene, overrides: &[(String, String)]) -> Result<Self, String> {
-        let text = scene.text()?;
+    pub fn open(source: &SceneSource, overrides: &[(String, String)]) -> Result<Self, String> {
+        let text = source.text()?;
         let opened = Scenario::parse(&text, overrides).map_err(|diagnostics| diagnostics.to_string());
-        opened.and_then(Self::of).map_err(|problem| match scene {
-            Scene::Builtin(_) => problem,
-            Scene::File(path) => format!("{}:\n{problem}", path.display()),
+        opened.and_then(Self::of).map_err(|problem| match source {
+            SceneSource::Builtin(_) => problem,
+            SceneSource::File(path) => format!("{}:\n{problem}", path.display()),
         })
     }
 
     /// Sets up a built-in scenario.
     #[must_use]
     pub fn builtin(name: &str) -> Option<Self> {
-        Self::open(&Scene::Builtin(name.to_owned()), &[]).ok()
+        Self::open(&SceneSource::Builtin(name.to_owned()), &[]).ok()
     }
 
     fn of(scenario: Scenario) -> Result<Self, String> {
@@ -111,7 +111,9 @@ impl Stage {
     /// One step.
     pub fn step(&mut self) {
         let mut inputs = self.script.before_step(&mut self.world).clone();
-        self.player.zip(self.orders).into_iter().for_each(|(player, intent)| inputs.set(player, intent));
+        if let Some((player, intent)) = self.player.zip(self.orders) {
+            inputs.set(player, intent);
+        }
         self.world.step(&inputs);
         if self.world.step_index().is_multiple_of(CENSUS_INTERVAL) {
             self.census = self.world.census();
@@ -171,7 +173,7 @@ mod tests {
         for found in microsim_core::scenario::builtins() {
             assert!(Stage::builtin(found.name).is_some_and(|stage| stage.again().is_ok()), "{}", found.name);
         }
-        let problem = Stage::open(&Scene::Builtin("nonsense".to_owned()), &[]).unwrap_err();
+        let problem = Stage::open(&SceneSource::Builtin("nonsense".to_owned()), &[]).unwrap_err();
         assert!(problem.contains("demo"), "{problem}");
     }
 }

@@ -1,7 +1,7 @@
 //! The strip below the room: a scale bar and the time, in letters made of lines so that no font is needed.
 
-use super::palette::INK;
-use super::shape::{Colour, Item, Path, Stroke};
+use microsim_core::drawing::palette::INK;
+use microsim_core::drawing::shape::{Colour, Item, Part, Shape, Stroke};
 use microsim_core::glam::Vec2;
 
 /// Height of a digit as a share of the strip.
@@ -15,35 +15,35 @@ const GAP: f32 = 1.8;
 pub(crate) fn draw(size: Vec2, margin: f32, time: f64) -> Vec<Item> {
     let scale = margin * LETTER / GRID;
     let base = -margin * 0.5 - scale * GRID * 0.5;
-    let pen = Stroke::new(INK, scale * 0.8);
+    let pen = Stroke { colour: INK, width: scale * 0.8 };
     let length = bar_length(size.x);
     let middle = -margin * 0.5;
     let tick = Vec2::new(0.0, scale * 1.6);
     let (from, to) = (Vec2::new(0.0, middle), Vec2::new(length, middle));
-    let mut bar = Path::default();
-    bar.add_line(&[from, to]);
-    bar.add_line(&[from - tick, from + tick]);
-    bar.add_line(&[to - tick, to + tick]);
+    let bar = vec![vec![from, to], vec![from - tick, from + tick], vec![to - tick, to + tick]];
     let label = format!("{length} µm");
     let clock = format!("{time:.2} s");
     let right = size.x - width(&clock) * scale;
     vec![
-        Item::stroked(bar, pen),
-        Item::stroked(text(&label, Vec2::new(length + scale * 6.0, base), scale), pen),
-        Item::stroked(text(&clock, Vec2::new(right, base), scale), pen),
+        lines(bar, pen),
+        lines(text(&label, Vec2::new(length + scale * 6.0, base), scale), pen),
+        lines(text(&clock, Vec2::new(right, base), scale), pen),
     ]
 }
 
 /// A scale bar in the lower left corner of a picture of this size, everything in pixels but the length that it says.
 pub(crate) fn scale_bar(length: f32, pixels: f32, height: f32, margin: f32, colour: Colour) -> Vec<Item> {
     let scale = height / GRID;
-    let mut bar = Path::default();
-    bar.add_line(&[Vec2::splat(margin), Vec2::new(margin + pixels, margin)]);
+    let bar = vec![vec![Vec2::splat(margin), Vec2::new(margin + pixels, margin)]];
     let at = Vec2::new(margin, margin + 2.2 * scale);
     vec![
-        Item::stroked(bar, Stroke::new(colour, scale * 1.6)),
-        Item::stroked(text(&format!("{length} µm"), at, scale), Stroke::new(colour, scale)),
+        lines(bar, Stroke { colour, width: scale * 1.6 }),
+        lines(text(&format!("{length} µm"), at, scale), Stroke { colour, width: scale }),
     ]
+}
+
+fn lines(lines: Vec<Vec<Vec2>>, stroke: Stroke) -> Item {
+    Item::stroked(Part::Caption, Shape::Lines(lines), stroke)
 }
 
 /// The largest of 1, 2, 5, 10, ... that is at most a fifth of the width.
@@ -52,17 +52,16 @@ pub(crate) fn bar_length(width: f32) -> f32 {
     steps.filter(|length| *length <= width * 0.2).fold(0.1, f32::max)
 }
 
-fn text(letters: &str, mut at: Vec2, scale: f32) -> Path {
-    let mut path = Path::default();
+fn text(letters: &str, mut at: Vec2, scale: f32) -> Vec<Vec<Vec2>> {
+    let mut drawn = Vec::new();
     for letter in letters.chars() {
         let (advance, lines) = glyph(letter);
         for line in lines {
-            let points: Vec<Vec2> = line.iter().map(|&[x, y]| at + Vec2::new(x, y) * scale).collect();
-            path.add_line(&points);
+            drawn.push(line.iter().map(|&[x, y]| at + Vec2::new(x, y) * scale).collect());
         }
         at.x += (advance + GAP) * scale;
     }
-    path
+    drawn
 }
 
 fn width(letters: &str) -> f32 {

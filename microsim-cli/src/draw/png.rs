@@ -1,8 +1,8 @@
 //! Painting on the processor, and PNG files.
 
-use super::shape::{Colour, Item, Paint, Path, Segment, Stroke};
-use super::{Drawing, Frame};
+use super::{Page, Viewport};
 use crate::failure::Failure;
+use microsim_core::drawing::shape::{Colour, Item, Paint, Segment, Shape, Stroke};
 use microsim_core::glam::Vec2;
 use tiny_skia::{
     Color, FillRule, GradientStop, LineCap, LineJoin, PathBuilder, Pixmap, Point, RadialGradient, Shader, SpreadMode,
@@ -18,22 +18,22 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
-    /// Paints a drawing so that its longer side has `longest` pixels.
-    pub(crate) fn of(drawing: &Drawing, longest: u32) -> Self {
-        let frame = drawing.frame(longest);
-        // Only a side of zero has no pixels, and a frame has none such.
-        let Some(mut pixmap) = Pixmap::new(frame.width, frame.height) else {
+    /// Paints a page so that its longer side has `longest` pixels.
+    pub(crate) fn of(page: &Page, longest: u32) -> Self {
+        let viewport = page.viewport(longest);
+        // Only a side of zero has no pixels, and a viewport has none.
+        let Some(mut pixmap) = Pixmap::new(viewport.width, viewport.height) else {
             return Self::default();
         };
-        pixmap.fill(color(drawing.background));
-        for item in &drawing.items {
-            paint(&mut pixmap, item, &frame);
+        pixmap.fill(color(page.background));
+        for item in &page.items {
+            paint(&mut pixmap, item, &viewport);
         }
         // The background is opaque, so that premultiplied bytes are the plain ones.
         let pixels = pixmap.pixels().iter();
         Self {
-            width: frame.width as usize,
-            height: frame.height as usize,
+            width: viewport.width as usize,
+            height: viewport.height as usize,
             bytes: pixels.flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect(),
         }
     }
@@ -65,16 +65,16 @@ impl Picture {
         &self.bytes
     }
 
-    /// The same with items painted over it, whose unit is the pixel, y upwards from the lower left corner.
-    pub(crate) fn painted_over(mut self, items: &[Item]) -> Self {
+    /// The same with items painted over it, `scale` pixels to a unit; its lower left corner lies at `low`.
+    pub(crate) fn painted_over(mut self, items: &[Item], low: Vec2, scale: f32) -> Self {
         let (width, height) = (self.width as u32, self.height as u32);
         let Some(mut pixmap) = Pixmap::new(width, height) else {
             return self;
         };
-        let high = Vec2::new(width as f32, height as f32);
-        let frame = Frame { low: Vec2::ZERO, high, scale: 1.0, width, height };
+        let high = low + Vec2::new(width as f32, height as f32) / scale;
+        let viewport = Viewport { low, high, scale, width, height };
         for item in items {
-            paint(&mut pixmap, item, &frame);
+            paint(&mut pixmap, item, &viewport);
         }
         for (pixel, below) in pixmap.pixels().iter().zip(self.bytes.chunks_exact_mut(3)) {
             let kept = 255 - u32::from(pixel.alpha());
@@ -146,17 +146,17 @@ fn columns(tile: &Picture, count: usize) -> usize {
     wanted.min(count)
 }
 
-fn paint(pixmap: &mut Pixmap, item: &Item, frame: &Frame) {
-    let Some(path) = path(&item.path, frame) else {
+fn paint(pixmap: &mut Pixmap, item: &Item, viewport: &Viewport) {
+    let Some(path) = path(&item.shape, viewport) else {
         return;
     };
     let identity = Transform::identity();
-    if let Some(shader) = item.fill.and_then(|fill| shader(fill, frame)) {
+    if let Some(shader) = item.fill.and_then(|fill| shader(fill, viewport)) {
         pixmap.fill_path(&path, &paint_with(shader), FillRule::Winding, identity, None);
     }
     if let Some(Stroke { colour, width }) = item.stroke {
         let stroke = tiny_skia::Stroke {
-            width: width * frame.scale,
+            width: width * viewport.scale,
             line_cap: LineCap::Round,
             line_join: LineJoin::Round,
             ..tiny_skia::Stroke::default()
@@ -170,39 +170,39 @@ fn paint_with(shader: Shader<'_>) -> tiny_skia::Paint<'_> {
     tiny_skia::Paint { shader, anti_alias: true, ..tiny_skia::Paint::default() }
 }
 
-fn shader(paint: Paint, frame: &Frame) -> Option<Shader<'static>> {
+fn shader(paint: Paint, viewport: &Viewport) -> Option<Shader<'static>> {
     match paint {
         Paint::Flat(colour) => Some(Shader::SolidColor(color(colour))),
         Paint::Radial { centre, radius, inner, outer } => {
-            let at = frame.place(centre);
+            let at = viewport.place(centre);
             let at = Point::from_xy(at.x, at.y);
             let stops = vec![GradientStop::new(0.0, color(inner)), GradientStop::new(1.0, color(outer))];
-            let radius = radius * frame.scale;
+            let radius = radius * viewport.scale;
             let identity = Transform::identity();
             RadialGradient::new(at, 0.0, at, radius, stops, SpreadMode::Pad, identity)
         }
     }
 }
 
-fn path(path: &Path, frame: &Frame) -> Option<tiny_skia::Path> {
+fn path(shape: &Shape, viewport: &Viewport) -> Option<tiny_skia::Path> {
     let mut builder = PathBuilder::new();
-    for segment in &path.segments {
-        match *segment {
+    for segment in shape.segments() {
+        match segment {
             Segment::Move(p) => {
-                let p = frame.place(p);
+                let p = viewport.place(p);
                 builder.move_to(p.x, p.y);
             }
             Segment::Line(p) => {
-                let p = frame.place(p);
+                let p = viewport.place(p);
                 builder.line_to(p.x, p.y);
             }
             Segment::Cubic(a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|p| frame.place(p));
+                let [a, b, c] = [a, b, c].map(|p| viewport.place(p));
                 builder.cubic_to(a.x, a.y, b.x, b.y, c.x, c.y);
             }
             Segment::Circle(centre, radius) => {
-                let centre = frame.place(centre);
-                builder.push_circle(centre.x, centre.y, radius * frame.scale);
+                let centre = viewport.place(centre);
+                builder.push_circle(centre.x, centre.y, radius * viewport.scale);
             }
             Segment::Close => builder.close(),
         }

@@ -1,29 +1,29 @@
 //! SVG by hand: text that can be compared line by line.
 
-use super::shape::{Colour, Item, Paint, Segment};
-use super::{Drawing, Frame};
+use super::{Page, Viewport};
+use microsim_core::drawing::shape::{Colour, Item, Paint, Segment};
 use microsim_core::glam::Vec2;
 use std::fmt::Write;
 
-/// The drawing as a document whose longer side has `longest` pixels.
-pub(crate) fn write(drawing: &Drawing, longest: u32) -> String {
-    let frame = drawing.frame(longest);
-    let (width, height) = (frame.width, frame.height);
-    let background = colour(drawing.background);
+/// The page as a document whose longer side has `longest` pixels.
+pub(crate) fn write(page: &Page, longest: u32) -> String {
+    let viewport = page.viewport(longest);
+    let (width, height) = (viewport.width, viewport.height);
+    let background = colour(page.background);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n\
 <rect width=\"{width}\" height=\"{height}\" fill=\"{background}\"/>\n\
 <g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
     );
-    for (number, item) in drawing.items.iter().enumerate() {
-        add(&mut text, item, number, &frame);
+    for (number, item) in page.items.iter().enumerate() {
+        add(&mut text, item, number, &viewport);
     }
     text.push_str("</g>\n</svg>\n");
     text
 }
 
-fn add(text: &mut String, item: &Item, number: usize, frame: &Frame) {
-    if item.path.segments.is_empty() {
+fn add(text: &mut String, item: &Item, number: usize, viewport: &Viewport) {
+    if item.shape.is_empty() {
         return;
     }
     let mut style = String::new();
@@ -32,47 +32,47 @@ fn add(text: &mut String, item: &Item, number: usize, frame: &Frame) {
             style += &format!(" fill=\"{}\"{}", colour(fill), alpha("fill-opacity", fill));
         }
         Some(Paint::Radial { .. }) => {
-            text.push_str(&gradient(item.fill, number, frame));
+            text.push_str(&gradient(item.fill, number, viewport));
             style += &format!(" fill=\"url(#g{number})\"");
         }
         None => {}
     }
     if let Some(stroke) = item.stroke {
-        let width = Number(stroke.width * frame.scale);
+        let width = Number(stroke.width * viewport.scale);
         let (colour, alpha) = (colour(stroke.colour), alpha("stroke-opacity", stroke.colour));
         style += &format!(" stroke=\"{colour}\"{alpha} stroke-width=\"{width}\"");
     }
     text.push_str("<path d=\"");
-    for segment in &item.path.segments {
-        add_segment(text, *segment, frame);
+    for segment in item.shape.segments() {
+        add_segment(text, segment, viewport);
     }
     let _ = writeln!(text, "\"{style}/>");
 }
 
-fn add_segment(text: &mut String, segment: Segment, frame: &Frame) {
-    let place = |p: Vec2| Point(frame.place(p));
+fn add_segment(text: &mut String, segment: Segment, viewport: &Viewport) {
+    let place = |p: Vec2| Point(viewport.place(p));
     // Writing to a string cannot fail.
     let _ = match segment {
         Segment::Move(p) => write!(text, "M{}", place(p)),
         Segment::Line(p) => write!(text, "L{}", place(p)),
         Segment::Cubic(a, b, c) => write!(text, "C{} {} {}", place(a), place(b), place(c)),
         Segment::Circle(centre, radius) => {
-            let pixels = radius * frame.scale;
+            let pixels = radius * viewport.scale;
             let (r, across) = (Number(pixels), Number(pixels * 2.0));
             let back = Number(pixels * -2.0);
-            let left = Point(frame.place(centre) - Vec2::new(pixels, 0.0));
+            let left = Point(viewport.place(centre) - Vec2::new(pixels, 0.0));
             write!(text, "M{left}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 {back} 0z")
         }
         Segment::Close => write!(text, "z"),
     };
 }
 
-fn gradient(fill: Option<Paint>, number: usize, frame: &Frame) -> String {
+fn gradient(fill: Option<Paint>, number: usize, viewport: &Viewport) -> String {
     let Some(Paint::Radial { centre, radius, inner, outer }) = fill else {
         return String::new();
     };
-    let at = frame.place(centre);
-    let (x, y, r) = (Number(at.x), Number(at.y), Number(radius * frame.scale));
+    let at = viewport.place(centre);
+    let (x, y, r) = (Number(at.x), Number(at.y), Number(radius * viewport.scale));
     let stop = |offset: u8, c: Colour| {
         let (colour, alpha) = (colour(c), alpha("stop-opacity", c));
         format!("<stop offset=\"{offset}\" stop-color=\"{colour}\"{alpha}/>")

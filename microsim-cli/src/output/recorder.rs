@@ -181,9 +181,9 @@ impl<'o> Recorder<'o> {
         let Some(moments) = self.moments else {
             return Ok(Vec::new());
         };
-        let drawing = draw::draw(world);
-        outputs.write("frame.svg", svg::write(&drawing, FRAME).as_bytes())?;
-        outputs.write("frame.png", &Picture::of(&drawing, FRAME).encoded()?)?;
+        let page = draw::draw(world);
+        outputs.write("frame.svg", svg::write(&page, FRAME).as_bytes())?;
+        outputs.write("frame.png", &Picture::of(&page, FRAME).encoded()?)?;
         outputs.write("frames.png", &moments.sheet().encoded()?)?;
         let waiting = moments.until(u64::MAX).filter(|_| self.is_resumable);
         Ok(waiting.map(|step| outputs.folder().join(moment_name(step))).collect())

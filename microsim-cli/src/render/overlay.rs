@@ -1,7 +1,8 @@
 //! What is painted over a picture: chemicals, and the scale bar in a corner.
 
-use crate::draw::{caption, chemical, png::Picture, shape::Colour};
+use crate::draw::{caption, png::Picture};
 use microsim_core::World;
+use microsim_core::drawing::{self, Layer, shape::Colour};
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Optics};
 
@@ -19,8 +20,8 @@ const LEAST: [usize; 2] = [160, 90];
 pub(crate) fn with_chemicals(picture: Picture, field: &Field, world: &World) -> Picture {
     let pixel = field.pixel();
     let corner = field.centre - 0.5 * pixel * Vec2::new(field.pixels[0] as f32, field.pixels[1] as f32);
-    let items: Vec<_> = chemical::draw(world).into_iter().map(|item| item.placed(corner, 1.0 / pixel)).collect();
-    picture.painted_over(&items)
+    let items = drawing::draw(world.view(), [Vec2::MIN, Vec2::MAX], &[Layer::Chemicals]);
+    picture.painted_over(&items, corner, 1.0 / pixel)
 }
 
 /// The picture with a scale bar at the lower left, if there is room for one.
@@ -34,5 +35,5 @@ pub(crate) fn with_scale_bar(picture: Picture, field: &Field, optics: Optics) ->
     let height = height as f32;
     let items =
         caption::scale_bar(length, length / field.pixel(), LETTERS * height, MARGIN * height, colour.faded(0.85));
-    picture.painted_over(&items)
+    picture.painted_over(&items, Vec2::ZERO, 1.0)
 }

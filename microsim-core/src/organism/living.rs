@@ -12,7 +12,7 @@ use crate::kind::Kind;
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid};
-use crate::solver::membrane::{Content, Membrane};
+use crate::solver::membrane::{Membrane, MembraneContent};
 use glam::Vec2;
 use parry2d::bounding_volume::Aabb;
 use serde::{Deserialize, Serialize};
@@ -143,10 +143,10 @@ impl Organism {
         };
         let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
-        let content = Content { area, spacing, lobes, folds };
+        let content = MembraneContent { area, spacing, lobes, folds };
         membrane.relax(&self.outline, particles, content, is_driven, dt);
         for phagosome in &mut self.phagosomes {
-            let content = Content { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
             phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
         }
     }

@@ -15,7 +15,7 @@ use crate::geometry::ring::{ellipse, unit_vector};
 use crate::kind::Kind;
 use crate::look::{Inclusion, Look, Matter, Profile, RoundLook, SpotShape, Texture};
 use crate::particle::CollisionGroups;
-use crate::solver::{Anchor, Distance, MinDistance};
+use crate::solver::constraint::{Anchor, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
@@ -136,14 +136,14 @@ impl PlateletSpec {
         let straightest = FOLD_LIMIT * 2.0 * satellite_radius;
         for (k, &a) in ring.iter().enumerate() {
             let b = ring[(k + 2) % ring.len()];
-            builder.min_distance(MinDistance { a, b, min_length: straightest });
+            builder.constraint(MinDistance { a, b, min_length: straightest });
         }
         for &a in &ring {
             let compliance = self.spoke_compliance;
-            builder.distance(Distance { a, b: core.nucleus, rest_length: ring_radius, compliance, damping: 0.0 });
-            builder.min_distance(MinDistance { a, b: core.interlayer, min_length: held_out });
+            builder.constraint(Distance { a, b: core.nucleus, rest_length: ring_radius, compliance, damping: 0.0 });
+            builder.constraint(MinDistance { a, b: core.interlayer, min_length: held_out });
         }
-        builder.anchor(Anchor {
+        builder.constraint(Anchor {
             node: core.nucleus,
             anchor: core.anchor,
             rest_length: 0.0,
@@ -176,6 +176,7 @@ impl Core {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::constraint::Constraint;
 
     fn template() -> Template {
         PlateletSpec::default().blueprint().unwrap().template.unwrap()
@@ -202,14 +203,19 @@ mod tests {
         let ring_radius = satellites[0].position.length();
         let gap = ring_radius - satellites[0].radius - interlayer[0].radius;
         assert!(gap > 0.0 && gap < 0.2 * satellites[0].radius, "almost reaches the satellites, gap {gap}");
-        assert_eq!(template.constraints().min_distances.len(), 28 + 28, "held out, and kept from folding");
+        let limits = template.constraints().iter().filter(|c| matches!(c, Constraint::MinDistance(_)));
+        assert_eq!(limits.count(), 28 + 28, "held out, and kept from folding");
         assert!((template.extent() - 1.0).abs() < 1e-5);
     }
 
     #[test]
     fn t46_nucleus_hangs_on_a_static_anchor_by_a_contracting_rope() {
         let template = template();
-        let anchor = template.constraints().anchors[0];
+        let anchor = |constraint: &Constraint| match constraint {
+            Constraint::Anchor(anchor) => Some(*anchor),
+            _ => None,
+        };
+        let anchor = template.constraints().iter().find_map(anchor).unwrap();
         let post = template.nodes()[anchor.anchor as usize];
         assert_eq!(template.nodes()[anchor.node as usize].role, Role::Nucleus);
         assert!(post.mass.is_infinite() && post.groups == CollisionGroups::NONE);

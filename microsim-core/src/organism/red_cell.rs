@@ -19,7 +19,7 @@ use crate::geometry::signed_area;
 use crate::kind::Kind;
 use crate::look::{Look, Matter, Profile, RoundLook, Texture, WAVE};
 use crate::particle::Material;
-use crate::solver::{Area, Distance, MinDistance};
+use crate::solver::constraint::{Area, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
@@ -131,11 +131,11 @@ impl RedCellSpec {
             let (other, b) = (points[(k + CHORD) % count], ring[(k + CHORD) % count]);
             let rest_length = (other - points[k]).length();
             let (compliance, damping) = (self.chord_compliance, self.chord_damping);
-            builder.distance(Distance { a, b, rest_length, compliance, damping });
-            builder.min_distance(MinDistance { a, b, min_length: FOLD_LIMIT * rest_length });
+            builder.constraint(Distance { a, b, rest_length, compliance, damping });
+            builder.constraint(MinDistance { a, b, min_length: FOLD_LIMIT * rest_length });
         }
         let rest_area = signed_area(&points);
-        builder.area(Area { ring, rest_area, compliance: self.area_compliance, is_upper_bound: false });
+        builder.constraint(Area { ring, rest_area, compliance: self.area_compliance, is_upper_bound: false });
         builder.build()
     }
 }
@@ -143,13 +143,14 @@ impl RedCellSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Inputs, Intent, Placement, ProbeSpec, World, WorldConfig};
+    use crate::{Constraint, Inputs, Intent, Placement, ProbeSpec, World, WorldConfig};
 
     #[test]
     fn it_is_a_ring_with_an_area_and_nothing_in_the_middle() {
         let template = RedCellSpec::default().blueprint().unwrap().template.unwrap();
         assert_eq!((template.nodes().len(), template.outline().len()), (24, 24));
-        assert_eq!(template.constraints().areas.len(), 1);
+        let areas = template.constraints().iter().filter(|c| matches!(c, Constraint::Area(_)));
+        assert_eq!(areas.count(), 1);
         assert!((template.extent() - 1.0).abs() < 1e-5);
         assert!((template.nodes().iter().map(|node| node.mass).sum::<f32>() - 1.0).abs() < 1e-5);
     }

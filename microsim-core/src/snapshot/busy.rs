@@ -73,7 +73,7 @@ fn cage(world: &mut World, chemical: ChemicalId) {
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
-    builder.rope(Rope { a, b, max_length: 3.0 });
+    builder.constraint(Rope { a, b, max_length: 3.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
 }

@@ -32,8 +32,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt;
 
-/// Changes with every change of a type that is part of a world.
-const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 3 };
+/// Changes with every change of a type that is part of a world, except for a new kind of constraint at the end of the list.
+const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 4 };
 
 /// Content of a snapshot of a world.
 type Content = (Vec<ObstacleRecord>, WorldState);

@@ -1,9 +1,7 @@
 //! Blocks: eight instances of one template side by side in the particle store, solved in lanes.
 
-use super::ConstraintSet;
-use super::instruction_set::Dispatch;
+use super::constraint::{self, Constraint};
 use super::lanes::{LANES, Span, each, load};
-use crate::parallel;
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
@@ -56,42 +54,52 @@ impl Block {
     }
 }
 
-/// Predicts the positions of some blocks and projects all their constraints, [`BATCH`] blocks of one template at a time: what
-/// one has loaded the other finds at hand. `predict` gets a block, and what came with it.
-pub(crate) fn predict_and_project<'a, T: Send>(
-    blocks: impl Iterator<Item = (&'a Block, T)>,
-    predict: impl Fn(&mut Columns<'_>, &mut T) + Sync + Send,
-    constraints: impl Fn(u32) -> &'a ConstraintSet + Sync + Send,
-    particles: &mut Particles,
-    h: f32,
-    dispatch: Dispatch,
-) {
-    let mut blocks: Vec<(&Block, T)> = blocks.collect();
+/// A few neighbouring blocks of one template, each with a value of the caller's, and the stretch of the store that they lie
+/// in. They are projected together: what one has loaded the others find in the cache.
+pub(crate) struct Batch<'a, T> {
+    blocks: &'a mut [(&'a Block, T)],
+    /// First particle of the stretch.
+    start: usize,
+    stretch: Columns<'a>,
+}
+
+/// Divides blocks, in the order of the store, into batches of up to [`BATCH`].
+pub(crate) fn batches<'a, T>(blocks: &'a mut [(&'a Block, T)], particles: &'a mut Particles) -> Vec<Batch<'a, T>> {
     let mut batches = Vec::with_capacity(blocks.len());
     let (mut rest, mut start) = (particles.columns(), 0);
     for of_template in blocks.chunk_by_mut(|a, b| a.0.template == b.0.template) {
-        for batch in of_template.chunks_mut(BATCH) {
-            let end = batch.last().map_or(start, |(block, _)| block.range().end());
+        for blocks in of_template.chunks_mut(BATCH) {
+            let end = blocks.last().map_or(start, |(block, _)| block.range().end());
             let (stretch, others) = rest.split_at(end - start);
-            batches.push((batch, start, stretch));
+            batches.push(Batch { blocks, start, stretch });
             (rest, start) = (others, end);
         }
     }
-    parallel::for_each(batches, |(batch, start, mut stretch)| {
-        let live = batch.iter().filter(|(block, _)| !block.is_empty());
-        let spans: Vec<_> = live.map(|(block, _)| block.span(start)).collect();
-        let constraints = constraints(batch[0].0.template);
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for (block, with_it) in batch {
-                    let place = block.range();
-                    predict(&mut stretch.part(place.base - start..place.end() - start), with_it);
-                }
-                constraints.project(&spans, &mut stretch, h);
-            },
-        );
-    });
+    batches
+}
+
+impl<T> Batch<'_, T> {
+    /// Index of the template in the world.
+    pub(crate) fn template(&self) -> usize {
+        self.blocks[0].0.template as usize
+    }
+
+    /// Hands each block's particles and value to a kernel.
+    #[inline(always)]
+    pub(crate) fn for_each_block(&mut self, kernel: impl Fn(&mut Columns<'_>, &mut T)) {
+        for (block, value) in &mut *self.blocks {
+            let range = block.range();
+            kernel(&mut self.stretch.part(range.base - self.start..range.end() - self.start), value);
+        }
+    }
+
+    /// Projects the template's constraints in all blocks.
+    #[inline(always)]
+    pub(crate) fn project(&mut self, constraints: &[Constraint], h: f32) {
+        let live = self.blocks.iter().filter(|(block, _)| !block.is_empty());
+        let spans: Vec<_> = live.map(|(block, _)| block.span(self.start)).collect();
+        constraint::project(constraints, &spans, &mut self.stretch, h);
+    }
 }
 
 /// Subtracts from the remaining margin of each body of a block the largest displacement of its particles in the last substep.
@@ -110,14 +118,14 @@ pub(crate) fn subtract_displacement(block: &Columns<'_>, margins: &mut [f32; LAN
 
 #[cfg(test)]
 mod tests {
-    use super::super::Distance;
+    use super::super::constraint::Distance;
     use super::super::testing::disc;
     use super::*;
     use glam::Vec2;
 
-    fn spring_chain(nodes: u32) -> ConstraintSet {
+    fn spring_chain(nodes: u32) -> Vec<Constraint> {
         let link = |a| Distance { a, b: a + 1, rest_length: 1.0, compliance: 1e-4, damping: 0.01 };
-        ConstraintSet { distances: (0..nodes - 1).map(link).collect(), ..ConstraintSet::default() }
+        (0..nodes - 1).map(|a| link(a).into()).collect()
     }
 
     fn wobbly(slot: u32, lane: usize) -> Vec2 {
@@ -138,15 +146,8 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            predict_and_project(
-                std::iter::once((&block, ())),
-                |_, ()| (),
-                |_| &constraints,
-                &mut in_lanes,
-                0.01,
-                Dispatch::default(),
-            );
-            loose.iter_mut().for_each(|p| constraints.project(&[Span::LOOSE], &mut p.columns(), 0.01));
+            batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, 0.01);
+            loose.iter_mut().for_each(|p| constraint::project(&constraints, &[Span::LOOSE], &mut p.columns(), 0.01));
         }
         for (lane, loose) in loose.iter().enumerate() {
             for slot in 0..5 {
@@ -173,7 +174,7 @@ mod tests {
         let mut particles = Particles::default();
         let block = Block::new(0, 5, &mut particles);
         let constraints = spring_chain(5);
-        constraints.project(&[block.span(0)], &mut particles.columns(), 0.01);
+        constraint::project(&constraints, &[block.span(0)], &mut particles.columns(), 0.01);
         assert!(block.is_empty() && (0..particles.len()).all(|i| particles.position(i) == Vec2::ZERO));
     }
 }

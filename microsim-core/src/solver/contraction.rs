@@ -1,9 +1,9 @@
 //! Contraction: two nodes approach each other at a given speed, whatever holds them back, as the ends of a muscle fibre.
 //!
-//! `C = |x_b - x_a| - (|x_b - x_a|_prev - h v) <= 0`, projected rigidly like a rope ([`super::rope`]) that is reeled in.
+//! `C = |x_b - x_a| - (|x_b - x_a|_prev - h v) <= 0`, projected rigidly like a rope ([`Rope`]) that is reeled in.
 
+use super::constraint::Rope;
 use super::lanes::Span;
-use super::{Rope, rope};
 use crate::particle::Particles;
 use glam::Vec2;
 
@@ -21,11 +21,8 @@ pub(crate) fn project(contractions: &[Contraction], p: &mut Particles, h: f32) {
     for &Contraction { a, b, speed } in contractions {
         let (i, j) = (a as usize, b as usize);
         let length = Vec2::new(p.prev_x[j] - p.prev_x[i], p.prev_y[j] - p.prev_y[i]).length() - h * speed;
-        rope::project(
-            &[Rope { a, b, max_length: if length > 0.0 { length } else { 0.0 } }],
-            Span::LOOSE,
-            &mut p.columns(),
-        );
+        let max_length = if length > 0.0 { length } else { 0.0 };
+        Rope { a, b, max_length }.shorten(Span::LOOSE, &mut p.columns());
     }
 }
 

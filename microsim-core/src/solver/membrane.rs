@@ -9,14 +9,13 @@
 //!   ring does not buckle under its own compression;
 //! - bending: `C = x_i - (x_{i-s} + x_{i+s}) / 2 - n h_s`, `h_s = R (1 - cos(2 pi s / M))` the sagitta of the circle, for
 //!   strides `s = 2` and `1` (Mueller et al. 2007, section 4, a stretch of the midpoint);
-//! - area: `C = A - A_t <= 0`, see [`super::area`], limited in speed;
+//! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed;
 //!
 //! and [`Membrane::limit_strain`], last in the substep, keeps every link below [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance
 //! joint that will respect a maximum length limit").
 
-use super::area::{Polygon, enforce};
+use super::constraint::{MeasuredRing, Rope, enforce};
 use super::lanes::{Pair, ratio};
-use super::{Rope, rope};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
@@ -64,13 +63,13 @@ pub(crate) struct Membrane {
     /// Present total rest length of the links.
     rest_perimeter: f32,
     target_area: f32,
-    /// See [`Content::lobes`].
+    /// See [`MembraneContent::lobes`].
     lobes: f32,
 }
 
 /// What a membrane holds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Content {
+pub(crate) struct MembraneContent {
     /// Area at rest, square units.
     pub area: f32,
     /// Rest spacing of the fluid.
@@ -104,7 +103,14 @@ impl Membrane {
     }
 
     /// Finds this step's targets from what the membrane holds and whether it is being driven.
-    pub(crate) fn relax(&mut self, ring: &[u32], particles: &Particles, content: Content, is_driven: bool, dt: f32) {
+    pub(crate) fn relax(
+        &mut self,
+        ring: &[u32],
+        particles: &Particles,
+        content: MembraneContent,
+        is_driven: bool,
+        dt: f32,
+    ) {
         let drive = if is_driven { 1.0 } else { 0.0 };
         self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
         let radius = (content.area / (PI * content.lobes)).sqrt() + self.node_radius + CLEARANCE * content.spacing;
@@ -135,12 +141,12 @@ impl Membrane {
             bend(ring, stride, radius * (1.0 - cosine), share, particles);
         }
         let particles = &mut particles.columns();
-        let polygon = Polygon::measure(ring, particles);
-        let excess = polygon.area - self.target_area;
+        let measured = MeasuredRing::measure(ring, particles);
+        let excess = measured.area - self.target_area;
         if excess > 0.0 {
             let fastest = self.rest_perimeter * h * self.rest_length;
             let error = if excess < fastest { excess } else { fastest };
-            enforce(&polygon, ring, error, AREA_COMPLIANCE / (h * h), particles);
+            enforce(&measured, ring, error, AREA_COMPLIANCE / (h * h), particles);
         }
     }
 
@@ -152,7 +158,7 @@ impl Membrane {
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
             let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
             if is_long {
-                rope::project(&[Rope { a, b, max_length }], Span::LOOSE, particles);
+                Rope { a, b, max_length }.shorten(Span::LOOSE, particles);
             }
             is_long
         };
@@ -226,7 +232,7 @@ mod tests {
         p.live().map(|i| p.position(i)).collect()
     }
 
-    fn relaxed(p: &mut Particles, content: Content, steps: usize) -> Membrane {
+    fn relaxed(p: &mut Particles, content: MembraneContent, steps: usize) -> Membrane {
         let indices: Vec<u32> = (0..p.len() as u32).collect();
         let mut membrane = Membrane::new(1.0, 0.5, indices.len());
         for _ in 0..steps {
@@ -246,7 +252,7 @@ mod tests {
             p.x[i] *= 0.7;
         }
         let before = momentum(&p);
-        relaxed(&mut p, Content { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
+        relaxed(&mut p, MembraneContent { area: 90.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let points = positions(&p);
         let centre = points.iter().sum::<glam::Vec2>() / 40.0;
         let radii: Vec<f32> = points.iter().map(|&at| (at - centre).length()).collect();
@@ -258,7 +264,7 @@ mod tests {
     #[test]
     fn perimeter_and_area_approach_the_circle_around_the_content() {
         let mut p = ring(40, 6.4);
-        relaxed(&mut p, Content { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
+        relaxed(&mut p, MembraneContent { area: 80.0, spacing: 0.8, lobes: 1.0, folds: 0.0 }, 600);
         let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
         let area = signed_area(&positions(&p));
         assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");

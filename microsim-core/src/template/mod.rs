@@ -5,7 +5,7 @@
 
 use crate::error::{Error, in_range};
 use crate::particle::{CollisionGroups, Material};
-use crate::solver::{Anchor, Area, ConstraintSet, Distance, MinDistance, Rope, check_ring};
+use crate::solver::constraint::{self, Constraint, Distance, check_ring};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +102,7 @@ impl Node {
 #[serde(try_from = "TemplateBuilder")]
 pub struct Template {
     nodes: Vec<Node>,
-    constraints: ConstraintSet,
+    constraints: Vec<Constraint>,
     outline: Vec<u32>,
 }
 
@@ -119,9 +119,9 @@ impl Template {
         &self.nodes
     }
 
-    /// Its constraints, over slots.
+    /// Its constraints, over slots, in the order in which they are projected.
     #[must_use]
-    pub fn constraints(&self) -> &ConstraintSet {
+    pub fn constraints(&self) -> &[Constraint] {
         &self.constraints
     }
 
@@ -152,20 +152,21 @@ impl TryFrom<TemplateBuilder> for Template {
 /// Collects nodes and constraints; [`TemplateBuilder::build`] checks them.
 ///
 /// ```
-/// use microsim_core::{Node, Template, glam::Vec2};
+/// use microsim_core::{Distance, Node, Template, glam::Vec2};
 ///
 /// let mut builder = Template::builder();
 /// let a = builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
 /// let b = builder.node(Node::disc(Vec2::X, 1.0, 0.5));
 /// builder.link(a, b, 0.0);
 /// let dumbbell = builder.build()?;
-/// assert_eq!(dumbbell.constraints().distances[0].rest_length, 1.0);
+/// let rigid = Distance { a, b, rest_length: 1.0, compliance: 0.0, damping: 0.0 };
+/// assert_eq!(dumbbell.constraints(), [rigid.into()]);
 /// # Ok::<(), microsim_core::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct TemplateBuilder {
     nodes: Vec<Node>,
-    constraints: ConstraintSet,
+    constraints: Vec<Constraint>,
     outline: Vec<u32>,
 }
 
@@ -184,7 +185,7 @@ impl TemplateBuilder {
     /// Links two slots at their present distance, with this compliance and damping time.
     pub fn spring(&mut self, a: u32, b: u32, compliance: f32, damping: f32) -> &mut Self {
         let rest_length = self.distance_between(a, b);
-        self.distance(Distance { a, b, rest_length, compliance, damping })
+        self.constraint(Distance { a, b, rest_length, compliance, damping })
     }
 
     /// Links the slots of a ring each to the next, at their present distances. Even links come before odd ones: links
@@ -198,33 +199,9 @@ impl TemplateBuilder {
         self
     }
 
-    /// Adds a distance constraint.
-    pub fn distance(&mut self, constraint: Distance) -> &mut Self {
-        self.constraints.distances.push(constraint);
-        self
-    }
-
-    /// Adds a rope.
-    pub fn rope(&mut self, constraint: Rope) -> &mut Self {
-        self.constraints.ropes.push(constraint);
-        self
-    }
-
-    /// Adds a minimum distance.
-    pub fn min_distance(&mut self, constraint: MinDistance) -> &mut Self {
-        self.constraints.min_distances.push(constraint);
-        self
-    }
-
-    /// Adds a contracting rope to a static node.
-    pub fn anchor(&mut self, constraint: Anchor) -> &mut Self {
-        self.constraints.anchors.push(constraint);
-        self
-    }
-
-    /// Adds an area constraint.
-    pub fn area(&mut self, constraint: Area) -> &mut Self {
-        self.constraints.areas.push(constraint);
+    /// Adds a constraint of any kind. Kinds are projected in a fixed order, those of one kind as they were added.
+    pub fn constraint(&mut self, constraint: impl Into<Constraint>) -> &mut Self {
+        self.constraints.push(constraint.into());
         self
     }
 
@@ -239,14 +216,17 @@ impl TemplateBuilder {
     /// # Errors
     /// Names the node or constraint that is out of range or refers to a slot that does not exist.
     pub fn build(self) -> Result<Template, Error> {
-        let Self { nodes, constraints, outline } = self;
+        let Self { nodes, mut constraints, outline } = self;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
         nodes.iter().enumerate().try_for_each(|(k, node)| node.validate(k))?;
-        constraints.validate(nodes.len())?;
+        for (k, constraint) in constraints.iter().enumerate() {
+            constraint.validate(nodes.len()).map_err(|error| error.within(&format!("constraints[{k}]")))?;
+        }
+        constraint::sort(&mut constraints);
         if !outline.is_empty() {
-            check_ring(&outline, nodes.len(), "outline")?;
+            check_ring("outline", &outline, nodes.len())?;
         }
         Ok(Template { nodes, constraints, outline })
     }
@@ -263,6 +243,7 @@ impl TemplateBuilder {
 mod tests {
     use super::*;
     use crate::error::ErrorKind;
+    use crate::solver::constraint::{Anchor, Area, MinDistance, Rope};
 
     fn two_nodes() -> TemplateBuilder {
         let mut builder = Template::builder();
@@ -276,8 +257,22 @@ mod tests {
         let mut builder = two_nodes();
         builder.link(0, 1, 1e-4);
         let template = builder.build().unwrap();
-        assert_eq!(template.constraints().distances[0].rest_length, 2.0);
+        let rest_length = 2.0;
+        let link = Distance { a: 0, b: 1, rest_length, compliance: 1e-4, damping: 0.0 };
+        assert_eq!(template.constraints(), [link.into()]);
         assert_eq!(template.extent(), 2.5);
+    }
+
+    #[test]
+    fn constraints_are_sorted_by_kind_with_limits_last() {
+        let mut builder = two_nodes();
+        let rope = |max_length| Constraint::from(Rope { a: 0, b: 1, max_length });
+        let distance = |rest_length| Distance { a: 0, b: 1, rest_length, compliance: 0.0, damping: 0.0 }.into();
+        for constraint in [rope(3.0), distance(2.0), rope(2.5), distance(1.0)] {
+            builder.constraint(constraint);
+        }
+        let template = builder.build().unwrap();
+        assert_eq!(template.constraints(), [distance(2.0), distance(1.0), rope(3.0), rope(2.5)]);
     }
 
     #[test]
@@ -290,16 +285,16 @@ mod tests {
         refuse(&|b| _ = b.node(Node::disc(Vec2::NAN, 1.0, 0.5)), "nodes[2].position.x");
         refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 0.0, 0.5)), "nodes[2].mass");
         refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -0.5)), "nodes[2].radius");
-        refuse(&|b| _ = b.link(0, 7, 0.0), "distances[0].a");
-        refuse(&|b| _ = b.link(1, 1, 0.0), "distances[0].a");
-        refuse(&|b| _ = b.link(0, 1, f32::NAN), "distances[0].compliance");
-        refuse(&|b| _ = b.rope(Rope { a: 0, b: 1, max_length: -1.0 }), "ropes[0].max_length");
-        refuse(&|b| _ = b.min_distance(MinDistance { a: 0, b: 9, min_length: 1.0 }), "min_distances[0].a");
+        refuse(&|b| _ = b.link(0, 7, 0.0), "constraints[0].a");
+        refuse(&|b| _ = b.link(1, 1, 0.0), "constraints[0].a");
+        refuse(&|b| _ = b.link(0, 1, f32::NAN), "constraints[0].compliance");
+        refuse(&|b| _ = b.constraint(Rope { a: 0, b: 1, max_length: -1.0 }), "constraints[0].max_length");
+        refuse(&|b| _ = b.constraint(MinDistance { a: 0, b: 9, min_length: 1.0 }), "constraints[0].a");
         let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
-        refuse(&|b| _ = b.anchor(anchor), "anchors[0].max_length");
+        refuse(&|b| _ = b.constraint(anchor), "constraints[0].max_length");
         refuse(&|b| _ = b.outline(&[0, 1]), "outline");
         let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
-        refuse(&|b| _ = b.area(area.clone()), "areas[0].ring");
+        refuse(&|b| _ = b.constraint(area.clone()), "constraints[0].ring");
         assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));
     }
 }

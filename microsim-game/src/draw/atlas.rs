@@ -1,6 +1,6 @@
 //! The one texture, painted by rules: everything drawn shares it, so that everything drawn is one batch.
 
-use super::palette::Dice;
+use microsim_core::Rng;
 use microsim_core::glam::Vec2;
 
 /// Side of a tile, pixels.
@@ -46,7 +46,7 @@ pub(crate) fn plain() -> Vec2 {
 pub(crate) fn pixels() -> Vec<u8> {
     let mut bytes = vec![0; SIDE * TILES * SIDE * 4];
     let spots = Spots::scattered(210);
-    let mut grain = Dice::new(7);
+    let mut grain = Rng::new(7, 0);
     for y in 0..SIDE {
         for (tile, paint) in [disc, soft, cell, platelet].iter().enumerate() {
             for x in 0..SIDE {
@@ -56,7 +56,7 @@ pub(crate) fn pixels() -> Vec<u8> {
             }
         }
         for x in 0..SIDE {
-            let sum = grain.roll() + grain.roll() + grain.roll() - 1.5;
+            let sum = grain.unit() + grain.unit() + grain.unit() - 1.5;
             let shade = if sum > 0.0 { 1.0 } else { 0.0 };
             put(&mut bytes, (TILES - 1) * SIDE + x, y, shade, sum.abs());
         }
@@ -112,12 +112,12 @@ struct Spots {
 
 impl Spots {
     fn scattered(count: usize) -> Self {
-        let mut dice = Dice::new(3);
-        let spot = |k: usize, dice: &mut Dice| {
-            let (angle, far) = (dice.roll() * std::f32::consts::TAU, 0.86 * dice.roll().sqrt());
+        let mut dice = Rng::new(3, 0);
+        let spot = |k: usize, dice: &mut Rng| {
+            let (angle, far) = (dice.unit() * std::f32::consts::TAU, 0.86 * dice.unit().sqrt());
             // A few big vacuoles, many granules.
-            let radius = if k < 9 { 0.08 + 0.05 * dice.roll() } else { 0.014 + 0.03 * dice.roll() };
-            let shade = if k < 9 { 0.10 } else { 0.30 * (dice.roll() - 0.62) };
+            let radius = if k < 9 { 0.08 + 0.05 * dice.unit() } else { 0.014 + 0.03 * dice.unit() };
+            let shade = if k < 9 { 0.10 } else { 0.30 * (dice.unit() - 0.62) };
             (Vec2::from_angle(angle) * far, radius, shade)
         };
         Self { spots: (0..count).map(|k| spot(k, &mut dice)).collect() }

@@ -2,9 +2,10 @@
 
 use super::atlas::{GUARD, SIDE, Tile};
 use super::canvas::Canvas;
-use super::palette::{Dice, HALO, INK, SLIDE, fade, mix};
+use super::palette::{HALO, INK, SLIDE, fade, mix, scene};
 use crate::camera::Camera;
 use macroquad::color::Color;
+use microsim_core::Rng;
 use microsim_core::glam::Vec2;
 use std::f32::consts::TAU;
 
@@ -36,7 +37,7 @@ pub(crate) struct Background {
 
 impl Background {
     pub(crate) fn new() -> Self {
-        let mut dice = Dice::new(11);
+        let mut dice = Rng::new(11, 0);
         let blobs = (0..BLOBS).map(|_| blob(&mut dice)).collect::<Vec<_>>();
         let specks = (0..SPECKS).map(|_| speck(&mut dice));
         Self { motes: blobs.into_iter().chain(specks.collect::<Vec<_>>()).collect() }
@@ -74,32 +75,32 @@ impl Mote {
     }
 }
 
-fn somewhere(dice: &mut Dice) -> Vec2 {
-    Vec2::new(dice.roll(), dice.roll()) * PERIOD
+fn somewhere(dice: &mut Rng) -> Vec2 {
+    Vec2::new(dice.unit(), dice.unit()) * PERIOD
 }
 
-fn blob(dice: &mut Dice) -> Mote {
-    let (is_dark, strength) = (dice.roll() < 0.55, 0.10 + 0.16 * dice.roll());
+fn blob(dice: &mut Rng) -> Mote {
+    let (is_dark, strength) = (dice.unit() < 0.55, 0.10 + 0.16 * dice.unit());
     Mote {
         place: somewhere(dice),
-        radius: 5.0 + 15.0 * dice.roll() * dice.roll(),
-        depth: 0.55 + 0.25 * dice.roll(),
-        wander: Vec2::from_angle(dice.roll() * TAU) * (0.3 + 0.6 * dice.roll()),
-        phase: dice.roll() * TAU,
+        radius: 5.0 + 15.0 * dice.unit() * dice.unit(),
+        depth: 0.55 + 0.25 * dice.unit(),
+        wander: Vec2::from_angle(dice.unit() * TAU) * (0.3 + 0.6 * dice.unit()),
+        phase: dice.unit() * TAU,
         tile: Tile::Soft,
-        colour: if is_dark { fade(mix(INK, SLIDE, 0.35), strength) } else { fade(HALO, 2.2 * strength) },
+        colour: if is_dark { fade(mix(INK, scene(SLIDE), 0.35), strength) } else { fade(HALO, 2.2 * strength) },
     }
 }
 
-fn speck(dice: &mut Dice) -> Mote {
+fn speck(dice: &mut Rng) -> Mote {
     Mote {
         place: somewhere(dice),
-        radius: 0.12 + 0.35 * dice.roll() * dice.roll(),
-        depth: 0.80 + 0.2 * dice.roll(),
-        wander: Vec2::from_angle(dice.roll() * TAU) * 0.12,
-        phase: dice.roll() * TAU,
+        radius: 0.12 + 0.35 * dice.unit() * dice.unit(),
+        depth: 0.80 + 0.2 * dice.unit(),
+        wander: Vec2::from_angle(dice.unit() * TAU) * 0.12,
+        phase: dice.unit() * TAU,
         tile: Tile::Soft,
-        colour: if dice.roll() < 0.7 { fade(INK, 0.35) } else { fade(HALO, 0.7) },
+        colour: if dice.unit() < 0.7 { fade(INK, 0.35) } else { fade(HALO, 0.7) },
     }
 }
 

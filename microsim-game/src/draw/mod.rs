@@ -1,24 +1,24 @@
-//! Drawing: a view in, triangles out. Everything goes through one canvas, in picture pixels.
+//! The drawn view: the core's drawing of a world in, triangles out. Everything goes through one canvas, in picture
+//! pixels.
 
-mod amoeba;
 mod atlas;
 mod background;
 pub(crate) mod canvas;
-mod obstacle;
+mod cell;
+mod item;
 pub(crate) mod palette;
-mod simple;
-mod soft_body;
 
 use crate::camera::Camera;
 use background::Background;
 use canvas::Canvas;
 use macroquad::window::clear_background;
+use microsim_core::View;
+use microsim_core::drawing::{self, Layer};
 use microsim_core::glam::Vec2;
-use microsim_core::{Kind, OrganismView, View};
 
 /// What is drawn in one frame.
 #[derive(Debug)]
-pub struct Frame<'a> {
+pub struct SceneFrame<'a> {
     /// The world at one moment.
     pub view: View<'a>,
     /// What is seen of it.
@@ -34,13 +34,10 @@ pub struct Painter {
     background: Background,
 }
 
-/// Kinds from the bottom of the slide to its top: what is eaten lies below what eats it.
-const LAYERS: [fn(Kind) -> bool; 4] = [
-    |kind| kind == Kind::FluidBlock,
-    |kind| matches!(kind, Kind::Platelet | Kind::RedCell),
-    |kind| !matches!(kind, Kind::FluidBlock | Kind::Platelet | Kind::RedCell | Kind::AmoeboidCell),
-    |kind| kind == Kind::AmoeboidCell,
-];
+/// The layers that are painted; chemicals are part of the debug view.
+const LAYERS: [Layer; 4] = [Layer::Halos, Layer::Obstacles, Layer::Organisms, Layer::Walls];
+/// How far beyond the picture halos and hairs reach into it, pixels.
+const REACH: f32 = 12.0;
 
 impl Painter {
     /// Makes the textures. Needs an open window.
@@ -50,19 +47,11 @@ impl Painter {
     }
 
     /// Draws a frame with the present camera.
-    pub fn paint(&mut self, frame: &Frame<'_>) {
-        clear_background(palette::SLIDE);
+    pub fn paint(&mut self, frame: &SceneFrame<'_>) {
+        clear_background(palette::scene(palette::SLIDE));
         let canvas = &mut self.canvas;
         self.background.draw(canvas, frame.camera, frame.time);
-        obstacle::draw_all(canvas, frame.camera, frame.view.world());
-        let seen: Vec<OrganismView<'_>> = frame.view.organisms().filter(|&organism| is_seen(frame, organism)).collect();
-        // All halos below all bodies: they must not veil what a cell touches.
-        seen.iter().for_each(|&organism| draw_halo(canvas, frame, organism));
-        for is_in_layer in LAYERS {
-            let organisms = seen.iter().filter(|organism| is_in_layer(organism.kind()));
-            organisms.for_each(|&organism| draw_organism(canvas, frame, organism));
-        }
-        obstacle::draw_walls(canvas, frame.camera);
+        paint_world(canvas, frame);
         background::draw_film(canvas, frame.camera.screen());
         canvas.flush();
     }
@@ -74,42 +63,19 @@ impl Default for Painter {
     }
 }
 
-fn draw_halo(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    match organism.kind() {
-        Kind::AmoeboidCell => amoeba::draw_halo(canvas, frame, organism),
-        Kind::RigidCell | Kind::Platelet | Kind::RedCell => soft_body::draw_halo(canvas, frame, organism),
-        Kind::FluidBlock => {}
-        _ => simple::draw_halo(canvas, frame, organism),
-    }
-}
-
-fn draw_organism(canvas: &mut Canvas, frame: &Frame<'_>, organism: OrganismView<'_>) {
-    match organism.kind() {
-        Kind::AmoeboidCell => amoeba::draw(canvas, frame, organism),
-        Kind::RigidCell => soft_body::draw_rigid_cell(canvas, frame, organism),
-        Kind::Platelet => soft_body::draw_platelet(canvas, frame, organism),
-        Kind::RedCell => soft_body::draw_red_cell(canvas, frame, organism),
-        Kind::Coccus | Kind::Bacillus => simple::draw_bacterium(canvas, frame, organism),
-        Kind::Agar => simple::draw_agar(canvas, frame, organism),
-        Kind::Probe => simple::draw_probe(canvas, frame, organism),
-        Kind::FluidBlock => simple::draw_fluid(canvas, frame, organism),
-        _ => simple::draw_discs(canvas, frame, organism),
-    }
-}
-
-/// Whether any of it may lie in the picture.
-fn is_seen(frame: &Frame<'_>, organism: OrganismView<'_>) -> bool {
-    let (camera, margin, (low, high)) = (frame.camera, 12.0, organism.bounds());
-    let (upper_left, lower_right) =
-        (camera.to_screen(Vec2::new(low.x, high.y)), camera.to_screen(Vec2::new(high.x, low.y)));
-    lower_right.cmpgt(Vec2::splat(-margin)).all() && upper_left.cmplt(camera.screen() + margin).all()
+fn paint_world(canvas: &mut Canvas, frame: &SceneFrame<'_>) {
+    let (camera, reach) = (frame.camera, Vec2::splat(REACH));
+    let (upper_left, lower_right) = (camera.to_room(-reach), camera.to_room(camera.screen() + reach));
+    let window = [Vec2::new(upper_left.x, lower_right.y), Vec2::new(lower_right.x, upper_left.y)];
+    drawing::draw(frame.view, window, &LAYERS).iter().for_each(|item| item::paint(canvas, frame, item));
 }
 
 #[cfg(test)]
 mod tests {
     use super::atlas::Tile;
-    use super::palette::{CELL_BODY, CYTOPLASM, GROWN, fade};
+    use super::palette::scene;
     use super::*;
+    use microsim_core::drawing::palette::{AMOEBOID, GROWN};
     use microsim_core::{
         AmoeboidCellSpec, OrganismId, OrganismSpec, Placement, RigidCellSpec, Role, World, WorldConfig,
     };
@@ -124,18 +90,18 @@ mod tests {
         Camera::whole(world.config().size, Vec2::new(1280.0, 720.0))
     }
 
-    /// What is drawn of an organism.
-    fn drawn(world: &World, id: OrganismId) -> Canvas {
+    /// What is drawn of a world.
+    fn drawn(world: &World) -> Canvas {
         let (mut canvas, camera) = (Canvas::bare(), camera(world));
-        let frame = Frame { view: world.view(), camera: &camera, time: 0.0 };
-        draw_organism(&mut canvas, &frame, frame.view.organism(id).unwrap());
+        let frame = SceneFrame { view: world.view(), camera: &camera, time: 0.0 };
+        paint_world(&mut canvas, &frame);
         canvas
     }
 
     #[test]
     fn t51_soft_bodies_are_a_textured_fan_from_the_nucleus_over_the_surface() {
         let (world, id) = world_with(RigidCellSpec::default());
-        let (canvas, camera, cell) = (drawn(&world, id), camera(&world), world.view().organism(id).unwrap());
+        let (canvas, camera, cell) = (drawn(&world), camera(&world), world.view().organism(id).unwrap());
         let (low, high) = (Tile::Cell.at(Vec2::NEG_ONE), Tile::Cell.at(Vec2::ONE));
         let of_texture = |uv: Vec2| uv.cmpge(low).all() && uv.cmple(high).all();
         let fan: Vec<Vec2> = canvas.corners().filter(|(_, uv, _)| of_texture(*uv)).map(|(at, ..)| at).collect();
@@ -148,7 +114,7 @@ mod tests {
     #[test]
     fn t53_the_nucleus_is_a_sprite_of_its_own() {
         let (world, id) = world_with(RigidCellSpec::default());
-        let (canvas, camera) = (drawn(&world, id), camera(&world));
+        let (canvas, camera) = (drawn(&world), camera(&world));
         let nucleus = world.view().organism(id).unwrap().nucleus().unwrap();
         let (at, reach) = (camera.to_screen(nucleus.position), nucleus.radius * camera.scale());
         for corner in [Vec2::NEG_ONE, Vec2::ONE] {
@@ -162,10 +128,10 @@ mod tests {
     #[test]
     fn t54_t55_amoeboid_cells_are_a_filled_outline_with_a_soft_spot_for_each_particle() {
         let (world, id) = world_with(AmoeboidCellSpec::default());
-        let (canvas, cell) = (drawn(&world, id), world.view().organism(id).unwrap());
-        assert_eq!(canvas.count(fade(CELL_BODY, 0.80)), cell.outline().len());
+        let (canvas, cell) = (drawn(&world), world.view().organism(id).unwrap());
+        assert_eq!(canvas.count(scene(AMOEBOID.outer.faded(0.62))), cell.outline().len());
         let particles = cell.particles().filter(|particle| particle.role == Role::Cytoplasm).count();
-        assert_eq!(canvas.count(fade(CYTOPLASM, 0.42)), 4 * particles);
+        assert_eq!(canvas.count(scene(AMOEBOID.detail.faded(0.2))), 4 * particles);
     }
 
     #[test]
@@ -193,16 +159,17 @@ mod tests {
     #[test]
     fn t72_new_particles_have_another_colour_than_the_first_ones() {
         let (mut world, id) = world_with(AmoeboidCellSpec::default());
-        assert_eq!(drawn(&world, id).count(fade(GROWN, 0.42)), 0);
+        assert_eq!(drawn(&world).count(scene(GROWN.faded(0.2))), 0);
         world.grow(id, 2, 30).unwrap();
         (0..240).for_each(|_| world.step(&microsim_core::Inputs::new()));
         let cell = world.view().organism(id).unwrap();
         let of = |role| cell.particles().filter(|particle| particle.role == role).count();
-        let canvas = drawn(&world, id);
+        let canvas = drawn(&world);
         assert!(of(Role::GrownCytoplasm) > 0);
-        assert_eq!(canvas.count(fade(GROWN, 0.42)), 4 * of(Role::GrownCytoplasm));
-        assert_eq!(canvas.count(fade(CYTOPLASM, 0.42)), 4 * of(Role::Cytoplasm));
-        let apart = [GROWN.r - CYTOPLASM.r, GROWN.g - CYTOPLASM.g, GROWN.b - CYTOPLASM.b].map(f32::abs);
+        assert_eq!(canvas.count(scene(GROWN.faded(0.2))), 4 * of(Role::GrownCytoplasm));
+        assert_eq!(canvas.count(scene(AMOEBOID.detail.faded(0.2))), 4 * of(Role::Cytoplasm));
+        let [new, old] = [scene(GROWN), scene(AMOEBOID.detail)];
+        let apart = [new.r - old.r, new.g - old.g, new.b - old.b].map(f32::abs);
         assert!(apart.iter().sum::<f32>() > 0.2, "{apart:?}");
     }
 }

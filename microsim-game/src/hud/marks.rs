@@ -2,9 +2,10 @@
 
 use crate::camera::Camera;
 use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
-use crate::rules::hint::{Held, Readiness, State, Target};
+use crate::rules::hint::{HeldPrey, MealState, PreyTarget, Readiness};
 use crate::rules::referee::Gain;
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
@@ -28,9 +29,9 @@ pub struct Style<'a> {
 
 /// Where marks stand already: the middle of each, and half its size.
 #[derive(Clone, Debug, Default)]
-pub struct Taken(Vec<[Vec2; 2]>);
+pub struct MarkLayout(Vec<[Vec2; 2]>);
 
-impl Taken {
+impl MarkLayout {
     /// A place for a mark: where it belongs, or below those that stand there.
     fn place(&mut self, mut middle: Vec2, half: Vec2) -> Vec2 {
         // Less than both need, which rounding may take a little from.
@@ -45,8 +46,8 @@ impl Taken {
 
 /// Arrows over rigid cells (T69, T75): a full one where the cell can be taken in now, a hollow one with the share of the
 /// size that the player has, a barred one where there is no room.
-pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, targets: &[Target]) {
-    let unit = pen.line(Size::Body);
+pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, targets: &[PreyTarget]) {
+    let unit = pen.line(TextSize::Body);
     let half = Vec2::new(1.2, 1.25) * unit;
     for target in targets {
         let readiness = match target.readiness {
@@ -70,7 +71,7 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, targets
                 let bar = tip - Vec2::new(0.0, 0.45 * unit);
                 pen.canvas().segment(bar - half, bar + half, 0.3 * unit, INK);
                 pen.canvas().segment(bar - 0.9 * half, bar + 0.9 * half, 0.16 * unit, HALO);
-                pen.label(tip - Vec2::new(0.0, 1.7 * unit), Size::Small, Align::Centre, HALO, "full");
+                pen.label(tip - Vec2::new(0.0, 1.7 * unit), TextSize::Small, Align::Centre, HALO, "full");
             }
         }
     }
@@ -85,7 +86,7 @@ fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
     let filled = Vec2::new(low.x, high.y - (high.y - low.y) * share);
     pen.canvas().rectangle(filled, high, WAIT);
     let percent = format!("{:.0} %", (100.0 * share).floor());
-    pen.label(tip - Vec2::new(0.0, 1.75 * unit), Size::Small, Align::Centre, HALO, &percent);
+    pen.label(tip - Vec2::new(0.0, 1.75 * unit), TextSize::Small, Align::Centre, HALO, &percent);
 }
 
 /// An arrow at the edge of the picture that points to something outside.
@@ -113,19 +114,19 @@ fn arrow(pen: &mut Pen, tip: Vec2, way: Vec2, unit: f32, colour: Color) {
 }
 
 /// Rings around what is touched (T29), marks at what is inside with the key that digests it (T71).
-pub fn draw_held(pen: &mut Pen, style: &Style<'_>, taken: &mut Taken, held: &[Held]) {
-    let unit = pen.line(Size::Body);
+pub fn draw_held(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, held: &[HeldPrey]) {
+    let unit = pen.line(TextSize::Body);
     let mut highest: Option<(Vec2, bool)> = None;
     for held in held {
         let at = style.camera.to_screen(held.at);
         let radius = held.half_extent * style.camera.scale() + 0.3 * unit;
         match held.state {
-            State::Touching(share) => {
+            MealState::Touching(share) => {
                 ring(pen, at, radius, 0.2 * unit, 1.0, fade(HALO, 0.45));
                 ring(pen, at, radius, 0.2 * unit, share, READY);
             }
-            State::Entering => ring(pen, at, radius, 0.2 * unit, 1.0, READY),
-            State::Inside(share) => {
+            MealState::Entering => ring(pen, at, radius, 0.2 * unit, 1.0, READY),
+            MealState::Inside(share) => {
                 let radius = radius.max(0.45 * unit);
                 ring(pen, at, radius, 0.11 * unit, 1.0, fade(HALO, 0.8));
                 ring(pen, at, radius, 0.22 * unit, share, ALERT);
@@ -153,8 +154,8 @@ fn ring(pen: &mut Pen, at: Vec2, radius: f32, width: f32, share: f32, colour: Co
 
 /// The key as a key cap, pointing down.
 fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
-    let unit = pen.line(Size::Body);
-    let half = Vec2::new(0.5 * pen.width(Size::Body, key).max(0.6 * unit) + 0.3 * unit, 0.55 * unit);
+    let unit = pen.line(TextSize::Body);
+    let half = Vec2::new(0.5 * pen.width(TextSize::Body, key).max(0.6 * unit) + 0.3 * unit, 0.55 * unit);
     let middle = tip - Vec2::new(0.0, half.y + 0.35 * unit);
     let (face, ink) = (if is_down { ALERT } else { HALO }, INK);
     let wing = Vec2::new(0.35 * unit, 0.0);
@@ -166,7 +167,7 @@ fn draw_key(pen: &mut Pen, tip: Vec2, key: &str, is_down: bool) {
     pen.canvas().rectangle(middle - half, middle + half, face);
     // Twice, for a bolder stroke.
     for by in [0.0, 1.0] {
-        pen.write(middle + Vec2::new(by, 0.0), Size::Body, Align::Centre, ink, key);
+        pen.write(middle + Vec2::new(by, 0.0), TextSize::Body, Align::Centre, ink, key);
     }
 }
 
@@ -187,8 +188,8 @@ impl Gains {
     }
 
     /// Draws them where they were gained; they rise unless nothing may move.
-    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>, taken: &mut Taken) {
-        let unit = pen.line(Size::Body);
+    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout) {
+        let unit = pen.line(TextSize::Body);
         for (gain, age) in &self.0 {
             // None rises out of the picture.
             let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
@@ -196,7 +197,7 @@ impl Gains {
             let place = taken.place(place, Vec2::new(1.4, 0.63) * unit);
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
             let at = place - Vec2::new(0.0, rise);
-            pen.label(at, Size::Body, Align::Centre, READY, &format!("+{}", gain.points));
+            pen.label(at, TextSize::Body, Align::Centre, READY, &format!("+{}", gain.points));
         }
     }
 }
@@ -221,8 +222,8 @@ mod tests {
     #[test]
     fn t69_t75_the_green_arrow_is_for_what_can_be_taken_in() {
         let arrows = |readiness, at, is_classic| {
-            let target = Target { prey: prey(), at, half_extent: 5.0, readiness };
-            drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), is_classic)
+            let target = PreyTarget { prey: prey(), at, half_extent: 5.0, readiness };
+            drawn(|pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &[target]), is_classic)
                 .canvas()
                 .count(READY)
         };
@@ -237,22 +238,25 @@ mod tests {
 
     #[test]
     fn marks_at_one_place_stand_apart() {
-        let target = Target { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 5.0, readiness: Readiness::Ready };
+        let target =
+            PreyTarget { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 5.0, readiness: Readiness::Ready };
         let lowest = |count| {
-            let pen =
-                &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &vec![target; count]), false);
+            let pen = &mut drawn(
+                |pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &vec![target; count]),
+                false,
+            );
             pen.canvas().corners().map(|(at, ..)| at.y).fold(0.0, f32::max)
         };
-        assert!(lowest(3) > lowest(1) + 4.0 * Pen::bare().line(Size::Body));
+        assert!(lowest(3) > lowest(1) + 4.0 * Pen::bare().line(TextSize::Body));
     }
 
     #[test]
     fn marks_leave_the_status_line_free() {
         for height in 60..90 {
             let at = Vec2::new(80.0, height as f32);
-            let target = Target { prey: prey(), at, half_extent: 5.0, readiness: Readiness::TooLarge(0.5) };
-            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &mut Taken::default(), &[target]), false);
-            let free = 2.0 * pen.line(Size::Body);
+            let target = PreyTarget { prey: prey(), at, half_extent: 5.0, readiness: Readiness::TooLarge(0.5) };
+            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &[target]), false);
+            let free = 2.0 * pen.line(TextSize::Body);
             assert!(pen.canvas().corners().all(|(at, ..)| at.y > free), "{height}");
             assert!(height > 75 || pen.canvas().corners().count() > 0, "{height}");
         }
@@ -261,14 +265,14 @@ mod tests {
     #[test]
     fn t71_the_key_cap_stands_at_what_is_inside_and_lights_up_while_it_is_digested() {
         let held = |state| {
-            let held = Held { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 2.0, state };
-            drawn(|pen, style| draw_held(pen, style, &mut Taken::default(), &[held]), false)
+            let held = HeldPrey { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 2.0, state };
+            drawn(|pen, style| draw_held(pen, style, &mut MarkLayout::default(), &[held]), false)
         };
         let cap = |state, face| held(state).canvas().count(face);
-        assert_eq!(cap(State::Entering, INK), 0, "no key yet");
-        assert!(cap(State::Inside(0.0), INK) > 0 && cap(State::Inside(0.0), HALO) > 0);
-        assert_eq!(cap(State::Inside(0.0), ALERT), 0);
-        assert!(cap(State::Inside(0.5), ALERT) > 0);
+        assert_eq!(cap(MealState::Entering, INK), 0, "no key yet");
+        assert!(cap(MealState::Inside(0.0), INK) > 0 && cap(MealState::Inside(0.0), HALO) > 0);
+        assert_eq!(cap(MealState::Inside(0.0), ALERT), 0);
+        assert!(cap(MealState::Inside(0.5), ALERT) > 0);
     }
 
     #[test]
@@ -277,11 +281,11 @@ mod tests {
         let gain = Gain { kind: Kind::Agar, points: 10, at: Vec2::new(80.0, 45.0) };
         gains.add(&[gain; 4]);
         let panels = |gains: &Gains| {
-            drawn(|pen, style| gains.draw(pen, style, &mut Taken::default()), false).canvas().corners().count() / 4
+            drawn(|pen, style| gains.draw(pen, style, &mut MarkLayout::default()), false).canvas().corners().count() / 4
         };
         assert_eq!(panels(&gains), 4);
         let heights: std::collections::BTreeSet<i32> =
-            drawn(|pen, style| gains.draw(pen, style, &mut Taken::default()), false)
+            drawn(|pen, style| gains.draw(pen, style, &mut MarkLayout::default()), false)
                 .canvas()
                 .corners()
                 .map(|(at, ..)| at.y.round() as i32)

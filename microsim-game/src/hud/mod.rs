@@ -4,7 +4,8 @@
 pub mod marks;
 
 use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
 use microsim_core::glam::Vec2;
 
 /// Time at the end in which the clock stands out, s.
@@ -25,7 +26,7 @@ pub struct Status<'a> {
 
 /// Draws score and time along the upper edge.
 pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
-    let (screen, line) = (pen.screen(), pen.line(Size::Large));
+    let (screen, line) = (pen.screen(), pen.line(TextSize::Large));
     let [left, whole] = status.time;
     let share = (left / whole).clamp(0.0, 1.0);
     let is_late = left <= LAST_SECONDS;
@@ -34,21 +35,21 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let colour = if is_late { ALERT } else { READY };
     pen.canvas().rectangle(Vec2::ZERO, Vec2::new(bar.x * share, bar.y), colour);
     let middle = bar.y + 0.75 * line;
-    pen.label(Vec2::new(0.3 * line, middle), Size::Large, Align::Left, HALO, &format!("Score {}", status.score));
+    pen.label(Vec2::new(0.3 * line, middle), TextSize::Large, Align::Left, HALO, &format!("Score {}", status.score));
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
-    pen.label(Vec2::new(screen.x - 0.3 * line, middle), Size::Large, Align::Right, colour, &clock(left));
+    pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
     if !status.note.is_empty() {
-        pen.label(Vec2::new(0.5 * screen.x, middle), Size::Body, Align::Centre, HALO, status.note);
+        pen.label(Vec2::new(0.5 * screen.x, middle), TextSize::Body, Align::Centre, HALO, status.note);
     }
 }
 
 /// Advice above the lower edge.
 pub fn draw_advice(pen: &mut Pen, text: &str) {
-    let (screen, line) = (pen.screen(), pen.line(Size::Body));
-    for (k, text) in pen.wrap(Size::Body, text, 0.9 * screen.x).iter().rev().enumerate() {
+    let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
+    for (k, text) in pen.wrap(TextSize::Body, text, 0.9 * screen.x).iter().rev().enumerate() {
         let at = Vec2::new(0.5 * screen.x, screen.y - (0.9 + 1.12 * k as f32) * line);
-        pen.label(at, Size::Body, Align::Centre, HALO, text);
+        pen.label(at, TextSize::Body, Align::Centre, HALO, text);
     }
 }
 

@@ -132,7 +132,9 @@ impl Keys {
         }
         let old = self.of(action);
         let other = Action::ALL.into_iter().find(|&other| other != action && self.of(other) == key);
-        other.into_iter().for_each(|other| drop(self.0.insert(other, name(old))));
+        if let Some(other) = other {
+            self.0.insert(other, name(old));
+        }
         self.0.insert(action, name(key));
         true
     }

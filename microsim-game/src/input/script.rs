@@ -19,7 +19,7 @@ use std::path::PathBuf;
 
 /// A list of cues by frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Script {
+pub struct InputScript {
     cues: Vec<(u32, Cue)>,
     next: usize,
     cursor: Option<Vec2>,
@@ -40,7 +40,7 @@ enum Cue {
     Drop(PathBuf),
 }
 
-impl Script {
+impl InputScript {
     /// Reads a script.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn held_things_stay_held_and_presses_last_one_frame() {
         let text = "0 hold 0.5 0.25\n1 down zoom-out # out\n\n2 press pause\n2 press enter\n4 release\n4 up zoom-out\n";
-        let mut script = Script::parse(text).unwrap();
+        let mut script = InputScript::parse(text).unwrap();
         let screen = Vec2::new(640.0, 360.0);
         let frames: Vec<Input> = (0..5).map(|frame| script.input(frame, screen)).collect();
         assert_eq!((frames[0].cursor, frames[0].is_clicked), (Vec2::new(320.0, 90.0), true));
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn nonsense_is_named_by_its_line() {
         for text in ["0 press q", "hold 1 1", "0 hold 1", "0 hold nan 0", "5 release\n4 release"] {
-            let problem = Script::parse(text).unwrap_err();
+            let problem = InputScript::parse(text).unwrap_err();
             assert!(problem.starts_with("line "), "{text}: {problem}");
         }
     }

@@ -40,7 +40,7 @@ pub struct Bot {
     policy: Policy,
     rng: Rng,
     target: Option<OrganismId>,
-    /// When it chose its target or decided anew, s.
+    /// When it chose its target or last decided, s.
     since: f64,
     given_up: Vec<(OrganismId, f64)>,
     random: Intent,

@@ -16,7 +16,7 @@ pub enum Readiness {
 
 /// A rigid cell and whether it can be taken in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
+pub struct PreyTarget {
     /// The cell.
     pub prey: OrganismId,
     /// Its centre.
@@ -29,7 +29,7 @@ pub struct Target {
 
 /// Something that the player touches or holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct HeldPrey {
     /// What it is.
     pub prey: OrganismId,
     /// Its centre.
@@ -37,12 +37,12 @@ pub struct Held {
     /// Half its length, units.
     pub half_extent: f32,
     /// Where it stands.
-    pub state: State,
+    pub state: MealState,
 }
 
 /// Where something stands on its way into the player, and out of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum State {
+pub enum MealState {
     /// Touched: share of the time that the touch has to last, 0 to 1.
     Touching(f32),
     /// Going in.
@@ -55,9 +55,9 @@ pub enum State {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hints {
     /// Rigid cells that are free.
-    pub targets: Vec<Target>,
+    pub targets: Vec<PreyTarget>,
     /// What the player touches or holds.
-    pub held: Vec<Held>,
+    pub held: Vec<HeldPrey>,
 }
 
 impl Hints {
@@ -68,11 +68,11 @@ impl Hints {
         let free = |organism: &OrganismView<'_>| organism.is_soft_prey() && organism.held_by().is_none();
         let targets = view.organisms().filter(free).filter_map(|prey| {
             let readiness = readiness(engulfer, prey)?;
-            Some(Target { prey: prey.id(), at: prey.centroid(), half_extent: half_extent(prey), readiness })
+            Some(PreyTarget { prey: prey.id(), at: prey.centroid(), half_extent: half_extent(prey), readiness })
         });
         let held = engulfer.meals().filter_map(|(prey, phase)| {
             let organism = view.organism(prey)?;
-            Some(Held {
+            Some(HeldPrey {
                 prey,
                 at: organism.centroid(),
                 half_extent: half_extent(organism),
@@ -85,7 +85,7 @@ impl Hints {
     /// Whether holding the key would digest something.
     #[must_use]
     pub fn can_digest(&self) -> bool {
-        self.held.iter().any(|held| matches!(held.state, State::Inside(_)))
+        self.held.iter().any(|held| matches!(held.state, MealState::Inside(_)))
     }
 }
 
@@ -101,15 +101,15 @@ pub fn readiness(player: OrganismView<'_>, prey: OrganismView<'_>) -> Option<Rea
     })
 }
 
-fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> State {
+fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> MealState {
     match phase {
         MealPhase::Touching(time) => {
             let needed = engulfer.phagocytosis().map_or(1.0, |params| params.hold_time.max(1e-3));
-            State::Touching((time / needed).min(1.0))
+            MealState::Touching((time / needed).min(1.0))
         }
-        MealPhase::Ingesting(_) => State::Entering,
-        MealPhase::Ingested => State::Inside(0.0),
-        MealPhase::Digesting(share) => State::Inside(share.min(1.0)),
+        MealPhase::Ingesting(_) => MealState::Entering,
+        MealPhase::Ingested => MealState::Inside(0.0),
+        MealPhase::Digesting(share) => MealState::Inside(share.min(1.0)),
     }
 }
 

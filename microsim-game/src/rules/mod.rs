@@ -7,6 +7,7 @@
 //! ```
 
 pub mod bot;
+pub mod game;
 pub mod hint;
 pub mod referee;
 pub mod round;

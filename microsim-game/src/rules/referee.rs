@@ -17,7 +17,7 @@ pub struct Gain {
 
 /// What was digested of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct KindScore {
     /// How many.
     pub count: u32,
     /// Points for all of them.
@@ -32,13 +32,13 @@ pub struct Referee {
     steps: u64,
     steps_left: u64,
     /// What the player holds: its handle is stale when it is digested.
-    held: Vec<Held>,
+    held: Vec<MealRecord>,
     gains: Vec<Gain>,
-    tallies: Vec<(Kind, Tally)>,
+    kinds: Vec<(Kind, KindScore)>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Held {
+struct MealRecord {
     prey: OrganismId,
     area: f32,
     at: Vec2,
@@ -49,9 +49,9 @@ impl Referee {
     #[must_use]
     pub fn new(game: Game, player: OrganismId, world: &World) -> Self {
         let steps = (f64::from(game.time) / f64::from(world.config().dt)).round() as u64;
-        let tallies = game.points.iter().map(|(kind, _)| (*kind, Tally::default())).collect();
+        let kinds = game.points.iter().map(|(kind, _)| (*kind, KindScore::default())).collect();
         let (held, gains) = (Vec::new(), Vec::new());
-        Self { game, player, steps, steps_left: steps, held, gains, tallies }
+        Self { game, player, steps, steps_left: steps, held, gains, kinds }
     }
 
     /// Looks at the world after a step. When time is up, nothing counts any more.
@@ -75,9 +75,9 @@ impl Referee {
         let Some(held) = self.held.iter().find(|held| held.prey == prey) else { return };
         let points = self.game.points(kind, held.area);
         self.gains.push(Gain { kind, points, at: held.at });
-        if let Some((_, tally)) = self.tallies.iter_mut().find(|(of, _)| *of == kind) {
-            tally.count += 1;
-            tally.points += points;
+        if let Some((_, entry)) = self.kinds.iter_mut().find(|(of, _)| *of == kind) {
+            entry.count += 1;
+            entry.points += points;
         }
     }
 
@@ -85,7 +85,7 @@ impl Referee {
         let view = world.view();
         let meals = view.organism(self.player).into_iter().flat_map(|player| player.meals());
         let held = meals.filter_map(|(prey, _)| {
-            Some(Held { prey, area: view.organism(prey)?.spawn_area(), at: world.centroid(prey)? })
+            Some(MealRecord { prey, area: view.organism(prey)?.spawn_area(), at: world.centroid(prey)? })
         });
         self.held = held.collect();
     }
@@ -93,7 +93,7 @@ impl Referee {
     /// Points so far.
     #[must_use]
     pub fn score(&self) -> u32 {
-        self.tallies.iter().map(|(_, tally)| tally.points).sum()
+        self.kinds.iter().map(|(_, entry)| entry.points).sum()
     }
 
     /// What the last step earned.
@@ -104,8 +104,8 @@ impl Referee {
 
     /// What was digested so far, by kind.
     #[must_use]
-    pub fn tallies(&self) -> &[(Kind, Tally)] {
-        &self.tallies
+    pub fn kinds(&self) -> &[(Kind, KindScore)] {
+        &self.kinds
     }
 
     /// Time left, s.

@@ -1,10 +1,10 @@
 //! One round: a world, its player and the referee. Mouse and bots play it by intents, which are recorded; a replay has its
 //! own.
 
-use super::referee::Referee;
+use super::referee::{KindScore, Referee};
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
-use microsim_core::{Inputs, Intent, OrganismId, World};
+use microsim_core::{Inputs, Intent, Kind, OrganismId, World};
 use std::num::NonZeroU32;
 
 /// Steps between two digests of a recorded round.
@@ -17,6 +17,21 @@ pub struct Round {
     course: Course,
     player: OrganismId,
     referee: Referee,
+}
+
+/// How a round ended.
+#[derive(Clone, Debug)]
+pub struct RoundResult {
+    /// Points.
+    pub score: u32,
+    /// Time of the round, s.
+    pub time: f32,
+    /// What was digested, by kind.
+    pub kinds: Vec<(Kind, KindScore)>,
+    /// The round as a [`Replay`]; `None` if it was a replay itself.
+    pub record: Option<Vec<u8>>,
+    /// Whether a replay came out otherwise than it was recorded.
+    pub is_mismatch: bool,
 }
 
 /// What makes a round go on.
@@ -110,6 +125,18 @@ impl Round {
                 Some([&record[..], &recorder.clone().finish(&run.world)].concat())
             }
             Course::Replay { .. } => None,
+        }
+    }
+
+    /// How it stands, to be kept when it is over.
+    #[must_use]
+    pub fn result(&self) -> RoundResult {
+        RoundResult {
+            score: self.referee.score(),
+            time: self.referee.game().time,
+            kinds: self.referee.kinds().to_vec(),
+            record: self.record(),
+            is_mismatch: self.mismatch().is_some(),
         }
     }
 

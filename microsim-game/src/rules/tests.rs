@@ -1,7 +1,7 @@
 //! The rules over whole rounds.
 
 use super::bot::{Bot, Policy};
-use super::hint::{Hints, Readiness, State};
+use super::hint::{Hints, MealState, Readiness};
 use super::round::Round;
 use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
@@ -56,7 +56,7 @@ fn hunt(round: &mut Round, digests: bool, done: impl Fn(&Round) -> bool) {
 
 fn inside(round: &Round) -> usize {
     let hints = Hints::of(round.world().view(), round.player());
-    hints.held.iter().filter(|held| matches!(held.state, State::Inside(_))).count()
+    hints.held.iter().filter(|held| matches!(held.state, MealState::Inside(_))).count()
 }
 
 #[test]
@@ -151,10 +151,10 @@ fn t29_t71_hints_follow_a_meal_from_touch_to_digestion() {
     for _ in 0..1200 {
         let hints = Hints::of(round.world().view(), round.player());
         match hints.held.first().map(|held| held.state) {
-            Some(State::Touching(share)) => seen[0] |= share > 0.3 && !hints.can_digest(),
-            Some(State::Entering) => seen[1] |= !hints.can_digest(),
-            Some(State::Inside(0.0)) => seen[2] |= hints.can_digest(),
-            Some(State::Inside(share)) => seen[3] |= share < 1.0 && hints.can_digest(),
+            Some(MealState::Touching(share)) => seen[0] |= share > 0.3 && !hints.can_digest(),
+            Some(MealState::Entering) => seen[1] |= !hints.can_digest(),
+            Some(MealState::Inside(0.0)) => seen[2] |= hints.can_digest(),
+            Some(MealState::Inside(share)) => seen[3] |= share < 1.0 && hints.can_digest(),
             None => {}
         }
         let goal = round.world().organisms().nth(1).and_then(|id| round.world().centroid(id));
@@ -174,9 +174,9 @@ fn the_score_is_the_sum_of_its_gains_and_no_more_than_was_eaten() {
             |event: &&Event| matches!(event, Event::Consumed { engulfer, .. } if *engulfer == round.player());
         eaten += round.world().events().iter().filter(by_player).count() as u32;
     });
-    let tallies = round.referee().tallies();
+    let kinds = round.referee().kinds();
     assert_eq!(gained, round.referee().score());
-    assert_eq!(eaten, tallies.iter().map(|(_, tally)| tally.count).sum::<u32>());
+    assert_eq!(eaten, kinds.iter().map(|(_, entry)| entry.count).sum::<u32>());
     assert!(eaten > 0);
 }
 

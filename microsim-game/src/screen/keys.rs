@@ -1,27 +1,27 @@
 //! Which key does what: choose an action, then press its new key.
 
-use super::page::Page;
-use super::{Change, Context, Screen};
+use super::context::AppContext;
+use super::page::MenuPage;
+use super::{Next, Screen};
 use crate::input::keys::Keys;
 use crate::input::{Action, Input, Move};
-use crate::ui::menu::{Choice, Item};
+use crate::ui::menu::{MenuChoice, MenuItem};
 
 /// The menu of keys.
 #[derive(Debug)]
-pub struct KeysMenu {
-    page: Page,
+pub(super) struct KeysMenu {
+    page: MenuPage,
     /// The action that waits for its key.
     waiting: Option<Action>,
 }
 
 impl KeysMenu {
     /// The present keys.
-    #[must_use]
-    pub fn new(context: &Context) -> Self {
-        Self { page: Page::new("Keys", items(&context.settings.keys, None)), waiting: None }
+    pub(super) fn new(context: &AppContext) -> Self {
+        Self { page: MenuPage::new("Keys", items(&context.settings.keys, None)), waiting: None }
     }
 
-    fn assign(&mut self, action: Action, input: &Input, context: &mut Context) {
+    fn assign(&mut self, action: Action, input: &Input, context: &mut AppContext) {
         let Some(key) = input.key else { return };
         if input.step == Some(Move::Back) {
             self.waiting = None;
@@ -34,22 +34,22 @@ impl KeysMenu {
     }
 }
 
-fn items(keys: &Keys, waiting: Option<Action>) -> Vec<Item> {
+fn items(keys: &Keys, waiting: Option<Action>) -> Vec<MenuItem> {
     let label = |action| if waiting == Some(action) { "press a key".to_owned() } else { keys.label(action) };
-    let actions = Action::ALL.into_iter().map(|action| Item::with(action.label(), label(action)));
-    actions.chain([Item::new("Usual keys"), Item::new("Back")]).collect()
+    let actions = Action::ALL.into_iter().map(|action| MenuItem::with(action.label(), label(action)));
+    actions.chain([MenuItem::new("Usual keys"), MenuItem::new("Back")]).collect()
 }
 
 impl Screen for KeysMenu {
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if let Some(action) = self.waiting {
             self.assign(action, input, context);
         } else if input.step == Some(Move::Back) {
-            return Change::Pop;
-        } else if let Some(Choice::Pick(item) | Choice::Less(item)) = self.page.update(input, &context.pen) {
+            return Next::Back;
+        } else if let Some(MenuChoice::Pick(item) | MenuChoice::Less(item)) = self.page.update(input, &context.pen) {
             match Action::ALL.get(item) {
                 Some(&action) => self.waiting = Some(action),
-                None if item > Action::ALL.len() => return Change::Pop,
+                None if item > Action::ALL.len() => return Next::Back,
                 None => {
                     context.settings.keys = Keys::default();
                     context.save_settings();
@@ -57,10 +57,10 @@ impl Screen for KeysMenu {
             }
         }
         self.page.menu.items = items(&context.settings.keys, self.waiting);
-        Change::Stay
+        Next::Stay
     }
 
-    fn draw(&mut self, context: &mut Context) {
+    fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
     }
 

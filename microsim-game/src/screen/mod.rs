@@ -1,54 +1,32 @@
-//! Screens: each is a file with one type that reads input and draws. They lie on a stack; menus lie over what they
-//! belong to.
+//! Screens: each is a file with one type that reads input and draws. A screen says as data what comes [`Next`]; the
+//! [`stack`] builds it.
 
-pub mod end;
-pub mod keys;
+pub mod context;
+mod end;
+mod keys;
 mod page;
-pub mod pause;
-pub mod pick;
-pub mod play;
-pub mod sandbox;
-pub mod scores;
-pub mod settings;
-pub mod title;
+mod pause;
+mod pick;
+mod play;
+mod sandbox;
+mod scores;
+mod settings;
+pub mod stack;
+mod title;
 
-use crate::args::Scene;
-use crate::camera::Camera;
-use crate::draw::Frame;
-use crate::draw::palette::{HALO, INK, fade};
 use crate::input::Input;
-use crate::scenery::{Effort, Scenery, Sight};
-use crate::store::files::Store;
-use crate::store::scores::Scores;
-use crate::store::settings::{self as kept, Settings};
-use crate::ui::pen::{Align, Pen, Size};
-use crate::viewer::Pace;
-use microsim_core::View;
-use microsim_core::glam::Vec2;
+use crate::rules::round::RoundResult;
+use crate::stage::Stage;
+use context::AppContext;
 use std::fmt;
-
-/// File of the last round that was played to its end: a replay, which `microsim replay` reads too.
-const LAST_GAME: &str = "last-game.replay";
-/// How long a message is shown: at least, for each of its bytes, and at most, s.
-const MESSAGE_TIME: f32 = 4.0;
-const READING_TIME: f32 = 0.04;
-const LONGEST_TIME: f32 = 20.0;
-/// Most lines and letters of a message.
-const MESSAGE_LINES: usize = 10;
-const MESSAGE_LETTERS: usize = 700;
 
 /// What the program is showing.
 pub trait Screen: fmt::Debug {
     /// Reads the input of a frame and lets time pass. Only the topmost screen is asked.
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change;
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next;
 
     /// Draws.
-    fn draw(&mut self, context: &mut Context);
-
-    /// Whether the scene below is still seen; other menus in between are not.
-    fn is_overlay(&self) -> bool {
-        true
-    }
+    fn draw(&mut self, context: &mut AppContext);
 
     /// What pictures of it are called.
     fn name(&self) -> String;
@@ -64,204 +42,69 @@ pub trait Screen: fmt::Debug {
     }
 }
 
-/// What happens to the stack of screens.
+/// What is shown next.
 #[derive(Debug)]
-pub enum Change {
-    /// Nothing.
+pub enum Next {
+    /// The same screen.
     Stay,
-    /// This one comes on top.
-    Push(Box<dyn Screen>),
-    /// The topmost one goes.
-    Pop,
-    /// This one comes in place of all.
-    Reset(Box<dyn Screen>),
-    /// The program ends.
+    /// The screen below this one.
+    Back,
+    /// An overlay above this screen.
+    Open(Overlay),
+    /// A main screen in place of all screens.
+    Show(MainScreen),
+    /// Nothing: the program ends.
     Quit,
 }
 
-impl Change {
-    /// A screen on top.
-    pub fn push(screen: impl Screen + 'static) -> Self {
-        Self::Push(Box::new(screen))
-    }
-
-    /// A screen in place of all.
-    pub fn reset(screen: impl Screen + 'static) -> Self {
-        Self::Reset(Box::new(screen))
-    }
-}
-
-/// What a game is played by.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GameChoice {
-    /// The scenario.
-    pub scene: Scene,
-    /// Values of it that were changed on the command line.
-    pub overrides: Vec<(String, String)>,
-    /// Seed of every round; a new one for each unless given.
-    pub seed: Option<u64>,
-}
-
-/// How pictures shall be as long as the player chooses nothing else.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Asked {
-    /// The way of looking.
-    pub sight: Option<Sight>,
-    /// How much of the machine pictures may take.
-    pub effort: Option<Effort>,
-}
-
-/// What all screens share.
+/// A screen that lies below all others.
 #[derive(Debug)]
-pub struct Context {
-    /// Draws the scene.
-    pub scenery: Scenery,
-    /// Draws above it.
-    pub pen: Pen,
-    /// Where settings and scores are kept.
-    pub store: Store,
-    /// What the player has chosen.
-    pub settings: Settings,
-    /// The same when it was last read or kept.
-    kept_settings: Settings,
-    /// High scores.
-    pub scores: Scores,
-    /// How time passes in this frame.
-    pub pace: Pace,
-    /// Time since the program began, s.
-    pub time: f32,
-    /// What a game is played by.
-    pub game: GameChoice,
-    /// Scenario files that the player has named or dropped, for the list.
-    pub files: Vec<Scene>,
-    /// The last round that was played to its end, as a replay.
-    pub last_game: Option<Vec<u8>>,
-    /// Whether the screen that draws has nothing above it.
-    pub is_top: bool,
-    /// Whether a picture is wanted.
-    pub wants_picture: bool,
-    /// Ways of looking for this run only, in place of the ones in the settings.
-    pub asked: Asked,
-    message: Option<(String, f32)>,
+pub enum MainScreen {
+    /// The title.
+    Title,
+    /// A new round of the game.
+    Round,
+    /// The last round of the game again.
+    Replay,
+    /// A simulation.
+    Simulation(Box<Stage>),
 }
 
-impl Context {
-    /// What screens share at first. Needs an open window.
-    #[must_use]
-    pub fn new(store: Store, game: GameChoice, files: Vec<Scene>) -> Self {
-        let (settings, problem) = store.load::<Settings>(kept::FILE);
-        let (scores, other_problem) = Scores::load(&store);
-        let last_game = store.read(LAST_GAME);
-        let mut context = Self {
-            scenery: Scenery::new(),
-            pen: Pen::new(),
-            store,
-            kept_settings: settings.clone(),
-            settings,
-            scores,
-            pace: Pace { elapsed: 0.0, is_exact: false },
-            time: 0.0,
-            game,
-            files,
-            last_game,
-            is_top: true,
-            wants_picture: false,
-            asked: Asked::default(),
-            message: None,
-        };
-        let problems: Vec<String> = problem.into_iter().chain(other_problem).collect();
-        if !problems.is_empty() {
-            context.tell(problems.join("\n"));
-        }
-        context
-    }
+/// A screen that lies over a main screen.
+#[derive(Debug)]
+pub enum Overlay {
+    /// The menu that stops a main screen.
+    Pause(Paused),
+    /// The end of a round.
+    End(Box<RoundResult>),
+    /// The list of simulations.
+    Pick,
+    /// High scores.
+    Scores,
+    /// Settings.
+    Settings,
+    /// Which key does what.
+    Keys,
+}
 
-    /// Shows a message for a while.
-    pub fn tell(&mut self, text: impl Into<String>) {
-        let mut text = text.into();
-        if let Some((end, _)) = text.char_indices().nth(MESSAGE_LETTERS) {
-            text.truncate(end);
-            text.push_str(" ...");
-        }
-        let time = (READING_TIME * text.len() as f32).clamp(MESSAGE_TIME, LONGEST_TIME);
-        self.message = Some((text, self.time + time));
-    }
+/// What the pause menu stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paused {
+    /// A round that is played.
+    Round,
+    /// A replay.
+    Replay,
+    /// A simulation.
+    Simulation,
+}
 
-    /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.
-    pub fn save_settings(&mut self) {
-        let kept = self.store.read(kept::FILE).and_then(|bytes| toml::from_slice::<Settings>(&bytes).ok());
-        if let Some(kept) = kept {
-            self.settings = self.settings.clone().over(&self.kept_settings, kept);
-        }
-        self.kept_settings = self.settings.clone();
-        if let Err(error) = self.store.save(kept::FILE, &self.settings) {
-            self.tell(format!("cannot keep the settings: {error}"));
-        }
-    }
-
-    /// The present way of looking.
-    #[must_use]
-    pub fn sight(&self) -> Sight {
-        self.asked.sight.unwrap_or_else(|| Sight::named(&self.settings.sight))
-    }
-
-    /// How much of the machine pictures may take.
-    #[must_use]
-    pub fn effort(&self) -> Effort {
-        self.asked.effort.unwrap_or(self.settings.effort)
-    }
-
-    /// Draws a scene as the player wants to see it.
-    pub fn paint(&mut self, view: View<'_>, camera: &Camera) {
-        let time = self.motion().unwrap_or(0.0);
-        self.scenery.paint(&Frame { view, camera, time }, self.sight(), self.effort());
-    }
-
-    /// Another way of looking.
-    pub fn change_sight(&mut self, is_back: bool) {
-        let sight = self.sight().next(is_back);
-        sight.name().clone_into(&mut self.settings.sight);
-        self.asked.sight = None;
-        self.scenery.take_heart();
-        self.save_settings();
-        self.tell(sight.name());
-    }
-
-    /// More or less of the machine for pictures.
-    pub fn change_effort(&mut self, is_back: bool) {
-        self.settings.effort = self.effort().next(is_back);
-        self.asked.effort = None;
-        self.scenery.take_heart();
-        self.save_settings();
-    }
-
-    /// Puts a scenario file into the list of simulations.
-    pub fn list(&mut self, file: Scene) {
-        self.files.retain(|known| *known != file);
-        self.files.insert(0, file);
-    }
-
-    /// Time for what moves of itself in marks and background; `None` if the player wants less motion.
-    #[must_use]
-    pub fn motion(&self) -> Option<f32> {
-        (!self.settings.reduced_motion).then_some(self.time)
-    }
-
-    /// Draws the message, if there is one.
-    pub(crate) fn draw_message(&mut self) {
-        let Some((text, _)) = self.message.as_ref().filter(|(_, until)| self.time < *until) else { return };
-        let pen = &mut self.pen;
-        let (screen, line) = (pen.screen(), pen.line(Size::Small));
-        let most = ((screen.y / line - 1.0) as usize).clamp(1, MESSAGE_LINES);
-        let lines: Vec<String> = pen.wrap(Size::Small, text, 0.94 * screen.x).into_iter().take(most).collect();
-        let widest = lines.iter().map(|text| pen.width(Size::Small, text)).fold(0.0, f32::max);
-        let size = Vec2::new(widest + 0.8 * line, line * (lines.len() as f32 + 0.2));
-        let low = Vec2::new(0.5 * (screen.x - size.x), (0.78 * screen.y).min(screen.y - size.y - 0.3 * line));
-        // Menus do not shine through.
-        pen.canvas().rectangle(low, low + size, fade(INK, 0.95));
-        for (k, text) in lines.iter().enumerate() {
-            let at = Vec2::new(0.5 * screen.x, low.y + line * (k as f32 + 0.6));
-            pen.write(at, Size::Small, Align::Centre, HALO, text);
+impl Paused {
+    /// The same from its beginning; the pause menu of a simulation has no such item.
+    fn restart(self) -> Next {
+        match self {
+            Self::Round => Next::Show(MainScreen::Round),
+            Self::Replay => Next::Show(MainScreen::Replay),
+            Self::Simulation => Next::Stay,
         }
     }
 }

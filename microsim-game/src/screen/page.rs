@@ -2,8 +2,9 @@
 
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::Input;
-use crate::ui::menu::{Choice, Item, Menu, Place};
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+use crate::ui::pen::{Align, Pen};
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu, and above the middle of the heading.
@@ -14,39 +15,41 @@ const SHADE: f32 = 0.76;
 
 /// A heading and a menu.
 #[derive(Debug)]
-pub(super) struct Page {
+pub(super) struct MenuPage {
     heading: &'static str,
     pub menu: Menu,
 }
 
-impl Page {
-    pub(super) fn new(heading: &'static str, items: Vec<Item>) -> Self {
+impl MenuPage {
+    pub(super) fn new(heading: &'static str, items: Vec<MenuItem>) -> Self {
         Self { heading, menu: Menu::new(items) }
     }
 
     /// Moves through the menu.
-    pub(super) fn update(&mut self, input: &Input, pen: &Pen) -> Option<Choice> {
-        self.menu.update(input, &Place::middle(pen, TOP))
+    pub(super) fn update(&mut self, input: &Input, pen: &Pen) -> Option<MenuChoice> {
+        self.menu.update(input, &MenuLayout::middle(pen, TOP))
     }
 
     pub(super) fn draw(&self, pen: &mut Pen) {
         draw_heading(pen, self.heading);
-        self.menu.draw(pen, &Place::middle(pen, TOP));
+        self.menu.draw(pen, &MenuLayout::middle(pen, TOP));
     }
 
     /// Writes a note between the heading and the menu, as much of it as there is room for.
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
-        let (screen, line) = (pen.screen(), pen.line(Size::Small));
-        let mut lines = pen.wrap(Size::Small, text, 0.9 * screen.x);
-        let room = (TOP - HEADING) * screen.y - 0.5 * pen.line(Size::Large);
+        let (screen, line) = (pen.screen(), pen.line(TextSize::Small));
+        let mut lines = pen.wrap(TextSize::Small, text, 0.9 * screen.x);
+        let room = (TOP - HEADING) * screen.y - 0.5 * pen.line(TextSize::Large);
         let most = (room / line) as usize;
         if most < lines.len() {
             lines.truncate(most);
-            lines.last_mut().into_iter().for_each(|last| last.push_str(" ..."));
+            if let Some(last) = lines.last_mut() {
+                last.push_str(" ...");
+            }
         }
         for (k, text) in lines.iter().rev().enumerate() {
             let at = Vec2::new(0.5 * screen.x, TOP * screen.y - (k as f32 + 0.7) * line);
-            pen.write(at, Size::Small, Align::Centre, HALO, text);
+            pen.write(at, TextSize::Small, Align::Centre, HALO, text);
         }
     }
 }
@@ -61,7 +64,7 @@ pub(super) fn draw_shade(pen: &mut Pen) {
 pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
     draw_shade(pen);
     let at = Vec2::new(0.5, HEADING) * pen.screen();
-    let fits = |size: &Size| pen.width(*size, text) <= 0.96 * pen.screen().x;
-    let size = [Size::Large, Size::Body].into_iter().find(fits).unwrap_or(Size::Small);
+    let fits = |size: &TextSize| pen.width(*size, text) <= 0.96 * pen.screen().x;
+    let size = [TextSize::Large, TextSize::Body].into_iter().find(fits).unwrap_or(TextSize::Small);
     pen.write(at, size, Align::Centre, HALO, text);
 }

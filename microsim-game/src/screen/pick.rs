@@ -1,44 +1,45 @@
 //! The list of scenarios to look at: those that come with the program, and files.
 
-use super::page::Page;
-use super::sandbox::Sandbox;
-use super::{Change, Context, Screen};
-use crate::args::Scene;
+use super::context::AppContext;
+use super::page::MenuPage;
+use super::{MainScreen, Next, Screen};
 use crate::input::{Input, Move};
-use crate::ui::menu::{Choice, Item};
+use crate::scene_source::SceneSource;
+use crate::ui::menu::{MenuChoice, MenuItem};
 use microsim_core::scenario;
 
 /// The list of scenarios.
 #[derive(Debug)]
-pub struct Pick {
-    page: Page,
-    scenes: Vec<(Scene, &'static str)>,
+pub(super) struct Pick {
+    page: MenuPage,
+    sources: Vec<(SceneSource, &'static str)>,
 }
 
 impl Pick {
     /// The files that the player has named or dropped, and the built-in scenarios.
-    #[must_use]
-    pub fn new(context: &Context) -> Self {
+    pub(super) fn new(context: &AppContext) -> Self {
         let files = context.files.iter().map(|file| (file.clone(), "a file"));
-        let builtins = scenario::builtins().iter().map(|found| (Scene::Builtin(found.name.to_owned()), found.summary));
-        let scenes: Vec<_> = files.chain(builtins).collect();
-        let items = scenes.iter().map(|(scene, _)| Item::new(scene.to_string())).collect();
-        Self { page: Page::new("Simulation", items), scenes }
+        let builtins =
+            scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), found.summary));
+        let sources: Vec<_> = files.chain(builtins).collect();
+        let items = sources.iter().map(|(source, _)| MenuItem::new(source.to_string())).collect();
+        Self { page: MenuPage::new("Simulation", items), sources }
     }
 }
 
 impl Screen for Pick {
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.step == Some(Move::Back) {
-            return Change::Pop;
+            return Next::Back;
         }
-        let Some(Choice::Pick(item)) = self.page.update(input, &context.pen) else { return Change::Stay };
-        Sandbox::open(&self.scenes[item].0, context)
+        let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
+        let stage = context.open(&self.sources[item].0);
+        stage.map_or(Next::Stay, |stage| Next::Show(MainScreen::Simulation(Box::new(stage))))
     }
 
-    fn draw(&mut self, context: &mut Context) {
+    fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        let summary = self.scenes.get(self.page.menu.focus()).map_or("", |(_, summary)| *summary);
+        let summary = self.sources.get(self.page.menu.focus()).map_or("", |(_, summary)| *summary);
         self.page.draw_note(&mut context.pen, summary);
     }
 

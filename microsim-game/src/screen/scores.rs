@@ -1,48 +1,49 @@
 //! High scores.
 
+use super::context::AppContext;
 use super::page::draw_heading;
-use super::{Change, Context, Screen};
+use super::{Next, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
 use crate::store::scores::Score;
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
 use microsim_core::glam::Vec2;
 
 /// The list of high scores of the game.
 #[derive(Debug)]
-pub struct ScoreList {
+pub(super) struct ScoreList {
     game: String,
     scores: Vec<Score>,
 }
 
 impl ScoreList {
     /// The present list.
-    #[must_use]
-    pub fn new(context: &Context) -> Self {
+    pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         Self {
-            game: format!("High scores: {}, {time:.0} s", context.game.scene),
+            game: format!("High scores: {}, {time:.0} s", context.game.source),
             scores: context.scores.of(&game, time).cloned().collect(),
         }
     }
 }
 
 impl Screen for ScoreList {
-    fn update(&mut self, input: &Input, _: &mut Context) -> Change {
+    fn update(&mut self, input: &Input, _: &mut AppContext) -> Next {
         let leaves = matches!(input.step, Some(Move::Back | Move::Confirm)) || input.is_clicked;
-        if leaves { Change::Pop } else { Change::Stay }
+        if leaves { Next::Back } else { Next::Stay }
     }
 
-    fn draw(&mut self, context: &mut Context) {
+    fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
         draw_heading(pen, &self.game);
-        let (screen, line) = (pen.screen(), pen.line(Size::Body));
+        let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
         if self.scores.is_empty() {
-            pen.write(0.5 * screen, Size::Body, Align::Centre, HALO, "None yet. Play!");
+            pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, "None yet. Play!");
         }
         draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.9 * screen.y, &self.scores, None);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
-        pen.write(at, Size::Small, Align::Centre, HALO, "Enter or a click: back");
+        pen.write(at, TextSize::Small, Align::Centre, HALO, "Enter or a click: back");
     }
 
     fn name(&self) -> String {
@@ -53,13 +54,13 @@ impl Screen for ScoreList {
 
 /// Draws scores as a table from the middle of its upper edge down to `bottom`, one of them marked.
 pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, scores: &[Score], marked: Option<usize>) {
-    let line = pen.line(Size::Body);
+    let line = pen.line(TextSize::Body);
     let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
     let room = ((bottom - top) / line) as usize;
     let heads = ["", "points", "small", "cells"];
     if !scores.is_empty() {
         for (x, head) in columns.into_iter().zip(heads) {
-            pen.write(Vec2::new(x, top), Size::Small, Align::Right, HALO, head);
+            pen.write(Vec2::new(x, top), TextSize::Small, Align::Right, HALO, head);
         }
     }
     for (k, score) in scores.iter().take(room.saturating_sub(1)).enumerate() {
@@ -68,7 +69,7 @@ pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, sc
         let rank = if is_marked { format!("> {}", k + 1) } else { (k + 1).to_string() };
         let cells = [rank, score.points.to_string(), score.small.to_string(), score.rigid.to_string()];
         for (x, cell) in columns.into_iter().zip(cells) {
-            pen.write(Vec2::new(x, top + line * (k + 1) as f32), Size::Body, Align::Right, colour, &cell);
+            pen.write(Vec2::new(x, top + line * (k + 1) as f32), TextSize::Body, Align::Right, colour, &cell);
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Settings.
 
-use super::keys::KeysMenu;
-use super::page::Page;
-use super::{Change, Context, Screen};
+use super::context::AppContext;
+use super::page::MenuPage;
+use super::{Next, Overlay, Screen};
 use crate::input::{Input, Move};
-use crate::ui::menu::{Choice, Item};
+use crate::ui::menu::{MenuChoice, MenuItem};
 
 /// The menu of settings.
 #[derive(Debug)]
-pub struct SettingsMenu {
-    page: Page,
+pub(super) struct SettingsMenu {
+    page: MenuPage,
 }
 
 const SIGHT: usize = 0;
@@ -22,54 +22,53 @@ const KEYS: usize = 6;
 
 impl SettingsMenu {
     /// The present settings.
-    #[must_use]
-    pub fn new(context: &Context) -> Self {
-        Self { page: Page::new("Settings", items(context)) }
+    pub(super) fn new(context: &AppContext) -> Self {
+        Self { page: MenuPage::new("Settings", items(context)) }
     }
 }
 
-fn items(context: &Context) -> Vec<Item> {
+fn items(context: &AppContext) -> Vec<MenuItem> {
     let settings = &context.settings;
     vec![
-        Item::with("Optics", context.sight().name()),
-        Item::with("Quality", context.effort().name()),
-        Item::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
-        Item::switch("Reduced motion", settings.reduced_motion),
-        Item::switch("Classic arrows", settings.classic_arrows),
-        Item::switch("Full screen", settings.full_screen),
-        Item::new("Keys"),
-        Item::new("Back"),
+        MenuItem::with("Optics", context.sight().name()),
+        MenuItem::with("Quality", context.effort().name()),
+        MenuItem::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
+        MenuItem::switch("Reduced motion", settings.reduced_motion),
+        MenuItem::switch("Classic arrows", settings.classic_arrows),
+        MenuItem::switch("Full screen", settings.full_screen),
+        MenuItem::new("Keys"),
+        MenuItem::new("Back"),
     ]
 }
 
 impl Screen for SettingsMenu {
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         // Keys change some of them too.
         self.page.menu.items = items(context);
         if input.step == Some(Move::Back) {
-            return Change::Pop;
+            return Next::Back;
         }
-        let Some(choice) = self.page.update(input, &context.pen) else { return Change::Stay };
+        let Some(choice) = self.page.update(input, &context.pen) else { return Next::Stay };
         let settings = &mut context.settings;
         match choice {
-            Choice::Pick(SIGHT) => context.change_sight(false),
-            Choice::Less(SIGHT) => context.change_sight(true),
-            Choice::Pick(EFFORT) => context.change_effort(false),
-            Choice::Less(EFFORT) => context.change_effort(true),
-            Choice::Pick(TEXT) => settings.change_text_size(1),
-            Choice::Less(TEXT) => settings.change_text_size(-1),
-            Choice::Pick(MOTION) | Choice::Less(MOTION) => settings.reduced_motion ^= true,
-            Choice::Pick(ARROWS) | Choice::Less(ARROWS) => settings.classic_arrows ^= true,
-            Choice::Pick(FULL_SCREEN) | Choice::Less(FULL_SCREEN) => settings.full_screen ^= true,
-            Choice::Pick(KEYS) => return Change::push(KeysMenu::new(context)),
-            _ => return Change::Pop,
+            MenuChoice::Pick(SIGHT) => context.change_sight(false),
+            MenuChoice::Less(SIGHT) => context.change_sight(true),
+            MenuChoice::Pick(EFFORT) => context.change_effort(false),
+            MenuChoice::Less(EFFORT) => context.change_effort(true),
+            MenuChoice::Pick(TEXT) => settings.change_text_size(1),
+            MenuChoice::Less(TEXT) => settings.change_text_size(-1),
+            MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
+            MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
+            MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
+            MenuChoice::Pick(KEYS) => return Next::Open(Overlay::Keys),
+            _ => return Next::Back,
         }
         self.page.menu.items = items(context);
         context.save_settings();
-        Change::Stay
+        Next::Stay
     }
 
-    fn draw(&mut self, context: &mut Context) {
+    fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
     }
 

@@ -1,17 +1,15 @@
 //! The title: the hunt goes on behind the menu.
 
-use super::pick::Pick;
-use super::play::Play;
-use super::scores::ScoreList;
-use super::settings::SettingsMenu;
-use super::{Change, Context, Screen};
+use super::context::AppContext;
+use super::{MainScreen, Next, Overlay, Screen};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
-use crate::ui::glyphs::TITLE;
-use crate::ui::menu::{Choice, Item, Menu, Place, title_lines};
-use crate::ui::pen::{Align, Size};
+use crate::ui::font::TITLE;
+use crate::ui::font::TextSize;
+use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, title_lines};
+use crate::ui::pen::Align;
 use crate::viewer::{Viewer, first_view};
 use microsim_core::glam::Vec2;
 
@@ -19,18 +17,18 @@ use microsim_core::glam::Vec2;
 const VIEW: f32 = 42.0;
 /// The menu covers the middle: the hunter is seen beside it.
 const BESIDE: Vec2 = Vec2::new(0.36 * VIEW, 0.0);
-/// The scene behind the menu begins anew after this time, s: by then most of the prey is eaten.
+/// The backdrop starts over after this time, s: by then most of the prey is eaten.
 const SCENE_TIME: f64 = 90.0;
 
 /// The title.
 #[derive(Debug)]
-pub struct Title {
-    scene: Option<Scene>,
+pub(super) struct Title {
+    backdrop: Option<Backdrop>,
     menu: Menu,
 }
 
 #[derive(Debug)]
-struct Scene {
+struct Backdrop {
     stage: Stage,
     bot: Bot,
     viewer: Viewer,
@@ -43,27 +41,26 @@ const SCORES: usize = 3;
 const SETTINGS: usize = 4;
 
 impl Title {
-    /// The title, with its scene at the beginning.
-    #[must_use]
-    pub fn new(context: &Context) -> Self {
+    /// The title, with its backdrop at the beginning.
+    pub(super) fn new(context: &AppContext) -> Self {
         let labels = ["Play", "Simulation", "Watch the last game", "High scores", "Settings", "Quit"];
-        Self { scene: Scene::new(context.pen.screen()), menu: Menu::new(labels.map(Item::new).into()) }
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(labels.map(MenuItem::new).into()) }
     }
 
-    fn choose(&self, choice: Choice, context: &mut Context) -> Change {
-        let Choice::Pick(item) = choice else { return Change::Stay };
+    fn choose(choice: MenuChoice) -> Next {
+        let MenuChoice::Pick(item) = choice else { return Next::Stay };
         match item {
-            PLAY => Play::start(context),
-            SIMULATION => Change::push(Pick::new(context)),
-            REPLAY => Play::replay(context),
-            SCORES => Change::push(ScoreList::new(context)),
-            SETTINGS => Change::push(SettingsMenu::new(context)),
-            _ => Change::Quit,
+            PLAY => Next::Show(MainScreen::Round),
+            SIMULATION => Next::Open(Overlay::Pick),
+            REPLAY => Next::Show(MainScreen::Replay),
+            SCORES => Next::Open(Overlay::Scores),
+            SETTINGS => Next::Open(Overlay::Settings),
+            _ => Next::Quit,
         }
     }
 }
 
-impl Scene {
+impl Backdrop {
     fn new(screen: Vec2) -> Option<Self> {
         let stage = Stage::builtin("hunt")?;
         let mut camera = first_view(stage.world(), stage.player(), VIEW, screen);
@@ -73,7 +70,7 @@ impl Scene {
     }
 
     /// Goes on, unless the player wants less motion.
-    fn run(&mut self, context: &Context) {
+    fn run(&mut self, context: &AppContext) {
         let bot = &mut self.bot;
         let speed = if context.motion().is_some() { 1.0 } else { 0.0 };
         self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
@@ -90,52 +87,48 @@ impl Scene {
 }
 
 impl Screen for Title {
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
-        if let Some(scene) = &mut self.scene {
-            scene.run(context);
-            if scene.stage.world().time() > SCENE_TIME {
-                self.scene = Scene::new(context.pen.screen());
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        if let Some(backdrop) = &mut self.backdrop {
+            backdrop.run(context);
+            if backdrop.stage.world().time() > SCENE_TIME {
+                self.backdrop = Backdrop::new(context.pen.screen());
             }
         }
         if input.step == Some(Move::Back) {
-            return Change::Quit;
+            return Next::Quit;
         }
-        let place = Place::title(&context.pen);
+        let place = MenuLayout::title(&context.pen);
         let choice = self.menu.update(input, &place);
-        choice.map_or(Change::Stay, |choice| self.choose(choice, context))
+        choice.map_or(Next::Stay, Self::choose)
     }
 
-    fn draw(&mut self, context: &mut Context) {
-        if let Some(scene) = &mut self.scene {
-            scene.viewer.camera.resize(context.pen.screen());
-            let view = scene.viewer.view(scene.stage.world());
-            context.paint(view, &scene.viewer.camera);
+    fn draw(&mut self, context: &mut AppContext) {
+        if let Some(backdrop) = &mut self.backdrop {
+            backdrop.viewer.camera.resize(context.pen.screen());
+            let view = backdrop.viewer.view(backdrop.stage.world());
+            context.paint(view, &backdrop.viewer.camera);
         }
         if !context.is_top {
             return;
         }
         let pen = &mut context.pen;
-        let (screen, line) = (pen.screen(), pen.line(Size::Huge));
-        let place = Place::title(pen);
+        let (screen, line) = (pen.screen(), pen.line(TextSize::Huge));
+        let place = MenuLayout::title(pen);
         let left = place.corner.x;
         let shade = [fade(INK, 0.82), fade(INK, 0.0), fade(INK, 0.0), fade(INK, 0.82)];
         let wide = (left + 1.6 * place.item.x).min(screen.x);
         pen.canvas()
             .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
         let [title, below, end] = title_lines(pen);
-        pen.write(Vec2::new(left, title), Size::Huge, Align::Left, HALO, TITLE);
+        pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
         if place.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
-            pen.write(motto, Size::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
+            pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
         }
         self.menu.draw(pen, &place);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
-        let corner = screen - 0.8 * pen.line(Size::Small);
-        pen.label(corner, Size::Small, Align::Right, HALO, version);
-    }
-
-    fn is_overlay(&self) -> bool {
-        false
+        let corner = screen - 0.8 * pen.line(TextSize::Small);
+        pen.label(corner, TextSize::Small, Align::Right, HALO, version);
     }
 
     fn name(&self) -> String {

@@ -9,11 +9,11 @@ use std::{fs, process};
 
 /// A folder with files.
 #[derive(Clone, Debug)]
-pub struct Store {
+pub struct PlayerFolder {
     folder: Option<PathBuf>,
 }
 
-impl Store {
+impl PlayerFolder {
     /// The player's own folder; without one, nothing is kept.
     #[must_use]
     pub fn of_the_platform() -> Self {
@@ -56,10 +56,10 @@ impl Store {
         fs::read(self.folder.as_ref()?.join(name)).ok()
     }
 
-    /// Writes a value for [`Store::load`].
+    /// Writes a value for [`PlayerFolder::load`].
     ///
     /// # Errors
-    /// See [`Store::write`].
+    /// See [`PlayerFolder::write`].
     pub fn save<T: Serialize>(&self, name: &str, value: &T) -> io::Result<()> {
         self.write(name, toml::to_string(value).map_err(io::Error::other)?.as_bytes())
     }
@@ -118,7 +118,7 @@ pub(crate) mod tests {
     #[test]
     fn what_is_kept_is_there_again_and_nothing_else() {
         let folder = Folder::new("store");
-        let store = Store::at(&folder.0);
+        let store = PlayerFolder::at(&folder.0);
         assert_eq!(store.load::<Table>("a.toml"), (Table::new(), None));
         let table = Table::from([("x".to_owned(), 7)]);
         store.save("a.toml", &table).unwrap();
@@ -134,7 +134,7 @@ pub(crate) mod tests {
         fs::create_dir_all(&folder.0).unwrap();
         for (bytes, aside) in [(&b"x = ["[..], "a.broken"), (b"x = 1 # \xff", "a.broken-2")] {
             fs::write(folder.0.join("a.toml"), bytes).unwrap();
-            let (table, problem) = Store::at(&folder.0).load::<Table>("a.toml");
+            let (table, problem) = PlayerFolder::at(&folder.0).load::<Table>("a.toml");
             assert!(table.is_empty() && problem.unwrap().ends_with(aside));
             assert_eq!(fs::read(folder.0.join(aside)).unwrap(), bytes);
         }
@@ -143,7 +143,7 @@ pub(crate) mod tests {
     #[test]
     fn a_file_that_cannot_be_written_leaves_the_old_one() {
         let folder = Folder::new("blocked");
-        let store = Store::at(&folder.0);
+        let store = PlayerFolder::at(&folder.0);
         fs::create_dir_all(folder.0.join("a.toml/in the way")).unwrap();
         assert!(store.save("a.toml", &Table::new()).is_err());
         assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);

@@ -1,6 +1,6 @@
 //! High scores.
 
-use super::files::Store;
+use super::files::PlayerFolder;
 use serde::{Deserialize, Serialize};
 use std::io;
 
@@ -33,7 +33,7 @@ pub struct Scores {
 impl Scores {
     /// Reads them, with a word on what is wrong with the file.
     #[must_use]
-    pub fn load(store: &Store) -> (Self, Option<String>) {
+    pub fn load(store: &PlayerFolder) -> (Self, Option<String>) {
         store.load(FILE)
     }
 
@@ -41,7 +41,7 @@ impl Scores {
     ///
     /// # Errors
     /// When the file cannot be written; the score counts all the same until the program ends.
-    pub fn add(&mut self, score: Score, store: &Store) -> (Option<usize>, io::Result<()>) {
+    pub fn add(&mut self, score: Score, store: &PlayerFolder) -> (Option<usize>, io::Result<()>) {
         self.join(Self::load(store).0);
         let is_same_game = |other: &Score| other.game == score.game && other.time == score.time;
         let place = self.score.iter().filter(|other| is_same_game(other) && other.points >= score.points).count();
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn the_best_ten_of_each_game_are_kept_over_a_restart() {
         let folder = Folder::new("scores");
-        let store = Store::at(&folder.0);
+        let store = PlayerFolder::at(&folder.0);
         let mut scores = Scores::load(&store).0;
         assert_eq!(scores.add(score(5, 10.0), &store).0, Some(0));
         for points in 1..=14 {
@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn two_windows_lose_no_score_of_each_other() {
         let folder = Folder::new("windows");
-        let store = Store::at(&folder.0);
+        let store = PlayerFolder::at(&folder.0);
         let mut windows = [Scores::default(), Scores::default()];
         for (points, window) in [(30, 0), (50, 1), (40, 0), (50, 1)] {
             windows[window].add(score(points, 90.0), &store).1.unwrap();

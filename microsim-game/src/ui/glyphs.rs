@@ -1,7 +1,6 @@
-//! Letters: all that can be written, in every size, as one texture. It is made anew for another scale, so it stays as small
-//! as one scale needs.
+//! Letters: all that can be written, in every size, as one texture for one scale.
 
-use super::pen::Size;
+use super::font::{TITLE, TextSize};
 use crate::draw::canvas::Canvas;
 use macroquad::color::Color;
 use macroquad::texture::Texture2D;
@@ -9,8 +8,6 @@ use microsim_core::glam::Vec2;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The only word that is written in the largest size.
-pub const TITLE: &str = "microsim";
 /// What is written in place of what is not there.
 const MISSING: char = '?';
 /// Free pixels around a glyph, so that its neighbours do not show.
@@ -20,8 +17,8 @@ const GAP: usize = 1;
 pub(super) struct Glyphs {
     /// Pixels per drawing unit.
     density: f32,
-    all: BTreeMap<(Size, char), Glyph>,
-    /// Size of the texture, pixels.
+    all: BTreeMap<(TextSize, char), Glyph>,
+    /// TextSize of the texture, pixels.
     sheet: Vec2,
     canvas: Canvas,
 }
@@ -53,7 +50,7 @@ struct Sheet {
 
 impl Glyphs {
     /// The letters, as high as `pixels` says. Needs an open window.
-    pub(super) fn new(font: &fontdue::Font, density: f32, pixels: impl Fn(Size) -> f32) -> Self {
+    pub(super) fn new(font: &fontdue::Font, density: f32, pixels: impl Fn(TextSize) -> f32) -> Self {
         let (sheet, all) = sheet(font, pixels);
         let bytes: Vec<u8> = sheet.coverage.iter().flat_map(|&covered| [255, 255, 255, covered]).collect();
         let texture = Texture2D::from_rgba8(sheet.columns as u16, sheet.rows as u16, &bytes);
@@ -61,12 +58,12 @@ impl Glyphs {
     }
 
     /// Width of text, drawing units.
-    pub(super) fn width(&self, size: Size, text: &str) -> f32 {
+    pub(super) fn width(&self, size: TextSize, text: &str) -> f32 {
         self.letters(size, text).map(|glyph| glyph.advance).sum::<f32>() / self.density
     }
 
     /// Writes text from a point on its base line on.
-    pub(super) fn write(&mut self, at: Vec2, size: Size, colour: Color, text: &str) {
+    pub(super) fn write(&mut self, at: Vec2, size: TextSize, colour: Color, text: &str) {
         let letters: Vec<Glyph> = self.letters(size, text).collect();
         let mut pen = (at * self.density).round();
         for Glyph { corner, side, offset, advance } in letters {
@@ -83,7 +80,7 @@ impl Glyphs {
         self.canvas.flush();
     }
 
-    fn letters(&self, size: Size, text: &str) -> impl Iterator<Item = Glyph> {
+    fn letters(&self, size: TextSize, text: &str) -> impl Iterator<Item = Glyph> {
         let of = move |letter| self.all.get(&(size, letter));
         text.chars().filter_map(move |letter| of(letter).or_else(|| of(MISSING)).copied())
     }
@@ -93,16 +90,17 @@ fn point([x, y]: [usize; 2]) -> Vec2 {
     Vec2::new(x as f32, y as f32)
 }
 
-fn characters(size: Size) -> Vec<char> {
+fn characters(size: TextSize) -> Vec<char> {
     match size {
-        Size::Huge => TITLE.chars().collect(),
+        TextSize::Huge => TITLE.chars().collect(),
         _ => (' '..='~').chain('\u{a1}'..='\u{ff}').collect(),
     }
 }
 
 /// All letters in rows, one below the other.
-fn sheet(font: &fontdue::Font, pixels: impl Fn(Size) -> f32) -> (Sheet, BTreeMap<(Size, char), Glyph>) {
-    let letters = Size::ALL.into_iter().flat_map(|size| characters(size).into_iter().map(move |letter| (size, letter)));
+fn sheet(font: &fontdue::Font, pixels: impl Fn(TextSize) -> f32) -> (Sheet, BTreeMap<(TextSize, char), Glyph>) {
+    let letters =
+        TextSize::ALL.into_iter().flat_map(|size| characters(size).into_iter().map(move |letter| (size, letter)));
     let drawn: BTreeMap<_, _> = letters.map(|key| (key, font.rasterize(key.1, pixels(key.0)))).collect();
     let area: usize = drawn.values().map(|(metrics, _)| (metrics.width + GAP) * (metrics.height + GAP)).sum();
     let columns = ((1.2 * area as f32).sqrt() as usize).next_power_of_two().max(256);
@@ -130,13 +128,13 @@ fn sheet(font: &fontdue::Font, pixels: impl Fn(Size) -> f32) -> (Sheet, BTreeMap
 
 #[cfg(test)]
 mod tests {
-    use super::super::pen::font;
+    use super::super::font;
     use super::*;
 
     #[test]
     fn letters_lie_apart_and_the_largest_scale_takes_little_memory() {
         for (scale, most) in [(0.68, 300_000), (1.0, 500_000), (6.0, 16_000_000)] {
-            let (sheet, all) = sheet(&font().unwrap(), |size| (size.usual() * scale).round());
+            let (sheet, all) = sheet(&font::load().unwrap(), |size| (size.usual() * scale).round());
             assert!(sheet.coverage.len() <= most && sheet.rows <= 4096, "{scale}: {} x {}", sheet.columns, sheet.rows);
             let mut taken = vec![false; sheet.coverage.len()];
             for glyph in all.values() {
@@ -152,8 +150,8 @@ mod tests {
 
     #[test]
     fn a_letter_stands_on_its_line_and_has_its_shape() {
-        let (sheet, all) = sheet(&font().unwrap(), |_| 40.0);
-        let glyph = all[&(Size::Body, 'H')];
+        let (sheet, all) = sheet(&font::load().unwrap(), |_| 40.0);
+        let glyph = all[&(TextSize::Body, 'H')];
         assert!((glyph.offset.y + glyph.side[1] as f32).abs() < 1.0, "{glyph:?}");
         assert!(glyph.offset.y < -20.0 && glyph.advance > glyph.side[0] as f32);
         let covered = |x: usize, y: usize| sheet.coverage[(glyph.corner[1] + y) * sheet.columns + glyph.corner[0] + x];

@@ -1,20 +1,21 @@
 //! Menus: a column of items, for the mouse and for the keyboard.
 
-use super::pen::{Align, Pen, Size};
+use super::font::TextSize;
+use super::pen::{Align, Pen};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use microsim_core::glam::Vec2;
 
 /// One line of a menu.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Item {
+pub struct MenuItem {
     /// What it says.
     pub label: String,
     /// What it is set to, changed with left and right.
     pub value: Option<String>,
 }
 
-impl Item {
+impl MenuItem {
     /// Something to choose.
     #[must_use]
     pub fn new(label: impl Into<String>) -> Self {
@@ -36,7 +37,7 @@ impl Item {
 
 /// What the player did with a menu.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub enum MenuChoice {
     /// Chose the item, or its next value.
     Pick(usize),
     /// Asked for the value before.
@@ -49,31 +50,31 @@ const BACK_PLACE: std::ops::Range<f32> = 0.5..0.62;
 
 /// Where a menu lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct MenuLayout {
     /// Upper left corner, drawing units.
     pub corner: Vec2,
     /// Width, and height of one item.
     pub item: Vec2,
     /// As many items are seen at once.
     pub visible: usize,
-    /// Size of the text.
-    pub size: Size,
+    /// TextSize of the text.
+    pub size: TextSize,
 }
 
-impl Place {
+impl MenuLayout {
     /// In the middle of the picture, from `top` (share of its height) down.
     #[must_use]
     pub fn middle(pen: &Pen, top: f32) -> Self {
         let screen = pen.screen();
-        let (line, bottom) = (pen.line(Size::Body), 0.95 * screen.y);
+        let (line, bottom) = (pen.line(TextSize::Body), 0.95 * screen.y);
         let item = Vec2::new((18.0 * line).min(0.86 * screen.x), 1.55 * line);
         // Where two items have room.
         let top = (top * screen.y).min(bottom - 2.0 * item.y).max(0.0);
-        Self::of_height(Vec2::new(0.5 * (screen.x - item.x), top), item, bottom, Size::Body)
+        Self::of_height(Vec2::new(0.5 * (screen.x - item.x), top), item, bottom, TextSize::Body)
     }
 
     /// As many items as there is room for above `bottom`, but some in any case.
-    fn of_height(corner: Vec2, item: Vec2, bottom: f32, size: Size) -> Self {
+    fn of_height(corner: Vec2, item: Vec2, bottom: f32, size: TextSize) -> Self {
         let visible = (((bottom - corner.y) / item.y) as usize).max(2);
         Self { corner, item, visible, size }
     }
@@ -81,19 +82,19 @@ impl Place {
     /// Below the title.
     #[must_use]
     pub fn title(pen: &Pen) -> Self {
-        let line = pen.line(Size::Body);
+        let line = pen.line(TextSize::Body);
         let (item, bottom) = (Vec2::new(11.5 * line, 1.55 * line), 0.95 * pen.screen().y);
         // Below the title, but where two items have room.
         let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]).min(bottom - 2.0 * item.y).max(0.0);
-        Self::of_height(Vec2::new(0.06 * pen.screen().x, top), item, bottom, Size::Body)
+        Self::of_height(Vec2::new(0.06 * pen.screen().x, top), item, bottom, TextSize::Body)
     }
 
     /// At the left edge.
     #[must_use]
     pub fn side(pen: &Pen, top: f32) -> Self {
-        let item = Vec2::new(12.5 * pen.line(Size::Small), 1.4 * pen.line(Size::Small));
+        let item = Vec2::new(12.5 * pen.line(TextSize::Small), 1.4 * pen.line(TextSize::Small));
         let corner = Vec2::new(0.5 * item.y, top);
-        Self::of_height(corner, item, pen.screen().y - 0.3 * item.y, Size::Small)
+        Self::of_height(corner, item, pen.screen().y - 0.3 * item.y, TextSize::Small)
     }
 
     /// The item at a point, counted from the first that is seen.
@@ -107,15 +108,15 @@ impl Place {
 
 /// Where the title and the line below it are, and where they end, drawing units from the upper edge.
 pub fn title_lines(pen: &Pen) -> [f32; 3] {
-    let (top, line) = (0.13 * pen.screen().y, pen.line(Size::Huge));
-    [top + 0.3 * line, top + 0.95 * line, top + 0.95 * line + 0.6 * pen.line(Size::Body)]
+    let (top, line) = (0.13 * pen.screen().y, pen.line(TextSize::Huge));
+    [top + 0.3 * line, top + 0.95 * line, top + 0.95 * line + 0.6 * pen.line(TextSize::Body)]
 }
 
 /// A menu.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Menu {
     /// Its items.
-    pub items: Vec<Item>,
+    pub items: Vec<MenuItem>,
     focus: usize,
     first: usize,
 }
@@ -123,7 +124,7 @@ pub struct Menu {
 impl Menu {
     /// A menu of these items.
     #[must_use]
-    pub fn new(items: Vec<Item>) -> Self {
+    pub fn new(items: Vec<MenuItem>) -> Self {
         Self { items, focus: 0, first: 0 }
     }
 
@@ -135,36 +136,36 @@ impl Menu {
 
     /// Whether a point lies on it.
     #[must_use]
-    pub fn contains(&self, point: Vec2, place: &Place) -> bool {
-        place.row(point).is_some_and(|row| row < self.items.len())
+    pub fn contains(&self, point: Vec2, layout: &MenuLayout) -> bool {
+        layout.row(point).is_some_and(|row| row < self.items.len())
     }
 
     /// Moves through the menu by mouse and keyboard.
-    pub fn update(&mut self, input: &Input, place: &Place) -> Option<Choice> {
-        let choice = self.click(input, place).or_else(|| self.walk(input));
-        if input.wheel != 0.0 && self.contains(input.cursor, place) {
+    pub fn update(&mut self, input: &Input, layout: &MenuLayout) -> Option<MenuChoice> {
+        let choice = self.click(input, layout).or_else(|| self.walk(input));
+        if input.wheel != 0.0 && self.contains(input.cursor, layout) {
             self.focus =
                 self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
         }
-        let last_first = self.items.len().saturating_sub(place.visible);
-        self.first = self.first.clamp((self.focus + 1).saturating_sub(place.visible), self.focus).min(last_first);
+        let last_first = self.items.len().saturating_sub(layout.visible);
+        self.first = self.first.clamp((self.focus + 1).saturating_sub(layout.visible), self.focus).min(last_first);
         choice
     }
 
-    fn click(&mut self, input: &Input, place: &Place) -> Option<Choice> {
-        let item = self.first + place.row(input.cursor)?;
+    fn click(&mut self, input: &Input, layout: &MenuLayout) -> Option<MenuChoice> {
+        let item = self.first + layout.row(input.cursor)?;
         if item >= self.items.len() || !(input.has_moved || input.is_clicked) {
             return None;
         }
         self.focus = item;
         // The left arrow steps back; everything else steps forward.
-        let from = (input.cursor.x - place.corner.x) / place.item.x;
+        let from = (input.cursor.x - layout.corner.x) / layout.item.x;
         let is_back = self.items[item].value.is_some() && BACK_PLACE.contains(&from);
-        let pick = if is_back { Choice::Less(item) } else { Choice::Pick(item) };
+        let pick = if is_back { MenuChoice::Less(item) } else { MenuChoice::Pick(item) };
         input.is_clicked.then_some(pick)
     }
 
-    fn walk(&mut self, input: &Input) -> Option<Choice> {
+    fn walk(&mut self, input: &Input) -> Option<MenuChoice> {
         let count = self.items.len();
         let has_value = |item: usize| self.items.get(item).is_some_and(|item| item.value.is_some());
         match input.step? {
@@ -177,45 +178,45 @@ impl Menu {
                 self.focus = (self.focus + 1) % count;
                 None
             }
-            Move::Left => has_value(self.focus).then_some(Choice::Less(self.focus)),
-            Move::Right => has_value(self.focus).then_some(Choice::Pick(self.focus)),
-            Move::Confirm => Some(Choice::Pick(self.focus)),
+            Move::Left => has_value(self.focus).then_some(MenuChoice::Less(self.focus)),
+            Move::Right => has_value(self.focus).then_some(MenuChoice::Pick(self.focus)),
+            Move::Confirm => Some(MenuChoice::Pick(self.focus)),
             Move::Back => None,
         }
     }
 
     /// Draws it.
-    pub fn draw(&self, pen: &mut Pen, place: &Place) {
-        let shown = self.items.iter().enumerate().skip(self.first).take(place.visible);
+    pub fn draw(&self, pen: &mut Pen, layout: &MenuLayout) {
+        let shown = self.items.iter().enumerate().skip(self.first).take(layout.visible);
         for (row, (index, item)) in shown.enumerate() {
-            let low = place.corner + Vec2::new(0.0, row as f32 * place.item.y);
-            self.draw_item(pen, place, low, item, index == self.focus);
+            let low = layout.corner + Vec2::new(0.0, row as f32 * layout.item.y);
+            self.draw_item(pen, layout, low, item, index == self.focus);
         }
-        let (above, below) = (self.first > 0, self.first + place.visible < self.items.len());
-        let end = place.corner.y + place.item.y * place.visible.min(self.items.len()) as f32;
-        for (is_more, y) in [(above, place.corner.y - 0.2 * place.item.y), (below, end + 0.2 * place.item.y)] {
+        let (above, below) = (self.first > 0, self.first + layout.visible < self.items.len());
+        let end = layout.corner.y + layout.item.y * layout.visible.min(self.items.len()) as f32;
+        for (is_more, y) in [(above, layout.corner.y - 0.2 * layout.item.y), (below, end + 0.2 * layout.item.y)] {
             if is_more {
-                let at = Vec2::new(place.corner.x + place.item.x - 0.6 * place.item.y, y);
-                pen.label(at, Size::Small, Align::Centre, HALO, "...");
+                let at = Vec2::new(layout.corner.x + layout.item.x - 0.6 * layout.item.y, y);
+                pen.label(at, TextSize::Small, Align::Centre, HALO, "...");
             }
         }
     }
 
-    fn draw_item(&self, pen: &mut Pen, place: &Place, low: Vec2, item: &Item, has_focus: bool) {
-        let high = low + place.item - Vec2::new(0.0, 2.0);
+    fn draw_item(&self, pen: &mut Pen, layout: &MenuLayout, low: Vec2, item: &MenuItem, has_focus: bool) {
+        let high = low + layout.item - Vec2::new(0.0, 2.0);
         let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.76), HALO) };
         pen.canvas().rectangle(low, high, back);
         let middle = 0.5 * (low.y + high.y);
-        let inset = 0.4 * place.item.y;
+        let inset = 0.4 * layout.item.y;
         // The item in focus is marked by shape as well.
         let mark = if has_focus { "> " } else { "  " };
         let label = format!("{mark}{}", item.label);
-        pen.write(Vec2::new(low.x + inset, middle), place.size, Align::Left, ink, &label);
+        pen.write(Vec2::new(low.x + inset, middle), layout.size, Align::Left, ink, &label);
         if let Some(value) = &item.value {
             let text = if has_focus { format!("{value} >") } else { value.clone() };
-            pen.write(Vec2::new(high.x - inset, middle), place.size, Align::Right, ink, &text);
+            pen.write(Vec2::new(high.x - inset, middle), layout.size, Align::Right, ink, &text);
             if has_focus {
-                pen.write(Vec2::new(low.x + BACK * place.item.x, middle), place.size, Align::Centre, ink, "<");
+                pen.write(Vec2::new(low.x + BACK * layout.item.x, middle), layout.size, Align::Centre, ink, "<");
             }
         }
     }
@@ -225,11 +226,17 @@ impl Menu {
 mod tests {
     use super::*;
 
-    const PLACE: Place =
-        Place { corner: Vec2::new(100.0, 50.0), item: Vec2::new(200.0, 20.0), visible: 3, size: Size::Body };
+    const LAYOUT: MenuLayout =
+        MenuLayout { corner: Vec2::new(100.0, 50.0), item: Vec2::new(200.0, 20.0), visible: 3, size: TextSize::Body };
 
     fn menu() -> Menu {
-        Menu::new(vec![Item::new("a"), Item::with("b", "1"), Item::new("c"), Item::new("d"), Item::new("e")])
+        Menu::new(vec![
+            MenuItem::new("a"),
+            MenuItem::with("b", "1"),
+            MenuItem::new("c"),
+            MenuItem::new("d"),
+            MenuItem::new("e"),
+        ])
     }
 
     fn step(step: Move) -> Input {
@@ -243,32 +250,32 @@ mod tests {
     #[test]
     fn the_keyboard_goes_round_and_the_view_follows() {
         let mut menu = menu();
-        menu.update(&step(Move::Up), &PLACE);
+        menu.update(&step(Move::Up), &LAYOUT);
         assert_eq!((menu.focus, menu.first), (4, 2));
-        assert_eq!(menu.update(&step(Move::Confirm), &PLACE), Some(Choice::Pick(4)));
-        menu.update(&step(Move::Down), &PLACE);
+        assert_eq!(menu.update(&step(Move::Confirm), &LAYOUT), Some(MenuChoice::Pick(4)));
+        menu.update(&step(Move::Down), &LAYOUT);
         assert_eq!((menu.focus, menu.first), (0, 0));
-        assert_eq!(menu.update(&step(Move::Left), &PLACE), None, "it has no value");
-        menu.update(&step(Move::Down), &PLACE);
-        assert_eq!(menu.update(&step(Move::Left), &PLACE), Some(Choice::Less(1)));
-        assert_eq!(menu.update(&step(Move::Right), &PLACE), Some(Choice::Pick(1)));
+        assert_eq!(menu.update(&step(Move::Left), &LAYOUT), None, "it has no value");
+        menu.update(&step(Move::Down), &LAYOUT);
+        assert_eq!(menu.update(&step(Move::Left), &LAYOUT), Some(MenuChoice::Less(1)));
+        assert_eq!(menu.update(&step(Move::Right), &LAYOUT), Some(MenuChoice::Pick(1)));
     }
 
     #[test]
     fn the_mouse_picks_what_is_under_it() {
         let mut menu = menu();
-        assert_eq!(menu.update(&click(150.0, 95.0), &PLACE), Some(Choice::Pick(2)));
-        assert_eq!(menu.update(&click(150.0, 75.0), &PLACE), Some(Choice::Pick(1)));
-        assert_eq!(menu.update(&click(210.0, 75.0), &PLACE), Some(Choice::Less(1)));
-        assert_eq!(menu.update(&click(290.0, 75.0), &PLACE), Some(Choice::Pick(1)));
+        assert_eq!(menu.update(&click(150.0, 95.0), &LAYOUT), Some(MenuChoice::Pick(2)));
+        assert_eq!(menu.update(&click(150.0, 75.0), &LAYOUT), Some(MenuChoice::Pick(1)));
+        assert_eq!(menu.update(&click(210.0, 75.0), &LAYOUT), Some(MenuChoice::Less(1)));
+        assert_eq!(menu.update(&click(290.0, 75.0), &LAYOUT), Some(MenuChoice::Pick(1)));
         for (x, y) in [(99.0, 75.0), (301.0, 75.0), (150.0, 49.0), (150.0, 111.0)] {
-            assert_eq!(menu.update(&click(x, y), &PLACE), None);
+            assert_eq!(menu.update(&click(x, y), &LAYOUT), None);
         }
         assert_eq!(
-            menu.update(&click(100.0 + BACK * 200.0, 75.0), &PLACE),
-            Some(Choice::Less(1)),
+            menu.update(&click(100.0 + BACK * 200.0, 75.0), &LAYOUT),
+            Some(MenuChoice::Less(1)),
             "where the arrow is"
         );
-        assert!(Menu::default().update(&click(150.0, 75.0), &PLACE).is_none());
+        assert!(Menu::default().update(&click(150.0, 75.0), &LAYOUT).is_none());
     }
 }

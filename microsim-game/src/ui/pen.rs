@@ -1,5 +1,6 @@
 //! The pen: text and plain shapes in drawing units, in few draw calls.
 
+use super::font::{self, TextSize};
 use super::glyphs::Glyphs;
 use crate::draw::canvas::Canvas;
 use crate::draw::palette::{INK, fade};
@@ -9,33 +10,6 @@ use microsim_core::glam::Vec2;
 
 /// Height of a picture for which text has its usual size, and its width.
 const USUAL: Vec2 = Vec2::new(1280.0, 720.0);
-
-/// Sizes of text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Size {
-    /// What may be overlooked.
-    Small,
-    /// What is to be read.
-    Body,
-    /// What is to be seen.
-    Large,
-    /// [`TITLE`](super::glyphs::TITLE).
-    Huge,
-}
-
-impl Size {
-    pub(super) const ALL: [Self; 4] = [Self::Small, Self::Body, Self::Large, Self::Huge];
-
-    /// Height of letters in a picture of the usual size, pixels.
-    pub(super) fn usual(self) -> f32 {
-        match self {
-            Self::Small => 15.0,
-            Self::Body => 19.0,
-            Self::Large => 30.0,
-            Self::Huge => 64.0,
-        }
-    }
-}
 
 /// Where text lies from its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +55,7 @@ impl Pen {
         let density = screen_dpi_scale();
         if self.scale != self.factor * density {
             self.scale = self.factor * density;
-            let font = self.font.take().map(|(font, _)| font).or_else(font);
+            let font = self.font.take().map(|(font, _)| font).or_else(font::load);
             self.font = font.map(|font| {
                 let glyphs = Glyphs::new(&font, density, |size| self.pixels(size) * density);
                 (font, glyphs)
@@ -89,7 +63,7 @@ impl Pen {
         }
     }
 
-    /// Size of the picture, drawing units.
+    /// TextSize of the picture, drawing units.
     #[must_use]
     pub fn screen(&self) -> Vec2 {
         self.screen
@@ -97,7 +71,7 @@ impl Pen {
 
     /// Height of a line of text, drawing units. What is clicked is at least 1.4 times as high.
     #[must_use]
-    pub fn line(&self, size: Size) -> f32 {
+    pub fn line(&self, size: TextSize) -> f32 {
         1.35 * self.pixels(size)
     }
 
@@ -107,7 +81,7 @@ impl Pen {
     }
 
     /// Writes text of which the middle is as high as `at`.
-    pub fn write(&mut self, at: Vec2, size: Size, align: Align, colour: Color, text: &str) {
+    pub fn write(&mut self, at: Vec2, size: TextSize, align: Align, colour: Color, text: &str) {
         let shift = match align {
             Align::Left => 0.0,
             Align::Centre => 0.5,
@@ -121,7 +95,7 @@ impl Pen {
     }
 
     /// The same on a dark panel, to be read above anything, and wholly in the picture.
-    pub fn label(&mut self, at: Vec2, size: Size, align: Align, colour: Color, text: &str) {
+    pub fn label(&mut self, at: Vec2, size: TextSize, align: Align, colour: Color, text: &str) {
         let half = Vec2::new(0.5 * self.width(size, text) + 0.35 * self.line(size), 0.56 * self.line(size));
         let middle = match align {
             Align::Left => at.x + half.x,
@@ -141,13 +115,13 @@ impl Pen {
 
     /// Width of text, drawing units.
     #[must_use]
-    pub fn width(&self, size: Size, text: &str) -> f32 {
+    pub fn width(&self, size: TextSize, text: &str) -> f32 {
         self.font.as_ref().map_or(0.0, |(_, glyphs)| glyphs.width(size, text))
     }
 
     /// Text in lines that are no wider than this, drawing units, where its words are not.
     #[must_use]
-    pub fn wrap(&self, size: Size, text: &str, width: f32) -> Vec<String> {
+    pub fn wrap(&self, size: TextSize, text: &str, width: f32) -> Vec<String> {
         wrap(text, |line| self.width(size, line) <= width)
     }
 
@@ -159,7 +133,7 @@ impl Pen {
         }
     }
 
-    fn pixels(&self, size: Size) -> f32 {
+    fn pixels(&self, size: TextSize) -> f32 {
         (size.usual() * self.factor).round()
     }
 }
@@ -168,11 +142,6 @@ impl Default for Pen {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// The font; there is one, if it is not broken.
-pub(super) fn font() -> Option<fontdue::Font> {
-    fontdue::Font::from_bytes(epaint_default_fonts::UBUNTU_LIGHT, fontdue::FontSettings::default()).ok()
 }
 
 /// Text in lines that fit; a word that does not has a line of its own.
@@ -193,7 +162,7 @@ fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     lines
 }
 
-/// Size of text for a picture: few different ones, for every one needs glyphs of its own.
+/// TextSize of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
     let steps = [0.8, 1.0, 1.25, 1.5, 2.0];

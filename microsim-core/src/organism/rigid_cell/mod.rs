@@ -18,7 +18,7 @@ use crate::error::{Error, in_range};
 use crate::geometry::ring::ellipse;
 use crate::kind::Kind;
 use crate::look::Look;
-use crate::solver::MinDistance;
+use crate::solver::constraint::MinDistance;
 use crate::spec_field::FieldValue::{Count, Number, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
@@ -138,7 +138,7 @@ impl RigidCellSpec {
         let min_length = smaller(radius + layer.satellite_radius, 0.9 * room);
         for &a in innermost {
             builder.spring(a, nucleus, self.spring_compliance, self.spring_damping);
-            builder.min_distance(MinDistance { a, b: nucleus, min_length });
+            builder.constraint(MinDistance { a, b: nucleus, min_length });
         }
     }
 }
@@ -199,6 +199,7 @@ fn smaller(a: f32, b: f32) -> f32 {
 mod tests {
     use super::*;
     use crate::geometry::polygon::signed_area;
+    use crate::solver::constraint::{Constraint, Distance};
 
     fn template(layers: u32) -> Template {
         RigidCellSpec { layers, ..RigidCellSpec::default() }.blueprint().unwrap().template.unwrap()
@@ -209,8 +210,15 @@ mod tests {
         nodes.filter(|(_, node)| node.role == role).map(|(slot, _)| slot as u32).collect()
     }
 
+    fn distances(template: &Template) -> impl Iterator<Item = &Distance> {
+        template.constraints().iter().filter_map(|constraint| match constraint {
+            Constraint::Distance(distance) => Some(distance),
+            _ => None,
+        })
+    }
+
     fn has_link(template: &Template, a: u32, b: u32) -> bool {
-        template.constraints().distances.iter().any(|c| (c.a, c.b) == (a, b) || (c.b, c.a) == (a, b))
+        distances(template).any(|c| (c.a, c.b) == (a, b) || (c.b, c.a) == (a, b))
     }
 
     #[test]
@@ -240,7 +248,7 @@ mod tests {
     fn t07_nucleus_links_are_damped_springs() {
         let template = template(1);
         let nucleus = slots(&template, Role::Nucleus)[0];
-        let springs: Vec<_> = template.constraints().distances.iter().filter(|c| c.b == nucleus).collect();
+        let springs: Vec<_> = distances(&template).filter(|c| c.b == nucleus).collect();
         assert_eq!(springs.len(), 28);
         assert!(springs.iter().all(|c| c.compliance > 0.0 && c.damping > 0.0));
     }
@@ -249,8 +257,8 @@ mod tests {
     fn t08_neighbours_are_linked_rigidly_in_a_closed_ring() {
         let template = template(2);
         for ring in [slots(&template, Role::Membrane), slots(&template, Role::InnerRing)] {
-            let links = template.constraints().distances.iter();
-            let within = links.filter(|c| ring.contains(&c.a) && ring.contains(&c.b)).collect::<Vec<_>>();
+            let within =
+                distances(&template).filter(|c| ring.contains(&c.a) && ring.contains(&c.b)).collect::<Vec<_>>();
             assert_eq!(within.len(), ring.len(), "as many links as satellites");
             assert!(within.iter().all(|c| c.compliance == 0.0));
             assert!((0..ring.len()).all(|k| has_link(&template, ring[k], ring[(k + 1) % ring.len()])));

@@ -2,7 +2,7 @@
 //!
 //! Lengths are in units of the support `H`: `q = |x_i - x_j|`, `W = (1 - q)^3`, `|grad W| = 3 (1 - q)^2`.
 
-use super::neighbours::{Group, Lanes, Source, Walls, distance, positive};
+use super::neighbours::{Group, Lanes, Neighbour, Walls, distance, positive};
 use crate::solver::lanes::{LANES, each};
 
 /// Kernel radius in units of the rest spacing.
@@ -41,11 +41,11 @@ pub(super) struct Sums {
 
 /// First pass: what the neighbours amount to.
 #[inline(always)]
-pub(super) fn sum(group: &Group, sources: &[Source]) -> Sums {
-    let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+pub(super) fn sum(group: &Group, neighbours: &[Neighbour]) -> Sums {
+    let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
     // A particle's own kernel adds 1 to its squares but is no neighbour's gradient.
     let mut sums = Sums { squared: [-1.0; LANES], ..Sums::default() };
-    for window in group.windows(sources) {
+    for window in group.windows(neighbours) {
         for other in window {
             for l in 0..LANES {
                 let (dx, dy) = (x[l] - other.x, y[l] - other.y);
@@ -68,8 +68,8 @@ pub(super) fn sum(group: &Group, sources: &[Source]) -> Sums {
 impl Sums {
     /// Adds what the walls amount to.
     #[inline(always)]
-    pub(super) fn add_walls(&mut self, group: &Group, sources: &[Source], walls: &Walls) {
-        let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+    pub(super) fn add_walls(&mut self, group: &Group, neighbours: &[Neighbour], walls: &Walls) {
+        let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
         for l in 0..LANES {
             for (sign, near) in [(1.0, wall_nearness(x[l] - walls.low.x)), (-1.0, wall_nearness(walls.high.x - x[l]))] {
                 self.density[l] += WALL_WEIGHT * near * near * near;
@@ -109,15 +109,15 @@ impl Sums {
 #[inline(always)]
 pub(super) fn shifts(
     group: &Group,
-    sources: &[Source],
+    neighbours: &[Neighbour],
     sums: &Sums,
     viscosity: f32,
     added: impl Fn(f32, f32) -> f32,
 ) -> [Lanes; 2] {
-    let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+    let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
     let own = sums.multiplier;
     let [mut shift_x, mut shift_y] = [[0.0; LANES]; 2];
-    for window in group.windows(sources) {
+    for window in group.windows(neighbours) {
         for other in window {
             for l in 0..LANES {
                 let (dx, dy) = (x[l] - other.x, y[l] - other.y);
@@ -129,7 +129,7 @@ pub(super) fn shifts(
             }
         }
     }
-    let (moved_x, moved_y) = (group.load(sources, |s| s.moved_x), group.load(sources, |s| s.moved_y));
+    let (moved_x, moved_y) = (group.load(neighbours, |s| s.moved_x), group.load(neighbours, |s| s.moved_y));
     let toward = |drift: &Lanes, moved: Lanes, l: usize| viscosity * (drift[l] / sums.density[l] - moved[l]);
     [
         each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(&sums.drift_x, moved_x, l)),

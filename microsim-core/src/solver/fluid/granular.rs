@@ -1,7 +1,7 @@
 //! Grains: particles that only keep from overlapping. Averaged contacts, over-relaxed (Macklin et al. 2014, "Unified
 //! Particle Physics", section 4.1). Lengths are in units of the spacing.
 
-use super::neighbours::{Group, Lanes, Source, distance, positive};
+use super::neighbours::{Group, Lanes, Neighbour, distance, positive};
 use crate::solver::lanes::{LANES, each};
 
 /// Share by which averaged contacts are over-relaxed.
@@ -9,10 +9,10 @@ const OVER_RELAXATION: f32 = 1.5;
 
 /// How far a group's members are moved: out of each other, and by viscosity towards the mean way of those they touch.
 #[inline(always)]
-pub(super) fn shifts(group: &Group, sources: &[Source], viscosity: f32) -> [Lanes; 2] {
-    let (x, y) = (group.load(sources, |s| s.x), group.load(sources, |s| s.y));
+pub(super) fn shifts(group: &Group, neighbours: &[Neighbour], viscosity: f32) -> [Lanes; 2] {
+    let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
     let [mut shift_x, mut shift_y, mut drift_x, mut drift_y, mut count] = [[0.0; LANES]; 5];
-    for window in group.windows(sources) {
+    for window in group.windows(neighbours) {
         for other in window {
             for l in 0..LANES {
                 let (dx, dy) = (x[l] - other.x, y[l] - other.y);
@@ -27,7 +27,7 @@ pub(super) fn shifts(group: &Group, sources: &[Source], viscosity: f32) -> [Lane
             }
         }
     }
-    let (moved_x, moved_y) = (group.load(sources, |s| s.moved_x), group.load(sources, |s| s.moved_y));
+    let (moved_x, moved_y) = (group.load(neighbours, |s| s.moved_x), group.load(neighbours, |s| s.moved_y));
     // Each one counts itself, too.
     let share = |l: usize| if count[l] > 2.0 { OVER_RELAXATION / (count[l] - 1.0) } else { 1.0 };
     let toward = |drift: Lanes, moved: Lanes, l: usize| viscosity * (drift[l] / count[l] - moved[l]);

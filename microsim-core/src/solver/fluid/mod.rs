@@ -35,8 +35,8 @@ pub enum FluidMode {
     Granular,
 }
 
-/// A kind of fluid. Neighbours are found once per step: a particle that comes within the support radius during a
-/// step, because it moves by more than its spacing against others, is seen from the next one on.
+/// A kind of fluid. Neighbours are found once per step: what comes nearer than its cutoff within a step, because it moves by
+/// more than its spacing against others, is seen from the next one on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidParams {
     /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
@@ -112,14 +112,14 @@ impl Fluid {
     }
 
     /// Distance at which particles no longer see each other.
-    fn support_radius(&self) -> f32 {
+    fn cutoff(&self) -> f32 {
         match self.params.mode {
             FluidMode::Density => SUPPORT * self.params.spacing,
             FluidMode::Granular => self.params.spacing,
         }
     }
 
-    /// Margin of the search for neighbours, in units of the support radius, because they move until the next search. At the
+    /// How much farther neighbours are looked for, in units of the cutoff, because they move until the next search. At the
     /// border of its support the weight of the density's kernel is next to nothing; grains are hard.
     fn margin(&self) -> f32 {
         match self.params.mode {
@@ -131,12 +131,12 @@ impl Fluid {
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
-        let support_radius = SUPPORT * self.params.spacing;
-        sorted.sort(&self.particles, particles, Vec2::ZERO, [support_radius, 0.0]);
-        sorted.read(particles, support_radius);
+        let cutoff = SUPPORT * self.params.spacing;
+        sorted.sort(&self.particles, particles, Vec2::ZERO, [cutoff, 0.0]);
+        sorted.read(particles, cutoff);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
-            let compression = density::sum(group, &sorted.sources).compression(rest_density);
+            let compression = density::sum(group, &sorted.neighbours).compression(rest_density);
             sum += compression[..group.members.len()].iter().sum::<f32>();
         }
         if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
@@ -148,7 +148,7 @@ impl Workspace {
     pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, size: Vec2) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
         for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, size, [fluid.support_radius(), fluid.margin()]);
+            sorted.sort(&fluid.particles, particles, size, [fluid.cutoff(), fluid.margin()]);
         }
     }
 
@@ -157,8 +157,8 @@ impl Workspace {
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
         let Self { rest_density, sorted, sums, shifts } = self;
         for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
-            let support_radius = fluid.support_radius();
-            sorted.read(particles, support_radius);
+            let cutoff = fluid.cutoff();
+            sorted.read(particles, cutoff);
             sums.resize(sorted.groups.len(), Sums::default());
             shifts.resize(sorted.groups.len(), Default::default());
             let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
@@ -175,28 +175,28 @@ impl Workspace {
                 }
                 FluidMode::Granular => find_granular_shifts(sorted, shifts, viscosity, dispatch),
             }
-            sorted.shift(shifts, support_radius, particles);
+            sorted.shift(shifts, cutoff, particles);
         }
     }
 }
 
 fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, dispatch: Dispatch) {
-    let Sorted { groups, sources, walls, .. } = sorted;
+    let Sorted { groups, neighbours, walls, .. } = sorted;
     parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
         dispatch.run(
             #[inline(always)]
             || {
                 for (group, sums) in groups.iter().zip(sums) {
-                    *sums = density::sum(group, sources);
-                    sums.add_walls(group, sources, walls);
+                    *sums = density::sum(group, neighbours);
+                    sums.add_walls(group, neighbours, walls);
                     sums.find_multipliers(rest_density);
                 }
             },
         );
     });
     for (group, sums) in groups.iter().zip(sums) {
-        for (source, multiplier) in sources[group.members.clone()].iter_mut().zip(sums.multiplier) {
-            source.multiplier = multiplier;
+        for (neighbour, multiplier) in neighbours[group.members.clone()].iter_mut().zip(sums.multiplier) {
+            neighbour.multiplier = multiplier;
         }
     }
 }
@@ -208,14 +208,14 @@ fn find_density_shifts(
     added: impl Fn(f32, f32) -> f32 + Copy + Sync + Send,
     dispatch: Dispatch,
 ) {
-    let Sorted { groups, sources, .. } = sorted;
+    let Sorted { groups, neighbours, .. } = sorted;
     let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
     parallel::for_each(portions, |((groups, shifts), sums)| {
         dispatch.run(
             #[inline(always)]
             || {
                 for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
-                    *shifts = density::shifts(group, sources, sums, viscosity, added);
+                    *shifts = density::shifts(group, neighbours, sums, viscosity, added);
                 }
             },
         );
@@ -223,13 +223,13 @@ fn find_density_shifts(
 }
 
 fn find_granular_shifts(sorted: &Sorted, shifts: &mut [[Lanes; 2]], viscosity: f32, dispatch: Dispatch) {
-    let Sorted { groups, sources, .. } = sorted;
+    let Sorted { groups, neighbours, .. } = sorted;
     parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
         dispatch.run(
             #[inline(always)]
             || {
                 for (group, shifts) in groups.iter().zip(shifts) {
-                    *shifts = granular::shifts(group, sources, viscosity);
+                    *shifts = granular::shifts(group, neighbours, viscosity);
                 }
             },
         );

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //!            |    | .  |  . | .. |  . | .. |    |       three windows, contiguous in cell order:
-//!            |    | .. | AB | CD | EF | GH | .  |       all within the support radius of A to H are in them
+//!            |    | .. | AB | CD | EF | GH | .  |       whatever is within the cutoff of one of A to H is in one of them
 //!            |    | .  | .. |  . | .  | .. |    |
 //! ```
 //!
 //! Lanes are the eight particles A to H; each of them meets the same candidates one after the other and keeps its own sums.
-//! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the support radius drops the
-//! candidates that are not neighbours. Cells are as high as the support radius and [`COLUMN_WIDTH`] wide.
+//! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the cutoff drops the candidates that
+//! are not neighbours. Cells are as high as the cutoff and [`COLUMN_WIDTH`] wide.
 
 use crate::collision::uniform_grid::UniformGrid;
 use crate::particle::Particles;
@@ -18,17 +18,17 @@ use std::ops::Range;
 
 /// Where a particle without a finite position is put: nowhere near the others.
 const NOWHERE: Vec2 = Vec2::splat(-1e9);
-/// Nearer than this, in units of the support radius, there is no direction between two particles.
+/// Nearer than this, in units of the cutoff, there is no direction between two particles.
 const CONTACT: f32 = 1e-6;
-/// Width of a cell, in units of the support radius: about as many cells as particles.
+/// Width of a cell, in units of the cutoff: about as many cells as particles.
 const COLUMN_WIDTH: f32 = 0.25;
 
 /// A value for each particle of a group.
 pub(super) type Lanes = [f32; LANES];
 
-/// A particle as its neighbours see it, in units of the support radius.
+/// A particle as its neighbours see it, in units of the cutoff.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Source {
+pub(super) struct Neighbour {
     pub x: f32,
     pub y: f32,
     /// How far it has moved in this substep.
@@ -55,14 +55,14 @@ pub(super) struct Sorted {
     /// In cell order.
     pub particles: Vec<u32>,
     /// In cell order, and some that are nowhere so that eight can be read from anywhere.
-    pub sources: Vec<Source>,
+    pub neighbours: Vec<Neighbour>,
     pub groups: Vec<Group>,
     pub walls: Walls,
-    /// Place in the world from which sources count.
+    /// Position in the world that their coordinates are relative to.
     low: Vec2,
 }
 
-/// The room, as the sources see it.
+/// The walls in the coordinates of the neighbours.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Walls {
     pub low: Vec2,
@@ -70,44 +70,38 @@ pub(super) struct Walls {
 }
 
 impl Sorted {
-    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `support_radius`, in units of it.
-    pub(super) fn sort(
-        &mut self,
-        indices: &[u32],
-        particles: &Particles,
-        size: Vec2,
-        [support_radius, margin]: [f32; 2],
-    ) {
-        let inverse = 1.0 / support_radius;
+    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `cutoff`, in units of it.
+    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, [cutoff, margin]: [f32; 2]) {
+        let inverse = 1.0 / cutoff;
         self.found.clear();
         self.found.extend(indices.iter().map(|&i| particles.position(i as usize)));
         let (low, high) = bounds(&self.found);
         self.low = low;
         self.walls = Walls { low: -low * inverse, high: (size - low) * inverse };
-        let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * support_radius;
+        let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * cutoff;
         self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
         self.particles.clear();
         self.particles.extend(self.grid.order().iter().map(|&k| indices[k as usize]));
-        self.find_groups((1.0 + margin) * support_radius);
+        self.find_groups((1.0 + margin) * cutoff);
     }
 
     /// Reads where the particles are now, and how far they have moved in this substep.
-    pub(super) fn read(&mut self, particles: &Particles, support_radius: f32) {
-        let inverse = 1.0 / support_radius;
-        let Self { particles: sorted, sources, low, .. } = self;
-        sources.clear();
-        sources.extend(sorted.iter().map(|&i| source(particles, i as usize, *low, inverse)));
-        separate_coincident(sources);
-        let nowhere = Source { x: NOWHERE.x, y: NOWHERE.y, ..Source::default() };
-        sources.resize(sorted.len() + LANES, nowhere);
+    pub(super) fn read(&mut self, particles: &Particles, cutoff: f32) {
+        let inverse = 1.0 / cutoff;
+        let Self { particles: sorted, neighbours, low, .. } = self;
+        neighbours.clear();
+        neighbours.extend(sorted.iter().map(|&i| neighbour(particles, i as usize, *low, inverse)));
+        separate_coincident(neighbours);
+        let nowhere = Neighbour { x: NOWHERE.x, y: NOWHERE.y, ..Neighbour::default() };
+        neighbours.resize(sorted.len() + LANES, nowhere);
     }
 
-    /// Moves the members of each group, in units of the support radius.
-    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], support_radius: f32, particles: &mut Particles) {
+    /// Moves the members of each group, in units of the cutoff.
+    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], cutoff: f32, particles: &mut Particles) {
         for (group, [shift_x, shift_y]) in self.groups.iter().zip(shifts) {
             for (l, &i) in self.particles[group.members.clone()].iter().enumerate() {
-                particles.x[i as usize] += shift_x[l] * support_radius;
-                particles.y[i as usize] += shift_y[l] * support_radius;
+                particles.x[i as usize] += shift_x[l] * cutoff;
+                particles.y[i as usize] += shift_y[l] * cutoff;
             }
         }
     }
@@ -133,16 +127,16 @@ impl Sorted {
 impl Group {
     /// A value of each member; lanes beyond the last one hold what follows in cell order and are to be ignored.
     #[inline(always)]
-    pub(super) fn load(&self, sources: &[Source], value: impl Fn(&Source) -> f32) -> Lanes {
-        let members = &sources[self.members.start..self.members.start + LANES];
+    pub(super) fn load(&self, neighbours: &[Neighbour], value: impl Fn(&Neighbour) -> f32) -> Lanes {
+        let members = &neighbours[self.members.start..self.members.start + LANES];
         each(|l| value(&members[l]))
     }
 
     /// Everything that may be a neighbour of a member, each member itself included.
     #[inline(always)]
-    pub(super) fn windows<'a>(&self, sources: &'a [Source]) -> [&'a [Source]; 3] {
+    pub(super) fn windows<'a>(&self, neighbours: &'a [Neighbour]) -> [&'a [Neighbour]; 3] {
         let [below, level, above] = &self.windows;
-        [&sources[below.clone()], &sources[level.clone()], &sources[above.clone()]]
+        [&neighbours[below.clone()], &neighbours[level.clone()], &neighbours[above.clone()]]
     }
 }
 
@@ -165,21 +159,21 @@ fn bounds(positions: &[Vec2]) -> (Vec2, Vec2) {
     if low.x <= high.x { (low, high) } else { (Vec2::ZERO, Vec2::ZERO) }
 }
 
-fn source(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Source {
+fn neighbour(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Neighbour {
     let at = (particles.position(i) - low) * inverse;
     let is_somewhere = at.x.abs() < -NOWHERE.x && at.y.abs() < -NOWHERE.y;
     let at = if is_somewhere { at } else { NOWHERE };
     let moved_x = (particles.x[i] - particles.prev_x[i]) * inverse;
     let moved_y = (particles.y[i] - particles.prev_y[i]) * inverse;
-    Source { x: at.x, y: at.y, moved_x, moved_y, multiplier: 0.0 }
+    Neighbour { x: at.x, y: at.y, moved_x, moved_y, multiplier: 0.0 }
 }
 
 /// Particles in the very same place would never come apart: gives them different ones.
-fn separate_coincident(sources: &mut [Source]) {
-    let is_same = |a: &Source, b: &Source| a.x == b.x && a.y == b.y;
-    for k in 1..sources.len() {
+fn separate_coincident(neighbours: &mut [Neighbour]) {
+    let is_same = |a: &Neighbour, b: &Neighbour| a.x == b.x && a.y == b.y;
+    for k in 1..neighbours.len() {
         // Those of a cell lie side by side.
-        let (before, here) = sources.split_at_mut(k);
+        let (before, here) = neighbours.split_at_mut(k);
         let same = before.iter().rev().take(4).filter(|other| is_same(other, &here[0])).count();
         if same > 0 {
             here[0].x += same as f32 * 1e-3;
@@ -199,14 +193,14 @@ mod tests {
         let mut particles = Particles::default();
         let mut place = || Vec2::new(rng.range(0.0, 30.0), rng.range(0.0, 12.0));
         let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
-        for [support_radius, margin] in [[2.0, 0.0], [1.0, 0.25]] {
+        for [cutoff, margin] in [[2.0, 0.0], [1.0, 0.25]] {
             let mut sorted = Sorted::default();
-            sorted.sort(&indices, &particles, Vec2::INFINITY, [support_radius, margin]);
+            sorted.sort(&indices, &particles, Vec2::INFINITY, [cutoff, margin]);
             for group in &sorted.groups {
                 let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
                 for &member in &sorted.particles[group.members.clone()] {
                     let way = |other: u32| particles.between(member as usize, other as usize).length();
-                    let near = indices.iter().filter(|&&other| way(other) < support_radius * (1.0 + margin));
+                    let near = indices.iter().filter(|&&other| way(other) < cutoff * (1.0 + margin));
                     assert!(near.copied().all(|other| seen.contains(&other)));
                 }
             }

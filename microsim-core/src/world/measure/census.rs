@@ -4,7 +4,7 @@ use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Storage};
-use crate::solver::ConstraintSet;
+use crate::solver::constraint::Constraint;
 use crate::template::Role;
 use crate::world::World;
 use glam::Vec2;
@@ -41,7 +41,7 @@ impl World {
     pub fn census(&self) -> Census {
         let of_body = |organism: &Organism| match organism.body.membrane() {
             Some(_) => organism.outline.len(),
-            None => self.constraints_of(organism).map_or(0, ConstraintSet::len),
+            None => self.constraints_of(organism).len(),
         };
         let constraints = self.organisms.iter().map(|(_, organism)| of_body(organism)).sum();
         Census {
@@ -59,12 +59,10 @@ impl World {
     }
 
     /// The constraints that hold a templated organism together.
-    pub(in crate::world) fn constraints_of(&self, organism: &Organism) -> Option<&ConstraintSet> {
+    pub(in crate::world) fn constraints_of(&self, organism: &Organism) -> &[Constraint] {
         match organism.body {
-            Storage::Lane { block, .. } => {
-                Some(self.templates[self.blocks[block as usize].template as usize].constraints())
-            }
-            Storage::Loose { .. } => None,
+            Storage::Lane { block, .. } => self.templates[self.blocks[block as usize].template as usize].constraints(),
+            Storage::Loose { .. } => &[],
         }
     }
 

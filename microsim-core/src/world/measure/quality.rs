@@ -3,7 +3,7 @@
 use super::membrane_quality::CrawlQuality;
 use crate::capability::phagocytosis::MealPhase;
 use crate::organism::Organism;
-use crate::solver::Distance;
+use crate::solver::constraint::Constraint;
 use crate::solver::lanes::ratio;
 use crate::solver::membrane::links;
 use crate::template::Role;
@@ -127,11 +127,11 @@ impl World {
     fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
         let scale = self.scale_of(organism);
         let is_outline = |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
-        let links = self.constraints_of(organism).into_iter().flat_map(|set| &set.distances);
-        let links = links.filter(move |c| is_outline(c.a) && is_outline(c.b) && c.rest_length > 0.0);
-        links.map(move |c: &Distance| {
+        self.constraints_of(organism).iter().filter_map(move |constraint| {
+            let Constraint::Distance(c) = constraint else { return None };
             let (a, b) = (organism.body.particle(c.a) as usize, organism.body.particle(c.b) as usize);
-            self.particles.between(a, b).length() / (c.rest_length * scale) - 1.0
+            let is_ring_link = is_outline(c.a) && is_outline(c.b) && c.rest_length > 0.0;
+            is_ring_link.then(|| self.particles.between(a, b).length() / (c.rest_length * scale) - 1.0)
         })
     }
 
@@ -144,11 +144,11 @@ impl World {
     }
 
     fn anchor_offset(&self, organism: &Organism) -> f32 {
-        let anchors = self.constraints_of(organism).into_iter().flat_map(|set| &set.anchors);
-        anchors.fold(0.0, |far, c| {
+        largest(self.constraints_of(organism).iter().filter_map(|constraint| {
+            let Constraint::Anchor(c) = constraint else { return None };
             let (node, anchor) = (organism.body.particle(c.node) as usize, organism.body.particle(c.anchor) as usize);
-            larger(far, self.particles.between(anchor, node).length() / self.scale_of(organism))
-        })
+            Some(self.particles.between(anchor, node).length() / self.scale_of(organism))
+        }))
     }
 
     pub(in crate::world) fn penetration_max(&self) -> f32 {

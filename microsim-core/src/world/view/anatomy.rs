@@ -1,31 +1,25 @@
 //! Anatomy: the constraints and contacts of a world, for a debug view.
 
 use super::View;
-use crate::organism::{Organism, Storage};
-use crate::solver::ConstraintSet;
+use crate::organism::Organism;
+use crate::solver::constraint::Constraint;
 use glam::Vec2;
 
-/// What a constraint between two particles does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Bond {
-    /// Keeps a distance: [`crate::Distance`].
-    Distance,
-    /// Keeps two particles apart: [`crate::MinDistance`].
-    MinDistance,
-    /// Keeps two particles together: [`crate::Rope`].
-    Rope,
-    /// Ties a particle to a fixed point: [`crate::Anchor`].
-    Anchor,
-    /// A link of a membrane.
+/// What acts between two particles of an organism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bond<'a> {
+    /// A constraint of its template.
+    Constraint(&'a Constraint),
+    /// A link of its membrane.
     Membrane,
 }
 
 impl<'a> View<'a> {
-    /// The constraints between two particles, each with their positions.
-    pub fn bonds(self) -> impl Iterator<Item = (Bond, [Vec2; 2])> + 'a {
-        let ends = move |(bond, pair): (Bond, [u32; 2])| (bond, pair.map(|i| self.position(i)));
+    /// Every link of a membrane and of a constraint ([`Constraint::links`]), with the positions of its two ends.
+    pub fn bonds(self) -> impl Iterator<Item = (Bond<'a>, [Vec2; 2])> + 'a {
         let organisms = self.world.organisms.iter();
-        organisms.flat_map(move |(_, organism)| self.bonds_of(organism)).map(ends)
+        let bonds = organisms.flat_map(move |(_, organism)| self.bonds_of(organism));
+        bonds.map(move |(bond, ends)| (bond, ends.map(|i| self.position(i))))
     }
 
     /// Pairs of particles that touched in the last step, as positions of their centres; for a link of a membrane that of its
@@ -35,23 +29,16 @@ impl<'a> View<'a> {
         touching.map(move |pair| [pair.i, pair.j].map(|i| self.position(i)))
     }
 
-    fn bonds_of(self, organism: &Organism) -> Vec<(Bond, [u32; 2])> {
+    fn bonds_of(self, organism: &'a Organism) -> Vec<(Bond<'a>, [u32; 2])> {
         let rings = organism.membranes().map(|(_, ring)| ring);
         let links = rings.flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]));
         let mut bonds: Vec<_> = links.map(|link| (Bond::Membrane, link)).collect();
-        if let (Some(set), Storage::Lane { .. }) = (self.world.constraints_of(organism), &organism.body) {
-            bonds.extend(pairs(set).map(|(bond, pair)| (bond, pair.map(|node| organism.body.particle(node)))));
+        for constraint in self.world.constraints_of(organism) {
+            let links = constraint.links().into_iter().map(|link| link.map(|node| organism.body.particle(node)));
+            bonds.extend(links.map(|link| (Bond::Constraint(constraint), link)));
         }
         bonds
     }
-}
-
-fn pairs(set: &ConstraintSet) -> impl Iterator<Item = (Bond, [u32; 2])> {
-    let distances = set.distances.iter().map(|c| (Bond::Distance, [c.a, c.b]));
-    let min_distances = set.min_distances.iter().map(|c| (Bond::MinDistance, [c.a, c.b]));
-    let ropes = set.ropes.iter().map(|c| (Bond::Rope, [c.a, c.b]));
-    let anchors = set.anchors.iter().map(|c| (Bond::Anchor, [c.node, c.anchor]));
-    distances.chain(min_distances).chain(ropes).chain(anchors)
 }
 
 #[cfg(test)]
@@ -64,11 +51,12 @@ mod tests {
         let mut world = World::new(WorldConfig::default()).unwrap();
         world.spawn(&PlateletSpec::default().into(), Placement::at(30.0, 40.0)).unwrap();
         world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 40.0)).unwrap();
-        let count = |wanted| world.view().bonds().filter(|(bond, _)| *bond == wanted).count();
+        let count = |is_wanted: fn(Bond<'_>) -> bool| world.view().bonds().filter(|(bond, _)| is_wanted(*bond)).count();
         let membrane = world.view().organisms().last().unwrap().outline().len();
-        assert_eq!(count(Bond::Membrane), membrane);
-        assert!(count(Bond::Anchor) > 0 && count(Bond::Distance) > 0);
-        assert!(world.view().bonds().count() <= world.census().constraints);
+        assert_eq!(count(|bond| bond == Bond::Membrane), membrane);
+        assert_eq!(count(|bond| matches!(bond, Bond::Constraint(Constraint::Anchor(_)))), 1);
+        assert_eq!(count(|bond| matches!(bond, Bond::Constraint(Constraint::Distance(_)))), 28 + 28 + 1);
+        assert_eq!(world.view().bonds().count(), world.census().constraints);
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use crate::camera::Camera;
 use crate::draw::canvas::Canvas;
 use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
-use microsim_core::{Bond, Chemical, MembraneRegion, OrganismView, View};
+use microsim_core::{Bond, Chemical, Constraint, MembraneRegion, OrganismView, View};
 
 /// Draws a world's anatomy over its picture.
 pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
@@ -46,13 +47,13 @@ fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colo
     }
 }
 
-fn stroke(bond: Bond) -> (f32, Color) {
+fn stroke(bond: Bond<'_>) -> (f32, Color) {
     match bond {
-        Bond::Distance => (1.0, fade(HALO, 0.75)),
-        Bond::MinDistance => (0.6, fade(HALO, 0.3)),
-        Bond::Rope => (0.6, fade(WAIT, 0.6)),
-        Bond::Anchor => (2.0, WAIT),
         Bond::Membrane => (1.6, HALO),
+        Bond::Constraint(Constraint::Anchor(_)) => (2.0, WAIT),
+        Bond::Constraint(Constraint::Rope(_)) => (0.6, fade(WAIT, 0.6)),
+        Bond::Constraint(Constraint::MinDistance(_) | Constraint::Area(_)) => (0.6, fade(HALO, 0.3)),
+        Bond::Constraint(_) => (1.0, fade(HALO, 0.75)),
     }
 }
 
@@ -90,7 +91,7 @@ fn draw_regions(canvas: &mut Canvas, camera: &Camera, organism: OrganismView<'_>
 
 /// What the strokes mean.
 fn draw_legend(pen: &mut Pen) {
-    let line = pen.line(Size::Small);
+    let line = pen.line(TextSize::Small);
     let entries = [
         "circle: particle",
         "thin: distance, rope",
@@ -100,11 +101,11 @@ fn draw_legend(pen: &mut Pen) {
         "tint: chemical",
         "amber: contact",
     ];
-    let widest = entries.iter().map(|entry| pen.width(Size::Small, entry)).fold(0.0, f32::max);
+    let widest = entries.iter().map(|entry| pen.width(TextSize::Small, entry)).fold(0.0, f32::max);
     let low = Vec2::new(pen.screen().x - widest - 1.3 * line, 1.6 * line);
     pen.panel(low, low + Vec2::new(widest + 0.8 * line, 1.2 * line * entries.len() as f32));
     for (k, entry) in entries.into_iter().enumerate() {
         let at = low + line * Vec2::new(0.4, 0.6 + 1.2 * k as f32);
-        pen.write(at, Size::Small, Align::Left, HALO, entry);
+        pen.write(at, TextSize::Small, Align::Left, HALO, entry);
     }
 }

@@ -5,14 +5,14 @@ mod panel;
 mod plots;
 mod tools;
 
-use super::pause::{Over, Pause};
-use super::{Change, Context, Screen};
-use crate::args::Scene;
+use super::context::AppContext;
+use super::{Next, Overlay, Paused, Screen};
 use crate::draw::palette::HALO;
 use crate::input::{Action, Input, Move};
 use crate::stage::Stage;
+use crate::ui::font::TextSize;
 use crate::ui::menu::Menu;
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::pen::{Align, Pen};
 use crate::viewer::{Viewer, first_view};
 use microsim_core::geometry::signed_area;
 use microsim_core::glam::Vec2;
@@ -27,7 +27,7 @@ const USUAL_SPEED: usize = 3;
 
 /// A scene to meddle with.
 #[derive(Debug)]
-pub struct Sandbox {
+pub(super) struct Sandbox {
     stage: Stage,
     viewer: Viewer,
     tools: Tools,
@@ -48,8 +48,7 @@ struct Shows {
 
 impl Sandbox {
     /// A scene that runs.
-    #[must_use]
-    pub fn new(stage: Stage, context: &Context) -> Self {
+    pub(super) fn new(stage: Stage, context: &AppContext) -> Self {
         let camera = first_view(stage.world(), stage.player(), VIEW, context.pen.screen());
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
         let mut sandbox = Self {
@@ -67,13 +66,10 @@ impl Sandbox {
     }
 
     /// The scene from its beginning.
-    fn restart(&self, context: &mut Context) -> Change {
+    fn restart(&mut self, context: &mut AppContext) {
         match self.stage.again() {
-            Ok(stage) => Change::reset(Self { shows: self.shows, speed: self.speed, ..Self::new(stage, context) }),
-            Err(problem) => {
-                context.tell(problem);
-                Change::Stay
-            }
+            Ok(stage) => *self = Self { shows: self.shows, speed: self.speed, ..Self::new(stage, context) },
+            Err(problem) => context.tell(problem),
         }
     }
 
@@ -103,7 +99,7 @@ impl Sandbox {
         self.measure();
     }
 
-    fn run(&mut self, context: &Context) {
+    fn run(&mut self, context: &AppContext) {
         if self.is_paused {
             return;
         }
@@ -123,22 +119,6 @@ impl Sandbox {
         self.plots.push(self.viewer.step_ms(), area);
     }
 
-    /// A scenario in place of all other screens, or a word on what is wrong with it. A file comes into the list.
-    pub fn open(scene: &Scene, context: &mut Context) -> Change {
-        match Stage::open(scene, &[]) {
-            Ok(stage) => {
-                if matches!(scene, Scene::File(_)) {
-                    context.list(scene.clone());
-                }
-                Change::reset(Self::new(stage, context))
-            }
-            Err(problem) => {
-                context.tell(problem);
-                Change::Stay
-            }
-        }
-    }
-
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let (world, census) = (self.stage.world(), self.stage.census());
         let mut text = format!(
@@ -155,18 +135,19 @@ impl Sandbox {
             text += &format!("   {} x", SPEEDS[self.speed]);
         }
         text += if self.is_paused { "   PAUSED" } else { "" };
-        let line = pen.line(Size::Small);
-        pen.label(Vec2::new(0.4 * line, 0.8 * line), Size::Small, Align::Left, HALO, &text);
+        let line = pen.line(TextSize::Small);
+        pen.label(Vec2::new(0.4 * line, 0.8 * line), TextSize::Small, Align::Left, HALO, &text);
     }
 }
 
 impl Screen for Sandbox {
-    fn update(&mut self, input: &Input, context: &mut Context) -> Change {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.step == Some(Move::Back) {
-            return Change::push(Pause::new(Over::Simulation));
+            return Next::Open(Overlay::Pause(Paused::Simulation));
         }
         if input.presses(Action::Restart) {
-            return self.restart(context);
+            self.restart(context);
+            return Next::Stay;
         }
         self.press(input);
         let place = panel::place(&context.pen);
@@ -174,13 +155,15 @@ impl Screen for Sandbox {
         if self.shows.panel
             && let Some(choice) = self.panel.update(input, &place)
         {
-            let change = panel::choose(self, choice, context);
-            if !matches!(change, Change::Stay) {
-                return change;
+            let next = panel::choose(self, choice, context);
+            if !matches!(next, Next::Stay) {
+                return next;
             }
         }
         let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel);
-        problem.into_iter().for_each(|problem| context.tell(problem));
+        if let Some(problem) = problem {
+            context.tell(problem);
+        }
         self.run(context);
         let looks_around = self.tools.look_around(&mut self.viewer.camera);
         let at = self.viewer.place_of(self.stage.world(), self.stage.player()).filter(|_| !looks_around);
@@ -188,10 +171,10 @@ impl Screen for Sandbox {
         let pivot = looks_around.then_some(input.cursor);
         self.viewer.look(input.zoom(), wheel, at, pivot, context.pace.elapsed);
         self.panel.items = panel::items(self);
-        Change::Stay
+        Next::Stay
     }
 
-    fn draw(&mut self, context: &mut Context) {
+    fn draw(&mut self, context: &mut AppContext) {
         self.viewer.camera.resize(context.pen.screen());
         let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
         context.paint(view, camera);
@@ -210,10 +193,6 @@ impl Screen for Sandbox {
         if self.shows.panel {
             self.panel.draw(pen, &panel::place(pen));
         }
-    }
-
-    fn is_overlay(&self) -> bool {
-        false
     }
 
     fn name(&self) -> String {

@@ -1,12 +1,12 @@
 //! The panel of a simulation: everything that keys do, for the mouse.
 
-use super::super::pause::{Over, Pause};
-use super::super::pick::Pick;
-use super::super::{Change, Context};
+use super::super::context::AppContext;
+use super::super::{Next, Overlay, Paused};
 use super::tools::Tool;
 use super::{SPEEDS, Sandbox};
-use crate::ui::menu::{Choice, Item, Place};
-use crate::ui::pen::{Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::menu::{MenuChoice, MenuItem, MenuLayout};
+use crate::ui::pen::Pen;
 
 const PAUSE: usize = Tool::ALL.len();
 const STEP: usize = PAUSE + 1;
@@ -17,35 +17,35 @@ const RESTART: usize = PLOTS + 1;
 const SCENARIOS: usize = RESTART + 1;
 
 /// Where it lies: along the left edge, below the status line.
-pub(super) fn place(pen: &Pen) -> Place {
-    Place::side(pen, 1.7 * pen.line(Size::Small))
+pub(super) fn place(pen: &Pen) -> MenuLayout {
+    MenuLayout::side(pen, 1.7 * pen.line(TextSize::Small))
 }
 
 /// What it says.
-pub(super) fn items(sandbox: &Sandbox) -> Vec<Item> {
+pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
     let tool = |tool: Tool| {
         let mark = if tool == sandbox.tools.tool { "* " } else { "" };
         let label = format!("{mark}{}", tool.label());
-        if tool == Tool::Spawn { Item::with(label, sandbox.tools.spawn_name()) } else { Item::new(label) }
+        if tool == Tool::Spawn { MenuItem::with(label, sandbox.tools.spawn_name()) } else { MenuItem::new(label) }
     };
     let others = [
-        Item::new(if sandbox.is_paused { "Go on" } else { "Pause" }),
-        Item::new("Single step"),
-        Item::with("Speed", format!("{} x", SPEEDS[sandbox.speed])),
-        Item::switch("Debug view", sandbox.shows.anatomy),
-        Item::switch("Plots", sandbox.shows.plots),
-        Item::new("Restart"),
-        Item::new("Scenarios"),
-        Item::new("Menu"),
+        MenuItem::new(if sandbox.is_paused { "Go on" } else { "Pause" }),
+        MenuItem::new("Single step"),
+        MenuItem::with("Speed", format!("{} x", SPEEDS[sandbox.speed])),
+        MenuItem::switch("Debug view", sandbox.shows.anatomy),
+        MenuItem::switch("Plots", sandbox.shows.plots),
+        MenuItem::new("Restart"),
+        MenuItem::new("Scenarios"),
+        MenuItem::new("Menu"),
     ];
     Tool::ALL.map(tool).into_iter().chain(others).collect()
 }
 
 /// Does what was chosen.
-pub(super) fn choose(sandbox: &mut Sandbox, choice: Choice, context: &mut Context) -> Change {
+pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut AppContext) -> Next {
     let (item, is_back) = match choice {
-        Choice::Pick(item) => (item, false),
-        Choice::Less(item) => (item, true),
+        MenuChoice::Pick(item) => (item, false),
+        MenuChoice::Less(item) => (item, true),
     };
     if let Some(&tool) = Tool::ALL.get(item) {
         // What is spawned changes once the tool has been chosen.
@@ -53,7 +53,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: Choice, context: &mut Contex
             sandbox.tools.change_spawn(is_back);
         }
         sandbox.tools.tool = tool;
-        return Change::Stay;
+        return Next::Stay;
     }
     match item {
         PAUSE => sandbox.is_paused ^= true,
@@ -67,9 +67,9 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: Choice, context: &mut Contex
         }
         ANATOMY => sandbox.shows.anatomy ^= true,
         PLOTS => sandbox.shows.plots ^= true,
-        RESTART => return sandbox.restart(context),
-        SCENARIOS => return Change::push(Pick::new(context)),
-        _ => return Change::push(Pause::new(Over::Simulation)),
+        RESTART => sandbox.restart(context),
+        SCENARIOS => return Next::Open(Overlay::Pick),
+        _ => return Next::Open(Overlay::Pause(Paused::Simulation)),
     }
-    Change::Stay
+    Next::Stay
 }

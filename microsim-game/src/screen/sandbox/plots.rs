@@ -1,7 +1,8 @@
 //! Curves of the last seconds: the time of a step, and the area of the cell that is followed.
 
 use crate::draw::palette::{ALERT, HALO, READY, fade};
-use crate::ui::pen::{Align, Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 use std::collections::VecDeque;
@@ -28,7 +29,7 @@ impl Plots {
 
     /// Draws them in the lower right corner.
     pub(super) fn draw(&self, pen: &mut Pen) {
-        let line = pen.line(Size::Small);
+        let line = pen.line(TextSize::Small);
         let size = Vec2::new(13.0, 4.0) * line;
         let corner = pen.screen() - size - 0.5 * line;
         draw_curve(pen, corner, size, &self.step_ms, "step", "ms", ALERT);
@@ -47,7 +48,7 @@ fn push(values: &mut VecDeque<f32>, value: f32) {
 
 fn draw_curve(pen: &mut Pen, low: Vec2, size: Vec2, values: &VecDeque<f32>, name: &str, unit: &str, colour: Color) {
     let Some(last) = values.back() else { return };
-    let line = pen.line(Size::Small);
+    let line = pen.line(TextSize::Small);
     pen.panel(low, low + size);
     let top = values.iter().fold(0.0_f32, |top, value| top.max(*value)).max(1e-6) * 1.1;
     let (base, height) = (low.y + size.y - 0.2 * line, size.y - 1.4 * line);
@@ -60,9 +61,9 @@ fn draw_curve(pen: &mut Pen, low: Vec2, size: Vec2, values: &VecDeque<f32>, name
         canvas.segment(at(k - 1, values[k - 1]), at(k, values[k]), 1.6, colour);
     }
     let heading = low + Vec2::new(0.3 * line, 0.6 * line);
-    pen.write(heading, Size::Small, Align::Left, HALO, &format!("{name} {last:.1} {unit}"));
+    pen.write(heading, TextSize::Small, Align::Left, HALO, &format!("{name} {last:.1} {unit}"));
     let end = low + Vec2::new(size.x - 0.3 * line, 0.6 * line);
-    pen.write(end, Size::Small, Align::Right, fade(HALO, 0.7), &format!("top {:.1}", top / 1.1));
+    pen.write(end, TextSize::Small, Align::Right, fade(HALO, 0.7), &format!("top {:.1}", top / 1.1));
 }
 
 #[cfg(test)]

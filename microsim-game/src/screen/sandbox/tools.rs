@@ -4,7 +4,8 @@ use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::{Action, Input};
 use crate::stage::Stage;
-use crate::ui::pen::{Pen, Size};
+use crate::ui::font::TextSize;
+use crate::ui::pen::Pen;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec,
@@ -161,7 +162,7 @@ impl Tools {
     /// Draws what the tool is about to do.
     pub(super) fn draw(&self, pen: &mut Pen, view: View<'_>, camera: &Camera) {
         let Some(hand) = self.hand else { return };
-        let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(Size::Body));
+        let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(TextSize::Body));
         match self.tool {
             Tool::Push => pen.canvas().arc(at, PUSH_RADIUS * camera.scale(), width, 1.0, fade(HALO, 0.8)),
             Tool::Drag => {

@@ -3,8 +3,10 @@
 //! `C = l_min - |x_b - x_a| <= 0`, projected rigidly when violated. Keeps a ring off its interlayer and a membrane from
 //! folding (nodes `i` and `i + 2`).
 
-use super::lanes::{Pair, Span, each, ratio};
+use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
+use crate::error::{Error, in_range};
 use crate::particle::Columns;
+use crate::solver::lanes::{Pair, Span, each, ratio};
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at least so far apart.
@@ -18,11 +20,24 @@ pub struct MinDistance {
     pub min_length: f32,
 }
 
-#[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, particles: &mut Columns<'_>) {
-    for c in list {
-        let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let shortest: [f32; L] = each(|l| c.min_length * span.scale[l]);
+impl Constrain for MinDistance {
+    fn order(&self) -> u8 {
+        LIMIT
+    }
+
+    fn links(&self) -> Vec<[u32; 2]> {
+        vec![[self.a, self.b]]
+    }
+
+    fn validate(&self, nodes: usize) -> Result<(), Error> {
+        check_nodes("a", &[self.a, self.b], nodes)?;
+        in_range("min_length", self.min_length, 0.0, MAX_LENGTH)
+    }
+
+    #[inline(always)]
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, _: f32) {
+        let pair = Pair::<L>::load(particles, span.at(self.a), span.at(self.b));
+        let shortest: [f32; L] = each(|l| self.min_length * span.scale[l]);
         if pair.is_shorter(shortest) {
             let share = each(|l| {
                 let deficit = shortest[l] - pair.length(l);
@@ -34,25 +49,31 @@ pub(crate) fn project<const L: usize>(list: &[MinDistance], span: Span<L>, parti
     }
 }
 
+impl From<MinDistance> for Constraint {
+    fn from(constraint: MinDistance) -> Self {
+        Self::MinDistance(constraint)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{assert_pair_laws, line};
     use super::*;
+    use crate::solver::testing::{assert_pair_laws, line};
 
     const STANDOFF: MinDistance = MinDistance { a: 0, b: 1, min_length: 1.0 };
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.5], 1.0, |p| project(&[STANDOFF], Span::LOOSE, &mut p.columns()));
+        assert_pair_laws(&[0.5], 1.0, |p| STANDOFF.project(Span::LOOSE, &mut p.columns(), 0.01));
     }
 
     #[test]
     fn acts_only_when_too_near() {
         let mut far = line(1.5, [1.0, 1.0]);
-        project(&[STANDOFF], Span::LOOSE, &mut far.columns());
+        STANDOFF.project(Span::LOOSE, &mut far.columns(), 0.01);
         assert_eq!(far.x[1], 1.5);
         let mut near = line(0.5, [1.0, 1.0]);
-        project(&[STANDOFF], Span::LOOSE, &mut near.columns());
+        STANDOFF.project(Span::LOOSE, &mut near.columns(), 0.01);
         assert_eq!((near.x[0], near.x[1]), (-0.25, 0.75));
     }
 }

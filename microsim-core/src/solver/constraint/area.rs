@@ -3,8 +3,10 @@
 //! `C = 1/2 sum_i (x_i y_{i+1} - x_{i+1} y_i) - A`, gradient of node `i` = `1/2 (y_{i+1} - y_{i-1}, x_{i-1} - x_{i+1})`
 //! (Mueller et al. 2007, section 4.3, volume conservation, in two dimensions).
 
-use super::lanes::{Span, ratio};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_ring};
+use crate::error::{Error, in_range};
 use crate::particle::Columns;
+use crate::solver::lanes::{Span, ratio};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -21,33 +23,54 @@ pub struct Area {
     pub is_upper_bound: bool,
 }
 
-#[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Area], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
-    for c in list {
+impl Constrain for Area {
+    fn order(&self) -> u8 {
+        PULL + 1
+    }
+
+    fn links(&self) -> Vec<[u32; 2]> {
+        let next = self.ring.iter().cycle().skip(1);
+        self.ring.iter().zip(next).map(|(&a, &b)| [a, b]).collect()
+    }
+
+    fn validate(&self, nodes: usize) -> Result<(), Error> {
+        check_ring("ring", &self.ring, nodes)?;
+        in_range("rest_area", self.rest_area, 1e-6, MAX_LENGTH)?;
+        in_range("compliance", self.compliance, 0.0, MAX_LENGTH)
+    }
+
+    #[inline(always)]
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32) {
         for lane in 0..L {
-            project_lane(c, |slot| span.at(slot) + lane, span.scale[lane], particles, h);
+            project_lane(self, |slot| span.at(slot) + lane, span.scale[lane], particles, h);
         }
+    }
+}
+
+impl From<Area> for Constraint {
+    fn from(constraint: Area) -> Self {
+        Self::Area(constraint)
     }
 }
 
 fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Columns<'_>, h: f32) {
     let ring: Vec<u32> = c.ring.iter().map(|&slot| at(slot) as u32).collect();
-    let polygon = Polygon::measure(&ring, particles);
-    let error = polygon.area - c.rest_area * scale * scale;
+    let measured = MeasuredRing::measure(&ring, particles);
+    let error = measured.area - c.rest_area * scale * scale;
     if !c.is_upper_bound || error > 0.0 {
-        enforce(&polygon, &ring, error, c.compliance / (h * h), particles);
+        enforce(&measured, &ring, error, c.compliance / (h * h), particles);
     }
 }
 
 /// A ring of particles as it is now.
-pub(crate) struct Polygon {
+pub(crate) struct MeasuredRing {
     /// Enclosed area, positive for a counter-clockwise ring.
     pub area: f32,
     /// Sum of inverse mass times squared gradient over the nodes.
     weight: f32,
 }
 
-impl Polygon {
+impl MeasuredRing {
     pub(crate) fn measure(ring: &[u32], particles: &Columns<'_>) -> Self {
         let count = ring.len();
         let node = |k: usize| ring[k % count] as usize;
@@ -62,10 +85,10 @@ impl Polygon {
 }
 
 /// Corrects an area error: moves every node along its gradient, as the ring was when it was measured.
-pub(crate) fn enforce(polygon: &Polygon, ring: &[u32], error: f32, alpha: f32, particles: &mut Columns<'_>) {
+pub(crate) fn enforce(measured: &MeasuredRing, ring: &[u32], error: f32, alpha: f32, particles: &mut Columns<'_>) {
     let count = ring.len();
     let offset = |particles: &Columns<'_>, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
-    let multiplier = ratio(-error, polygon.weight + alpha);
+    let multiplier = ratio(-error, measured.weight + alpha);
     // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
     let mut before = offset(particles, count - 1);
     let mut here = Vec2::ZERO;
@@ -90,10 +113,10 @@ fn gradient(across: Vec2) -> Vec2 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{momentum, ring};
     use super::*;
     use crate::geometry::polygon::signed_area;
     use crate::particle::Particles;
+    use crate::solver::testing::{momentum, ring};
 
     fn area_of(p: &Particles) -> f32 {
         signed_area(&(0..p.len()).map(|i| p.position(i)).collect::<Vec<_>>())
@@ -109,7 +132,7 @@ mod tests {
             let mut p = ring(12, 1.1);
             let before = momentum(&p);
             for _ in 0..8 {
-                project(&[constraint(12, target, false)], Span::LOOSE, &mut p.columns(), 0.01);
+                constraint(12, target, false).project(Span::LOOSE, &mut p.columns(), 0.01);
             }
             assert!((area_of(&p) - target).abs() < 1e-3, "area {} for {target}", area_of(&p));
             assert!((momentum(&p) - before).length() < 1e-4);
@@ -120,10 +143,10 @@ mod tests {
     fn rest_state_is_a_fixed_point_and_degenerate_rings_stay_finite() {
         let mut p = ring(12, 1.0);
         let (rest, before) = (area_of(&p), p.clone());
-        project(&[constraint(12, rest, false)], Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(12, rest, false).project(Span::LOOSE, &mut p.columns(), 0.01);
         assert!((0..12).all(|i| (p.position(i) - before.position(i)).length() < 1e-6));
         let mut point = ring(12, 0.0);
-        project(&[constraint(12, 1.0, false)], Span::LOOSE, &mut point.columns(), 0.01);
+        constraint(12, 1.0, false).project(Span::LOOSE, &mut point.columns(), 0.01);
         assert!((0..12).all(|i| point.position(i).is_finite()));
     }
 
@@ -131,7 +154,7 @@ mod tests {
     fn upper_bound_lets_the_ring_shrink() {
         let mut p = ring(12, 0.5);
         let before = area_of(&p);
-        project(&[constraint(12, 6.0, true)], Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(12, 6.0, true).project(Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!(area_of(&p), before);
     }
 }

@@ -7,8 +7,10 @@
 //! where `dx` is the move since the substep began. `n` is the vector between the nodes over its length: with
 //! numerator and denominator multiplied by that length as needed, one square root and one division do.
 
-use super::lanes::{Pair, Span, each, ratio};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
+use crate::error::{Error, in_range};
 use crate::particle::Columns;
+use crate::solver::lanes::{Pair, Span, each, ratio};
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance.
@@ -26,16 +28,31 @@ pub struct Distance {
     pub damping: f32,
 }
 
-#[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
-    for c in list {
-        let pair = Pair::<L>::load(particles, span.at(c.a), span.at(c.b));
-        let gamma = c.damping / h;
-        let alpha = c.compliance / (h * h);
+impl Constrain for Distance {
+    fn order(&self) -> u8 {
+        PULL
+    }
+
+    fn links(&self) -> Vec<[u32; 2]> {
+        vec![[self.a, self.b]]
+    }
+
+    fn validate(&self, nodes: usize) -> Result<(), Error> {
+        check_nodes("a", &[self.a, self.b], nodes)?;
+        in_range("rest_length", self.rest_length, 0.0, MAX_LENGTH)?;
+        in_range("compliance", self.compliance, 0.0, MAX_LENGTH)?;
+        in_range("damping", self.damping, 0.0, 10.0)
+    }
+
+    #[inline(always)]
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32) {
+        let pair = Pair::<L>::load(particles, span.at(self.a), span.at(self.b));
+        let gamma = self.damping / h;
+        let alpha = self.compliance / (h * h);
         let weight: [f32; L] = each(|l| (1.0 + gamma) * pair.weight(l) + alpha);
         let length: [f32; L] = each(|l| pair.length(l));
-        let error: [f32; L] = each(|l| c.rest_length * span.scale[l] - length[l]);
-        let share = if c.damping > 0.0 {
+        let error: [f32; L] = each(|l| self.rest_length * span.scale[l] - length[l]);
+        let share = if self.damping > 0.0 {
             let resisted = pair.opening(particles);
             each(|l| ratio(error[l] * length[l] - gamma * resisted[l], pair.squared[l] * weight[l]))
         } else {
@@ -45,10 +62,16 @@ pub(crate) fn project<const L: usize>(list: &[Distance], span: Span<L>, particle
     }
 }
 
+impl From<Distance> for Constraint {
+    fn from(constraint: Distance) -> Self {
+        Self::Distance(constraint)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{assert_pair_laws, line};
     use super::*;
+    use crate::solver::testing::{assert_pair_laws, line};
 
     fn constraint(compliance: f32) -> Distance {
         Distance { a: 0, b: 1, rest_length: 1.0, compliance, damping: 0.0 }
@@ -58,7 +81,7 @@ mod tests {
     fn obeys_the_laws_of_a_pair_constraint() {
         for compliance in [0.0, 1e-3] {
             assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
-                project(&[constraint(compliance)], Span::LOOSE, &mut p.columns(), 0.01);
+                constraint(compliance).project(Span::LOOSE, &mut p.columns(), 0.01);
             });
         }
     }
@@ -66,7 +89,7 @@ mod tests {
     #[test]
     fn rigid_is_satisfied_at_once_and_shared_by_mass() {
         let mut p = line(2.0, [1.0, 0.5]);
-        project(&[constraint(0.0)], Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(0.0).project(Span::LOOSE, &mut p.columns(), 0.01);
         assert!((p.x[1] - p.x[0] - 1.0).abs() < 1e-6);
         assert!((p.x[0] - 2.0 / 3.0).abs() < 1e-6, "the light one moves twice as far, got {}", p.x[0]);
     }
@@ -74,7 +97,7 @@ mod tests {
     #[test]
     fn compliance_leaves_the_error_that_the_formula_says() {
         let mut p = line(2.0, [1.0, 1.0]);
-        project(&[constraint(1e-4)], Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(1e-4).project(Span::LOOSE, &mut p.columns(), 0.01);
         // alpha / h^2 = 1, so a third of the error stays.
         assert!((p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6, "length {}", p.x[1] - p.x[0]);
     }
@@ -84,8 +107,8 @@ mod tests {
         let [mut free, mut damped] = [(); 2].map(|()| line(2.0, [1.0, 1.0]));
         (free.prev_x[1], damped.prev_x[1]) = (1.9, 1.9);
         let soft = Distance { rest_length: 2.0, ..constraint(1e-4) };
-        project(&[soft], Span::LOOSE, &mut free.columns(), 0.01);
-        project(&[Distance { damping: 0.02, ..soft }], Span::LOOSE, &mut damped.columns(), 0.01);
+        soft.project(Span::LOOSE, &mut free.columns(), 0.01);
+        Distance { damping: 0.02, ..soft }.project(Span::LOOSE, &mut damped.columns(), 0.01);
         assert_eq!(free.x[1], 2.0);
         assert!(damped.x[1] < 2.0 && damped.x[1] > 1.9);
     }

@@ -3,8 +3,10 @@
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
 
-use super::lanes::{Pair, Span, each};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
+use crate::error::{Error, in_range};
 use crate::particle::Columns;
+use crate::solver::lanes::{Pair, Span, each};
 use serde::{Deserialize, Serialize};
 
 /// A node held to a static anchor by a contracting rope.
@@ -22,12 +24,33 @@ pub struct Anchor {
     pub compliance: f32,
 }
 
-#[inline(always)]
-pub(crate) fn project<const L: usize>(list: &[Anchor], span: Span<L>, particles: &mut Columns<'_>, h: f32) {
-    for c in list {
-        let alpha = c.compliance / (h * h);
-        contract(c, c.rest_length, alpha, span, particles);
-        contract(c, c.max_length, 0.0, span, particles);
+impl Constrain for Anchor {
+    fn order(&self) -> u8 {
+        PULL + 2
+    }
+
+    fn links(&self) -> Vec<[u32; 2]> {
+        vec![[self.node, self.anchor]]
+    }
+
+    fn validate(&self, nodes: usize) -> Result<(), Error> {
+        check_nodes("node", &[self.node, self.anchor], nodes)?;
+        in_range("rest_length", self.rest_length, 0.0, MAX_LENGTH)?;
+        in_range("max_length", self.max_length, self.rest_length, MAX_LENGTH)?;
+        in_range("compliance", self.compliance, 0.0, MAX_LENGTH)
+    }
+
+    #[inline(always)]
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32) {
+        let alpha = self.compliance / (h * h);
+        contract(self, self.rest_length, alpha, span, particles);
+        contract(self, self.max_length, 0.0, span, particles);
+    }
+}
+
+impl From<Anchor> for Constraint {
+    fn from(constraint: Anchor) -> Self {
+        Self::Anchor(constraint)
     }
 }
 
@@ -42,25 +65,25 @@ fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, 
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::line;
     use super::*;
+    use crate::solver::testing::line;
 
     const ANCHOR: Anchor = Anchor { node: 1, anchor: 0, rest_length: 0.0, max_length: 2.0, compliance: 1e-4 };
 
     #[test]
     fn pulls_home_softly_and_stops_hard() {
         let mut p = line(1.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.01);
+        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!((p.x[0], p.x[1]), (0.0, 0.5));
         let mut p = line(100.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.001);
+        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.001);
         assert_eq!(p.x[1], 2.0);
     }
 
     #[test]
     fn node_at_its_anchor_stays() {
         let mut p = line(0.0, [0.0, 1.0]);
-        project(&[ANCHOR], Span::LOOSE, &mut p.columns(), 0.01);
+        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.01);
         assert_eq!((p.x[1], p.y[1]), (0.0, 0.0));
     }
 }

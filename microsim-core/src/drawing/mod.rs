@@ -1,0 +1,130 @@
+//! A world as shapes: outlines, discs and lines in the colours of their roles, to be written or painted by others.
+//!
+//! [`draw`] reads a [`View`] and returns [`Item`]s, the lowest first. Places and widths are in units of the world, y
+//! upwards.
+
+mod chemical;
+mod obstacle;
+mod organism;
+pub mod palette;
+pub mod shape;
+
+use crate::{Kind, View};
+use glam::Vec2;
+use palette::{PAGE, ROOM, ROOM_EDGE, WALL};
+use shape::{Item, Paint, Part, Shape, Stroke};
+
+/// Width of the border around the room, as a share of the room's longer side.
+pub const MARGIN: f32 = 0.035;
+
+/// A group of items that lies above or below another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// The floor of the room.
+    Room,
+    /// Chemicals.
+    Chemicals,
+    /// Bright seams around thick cells, below everything that they could hide.
+    Halos,
+    /// Obstacles.
+    Obstacles,
+    /// Organisms, what can be eaten below what eats it.
+    Organisms,
+    /// The line around the room, and the border that hides what lies outside.
+    Walls,
+}
+
+impl Layer {
+    /// All layers, the lowest first.
+    pub const ALL: [Self; 6] =
+        [Self::Room, Self::Chemicals, Self::Halos, Self::Obstacles, Self::Organisms, Self::Walls];
+}
+
+/// Draws these layers of a world, in this order. Organisms that lie outside of `window` (its low and high corners) are
+/// left out, as is whatever is not finite.
+#[must_use]
+pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[Layer]) -> Vec<Item> {
+    let [low, high] = window;
+    let is_seen = |(from, to): (Vec2, Vec2)| from.cmple(high).all() && to.cmpge(low).all();
+    let mut organisms: Vec<_> = view.organisms().filter(|organism| is_seen(organism.bounds())).collect();
+    organisms.sort_by_key(|organism| height(organism.kind()));
+    let size = view.world().config().size;
+    let mut items = Vec::new();
+    for layer in layers {
+        match layer {
+            Layer::Room => items.push(room(size)),
+            Layer::Chemicals => items.extend(chemical::draw(view)),
+            Layer::Halos => items.extend(organisms.iter().copied().filter_map(organism::halo)),
+            Layer::Obstacles => items.extend(view.world().obstacles().flat_map(obstacle::draw)),
+            Layer::Organisms => organisms.iter().for_each(|&organism| organism::draw(organism, &mut items)),
+            Layer::Walls => items.extend(walls(size)),
+        }
+    }
+    items.retain(|item| item.shape.is_finite());
+    items
+}
+
+/// What lies lower is drawn first. Amoeboid cells lie above what they may have taken in: they are translucent.
+fn height(kind: Kind) -> u8 {
+    match kind {
+        Kind::FluidBlock => 0,
+        Kind::Platelet | Kind::RedCell => 1,
+        Kind::Agar => 2,
+        Kind::RigidCell => 4,
+        Kind::AmoeboidCell => 5,
+        Kind::Probe => 6,
+        _ => 3,
+    }
+}
+
+fn room(size: Vec2) -> Item {
+    let paint = Paint::Radial { centre: size * 0.5, radius: size.length() * 0.5, inner: ROOM, outer: ROOM_EDGE };
+    Item::filled(Part::Room, Shape::Polygons(vec![corners(size).into()]), paint)
+}
+
+/// The line around the room lies outside of it, above a border that hides what obstacles have beyond the room.
+fn walls(size: Vec2) -> [Item; 2] {
+    let longest = size.max_element();
+    let around = |part, width: f32, colour| {
+        let half = Vec2::splat(width * 0.5);
+        let outside = corners(size + half * 2.0).map(|corner| corner - half);
+        Item::stroked(part, Shape::Polygons(vec![outside.into()]), Stroke { colour, width })
+    };
+    [around(Part::Border, longest * MARGIN * 2.0, PAGE), around(Part::Wall, longest * 0.004, WALL)]
+}
+
+fn corners(size: Vec2) -> [Vec2; 4] {
+    [Vec2::ZERO, Vec2::new(size.x, 0.0), size, Vec2::new(0.0, size.y)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    const EVERYWHERE: [Vec2; 2] = [Vec2::MIN, Vec2::MAX];
+
+    fn parts(world: &World, window: [Vec2; 2]) -> Vec<Part> {
+        draw(world.view(), window, &Layer::ALL).iter().map(|item| item.part).collect()
+    }
+
+    #[test]
+    fn the_layers_lie_in_order() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        assert_eq!(parts(&world, EVERYWHERE), [Part::Room, Part::Border, Part::Wall]);
+        world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
+        world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        let found = parts(&world, EVERYWHERE);
+        let at = |part| found.iter().position(|&found| found == part).unwrap();
+        let expected = [Part::Room, Part::Halo, Part::Bead, Part::Body, Part::Membrane, Part::Border, Part::Wall];
+        assert!(expected.windows(2).all(|pair| at(pair[0]) < at(pair[1])), "{found:?}");
+    }
+
+    #[test]
+    fn organisms_outside_of_the_window_are_left_out() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        assert!(parts(&world, [Vec2::splat(15.0), Vec2::splat(19.9)]).contains(&Part::Bead));
+        assert!(!parts(&world, [Vec2::splat(40.0), Vec2::splat(50.0)]).contains(&Part::Bead));
+    }
+}

@@ -1,0 +1,150 @@
+//! Constraints between the nodes of a body: a file per kind. To add one, see docs/add-a-constraint.md.
+
+mod anchor;
+mod area;
+mod distance;
+mod min_distance;
+mod rope;
+
+pub use anchor::Anchor;
+pub use area::Area;
+pub(super) use area::{MeasuredRing, enforce};
+pub use distance::Distance;
+pub use min_distance::MinDistance;
+pub use rope::Rope;
+
+use super::lanes::Span;
+use crate::error::Error;
+use crate::particle::Columns;
+use serde::{Deserialize, Serialize};
+
+/// Largest length or area that a constraint may ask for.
+const MAX_LENGTH: f32 = 1e6;
+/// The first place in the order of projection for kinds that pull towards something.
+const PULL: u8 = 0;
+/// The first place for kinds that limit something. They come last, because the last projection wins.
+const LIMIT: u8 = 128;
+
+/// A rule for the places of some nodes of a body. Nodes are slots of a template.
+///
+/// Digests and snapshots write a kind as its place in this list, so a new kind goes to the end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+#[allow(missing_docs, reason = "each kind is documented in its file")]
+pub enum Constraint {
+    Distance(Distance),
+    MinDistance(MinDistance),
+    Area(Area),
+    Anchor(Anchor),
+    Rope(Rope),
+}
+
+/// What every kind of constraint says of itself.
+pub(crate) trait Constrain {
+    /// Place in the order of projection, counted from [`PULL`] or [`LIMIT`]; a different one for each kind.
+    fn order(&self) -> u8;
+
+    /// Pairs of nodes that it acts between, for drawing.
+    fn links(&self) -> Vec<[u32; 2]>;
+
+    /// Checks its nodes, of which there are so many, and the range of each number. Errors name the field.
+    fn validate(&self, nodes: usize) -> Result<(), Error>;
+
+    /// Projects it once in each lane of a span, in a substep of `h` seconds.
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32)
+    where
+        Self: Sized;
+}
+
+/// Something that is done to a constraint of any kind. Like a generic closure, so that kernels are inlined.
+trait Task<'a> {
+    type Output;
+    fn run(self, constraint: &'a impl Constrain) -> Self::Output;
+}
+
+impl Constraint {
+    /// Runs a task on what is inside: the one place that tells the kinds apart.
+    #[inline(always)]
+    fn run<'a, T: Task<'a>>(&'a self, task: T) -> T::Output {
+        match self {
+            Self::Distance(c) => task.run(c),
+            Self::MinDistance(c) => task.run(c),
+            Self::Area(c) => task.run(c),
+            Self::Anchor(c) => task.run(c),
+            Self::Rope(c) => task.run(c),
+        }
+    }
+
+    /// Pairs of nodes that it acts between: the two of a distance, the neighbours in a ring.
+    #[must_use]
+    pub fn links(&self) -> Vec<[u32; 2]> {
+        self.run(Borrow).links()
+    }
+
+    /// Checks its nodes and numbers; errors name the field.
+    pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
+        self.run(Borrow).validate(nodes)
+    }
+}
+
+/// Borrows a constraint where speed does not matter.
+struct Borrow;
+
+impl<'a> Task<'a> for Borrow {
+    type Output = &'a dyn Constrain;
+
+    fn run(self, constraint: &'a impl Constrain) -> Self::Output {
+        constraint
+    }
+}
+
+/// Projects a constraint in some spans.
+struct Project<'s, 'p, const L: usize> {
+    spans: &'s [Span<L>],
+    particles: &'s mut Columns<'p>,
+    h: f32,
+}
+
+impl<const L: usize> Task<'_> for Project<'_, '_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, constraint: &impl Constrain) {
+        for &span in self.spans {
+            constraint.project(span, self.particles, self.h);
+        }
+    }
+}
+
+/// Projects every constraint once in each span.
+///
+/// Each constraint is projected in all spans before the next one: those of one body share nodes and have to wait for
+/// each other, those of different bodies do not, so the processor can overlap them.
+#[inline(always)]
+pub(crate) fn project<const L: usize>(list: &[Constraint], spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
+    for constraint in list {
+        constraint.run(Project { spans, particles: &mut *particles, h });
+    }
+}
+
+/// Sorts constraints by kind, in the order of projection; those of one kind stay in their order.
+pub(crate) fn sort(list: &mut [Constraint]) {
+    list.sort_by_key(|constraint| constraint.run(Borrow).order());
+}
+
+/// Checks that nodes are different and below a number.
+pub(crate) fn check_nodes(field: &str, list: &[u32], nodes: usize) -> Result<(), Error> {
+    let mut sorted = list.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let is_known = sorted.len() == list.len() && list.iter().all(|&n| (n as usize) < nodes);
+    is_known.then_some(()).ok_or_else(|| Error::reference(field, format!("different nodes below {nodes}")))
+}
+
+/// Checks that a ring has at least three nodes, all different and below a number.
+pub(crate) fn check_ring(field: &str, ring: &[u32], nodes: usize) -> Result<(), Error> {
+    if ring.len() < 3 {
+        return Err(Error::reference(field, "at least three nodes"));
+    }
+    check_nodes(field, ring, nodes)
+}

@@ -1,0 +1,53 @@
+//! Where the scenario of a scene comes from.
+
+use microsim_core::scenario;
+use std::fmt;
+use std::fs;
+use std::path::PathBuf;
+
+/// Where the scenario of a scene comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneSource {
+    /// A built-in scenario.
+    Builtin(String),
+    /// A scenario file.
+    File(PathBuf),
+}
+
+/// A file if the text ends in `.toml` or looks like a path, otherwise a built-in scenario.
+impl From<&str> for SceneSource {
+    fn from(text: &str) -> Self {
+        if text.ends_with(".toml") || text.contains(['/', '\\']) {
+            Self::File(text.into())
+        } else {
+            Self::Builtin(text.to_owned())
+        }
+    }
+}
+
+impl SceneSource {
+    /// Text of the scenario.
+    ///
+    /// # Errors
+    /// When there is no such built-in scenario, or the file cannot be read.
+    pub fn text(&self) -> Result<String, String> {
+        match self {
+            Self::File(path) => {
+                fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+            }
+            Self::Builtin(name) => scenario::builtin(name).map(|found| found.text.to_owned()).ok_or_else(|| {
+                let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();
+                format!("no built-in scenario {name:?}; there are: {}; a file ends in .toml", names.join(", "))
+            }),
+        }
+    }
+}
+
+impl fmt::Display for SceneSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Builtin(name) => f.write_str(name),
+            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().fmt(f),
+        }
+    }
+}

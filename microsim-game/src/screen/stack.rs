@@ -1,0 +1,109 @@
+//! The screens that are open: a main screen, and overlays above it.
+
+use super::context::AppContext;
+use super::end::End;
+use super::keys::KeysMenu;
+use super::pause::Pause;
+use super::pick::Pick;
+use super::play::Play;
+use super::sandbox::Sandbox;
+use super::scores::ScoreList;
+use super::settings::SettingsMenu;
+use super::title::Title;
+use super::{MainScreen, Next, Overlay, Screen};
+use crate::input::Input;
+
+/// The open screens, the topmost last.
+#[derive(Debug)]
+pub struct Stack {
+    screens: Vec<Box<dyn Screen>>,
+}
+
+impl Stack {
+    /// A stack of one main screen; the title where that cannot be shown.
+    #[must_use]
+    pub fn new(first: MainScreen, context: &mut AppContext) -> Self {
+        let mut stack = Self { screens: Vec::new() };
+        stack.go(Next::Show(first), context);
+        if stack.is_empty() {
+            stack.go(Next::Show(MainScreen::Title), context);
+        }
+        stack
+    }
+
+    /// Whether all screens have been left.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.screens.is_empty()
+    }
+
+    /// Whether the topmost screen waits for a key.
+    #[must_use]
+    pub fn waits_for_key(&self) -> bool {
+        self.screens.last().is_some_and(|screen| screen.waits_for_key())
+    }
+
+    /// Whether leaving the screens would lose a round.
+    #[must_use]
+    pub fn is_at_stake(&self) -> bool {
+        self.screens.iter().any(|screen| screen.is_at_stake())
+    }
+
+    /// What pictures of the topmost screen are called.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.screens.last().map_or_else(String::new, |screen| screen.name())
+    }
+
+    /// Lets the topmost screen read input, and goes where it says.
+    pub fn update(&mut self, input: &Input, context: &mut AppContext) {
+        if let Some(screen) = self.screens.last_mut() {
+            let next = screen.update(input, context);
+            self.go(next, context);
+        }
+    }
+
+    /// Goes to a screen. One that cannot be shown is told in a message.
+    pub fn go(&mut self, next: Next, context: &mut AppContext) {
+        match next {
+            Next::Stay => {}
+            Next::Back => drop(self.screens.pop()),
+            Next::Quit => self.screens.clear(),
+            Next::Open(overlay) => self.screens.push(open(overlay, context)),
+            Next::Show(main) => match show(main, context) {
+                Ok(screen) => self.screens = vec![screen],
+                Err(problem) => context.tell(problem),
+            },
+        }
+    }
+
+    /// Draws the main screen, and the topmost overlay above it.
+    pub fn draw(&mut self, context: &mut AppContext) {
+        let top = self.screens.len().saturating_sub(1);
+        for (k, screen) in self.screens.iter_mut().enumerate().filter(|(k, _)| *k == 0 || *k == top) {
+            context.is_top = k == top;
+            screen.draw(context);
+            context.pen.flush();
+        }
+    }
+}
+
+fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, String> {
+    Ok(match main {
+        MainScreen::Title => Box::new(Title::new(context)),
+        MainScreen::Round => Box::new(Play::start(context)?),
+        MainScreen::Replay => Box::new(Play::replay(context)?),
+        MainScreen::Simulation(stage) => Box::new(Sandbox::new(*stage, context)),
+    })
+}
+
+fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
+    match overlay {
+        Overlay::Pause(paused) => Box::new(Pause::new(paused)),
+        Overlay::End(result) => Box::new(End::new(*result, context)),
+        Overlay::Pick => Box::new(Pick::new(context)),
+        Overlay::Scores => Box::new(ScoreList::new(context)),
+        Overlay::Settings => Box::new(SettingsMenu::new(context)),
+        Overlay::Keys => Box::new(KeysMenu::new(context)),
+    }
+}
