@@ -16,6 +16,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("rng", &[]),
     ("fnv", &[]),
     ("walk", &[]),
+    ("look", &[]),
+    ("spec_field", &["error"]),
     ("geometry", &[]),
     ("shared", &[]),
     ("particle", &["shared"]),
@@ -24,10 +26,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("inputs", &["error", "id"]),
     ("event", &["id", "kind"]),
     ("collision", &["geometry", "parallel", "particle", "shared"]),
-    ("solver", &["collision", "config", "error", "geometry", "parallel", "particle"]),
+    ("solver", &["collision", "config", "error", "geometry", "parallel", "particle", "spec_field"]),
     ("template", &["error", "geometry", "particle", "solver"]),
     ("chemical", &["config", "error"]),
-    ("capability", &["chemical", "collision::obstacle", "config", "error", "geometry", "id", "rng"]),
+    ("capability", &["chemical", "collision::obstacle", "config", "error", "geometry", "id", "rng", "spec_field"]),
     (
         "organism",
         &[
@@ -37,10 +39,12 @@ const LAYERS: &[(&str, &[&str])] = &[
             "geometry",
             "id",
             "kind",
+            "look",
             "particle",
             "rng",
             "shared",
             "solver",
+            "spec_field",
             "template",
         ],
     ),
@@ -87,7 +91,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("step", &["behavior", "capability", "inputs", "organism", "parallel", "particle", "solver", "world"]),
     ("snapshot", &["collision", "fnv", "id", "scenario", "world"]),
     ("replay", &["fnv", "id", "inputs", "scenario", "world"]),
-    ("microscope", &["collision::obstacle", "error", "geometry", "kind", "template", "world"]),
+    (
+        "microscope",
+        &["collision::obstacle", "error", "geometry", "kind", "look", "organism::look", "template", "world"],
+    ),
 ];
 
 /// Modules that see the crate as an embedder does: only what `lib.rs` makes public.

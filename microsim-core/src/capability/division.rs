@@ -7,8 +7,10 @@
 //!      +---------------------------------+ time limit over, or frozen: abandoned
 //! ```
 
-use crate::error::{Error, count_in_range, in_range};
+use crate::error::Error;
 use crate::id::OrganismId;
+use crate::spec_field::FieldValue::{Count, Number};
+use crate::spec_field::{FieldVisitor, check, field};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -41,11 +43,20 @@ impl Default for DivisionParams {
 
 impl DivisionParams {
     pub(crate) fn validate(&self) -> Result<(), Error> {
-        in_range("furrow_speed", self.furrow_speed, 0.1, 20.0)?;
-        in_range("closing_length", self.closing_length, 1.0, 1.5)?;
-        in_range("time_limit", self.time_limit, 0.1, 600.0)?;
-        count_in_range("least_particles", self.least_particles, 7, 1_000_000)?;
-        count_in_range("least_nodes", self.least_nodes, 8, 4096)
+        check(*self, Self::fields)
+    }
+
+    pub(crate) fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        let words = "Speed of each side of the furrow, micrometres/s.";
+        visit(field("furrow_speed", words), Number(&mut self.furrow_speed, [0.1, 20.0]));
+        let words = "Longest link that may close a ring, in rest lengths.";
+        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.5]));
+        let words = "Time after which a furrow that has not closed is abandoned, s.";
+        visit(field("time_limit", words), Number(&mut self.time_limit, [0.1, 600.0]));
+        let words = "Fewest particles of cytoplasm of each half.";
+        visit(field("least_particles", words), Count(&mut self.least_particles, [7, 1_000_000]));
+        let words = "Fewest membrane nodes of each half.";
+        visit(field("least_nodes", words), Count(&mut self.least_nodes, [8, 4096]));
     }
 }
 

@@ -14,8 +14,10 @@
 //! This file holds parameters, state and conditions. Forces are in [`crate::behavior::phagocytosis`], transitions in
 //! [`crate::world`]'s room of the same name.
 
-use crate::error::{Error, count_in_range, in_range};
+use crate::error::Error;
 use crate::id::OrganismId;
+use crate::spec_field::FieldValue::{Count, Number, Triple, Word};
+use crate::spec_field::{FieldVisitor, check, field};
 use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
@@ -88,21 +90,40 @@ impl Default for PhagocytosisParams {
 
 impl PhagocytosisParams {
     pub(crate) fn validate(&self) -> Result<(), Error> {
-        in_range("hold_time", self.hold_time, 0.0, 10.0)?;
-        in_range("heading_cosine", self.heading_cosine, -1.0, 1.0)?;
-        count_in_range("soft_prey_contacts", self.soft_prey_contacts, 1, 100)?;
-        in_range("size_ratio", self.size_ratio, 0.1, 1000.0)?;
-        in_range("time_limit", self.time_limit, 0.1, 60.0)?;
-        in_range("pull_speed", self.pull_speed, 0.1, 100.0)?;
-        in_range("pull_acceleration", self.pull_acceleration, 1.0, 1e5)?;
-        in_range("lip_speed", self.lip_speed, 0.1, 20.0)?;
-        in_range("closing_length", self.closing_length, 1.0, 1.5)?;
-        in_range("soft_prey_scale", self.soft_prey_scale, 0.05, 1.0)?;
-        in_range("digestion_time[0]", self.digestion_time[0], 0.05, 60.0)?;
-        in_range("digestion_time[1]", self.digestion_time[1], 0.05, 60.0)?;
-        in_range("digestion_time[2]", self.digestion_time[2], 0.05, 60.0)?;
-        in_range("digestion_speed", self.digestion_speed, 0.0, 1.0)?;
-        in_range("growth_yield", self.growth_yield, 0.0, 4.0)
+        check(*self, Self::fields)
+    }
+
+    pub(crate) fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
+        let words = "How prey gets through the membrane: a cup folds around it, a gate lets it through.";
+        let mut way = self.way as usize;
+        visit(field("way", words), Word(&mut way, &["gate", "cup"]));
+        self.way = WAYS[way];
+        let words = "Time for which all conditions must hold before ingestion starts, s.";
+        visit(field("hold_time", words), Number(&mut self.hold_time, [0.0, 10.0]));
+        let words = "Largest angle between the ways to the goal and to the prey, as a cosine.";
+        visit(field("heading_cosine", words), Number(&mut self.heading_cosine, [-1.0, 1.0]));
+        let words = "Contacts of soft prey with the front that are needed at once.";
+        visit(field("soft_prey_contacts", words), Count(&mut self.soft_prey_contacts, [1, 100]));
+        let words = "Least area of its cytoplasm over the area of soft prey.";
+        visit(field("size_ratio", words), Number(&mut self.size_ratio, [0.1, 1000.0]));
+        let words = "Time after which prey that is still outside is let go, s.";
+        visit(field("time_limit", words), Number(&mut self.time_limit, [0.1, 60.0]));
+        let words = "Speed at which prey is drawn in, micrometres/s.";
+        visit(field("pull_speed", words), Number(&mut self.pull_speed, [0.1, 100.0]));
+        let words = "Acceleration with which it is drawn in, micrometres/s2.";
+        visit(field("pull_acceleration", words), Number(&mut self.pull_acceleration, [1.0, 1e5]));
+        let words = "Speed of each lip of a cup, micrometres/s.";
+        visit(field("lip_speed", words), Number(&mut self.lip_speed, [0.1, 20.0]));
+        let words = "Longest link that may close the ring behind prey in a cup, in rest lengths.";
+        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.5]));
+        let words = "Size to which soft prey shrinks while it goes in, relative to its own.";
+        visit(field("soft_prey_scale", words), Number(&mut self.soft_prey_scale, [0.05, 1.0]));
+        let words = "Time of digestion of simple and of soft prey, s.";
+        visit(field("digestion_time", words), Triple(&mut self.digestion_time, [0.05, 60.0]));
+        let words = "Share of its speed that it keeps while it digests.";
+        visit(field("digestion_speed", words), Number(&mut self.digestion_speed, [0.0, 1.0]));
+        visit(field("growth_yield", "Area gained over area digested."), Number(&mut self.growth_yield, [0.0, 4.0]));
     }
 }
 

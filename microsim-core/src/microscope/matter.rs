@@ -2,64 +2,10 @@
 
 use super::glsl::Glsl;
 use super::raster::PixelGrid;
+pub(super) use crate::look::Matter;
 use glam::Vec2;
-use std::ops::{AddAssign, Mul};
 
 pub(super) const GLSL: Glsl = Glsl { source: include_str!("matter.glsl"), constants: &[] };
-
-/// What lies in the light's way at one place; amounts of things that lie over each other add up.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Matter {
-    /// Delay of the light relative to the medium, radians at 0.55 micrometres; negative where it is thinner.
-    pub phase: f32,
-    /// Haemoglobin, 1 in the thickest part of a red cell.
-    pub haemoglobin: f32,
-    /// What eosin stains, 1 in a neutrophil's body.
-    pub cytoplasm: f32,
-    /// What basic dyes and nucleic acid probes stain, 1 in a nucleus.
-    pub nucleus: f32,
-}
-
-impl Matter {
-    pub(super) const NONE: Self = Self { phase: 0.0, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.0 };
-
-    /// As a graphics card keeps it.
-    pub(super) fn to_array(self) -> [f32; 4] {
-        [self.phase, self.haemoglobin, self.cytoplasm, self.nucleus]
-    }
-
-    /// Whether matter is missing rather than there, and how much: it adds to a target or is taken from it.
-    pub(super) fn magnitude(self) -> (bool, Self) {
-        if self.phase < 0.0 { (true, self * -1.0) } else { (false, self) }
-    }
-
-    /// Nothing but a delay.
-    pub(super) const fn phase(phase: f32) -> Self {
-        Self { phase, ..Self::NONE }
-    }
-}
-
-impl Mul<f32> for Matter {
-    type Output = Self;
-
-    fn mul(self, share: f32) -> Self {
-        Self {
-            phase: self.phase * share,
-            haemoglobin: self.haemoglobin * share,
-            cytoplasm: self.cytoplasm * share,
-            nucleus: self.nucleus * share,
-        }
-    }
-}
-
-impl AddAssign for Matter {
-    fn add_assign(&mut self, other: Self) {
-        self.phase += other.phase;
-        self.haemoglobin += other.haemoglobin;
-        self.cytoplasm += other.cytoplasm;
-        self.nucleus += other.nucleus;
-    }
-}
 
 /// Matter on a grid.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@
 //!             phase, dyes  surround S        per mode    levels
 //! ```
 //!
-//! Everything on the slide has an optical thickness and takes up dye (`look`: data, one file per organism). The optics
+//! Everything on the slide has an optical thickness and takes up dye (its look: data, in the file of each organism). The optics
 //! make an image of that (`optics`: one file per mode), and the film records it. Lengths are in micrometres, phases in
 //! radians at 0.55 micrometres.
 //!
@@ -33,7 +33,6 @@ mod field;
 mod film;
 mod glsl;
 mod gpu;
-mod look;
 mod maths;
 mod matter;
 mod noise;

@@ -1,12 +1,13 @@
 //! Agar (seed, 3.1.4): one small disc.
 
-use super::{Blueprint, OrganismSpec};
-use crate::capability::Locomotion;
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
 use crate::capability::phagocytosis::PreyClass;
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::kind::Kind;
-use crate::template::{Node, Template};
-use glam::Vec2;
+use crate::look::{Look, Matter, Profile, RoundLook, Texture};
+use crate::spec_field::FieldValue::Number;
+use crate::spec_field::{FieldVisitor, check, field, required};
 
 /// A small disc to be eaten.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,32 +24,31 @@ impl Default for AgarSpec {
     }
 }
 
-impl From<AgarSpec> for OrganismSpec {
-    fn from(spec: AgarSpec) -> Self {
-        Self::Agar(spec)
+impl Spec for AgarSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable { name: "agar", words: "Discs to eat.", entry_words: "Agar of this name." }
     }
-}
 
-impl AgarSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.1, 20.0)?;
-        in_range("density", self.density, 0.01, 100.0)?;
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(required("radius", "Radius, micrometres."), Number(&mut self.radius, [0.1, 20.0]));
+        visit(field("density", "Mass per square micrometre."), Number(&mut self.density, [0.01, 100.0]));
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
         let mass = std::f32::consts::PI * self.radius * self.radius * self.density;
-        let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
-        Ok(Blueprint {
-            kind: Kind::Agar,
-            template: Some(builder.build()?),
-            scale: self.radius,
-            mass,
-            has_membrane: false,
-            fluid: None,
-            locomotion: Locomotion::None,
-            speed: 0.0,
-            area: std::f32::consts::PI * self.radius * self.radius,
-            engulfer: None,
-            prey: Some(PreyClass::Simple),
-            divider: None,
+        Ok(Blueprint { prey: Some(PreyClass::Simple), ..Blueprint::disc(Kind::Agar, self.radius, mass)? })
+    }
+
+    /// A soft bead of gel, hardly denser than water.
+    fn look(&self) -> Look {
+        Look::Round(&RoundLook {
+            profile: Profile::Dome(0.8),
+            matter: Matter { phase: 0.45, haemoglobin: 0.0, cytoplasm: 0.35, nucleus: 0.0 },
+            variation: 0.3,
+            texture: Texture { amount: 0.2, size: 0.35 },
+            unevenness: 0.03,
+            ..RoundLook::PLAIN
         })
     }
 }

@@ -4,11 +4,15 @@
 //!     (o)(o)(o)->      1.5 radii apart, rigidly linked
 //! ```
 
-use super::{Blueprint, OrganismSpec};
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::PreyClass;
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::kind::Kind;
+use crate::look::{Look, Matter};
+use crate::spec_field::FieldValue::Number;
+use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Template};
 use glam::Vec2;
 
@@ -34,32 +38,34 @@ impl Default for BacillusSpec {
     }
 }
 
-impl From<BacillusSpec> for OrganismSpec {
-    fn from(spec: BacillusSpec) -> Self {
-        Self::Bacillus(spec)
+impl Spec for BacillusSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable { name: "bacillus", words: "Rod-shaped bacteria.", entry_words: "A bacillus of this name." }
     }
-}
 
-impl BacillusSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.1, 20.0)?;
-        in_range("density", self.density, 0.01, 100.0)?;
-        in_range("speed", self.speed, 0.0, 1000.0)?;
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(required("radius", "Half its width, micrometres."), Number(&mut self.radius, [0.1, 20.0]));
+        visit(field("density", "Mass per square micrometre."), Number(&mut self.density, [0.01, 100.0]));
+        visit(field("speed", "Speed with which it swims, micrometres/s."), Number(&mut self.speed, [0.0, 1000.0]));
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
         let area = (std::f32::consts::PI + 4.0 * SPACING) * self.radius * self.radius;
         Ok(Blueprint {
-            kind: Kind::Bacillus,
             template: Some(template()?),
             scale: self.radius,
             mass: area * self.density / 3.0,
-            has_membrane: false,
-            fluid: None,
             locomotion: Locomotion::Tow { max_acceleration: THRUST },
             speed: self.speed,
-            area,
-            engulfer: None,
             prey: Some(PreyClass::Bacterium),
-            divider: None,
+            ..Blueprint::of(Kind::Bacillus, area)
         })
+    }
+
+    /// A dense rod.
+    fn look(&self) -> Look {
+        Look::Rod(&Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.9 })
     }
 }
 

@@ -1,12 +1,14 @@
 //! Coccus: a small round bacterium, such as *Staphylococcus aureus*: one disc that does not swim but is jostled about.
 
-use super::{Blueprint, OrganismSpec};
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::PreyClass;
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::kind::Kind;
-use crate::template::{Node, Template};
-use glam::Vec2;
+use crate::look::{Look, Matter, RoundLook};
+use crate::spec_field::FieldValue::Number;
+use crate::spec_field::{FieldVisitor, check, field, required};
 
 /// Largest acceleration of what jostles it, units/s2: it is light, so a push stops it at once.
 const JOSTLE: f32 = 50.0;
@@ -28,33 +30,37 @@ impl Default for CoccusSpec {
     }
 }
 
-impl From<CoccusSpec> for OrganismSpec {
-    fn from(spec: CoccusSpec) -> Self {
-        Self::Coccus(spec)
+impl Spec for CoccusSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable { name: "coccus", words: "Round bacteria.", entry_words: "A coccus of this name." }
     }
-}
 
-impl CoccusSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.1, 20.0)?;
-        in_range("density", self.density, 0.01, 100.0)?;
-        in_range("speed", self.speed, 0.0, 1000.0)?;
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(required("radius", "Radius, micrometres."), Number(&mut self.radius, [0.1, 20.0]));
+        visit(field("density", "Mass per square micrometre."), Number(&mut self.density, [0.01, 100.0]));
+        visit(
+            field("speed", "Speed with which it drifts where its controller says, micrometres/s."),
+            Number(&mut self.speed, [0.0, 1000.0]),
+        );
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
         let area = std::f32::consts::PI * self.radius * self.radius;
-        let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
         Ok(Blueprint {
-            kind: Kind::Coccus,
-            template: Some(builder.build()?),
-            scale: self.radius,
-            mass: area * self.density,
-            has_membrane: false,
-            fluid: None,
             locomotion: Locomotion::Tow { max_acceleration: JOSTLE },
             speed: self.speed,
-            area,
-            engulfer: None,
             prey: Some(PreyClass::Bacterium),
-            divider: None,
+            ..Blueprint::disc(Kind::Coccus, self.radius, area * self.density)?
+        })
+    }
+
+    /// A small dense ball.
+    fn look(&self) -> Look {
+        Look::Round(&RoundLook {
+            matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
+            variation: 0.1,
+            ..RoundLook::PLAIN
         })
     }
 }

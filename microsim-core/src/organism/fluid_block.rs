@@ -1,10 +1,13 @@
 //! Fluid block: free fluid that fills a rectangle when it is spawned.
 
-use super::{Blueprint, FluidPlan, OrganismSpec};
-use crate::capability::Locomotion;
-use crate::error::{Error, in_range, out_of_range};
+use super::blueprint::{Blueprint, FluidPlan};
+use super::spec::{Spec, SpecTable};
+use crate::error::{Error, out_of_range};
 use crate::kind::Kind;
+use crate::look::{Look, Matter};
 use crate::solver::fluid::FluidParams;
+use crate::spec_field::FieldValue::Vector;
+use crate::spec_field::{FieldVisitor, check, required};
 use glam::Vec2;
 
 /// A rectangle of fluid.
@@ -19,12 +22,6 @@ pub struct FluidBlockSpec {
 impl Default for FluidBlockSpec {
     fn default() -> Self {
         Self { size: Vec2::splat(20.0), fluid: FluidParams::default() }
-    }
-}
-
-impl From<FluidBlockSpec> for OrganismSpec {
-    fn from(spec: FluidBlockSpec) -> Self {
-        Self::FluidBlock(spec)
     }
 }
 
@@ -44,11 +41,22 @@ pub(crate) fn hexagonal_fill(size: Vec2, spacing: f32) -> Vec<Vec2> {
     points
 }
 
-impl FluidBlockSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
+impl Spec for FluidBlockSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable { name: "fluid", words: "Blocks of free fluid.", entry_words: "A fluid of this name." }
+    }
+
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(
+            required("size", "Width and height, micrometres."),
+            Vector(&mut self.size, [self.fluid.spacing, 20_000.0]),
+        );
+        self.fluid.fields(visit);
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
         self.fluid.validate().map_err(|error| error.within("fluid"))?;
-        in_range("size.x", self.size.x, self.fluid.spacing, 20_000.0)?;
-        in_range("size.y", self.size.y, self.fluid.spacing, 20_000.0)?;
+        check(self.clone(), Self::fields)?;
         let spacing = f64::from(self.fluid.spacing);
         let about = f64::from(self.size.x) * f64::from(self.size.y) / (spacing * spacing) * 1.2;
         if about > 4e6 {
@@ -59,23 +67,23 @@ impl FluidBlockSpec {
             ));
         }
         Ok(Blueprint {
-            kind: Kind::FluidBlock,
-            template: None,
-            scale: 1.0,
-            mass: 1.0,
-            has_membrane: false,
             fluid: Some(FluidPlan {
                 params: self.fluid,
                 points: hexagonal_fill(self.size, self.fluid.spacing),
                 is_enclosed: false,
             }),
-            locomotion: Locomotion::None,
-            speed: 0.0,
-            area: self.size.x * self.size.y,
-            engulfer: None,
-            prey: None,
-            divider: None,
+            ..Blueprint::of(Kind::FluidBlock, self.size.x * self.size.y)
         })
+    }
+
+    /// A little denser than the medium; each particle is a soft drop that runs into its neighbours.
+    fn look(&self) -> Look {
+        Look::Drops(&Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.4, nucleus: 0.0 })
+    }
+
+    fn scale(&mut self, scale: f32) -> bool {
+        self.size *= scale;
+        true
     }
 }
 

@@ -8,13 +8,16 @@
 //!      o o o
 //! ```
 
-use super::{Blueprint, OrganismSpec};
-use crate::capability::Locomotion;
-use crate::error::{Error, count_in_range, in_range};
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
+use crate::error::Error;
 use crate::geometry::ring::{ellipse, unit_vector};
 use crate::kind::Kind;
+use crate::look::{Inclusion, Look, Matter, Profile, RoundLook, SpotShape, Texture};
 use crate::particle::CollisionGroups;
 use crate::solver::constraint::{Anchor, Distance, MinDistance};
+use crate::spec_field::FieldValue::{Count, Number};
+use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
 use glam::Vec2;
 
@@ -54,36 +57,69 @@ impl Default for PlateletSpec {
     }
 }
 
-impl From<PlateletSpec> for OrganismSpec {
-    fn from(spec: PlateletSpec) -> Self {
-        Self::Platelet(spec)
+impl Spec for PlateletSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable {
+            name: "platelet",
+            words: "Soft obstacles that return to their places.",
+            entry_words: "A platelet of this name.",
+        }
+    }
+
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(required("radius", "Outer radius, micrometres."), Number(&mut self.radius, [0.2, 100.0]));
+        visit(field("satellites", "Satellites in the ring."), Count(&mut self.satellites, [8, 64]));
+        visit(
+            field("core_mass", "Mass of the nucleus and of the interlayer, each, in satellites."),
+            Number(&mut self.core_mass, [1.0, 1000.0]),
+        );
+        visit(
+            field("spoke_compliance", "Inverse stiffness of the spokes."),
+            Number(&mut self.spoke_compliance, [0.0, 1.0]),
+        );
+        visit(
+            field(
+                "anchor_compliance",
+                "Inverse stiffness with which its rope contracts: larger lets cells push through.",
+            ),
+            Number(&mut self.anchor_compliance, [0.0, 10.0]),
+        );
+        visit(
+            field("rope_length", "Longest that the rope gets, in radii."),
+            Number(&mut self.rope_length, [0.0, 100.0]),
+        );
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
+        Ok(Blueprint {
+            template: Some(self.template()?),
+            scale: self.radius,
+            ..Blueprint::of(Kind::Platelet, std::f32::consts::PI * self.radius * self.radius)
+        })
+    }
+
+    /// A thin irregular plate with granules in the middle, which take basic dyes.
+    fn look(&self) -> Look {
+        Look::Round(&RoundLook {
+            profile: Profile::Dome(0.3),
+            matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.55, nucleus: 0.08 },
+            variation: 0.15,
+            texture: Texture { amount: 0.25, size: 0.4 },
+            unevenness: 0.15,
+            inclusions: &[Inclusion {
+                count: [5, 9],
+                radius: [0.14, 0.30],
+                place: [0.0, 0.5],
+                matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.55 },
+                shape: SpotShape::Bump,
+            }],
+            ..RoundLook::PLAIN
+        })
     }
 }
 
 impl PlateletSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.2, 100.0)?;
-        count_in_range("satellites", self.satellites, 8, 64)?;
-        in_range("core_mass", self.core_mass, 1.0, 1000.0)?;
-        in_range("spoke_compliance", self.spoke_compliance, 0.0, 1.0)?;
-        in_range("anchor_compliance", self.anchor_compliance, 0.0, 10.0)?;
-        in_range("rope_length", self.rope_length, 0.0, 100.0)?;
-        Ok(Blueprint {
-            kind: Kind::Platelet,
-            template: Some(self.template()?),
-            scale: self.radius,
-            mass: 1.0,
-            has_membrane: false,
-            fluid: None,
-            locomotion: Locomotion::None,
-            speed: 0.0,
-            area: std::f32::consts::PI * self.radius * self.radius,
-            engulfer: None,
-            prey: None,
-            divider: None,
-        })
-    }
-
     /// The platelet of outer radius 1.
     fn template(&self) -> Result<Template, Error> {
         // Neighbouring satellites touch: r = R sin(pi / n), and R + r = 1.

@@ -1,11 +1,13 @@
 //! Probe: a heavy disc that an experimenter drives through the scene, like a microneedle. It pushes with finite force.
 
-use super::{Blueprint, OrganismSpec};
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::kind::Kind;
-use crate::template::{Node, Template};
-use glam::Vec2;
+use crate::look::{Look, Matter, RoundLook};
+use crate::spec_field::FieldValue::Number;
+use crate::spec_field::{FieldVisitor, check, field, required};
 
 /// A heavy disc that is driven.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,33 +28,36 @@ impl Default for ProbeSpec {
     }
 }
 
-impl From<ProbeSpec> for OrganismSpec {
-    fn from(spec: ProbeSpec) -> Self {
-        Self::Probe(spec)
+impl Spec for ProbeSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable {
+            name: "probe",
+            words: "Discs that move with a limited force: an experimenter's needle.",
+            entry_words: "A probe of this name.",
+        }
     }
-}
 
-impl ProbeSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.1, 100.0)?;
-        in_range("mass", self.mass, 0.01, 1e5)?;
-        in_range("speed", self.speed, 0.0, 1000.0)?;
-        in_range("max_acceleration", self.max_acceleration, 0.0, 1e6)?;
-        let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(required("radius", "Radius, micrometres."), Number(&mut self.radius, [0.1, 100.0]));
+        visit(field("mass", "Its mass."), Number(&mut self.mass, [0.01, 1e5]));
+        visit(field("speed", "Speed, micrometres/s."), Number(&mut self.speed, [0.0, 1000.0]));
+        visit(
+            field("max_acceleration", "Largest acceleration of its drive, micrometres/s2."),
+            Number(&mut self.max_acceleration, [0.0, 1e6]),
+        );
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
         Ok(Blueprint {
-            kind: Kind::Probe,
-            template: Some(builder.build()?),
-            scale: self.radius,
-            mass: self.mass,
-            has_membrane: false,
-            fluid: None,
             locomotion: Locomotion::Tow { max_acceleration: self.max_acceleration },
             speed: self.speed,
-            area: std::f32::consts::PI * self.radius * self.radius,
-            engulfer: None,
-            prey: None,
-            divider: None,
+            ..Blueprint::disc(Kind::Probe, self.radius, self.mass)?
         })
+    }
+
+    /// The round tip of a glass needle, much denser than anything alive.
+    fn look(&self) -> Look {
+        Look::Round(&RoundLook { matter: Matter { phase: 5.0, ..Matter::NONE }, ..RoundLook::PLAIN })
     }
 }

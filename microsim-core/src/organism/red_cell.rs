@@ -11,14 +11,17 @@
 //! The membrane of a real one resists a change of area about 10 000 times more than shear (Evans and Skalak 1980), which
 //! is why it squeezes through anything without bursting.
 
-use super::{Blueprint, OrganismSpec};
-use crate::capability::Locomotion;
-use crate::error::{Error, count_in_range, in_range};
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
+use crate::error::Error;
 use crate::geometry::ring::{ellipse, unit_vector};
 use crate::geometry::signed_area;
 use crate::kind::Kind;
+use crate::look::{Look, Matter, Profile, RoundLook, Texture, WAVE};
 use crate::particle::Material;
 use crate::solver::constraint::{Area, Distance, MinDistance};
+use crate::spec_field::FieldValue::{Count, Number};
+use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
 
@@ -56,36 +59,60 @@ impl Default for RedCellSpec {
     }
 }
 
-impl From<RedCellSpec> for OrganismSpec {
-    fn from(spec: RedCellSpec) -> Self {
-        Self::RedCell(spec)
+impl Spec for RedCellSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable {
+            name: "red_cell",
+            words: "Soft rings that keep their area.",
+            entry_words: "A red cell of this name.",
+        }
+    }
+
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(
+            required("radius", "Radius at rest, micrometres; a human one has 3.75."),
+            Number(&mut self.radius, [0.5, 100.0]),
+        );
+        visit(field("satellites", "Satellites in the ring."), Count(&mut self.satellites, [12, 64]));
+        visit(field("mass", "Mass of the whole cell."), Number(&mut self.mass, [0.01, 1e5]));
+        visit(
+            field("chord_compliance", "Inverse stiffness of the chords: larger is limper."),
+            Number(&mut self.chord_compliance, [0.0, 10.0]),
+        );
+        visit(
+            field("chord_damping", "Damping time of the chords, s: how slowly it springs back."),
+            Number(&mut self.chord_damping, [0.0, 10.0]),
+        );
+        visit(
+            field("area_compliance", "Inverse stiffness of the area."),
+            Number(&mut self.area_compliance, [0.0, 1.0]),
+        );
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
+        Ok(Blueprint {
+            template: Some(self.template()?),
+            scale: self.radius,
+            mass: self.mass,
+            ..Blueprint::of(Kind::RedCell, std::f32::consts::PI * self.radius * self.radius)
+        })
+    }
+
+    /// A biconcave disc full of haemoglobin.
+    fn look(&self) -> Look {
+        Look::Round(&RoundLook {
+            profile: Profile::Biconcave { c0: [0.81, 1.75], c2: 7.83, c4: 4.39 },
+            matter: Matter { phase: 0.033 * WAVE * 2.56, haemoglobin: 1.0, cytoplasm: 0.0, nucleus: 0.0 },
+            variation: 0.10,
+            texture: Texture { amount: 0.03, size: 0.6 },
+            unevenness: 0.045,
+            ..RoundLook::PLAIN
+        })
     }
 }
 
 impl RedCellSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radius", self.radius, 0.5, 100.0)?;
-        count_in_range("satellites", self.satellites, 12, 64)?;
-        in_range("mass", self.mass, 0.01, 1e5)?;
-        in_range("chord_compliance", self.chord_compliance, 0.0, 10.0)?;
-        in_range("chord_damping", self.chord_damping, 0.0, 10.0)?;
-        in_range("area_compliance", self.area_compliance, 0.0, 1.0)?;
-        Ok(Blueprint {
-            kind: Kind::RedCell,
-            template: Some(self.template()?),
-            scale: self.radius,
-            mass: self.mass,
-            has_membrane: false,
-            fluid: None,
-            locomotion: Locomotion::None,
-            speed: 0.0,
-            area: std::f32::consts::PI * self.radius * self.radius,
-            engulfer: None,
-            prey: None,
-            divider: None,
-        })
-    }
-
     /// The cell of outer radius 1 and mass 1.
     fn template(&self) -> Result<Template, Error> {
         // Neighbouring satellites touch: r = R sin(pi / n), and R + r = 1.

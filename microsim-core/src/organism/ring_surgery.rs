@@ -6,7 +6,8 @@
 //!    j+1 --- j                 j+1     j          either way
 //! ```
 
-use super::{Body, Organism};
+use super::living::Organism;
+use super::storage::Storage;
 use crate::capability::Locomotion;
 use crate::particle::{Particle, Particles};
 use crate::solver::membrane::links;
@@ -106,7 +107,7 @@ pub(crate) fn insert_node_in(organism: &mut Organism, places: Range<usize>, p: &
         ..like
     });
     organism.outline.insert(longest.0 % count + 1, node);
-    if let Body::Loose { particles, .. } = &mut organism.body {
+    if let Storage::Loose { particles, .. } = &mut organism.body {
         particles.push(node);
     }
     p.link_ring(&organism.outline);
@@ -140,7 +141,7 @@ pub(crate) fn take_out(ring: &mut Vec<u32>, p: &mut Particles) -> Option<u32> {
 
 /// Takes nodes that are in no ring any more out of the world.
 pub(crate) fn free_nodes(organism: &mut Organism, nodes: &[u32], p: &mut Particles) {
-    if let Body::Loose { particles, .. } = &mut organism.body {
+    if let Storage::Loose { particles, .. } = &mut organism.body {
         particles.retain(|node| !nodes.contains(node));
     }
     nodes.iter().for_each(|&node| p.remove(node));

@@ -1,9 +1,9 @@
 //! The table of organisms: slots with generations, so that stale handles are recognised.
 
+use super::living::{Organism, Phagosome};
 use crate::capability::phagocytosis::MealPhase;
 use crate::collision::ring::{Containment, Ring};
 use crate::id::OrganismId;
-use crate::organism::{Organism, Phagosome};
 use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 
@@ -138,7 +138,9 @@ impl Organisms {
     pub(crate) fn for_each_with_membrane(&mut self, mut change: impl FnMut(&mut Organism)) {
         for &index in &self.with_membrane {
             let slot = self.slots.get_mut(index as usize);
-            slot.and_then(|slot| slot.organism.as_deref_mut()).into_iter().for_each(&mut change);
+            if let Some(organism) = slot.and_then(|slot| slot.organism.as_deref_mut()) {
+                change(organism);
+            }
         }
     }
 

@@ -2,18 +2,18 @@
 
 use super::World;
 use crate::id::OrganismId;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::lanes::LANES;
 
 impl World {
     /// Scale of an organism's constraints.
     pub(crate) fn scale_of(&self, organism: &Organism) -> f32 {
         match organism.body {
-            Body::Lane { block, first } => {
+            Storage::Lane { block, first } => {
                 let block = &self.blocks[block as usize];
                 block.scale[(first - block.base) as usize]
             }
-            Body::Loose { .. } => 1.0,
+            Storage::Loose { .. } => 1.0,
         }
     }
 
@@ -25,7 +25,7 @@ impl World {
     /// Sets the size of a templated organism relative to its size when spawned.
     pub(in crate::world) fn set_scale(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
-        let Body::Lane { block: index, first } = organism.body else { return };
+        let Storage::Lane { block: index, first } = organism.body else { return };
         let block = &mut self.blocks[index as usize];
         let lane = (first - block.base) as usize;
         block.scale[lane] = organism.spawn_scale * factor;

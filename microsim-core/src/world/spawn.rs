@@ -8,7 +8,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
-use crate::organism::{Blueprint, Body, FluidPlan, Organism, OrganismSpec, Placement};
+use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage};
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
@@ -57,12 +57,12 @@ impl World {
             fluid.particles.retain(|i| self.particles.owner[*i as usize] != id.index);
         }
         match organism.body {
-            Body::Lane { block, first } => {
+            Storage::Lane { block, first } => {
                 let block = &mut self.blocks[block as usize];
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
                 (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
             }
-            Body::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
+            Storage::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
         organism.fluid_particles.into_iter().for_each(|i| self.particles.remove(i));
         Ok(())
@@ -186,7 +186,7 @@ impl World {
     }
 
     /// Puts a body into a lane of a block of its template.
-    fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Body {
+    fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
         let template = self.template_index(template);
         let has_room = |block: &Block| block.template == template && block.free_lane().is_some();
@@ -206,11 +206,11 @@ impl World {
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
         }
-        Body::Lane { block: index as u32, first: block.particle(0, lane) }
+        Storage::Lane { block: index as u32, first: block.particle(0, lane) }
     }
 
     /// Adds the nodes of a membrane (or none) as loose particles; the nodes are its outline.
-    fn add_loose(&mut self, planned: &[Particle]) -> (Body, Vec<u32>) {
+    fn add_loose(&mut self, planned: &[Particle]) -> (Storage, Vec<u32>) {
         let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
         let membrane = planned.first().map(|node| {
             let count = planned.len();
@@ -218,7 +218,7 @@ impl World {
             Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, count)
         });
         self.particles.link_ring(&particles);
-        (Body::Loose { particles: particles.clone(), membrane }, particles)
+        (Storage::Loose { particles: particles.clone(), membrane }, particles)
     }
 
     /// Adds an organism's fluid to the fluid that it mixes with, or to one of its own.
@@ -253,20 +253,8 @@ impl Blueprint {
     fn custom(template: Template) -> Self {
         let outline: Vec<Vec2> =
             template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
-        Self {
-            area: crate::geometry::polygon::signed_area(&outline),
-            engulfer: None,
-            prey: None,
-            divider: None,
-            kind: Kind::Custom,
-            template: Some(template),
-            scale: 1.0,
-            mass: 1.0,
-            has_membrane: false,
-            fluid: None,
-            locomotion: crate::capability::Locomotion::None,
-            speed: 0.0,
-        }
+        let area = crate::geometry::polygon::signed_area(&outline);
+        Self { template: Some(template), ..Self::of(Kind::Custom, area) }
     }
 }
 

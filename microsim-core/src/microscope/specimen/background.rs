@@ -2,8 +2,8 @@
 //! is stored.
 
 use super::spot::Spot;
+use crate::look::SpotShape;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::look::SpotShape;
 use crate::microscope::maths::smoothstep;
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};

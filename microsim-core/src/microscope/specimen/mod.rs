@@ -10,12 +10,14 @@ mod spline;
 pub(super) mod spot;
 pub(super) mod thread;
 
-use super::look::{Look, SpotShape};
 use super::matter::{Matter, MatterRaster};
 use super::noise::scramble;
 use super::raster::PixelGrid;
 use super::recipe::DrawList;
 use crate::kind::Kind;
+use crate::look::{Look, SpotShape};
+use crate::organism::look;
+use crate::template::Role;
 use crate::world::view::{OrganismView, View};
 use amoeboid::AmoeboidBody;
 use background::BackgroundMatter;
@@ -67,14 +69,16 @@ impl Specimen {
         let id = organism.id();
         let seed = scramble(self.background.seed ^ scramble(id.index() ^ (id.generation() << 16)));
         let time = self.background.time;
-        match Look::of(organism) {
+        match look(organism.kind()) {
             Look::Round(look) => {
                 let Some(body) = RoundBody::of(organism, look, seed) else { return };
                 self.spots.extend(body.spots(time));
                 self.threads.extend(body.threads(time));
                 self.round.push(body);
             }
-            Look::Amoeboid(look) => {
+            Look::Amoeboid(look_of) => {
+                let node = organism.particles().find(|particle| particle.role == Role::Membrane);
+                let look = look_of(node.map_or(0.0, |node| node.radius));
                 let Some(mut body) = AmoeboidBody::of(organism, look, seed, time) else { return };
                 body.swell(meals(organism, view));
                 self.spots.extend(body.spots(organism));

@@ -5,8 +5,8 @@ use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
 use crate::geometry::{direction_or, rotate, unit_vector};
+use crate::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::Glsl;
-use crate::microscope::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, shift_of, wobble};
@@ -321,7 +321,7 @@ fn make_slipper(polar: &mut PolarOutline, facing: Vec2, axes: Vec2, amount: f32)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::microscope::look::Look;
+    use crate::look::Look;
     use crate::{Placement, PlateletSpec, World, WorldConfig};
 
     #[test]
@@ -329,7 +329,7 @@ mod tests {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
         let platelet = world.view().organism(id).unwrap();
-        let Look::Round(look) = Look::of(platelet) else { panic!("platelets are round") };
+        let Look::Round(look) = crate::organism::look(platelet.kind()) else { panic!("platelets are round") };
         let radii = |seed: u32| {
             let body = RoundBody::of(platelet, look, seed).unwrap();
             (0..32).map(|k| body.polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()

@@ -1,7 +1,7 @@
 //! Small round things: granules, vacuoles, dust.
 
+use crate::look::SpotShape;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::look::SpotShape;
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};

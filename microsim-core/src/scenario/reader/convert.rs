@@ -23,6 +23,12 @@ pub(crate) trait Read: Sized {
 
 /// Says that the value is not of this type.
 pub(crate) fn mismatch<T: Read>(value: &SpannedValue<'_>, path: &str, context: &ReadContext<'_>) -> Option<T> {
+    refuse_value(value, path, context, T::accepted());
+    None
+}
+
+/// Says what the value is, and what is accepted.
+pub(super) fn refuse_value(value: &SpannedValue<'_>, path: &str, context: &ReadContext<'_>, accepted: String) {
     let found = match value.get_ref() {
         DeValue::String(text) => format!("is the string \"{}\"", text.chars().take(40).collect::<String>()),
         DeValue::Integer(number) => format!("is {number}"),
@@ -30,8 +36,14 @@ pub(crate) fn mismatch<T: Read>(value: &SpannedValue<'_>, path: &str, context: &
         DeValue::Array(array) => format!("is an array of {}", array.len()),
         other => format!("is a {}", other.type_str()),
     };
-    context.refuse(path, found, T::accepted());
-    None
+    context.refuse(path, found, accepted);
+}
+
+/// What is accepted of several words.
+pub(super) fn one_of(words: impl IntoIterator<Item = &'static str>) -> String {
+    let words: Vec<String> = words.into_iter().map(|word| format!("{word:?}")).collect();
+    let (last, others) = words.split_last().expect("a keyword has words");
+    format!("{} or {last}", others.join(", "))
 }
 
 /// A type whose values are words.
@@ -47,9 +59,7 @@ pub(crate) trait Keyword: Copy + PartialEq + 'static {
 
 impl<T: Keyword> Read for T {
     fn accepted() -> String {
-        let words: Vec<String> = Self::KEYWORDS.iter().map(|(word, _)| format!("{word:?}")).collect();
-        let (last, others) = words.split_last().expect("a keyword has words");
-        format!("{} or {last}", others.join(", "))
+        one_of(Self::KEYWORDS.iter().map(|(word, _)| *word))
     }
 
     fn value_type() -> ValueType {

@@ -4,10 +4,11 @@
 //! for is also the description of the format: see [`describe`](crate::scenario::describe()).
 
 use super::context::ReadContext;
-use super::convert::Read;
+use super::convert::{Read, one_of, refuse_value};
 use super::entry::{Entry, Note};
 use super::name::{NAME, is_name, unknown};
 use super::value::{SpannedValue, join};
+use super::value_type::ValueType;
 use toml::de::DeTable;
 
 /// One table that is being read.
@@ -91,6 +92,22 @@ impl<'a> Fields<'a> {
     /// The field, or a default.
     pub(crate) fn or<T: Read>(&mut self, field: &'static str, default: T) -> T {
         self.read(field, false, Some(&default)).unwrap_or(default)
+    }
+
+    /// One of several words, by its index, or a default.
+    pub(crate) fn word(&mut self, field: &'static str, words: &[&'static str], default: usize) -> usize {
+        let entry = || Entry::Value {
+            value_type: ValueType::Word(words.to_vec()),
+            is_required: false,
+            default: words.get(default).map(|word| format!("{word:?}")),
+        };
+        self.context.note(self.at(field), entry);
+        let Some(value) = self.ask(field) else { return default };
+        let index = value.get_ref().as_str().and_then(|text| words.iter().position(|word| *word == text));
+        if index.is_none() {
+            refuse_value(value, &self.at(field), self.context, one_of(words.iter().copied()));
+        }
+        index.unwrap_or(default)
     }
 
     /// Reports that a field is not there, if it is not.

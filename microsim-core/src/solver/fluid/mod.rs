@@ -13,9 +13,11 @@ mod granular;
 mod neighbours;
 
 use super::instruction_set::Dispatch;
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::parallel;
 use crate::particle::Particles;
+use crate::spec_field::FieldValue::{Number, Word};
+use crate::spec_field::{FieldVisitor, check, field};
 use density::{SUPPORT, Sums};
 use glam::Vec2;
 use neighbours::{Group, Lanes, Sorted};
@@ -59,9 +61,20 @@ impl FluidParams {
     /// # Errors
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
-        in_range("spacing", self.spacing, 0.05, 100.0)?;
-        in_range("particle_mass", self.particle_mass, 0.001, 1000.0)?;
-        in_range("viscosity", self.viscosity, 0.0, 1000.0)
+        check(*self, Self::fields)
+    }
+
+    pub(crate) fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        const MODES: [FluidMode; 2] = [FluidMode::Density, FluidMode::Granular];
+        let words = "Distance of neighbours at rest, micrometres.";
+        visit(field("spacing", words), Number(&mut self.spacing, [0.05, 100.0]));
+        visit(field("particle_mass", "Mass of a particle."), Number(&mut self.particle_mass, [0.001, 1000.0]));
+        let words = "Rate at which velocity differences between neighbours decay, 1/s.";
+        visit(field("viscosity", words), Number(&mut self.viscosity, [0.0, 1000.0]));
+        let words = "How particles keep apart: as a fluid of constant density, or as grains.";
+        let mut mode = self.mode as usize;
+        visit(field("mode", words), Word(&mut mode, &["density", "granular"]));
+        self.mode = MODES[mode];
     }
 }
 

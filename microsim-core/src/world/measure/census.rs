@@ -3,7 +3,7 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::solver::constraint::Constraint;
 use crate::template::Role;
 use crate::world::World;
@@ -61,8 +61,8 @@ impl World {
     /// The constraints that hold a templated organism together.
     pub(in crate::world) fn constraints_of(&self, organism: &Organism) -> &[Constraint] {
         match organism.body {
-            Body::Lane { block, .. } => self.templates[self.blocks[block as usize].template as usize].constraints(),
-            Body::Loose { .. } => &[],
+            Storage::Lane { block, .. } => self.templates[self.blocks[block as usize].template as usize].constraints(),
+            Storage::Loose { .. } => &[],
         }
     }
 

@@ -10,7 +10,7 @@ use crate::geometry::polygon::{centroid, contains_point};
 use crate::geometry::ring::direction_or;
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, insert_node_in, set_outline};
-use crate::organism::{Body, Organism, Phagosome};
+use crate::organism::{Organism, Phagosome, Storage};
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::membrane::links;
@@ -154,7 +154,7 @@ impl World {
         let Self { organisms, particles, fluids, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
         let before = organism.outline.len();
-        if let Body::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
+        if let Storage::Loose { particles: body, membrane: Some(membrane) } = &mut organism.body {
             *membrane = membrane.resized(before, lobe.outline.len());
             *body = lobe.outline.iter().chain(lobe.phagosomes.iter().flat_map(|inner| &inner.ring)).copied().collect();
             body.iter().for_each(|&node| particles.owner[node as usize] = id.index);

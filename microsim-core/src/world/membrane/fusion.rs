@@ -8,7 +8,7 @@ use crate::event::{Event, Refusal};
 use crate::geometry::polygon::{contains_point, is_simple};
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, set_outline};
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::world::World;
 use glam::Vec2;
 
@@ -99,7 +99,7 @@ impl World {
         let Self { organisms, particles, .. } = self;
         let Some(cell) = organisms.get_mut(id) else { return };
         let before = cell.outline.len();
-        if let (Body::Loose { particles: body, membrane: Some(membrane) }, Body::Loose { particles: added, .. }) =
+        if let (Storage::Loose { particles: body, membrane: Some(membrane) }, Storage::Loose { particles: added, .. }) =
             (&mut cell.body, &other.body)
         {
             body.extend(added);

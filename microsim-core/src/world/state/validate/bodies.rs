@@ -2,7 +2,7 @@
 
 use super::{Check, Subject};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
-use crate::organism::{Body, Organism};
+use crate::organism::{Organism, Storage};
 use crate::particle::{CollisionGroups, NO_OWNER};
 use crate::solver::membrane::{Membrane, links};
 use crate::world::World;
@@ -41,7 +41,7 @@ fn check_particles(world: &World, organism: &Organism, cell: Subject) -> Check {
 
 /// The outline is the template's, or that of its own membrane.
 fn check_outline(world: &World, organism: &Organism, cell: Subject) -> Check {
-    let Body::Lane { block, .. } = organism.body else { return Ok(()) };
+    let Storage::Lane { block, .. } = organism.body else { return Ok(()) };
     let template = world.blocks.get(block as usize).and_then(|block| world.templates.get(block.template as usize));
     let is_equal = template.is_some_and(|template| template.outline() == organism.outline);
     cell.must(is_equal, || "its outline is not that of its template".to_owned())
@@ -49,7 +49,7 @@ fn check_outline(world: &World, organism: &Organism, cell: Subject) -> Check {
 
 /// Membranes are closed, simple and counter-clockwise, and all loose nodes are in exactly one.
 fn check_rings(world: &World, organism: &Organism, cell: Subject) -> Check {
-    let Body::Loose { particles, .. } = &organism.body else { return Ok(()) };
+    let Storage::Loose { particles, .. } = &organism.body else { return Ok(()) };
     let mut nodes = particles.clone();
     let mut linked: Vec<u32> = organism.membranes().flat_map(|(_, ring)| ring).copied().collect();
     nodes.sort_unstable();

@@ -5,7 +5,7 @@ use super::{Check, Subject, Violation};
 use crate::capability::Locomotion;
 use crate::error::Error;
 use crate::organism::ring_surgery::LEAST_NODES;
-use crate::organism::{Body, Organism, Phagosome};
+use crate::organism::{Organism, Phagosome, Storage};
 use crate::particle::NO_OWNER;
 use crate::solver::block::Block;
 use crate::solver::lanes::LANES;
@@ -64,8 +64,8 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
             none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
             let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
             let place = holder.and_then(|organism| match organism.body {
-                Body::Lane { block, first } => Some((block as usize, first)),
-                Body::Loose { .. } => None,
+                Storage::Lane { block, first } => Some((block as usize, first)),
+                Storage::Loose { .. } => None,
             });
             let is_home = owner == NO_OWNER || place == Some((k, block.particle(0, lane)));
             none.must(is_home, || format!("lane {lane} of block {k} is owned by {owner}, which does not know"))?;
@@ -118,7 +118,7 @@ fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Re
 /// Records the particles of an organism in `owned`, where they must be free, and checks its indices.
 fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &mut [u32]) -> Check {
     let loose: &[u32] = match &organism.body {
-        Body::Lane { block, first } => {
+        Storage::Lane { block, first } => {
             let block = world.blocks.get(*block as usize).filter(|block| block.slots == organism.slots);
             let is_home = |block: &Block| {
                 let lane = block.owner.iter().position(|&owner| owner == index);
@@ -129,7 +129,7 @@ fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &
             cell.must(in_slots, || "its outline names a slot that does not exist".to_owned())?;
             &[]
         }
-        Body::Loose { particles, .. } => {
+        Storage::Loose { particles, .. } => {
             cell.must(organism.slots == 0, || "it has slots and is in no block".to_owned())?;
             particles
         }

@@ -8,13 +8,19 @@
 //!          N            nucleus: more massive than all satellites together; springs to the innermost ring
 //! ```
 
-use super::{Blueprint, OrganismSpec};
+mod paramecium;
+
+use super::blueprint::Blueprint;
+use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::PreyClass;
-use crate::error::{Error, count_in_range, in_range};
+use crate::error::{Error, in_range};
 use crate::geometry::ring::ellipse;
 use crate::kind::Kind;
+use crate::look::Look;
 use crate::solver::constraint::MinDistance;
+use crate::spec_field::FieldValue::{Count, Number, Vector};
+use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
 use glam::Vec2;
 
@@ -55,41 +61,58 @@ impl Default for RigidCellSpec {
     }
 }
 
-impl From<RigidCellSpec> for OrganismSpec {
-    fn from(spec: RigidCellSpec) -> Self {
-        Self::RigidCell(spec)
+impl Spec for RigidCellSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable {
+            name: "rigid_cell",
+            words: "Soft bodies of a fixed shape, such as paramecia.",
+            entry_words: "A rigid cell of this name.",
+        }
+    }
+
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(
+            required("radii", "Semi-axes, micrometres; it faces along the first."),
+            Vector(&mut self.radii, [0.5, 200.0]),
+        );
+        visit(field("satellites", "Satellites in each ring, an even number."), Count(&mut self.satellites, [8, 128]));
+        visit(field("layers", "Rings, 1 or 2."), Count(&mut self.layers, [1, 2]));
+        visit(
+            field("spring_compliance", "Inverse stiffness of the springs to the nucleus."),
+            Number(&mut self.spring_compliance, [0.0, 1.0]),
+        );
+        visit(
+            field("spring_damping", "Damping time of these springs, s."),
+            Number(&mut self.spring_damping, [0.0, 10.0]),
+        );
+        visit(
+            field("speed", "Speed of its front when it moves, micrometres/s."),
+            Number(&mut self.speed, [0.0, 1000.0]),
+        );
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
+        in_range("radii.y", self.radii.y, self.radii.x / 8.0, self.radii.x * 8.0)?;
+        if !self.satellites.is_multiple_of(2) {
+            return Err(Error::unsupported("satellites", "an even number"));
+        }
+        Ok(Blueprint {
+            template: Some(self.template()?),
+            scale: self.radii.x,
+            locomotion: Locomotion::FrontPull { front: 0 },
+            speed: self.speed,
+            prey: Some(PreyClass::Soft),
+            ..Blueprint::of(Kind::RigidCell, std::f32::consts::PI * self.radii.x * self.radii.y)
+        })
+    }
+
+    fn look(&self) -> Look {
+        Look::Round(&paramecium::LOOK)
     }
 }
 
 impl RigidCellSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("radii.x", self.radii.x, 0.5, 200.0)?;
-        in_range("radii.y", self.radii.y, 0.5, 200.0)?;
-        in_range("radii.y", self.radii.y, self.radii.x / 8.0, self.radii.x * 8.0)?;
-        count_in_range("satellites", self.satellites, 8, 128)?;
-        if !self.satellites.is_multiple_of(2) {
-            return Err(Error::unsupported("satellites", "an even number"));
-        }
-        count_in_range("layers", self.layers, 1, 2)?;
-        in_range("spring_compliance", self.spring_compliance, 0.0, 1.0)?;
-        in_range("spring_damping", self.spring_damping, 0.0, 10.0)?;
-        in_range("speed", self.speed, 0.0, 1000.0)?;
-        Ok(Blueprint {
-            kind: Kind::RigidCell,
-            template: Some(self.template()?),
-            scale: self.radii.x,
-            mass: 1.0,
-            has_membrane: false,
-            fluid: None,
-            locomotion: Locomotion::FrontPull { front: 0 },
-            speed: self.speed,
-            area: std::f32::consts::PI * self.radii.x * self.radii.y,
-            engulfer: None,
-            prey: Some(PreyClass::Soft),
-            divider: None,
-        })
-    }
-
     /// The cell of first semi-axis 1.
     fn template(&self) -> Result<Template, Error> {
         let mut builder = Template::builder();

@@ -1,38 +1,18 @@
-//! How organisms look: data, one file each. What the data mean is [`super::specimen`]'s matter.
-//!
-//! A new organism is a new file here with one constant, and an arm in [`Look::of`].
+//! How organisms look under the microscope: the words in which each organism's file says it, as data. What the data mean
+//! is the business of the microscope's specimen.
 
-mod agar;
-mod amoeba;
-mod bacillus;
-mod coccus;
-mod fluid;
-mod neutrophil;
-mod paramecium;
-mod plain;
-mod platelet;
-mod probe;
-mod red_cell;
-
-use super::matter::Matter;
-use crate::kind::Kind;
-use crate::template::Role;
-use crate::world::view::OrganismView;
+use std::ops::{AddAssign, Mul};
 
 /// Refraction: radians of delay per micrometre of something whose index exceeds the medium's by 1, at 0.55 micrometres.
-pub(super) const WAVE: f32 = std::f32::consts::TAU / 0.55;
-
-/// Radius of the membrane's discs, micrometres, from which an amoeboid cell is an amoeba rather than a blood cell: its
-/// daughters have the same.
-const AMOEBA_NODE: f32 = 0.6;
+pub(crate) const WAVE: f32 = std::f32::consts::TAU / 0.55;
 
 /// The way in which an organism is imaged.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Look {
+pub(crate) enum Look {
     /// A body that can be described from its centre outwards.
     Round(&'static RoundLook),
-    /// A cell of any shape that crawls.
-    Amoeboid(&'static AmoeboidLook),
+    /// A cell of any shape that crawls, by the radius of its membrane's nodes, micrometres.
+    Amoeboid(fn(f32) -> &'static AmoeboidLook),
     /// A rod from its first particle to its last.
     Rod(&'static Matter),
     /// Each of its particles for itself.
@@ -40,29 +20,80 @@ pub(super) enum Look {
 }
 
 impl Look {
-    pub(super) fn of(organism: OrganismView<'_>) -> Self {
-        match organism.kind() {
-            Kind::RigidCell => Self::Round(&paramecium::LOOK),
-            Kind::AmoeboidCell => {
-                let node = organism.particles().find(|particle| particle.role == Role::Membrane);
-                let is_amoeba = node.is_some_and(|node| node.radius > AMOEBA_NODE);
-                Self::Amoeboid(if is_amoeba { &amoeba::LOOK } else { &neutrophil::LOOK })
-            }
-            Kind::Platelet => Self::Round(&platelet::LOOK),
-            Kind::RedCell => Self::Round(&red_cell::LOOK),
-            Kind::Agar => Self::Round(&agar::LOOK),
-            Kind::Coccus => Self::Round(&coccus::LOOK),
-            Kind::Probe => Self::Round(&probe::LOOK),
-            Kind::Bacillus => Self::Rod(&bacillus::LOOK),
-            Kind::FluidBlock => Self::Drops(&fluid::LOOK),
-            Kind::Custom => Self::Round(&plain::LOOK),
+    /// A plain cell: for bodies that the library does not know.
+    pub(crate) const PLAIN: Self = Self::Round(&RoundLook {
+        matter: Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.8, nucleus: 0.0 },
+        variation: 0.1,
+        texture: Texture { amount: 0.08, size: 0.5 },
+        unevenness: 0.01,
+        inclusions: &[Inclusion {
+            count: [1, 1],
+            radius: [0.30, 0.38],
+            place: [0.0, 0.2],
+            matter: Matter { phase: 0.25, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
+            shape: SpotShape::Ball,
+        }],
+        ..RoundLook::PLAIN
+    });
+}
+
+/// What lies in the light's way at one place; amounts of things that lie over each other add up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Matter {
+    /// Delay of the light relative to the medium, radians at 0.55 micrometres; negative where it is thinner.
+    pub phase: f32,
+    /// Haemoglobin, 1 in the thickest part of a red cell.
+    pub haemoglobin: f32,
+    /// What eosin stains, 1 in a neutrophil's body.
+    pub cytoplasm: f32,
+    /// What basic dyes and nucleic acid probes stain, 1 in a nucleus.
+    pub nucleus: f32,
+}
+
+impl Matter {
+    pub(crate) const NONE: Self = Self { phase: 0.0, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.0 };
+
+    /// As a graphics card keeps it.
+    pub(crate) fn to_array(self) -> [f32; 4] {
+        [self.phase, self.haemoglobin, self.cytoplasm, self.nucleus]
+    }
+
+    /// Whether matter is missing rather than there, and how much: it adds to a target or is taken from it.
+    pub(crate) fn magnitude(self) -> (bool, Self) {
+        if self.phase < 0.0 { (true, self * -1.0) } else { (false, self) }
+    }
+
+    /// Nothing but a delay.
+    pub(crate) const fn phase(phase: f32) -> Self {
+        Self { phase, ..Self::NONE }
+    }
+}
+
+impl Mul<f32> for Matter {
+    type Output = Self;
+
+    fn mul(self, share: f32) -> Self {
+        Self {
+            phase: self.phase * share,
+            haemoglobin: self.haemoglobin * share,
+            cytoplasm: self.cytoplasm * share,
+            nucleus: self.nucleus * share,
         }
+    }
+}
+
+impl AddAssign for Matter {
+    fn add_assign(&mut self, other: Self) {
+        self.phase += other.phase;
+        self.haemoglobin += other.haemoglobin;
+        self.cytoplasm += other.cytoplasm;
+        self.nucleus += other.nucleus;
     }
 }
 
 /// A body described from its centre outwards. Lengths are in its mean radii unless they say otherwise.
 #[derive(Debug)]
-pub(super) struct RoundLook {
+pub(crate) struct RoundLook {
     pub profile: Profile,
     /// Where the body is thickest.
     pub matter: Matter,
@@ -78,7 +109,7 @@ pub(super) struct RoundLook {
 
 impl RoundLook {
     /// A smooth dome of nothing, to start from.
-    const PLAIN: Self = Self {
+    pub(crate) const PLAIN: Self = Self {
         profile: Profile::Dome(0.5),
         matter: Matter::NONE,
         variation: 0.0,
@@ -92,7 +123,7 @@ impl RoundLook {
 
 /// Thickness from the centre outwards, `rho` from 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Profile {
+pub(crate) enum Profile {
     /// `(1 - rho^2)^power`: 0.5 is a ball.
     Dome(f32),
     /// A red cell: `sqrt(1 - rho^2) (c0 + c2 rho^2 - c4 rho^4)`, micrometres of 2.56 (Evans and Fung 1972); `c0` of
@@ -102,7 +133,7 @@ pub(super) enum Profile {
 
 /// Unevenness of what is inside.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Texture {
+pub(crate) struct Texture {
     /// As a share of the matter there.
     pub amount: f32,
     /// Size of its features, micrometres.
@@ -111,7 +142,7 @@ pub(super) struct Texture {
 
 /// Things inside that keep their place in the body.
 #[derive(Debug)]
-pub(super) struct Inclusion {
+pub(crate) struct Inclusion {
     /// Fewest and most.
     pub count: [u32; 2],
     /// Smallest and largest radius.
@@ -125,7 +156,7 @@ pub(super) struct Inclusion {
 
 /// How a small round thing fades outwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SpotShape {
+pub(crate) enum SpotShape {
     /// Softly, without an edge.
     Bump,
     /// As thick as a ball.
@@ -136,7 +167,7 @@ pub(super) enum SpotShape {
 
 /// A fringe of beating hairs.
 #[derive(Debug)]
-pub(super) struct Cilia {
+pub(crate) struct Cilia {
     /// Number at most, and their distance at least, micrometres.
     pub most: f32,
     pub apart: f32,
@@ -152,7 +183,7 @@ pub(super) struct Cilia {
 
 /// What a ciliate's body has besides.
 #[derive(Debug)]
-pub(super) struct Pellicle {
+pub(crate) struct Pellicle {
     /// Furrows across the body, and their strength as a share of the matter.
     pub furrows: f32,
     pub furrow_depth: f32,
@@ -170,7 +201,7 @@ pub(super) struct Pellicle {
 
 /// A cell that crawls. Lengths are micrometres unless they say otherwise.
 #[derive(Debug)]
-pub(super) struct AmoeboidLook {
+pub(crate) struct AmoeboidLook {
     /// In the body, where it is thickest.
     pub matter: Matter,
     /// Width of the rim in which the body rises.
@@ -188,7 +219,7 @@ pub(super) struct AmoeboidLook {
 
 /// The thin front without organelles.
 #[derive(Debug)]
-pub(super) struct Lamella {
+pub(crate) struct Lamella {
     /// Share of the cell's length.
     pub length: f32,
     /// Its matter as a share of the body's.
@@ -204,7 +235,7 @@ pub(super) struct Lamella {
 
 /// A nucleus in lobes.
 #[derive(Debug)]
-pub(super) struct NucleusLook {
+pub(crate) struct NucleusLook {
     /// Fewest and most lobes.
     pub lobes: [u32; 2],
     /// Smallest and largest, in the cell's mean radii.
@@ -219,7 +250,7 @@ pub(super) struct NucleusLook {
 
 /// One sort of granules.
 #[derive(Debug)]
-pub(super) struct GranuleLook {
+pub(crate) struct GranuleLook {
     /// Per square micrometre.
     pub density: f32,
     /// Median radius, its standard deviation as a logarithm, smallest and largest.

@@ -1,7 +1,6 @@
 //! Paramecium: a thick body packed with food, an oral groove, two contractile vacuoles and a coat of cilia.
 
-use super::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape, Texture};
-use crate::microscope::matter::Matter;
+use crate::look::{Cilia, Inclusion, Matter, Pellicle, Profile, RoundLook, SpotShape, Texture};
 
 pub(super) const LOOK: RoundLook = RoundLook {
     profile: Profile::Dome(0.45),

@@ -1,7 +1,6 @@
 //! A large free amoeba: thicker, with coarser granules and one round nucleus.
 
-use super::{AmoeboidLook, GranuleLook, Lamella, NucleusLook, SpotShape, Texture, WAVE};
-use crate::microscope::matter::Matter;
+use crate::look::{AmoeboidLook, GranuleLook, Lamella, Matter, NucleusLook, SpotShape, Texture, WAVE};
 
 pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 2.4, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },

@@ -1,7 +1,6 @@
 //! Neutrophil: a dome of about 0.85 radians, a clear lamella in front, lobes of nucleus, hundreds of granules.
 
-use super::{AmoeboidLook, GranuleLook, Lamella, NucleusLook, SpotShape, Texture, WAVE};
-use crate::microscope::matter::Matter;
+use crate::look::{AmoeboidLook, GranuleLook, Lamella, Matter, NucleusLook, SpotShape, Texture, WAVE};
 
 pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 0.0185 * WAVE * 4.0, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },

@@ -6,17 +6,24 @@
 //!     o-o-o-o
 //! ```
 
+mod amoeba;
+mod neutrophil;
+
+use super::blueprint::{Blueprint, FluidPlan};
 use super::fluid_block::hexagonal_fill;
-use super::{Blueprint, FluidPlan, OrganismSpec};
+use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
-use crate::error::{Error, in_range, out_of_range};
+use crate::error::{Error, out_of_range};
 use crate::geometry::polygon::{contains_point, perimeter};
 use crate::geometry::ring::ellipse;
 use crate::kind::Kind;
+use crate::look::Look;
 use crate::particle::Material;
 use crate::solver::fluid::{FluidMode, FluidParams};
+use crate::spec_field::FieldValue::{Number, Table, Vector};
+use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
 
@@ -25,6 +32,10 @@ const MAX_NODES: f32 = 4096.0;
 
 /// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
 const LEAST_CYTOPLASM: usize = 7;
+
+/// Radius of a membrane node, units, above which a cell looks like an amoeba rather than a blood cell: its daughters have
+/// the same.
+const AMOEBA_NODE: f32 = 0.6;
 
 /// A membrane filled with cytoplasm.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,22 +71,42 @@ impl Default for AmoeboidCellSpec {
     }
 }
 
-impl From<AmoeboidCellSpec> for OrganismSpec {
-    fn from(spec: AmoeboidCellSpec) -> Self {
-        Self::AmoeboidCell(spec)
+impl Spec for AmoeboidCellSpec {
+    fn table(&self) -> SpecTable {
+        SpecTable {
+            name: "amoeboid_cell",
+            words: "Cells of a membrane that is filled with cytoplasm.",
+            entry_words: "An amoeboid cell of this name.",
+        }
     }
-}
 
-impl AmoeboidCellSpec {
-    pub(crate) fn blueprint(&self) -> Result<Blueprint, Error> {
-        in_range("node_radius", self.node_radius, 0.1, 10.0)?;
-        in_range("radii.x", self.radii.x, 3.0 * self.node_radius, 500.0)?;
-        in_range("radii.y", self.radii.y, 3.0 * self.node_radius, 500.0)?;
-        in_range("cytoplasm_spacing", self.cytoplasm_spacing, 1.2, 3.0)?;
-        in_range("viscosity", self.viscosity, 0.0, 1000.0)?;
-        in_range("speed", self.speed, 0.0, 1000.0)?;
-        self.phagocytosis.validate().map_err(|error| error.within("phagocytosis"))?;
-        self.division.validate().map_err(|error| error.within("division"))?;
+    fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
+        visit(
+            field("node_radius", "Radius of a membrane node, micrometres."),
+            Number(&mut self.node_radius, [0.1, 10.0]),
+        );
+        visit(
+            required("radii", "Semi-axes at rest, micrometres."),
+            Vector(&mut self.radii, [3.0 * self.node_radius, 500.0]),
+        );
+        visit(
+            field("cytoplasm_spacing", "Rest spacing of the cytoplasm, in node radii."),
+            Number(&mut self.cytoplasm_spacing, [1.2, 3.0]),
+        );
+        visit(field("viscosity", "Viscosity of the cytoplasm, 1/s."), Number(&mut self.viscosity, [0.0, 1000.0]));
+        visit(
+            field("speed", "Speed of its front and rear when it moves, micrometres/s."),
+            Number(&mut self.speed, [0.0, 1000.0]),
+        );
+        visit(
+            field("phagocytosis", "How it takes in and digests prey."),
+            Table(&mut |visit| self.phagocytosis.fields(visit)),
+        );
+        visit(field("division", "How it divides and fuses."), Table(&mut |visit| self.division.fields(visit)));
+    }
+
+    fn blueprint(&self) -> Result<Blueprint, Error> {
+        check(self.clone(), Self::fields)?;
         let chain = self.chain()?;
         let cytoplasm = self.cytoplasm(&chain);
         if cytoplasm.points.len() < LEAST_CYTOPLASM {
@@ -83,21 +114,28 @@ impl AmoeboidCellSpec {
             return Err(out_of_range("radii", cytoplasm.points.len() as f64, accepted));
         }
         Ok(Blueprint {
-            kind: Kind::AmoeboidCell,
             fluid: Some(cytoplasm),
             template: Some(self.membrane(&chain)?),
-            scale: 1.0,
-            mass: 1.0,
             has_membrane: true,
             locomotion: Locomotion::Crawl { front_centre: None },
             speed: self.speed,
-            area: std::f32::consts::PI * self.radii.x * self.radii.y,
             engulfer: Some(self.phagocytosis),
-            prey: None,
             divider: Some(self.division),
+            ..Blueprint::of(Kind::AmoeboidCell, std::f32::consts::PI * self.radii.x * self.radii.y)
         })
     }
 
+    fn look(&self) -> Look {
+        Look::Amoeboid(|node_radius| if node_radius > AMOEBA_NODE { &amoeba::LOOK } else { &neutrophil::LOOK })
+    }
+
+    fn scale(&mut self, scale: f32) -> bool {
+        self.radii *= scale;
+        true
+    }
+}
+
+impl AmoeboidCellSpec {
     /// Centres of the chain: as many as fit without a gap.
     fn chain(&self) -> Result<Vec<Vec2>, Error> {
         let radii = self.radii - Vec2::splat(self.node_radius);

@@ -1,0 +1,230 @@
+//! The living organism: its state, and what follows from it alone.
+
+use super::storage::Storage;
+use crate::capability::Locomotion;
+use crate::capability::controller::Controller;
+use crate::capability::division::{Divider, Furrow};
+use crate::capability::exchange::Exchange;
+use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
+use crate::capability::progress::Progress;
+use crate::id::OrganismId;
+use crate::kind::Kind;
+use crate::particle::Particles;
+use crate::rng::Rng;
+use crate::solver::fluid::{self, Fluid};
+use crate::solver::membrane::{Membrane, MembraneContent};
+use glam::Vec2;
+use parry2d::bounding_volume::Aabb;
+use serde::{Deserialize, Serialize};
+
+/// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Phagosome {
+    pub prey: OrganismId,
+    /// Particles, counter-clockwise.
+    pub ring: Vec<u32>,
+    pub membrane: Membrane,
+    /// Area that it has room for, square units.
+    pub area: f32,
+}
+
+/// One living organism.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Organism {
+    pub kind: Kind,
+    pub body: Storage,
+    /// Slots in its block; 0 for a loose body.
+    pub slots: u32,
+    /// Nodes of its outline, counter-clockwise.
+    pub outline: Vec<u32>,
+    /// Index of the fluid that it holds or consists of.
+    pub fluid: Option<u32>,
+    /// Its particles in that fluid, in the order in which they came.
+    pub fluid_particles: Vec<u32>,
+    pub locomotion: Locomotion,
+    pub speed: f32,
+    pub controller: Controller,
+    pub rng: Rng,
+    /// Area that it had when it was spawned, square units; changes only by scaling (seed, 3.3.1).
+    pub spawn_area: f32,
+    /// Its size relative to its template when it was spawned.
+    pub spawn_scale: f32,
+    /// The capability to take others in.
+    pub engulfer: Option<Engulfer>,
+    /// The capability to be taken in.
+    pub prey: Option<Prey>,
+    /// What cups have cut off its membrane, around prey inside.
+    pub phagosomes: Vec<Phagosome>,
+    /// The capability to divide and to fuse.
+    pub divider: Option<Divider>,
+    /// What it gives to chemicals and takes from them.
+    pub exchanges: Vec<Exchange>,
+    /// Where it wanted to go in the last step.
+    pub goal: Option<Vec2>,
+    /// Speed that it wanted then, in its own; negative: backwards.
+    pub relative_speed: f32,
+    /// Whether it gets anywhere.
+    pub progress: Progress,
+    /// Where it was spawned.
+    pub home: Vec2,
+    /// The step in which it was spawned, and the box around it then: spares the search of what it overlaps.
+    #[serde(skip, default = "long_ago")]
+    pub spawned: (u64, Aabb),
+    pub is_quarantined: bool,
+}
+
+/// Stands for a step that is not the present one.
+fn long_ago() -> (u64, Aabb) {
+    (u64::MAX, Aabb::new_invalid())
+}
+
+impl Organism {
+    /// Particles of the outline, counter-clockwise.
+    pub(crate) fn outline_particles(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        self.outline.iter().map(|&node| self.body.particle(node))
+    }
+
+    /// The first particle of its body, if it has one.
+    pub(crate) fn first_node(&self) -> Option<u32> {
+        match &self.body {
+            Storage::Lane { first, .. } => Some(*first),
+            Storage::Loose { particles, .. } => particles.first().copied(),
+        }
+    }
+
+    /// Whether somebody has taken it in, or is about to.
+    pub(crate) fn is_held(&self) -> bool {
+        self.prey.is_some_and(|prey| prey.held_by.is_some())
+    }
+
+    /// Notes who has taken it in, if it is prey at all.
+    pub(crate) fn set_held_by(&mut self, holder: Option<OrganismId>) {
+        self.prey = self.prey.map(|prey| Prey { held_by: holder, ..prey });
+    }
+
+    /// Takes note of the command to digest; returns whether it may move.
+    pub(crate) fn obey(&mut self, digests: bool) -> bool {
+        let is_free = self.engulfer.as_mut().is_none_or(|engulfer| {
+            engulfer.digests = digests;
+            !engulfer.is_locked()
+        });
+        is_free && self.furrow().is_none()
+    }
+
+    /// Its furrow, if it is dividing.
+    pub(crate) fn furrow(&self) -> Option<Furrow> {
+        self.divider.as_ref().and_then(|divider| divider.furrow)
+    }
+
+    /// Speed that it wants to move with, units/s; negative: backwards.
+    pub(crate) fn present_speed(&self) -> f32 {
+        self.relative_speed * self.own_speed()
+    }
+
+    /// Speed that it is capable of, units/s: less while it digests.
+    pub(crate) fn own_speed(&self) -> f32 {
+        let slowed = self.engulfer.as_ref().filter(|engulfer| engulfer.is_digesting());
+        slowed.map_or(self.speed, |engulfer| self.speed * engulfer.params.digestion_speed)
+    }
+
+    /// Whether it is crawling in this step.
+    pub(crate) fn crawls(&self) -> bool {
+        matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) })
+    }
+
+    /// Finds this step's tension of its membrane, if it has one.
+    pub(crate) fn relax_membrane(&mut self, particles: &Particles, fluids: &[Fluid], dt: f32) {
+        let (held_area, folds) =
+            self.engulfer.as_ref().map_or((0.0, 0.0), |engulfer| (engulfer.held_area, engulfer.fold_length));
+        let is_driven = self.crawls();
+        let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
+        let (Storage::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else {
+            return;
+        };
+        let spacing = fluids[fluid as usize].params.spacing;
+        let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
+        let content = MembraneContent { area, spacing, lobes, folds };
+        membrane.relax(&self.outline, particles, content, is_driven, dt);
+        for phagosome in &mut self.phagosomes {
+            let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
+        }
+    }
+
+    /// The prey that it touches or holds; empty for organisms that are no engulfers.
+    pub(crate) fn meals(&self) -> &[Meal] {
+        self.engulfer.as_ref().map_or(&[], |engulfer| &engulfer.meals)
+    }
+
+    /// Positions of its outline.
+    pub(crate) fn outline_positions(&self, particles: &Particles) -> Vec<Vec2> {
+        self.outline_particles().map(|i| particles.position(i as usize)).collect()
+    }
+
+    /// All membranes with their rings: its own, and those of its phagosomes.
+    pub(crate) fn membranes(&self) -> impl Iterator<Item = (&Membrane, &[u32])> {
+        let own = self.body.membrane().map(|membrane| (membrane, self.outline.as_slice()));
+        own.into_iter().chain(self.phagosomes.iter().map(|inner| (&inner.membrane, inner.ring.as_slice())))
+    }
+
+    /// What its membrane goes round, in particles of cytoplasm; prey inside and growth to come count by their area.
+    pub(crate) fn content(&self, fluids: &[Fluid]) -> f32 {
+        let each = self.fluid.map_or(1.0, |fluid| fluid::rest_area(1, fluids[fluid as usize].params.spacing));
+        let eaten = self.engulfer.as_ref().map_or(0.0, |engulfer| engulfer.held_area + engulfer.pending_growth);
+        self.fluid_particles.len() as f32 + eaten / each
+    }
+
+    /// Remembers how many nodes its membrane has for its content, so that it can have as many again, unless it remembers a
+    /// number already: that of a membrane on its way, or rounded to whole nodes, would grow with each division and fusion.
+    pub(crate) fn record_nodes_per_root(&mut self, fluids: &[Fluid]) {
+        if self.divider.as_ref().is_some_and(|divider| divider.nodes_per_root.is_none()) {
+            self.set_nodes_per_root(self.outline.len() as u32, fluids);
+        }
+    }
+
+    /// Takes nodes that it was given for more than its content asks for.
+    pub(crate) fn add_wanted_nodes(&mut self, added: u32, fluids: &[Fluid]) {
+        let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
+        divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
+        let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
+        self.set_nodes_per_root(nodes, fluids);
+    }
+
+    fn set_nodes_per_root(&mut self, nodes: u32, fluids: &[Fluid]) {
+        let nodes_per_root = nodes as f32 / self.content(fluids).sqrt();
+        if let Some(divider) = &mut self.divider {
+            divider.nodes_per_root = Some(nodes_per_root);
+        }
+    }
+
+    /// Sends its membrane on the way to the number of nodes that suits its content.
+    pub(crate) fn update_wanted_nodes(&mut self, fluids: &[Fluid]) {
+        let root = self.content(fluids).sqrt();
+        if let Some(divider) = &mut self.divider {
+            divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
+        }
+    }
+
+    /// Nodes that its membrane lacks to go round its cytoplasm once.
+    pub(crate) fn missing_nodes(&self) -> u32 {
+        let Some(membrane) = self.body.membrane() else { return 0 };
+        let wanted = membrane.rest_perimeter() / membrane.rest_length;
+        u32::from(wanted > self.outline.len() as f32 + 0.5)
+    }
+
+    /// Whether its membrane is so short that it goes round with a node less.
+    pub(crate) fn has_spare_node(&self) -> bool {
+        let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
+        wanted < self.outline.len() as f32 - 0.5
+    }
+
+    /// All its particles: those of the body by node, then the fluid.
+    pub(crate) fn particles(&self) -> impl Iterator<Item = u32> + '_ {
+        let loose: &[u32] = match &self.body {
+            Storage::Lane { .. } => &[],
+            Storage::Loose { particles, .. } => particles,
+        };
+        let in_lane = (0..self.slots).map(|slot| self.body.particle(slot));
+        in_lane.chain(loose.iter().copied()).chain(self.fluid_particles.iter().copied())
+    }
+}

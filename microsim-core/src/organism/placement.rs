@@ -1,0 +1,61 @@
+//! Where and how an organism is put into the world.
+
+use crate::capability::controller::Controller;
+use crate::error::{Error, in_range};
+use crate::geometry::ring::{rotate, unit_vector};
+use glam::Vec2;
+
+/// Where and how an organism is put into the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// Its centre, units from the room's lower left corner.
+    pub at: Vec2,
+    /// Its direction, radians counter-clockwise from the x axis, within ±1000.
+    pub angle: f32,
+    /// Size relative to what its spec or template says, 0.01 to 100.
+    pub scale: f32,
+    /// What steers it when no input does.
+    pub controller: Controller,
+}
+
+impl Placement {
+    /// At this place, unturned, in its own size, steered by inputs only.
+    #[must_use]
+    pub fn at(x: f32, y: f32) -> Self {
+        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller: Controller::Still }
+    }
+
+    /// The same with another controller.
+    #[must_use]
+    pub fn steered_by(mut self, controller: Controller) -> Self {
+        self.controller = controller;
+        self
+    }
+
+    /// The same, turned to `angle` radians.
+    #[must_use]
+    pub fn turned(mut self, angle: f32) -> Self {
+        self.angle = angle;
+        self
+    }
+
+    /// The same in another size.
+    #[must_use]
+    pub fn scaled(mut self, scale: f32) -> Self {
+        self.scale = scale;
+        self
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        in_range("at.x", self.at.x, -1e5, 1e5)?;
+        in_range("at.y", self.at.y, -1e5, 1e5)?;
+        in_range("angle", self.angle, -1000.0, 1000.0)?;
+        in_range("scale", self.scale, 0.01, 100.0)?;
+        self.controller.validate().map_err(|error| error.within("controller"))
+    }
+
+    /// Takes a point of the organism's own frame into the world's directions, relative to `origin`.
+    pub(crate) fn place(&self, point: Vec2, scale: f32, origin: Vec2) -> Vec2 {
+        (self.at - origin) + rotate(point * scale, unit_vector(self.angle))
+    }
+}
