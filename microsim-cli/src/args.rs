@@ -61,27 +61,6 @@ pub(crate) enum Verb {
     Man(crate::manual::ManArgs),
 }
 
-/// Which scenario, and what to change in it.
-#[derive(Clone, Debug, clap::Args)]
-pub(crate) struct ScenarioArgs {
-    /// A built-in scenario, a TOML file, or `-` for stdin
-    #[arg(value_name = "NAME|FILE")]
-    pub scenario: String,
-    #[command(flatten)]
-    pub changes: Changes,
-}
-
-/// What to change in a scenario.
-#[derive(Clone, Debug, Default, clap::Args)]
-pub(crate) struct Changes {
-    /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
-    pub seed: Option<u64>,
-    /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
-    pub set: Vec<(String, String)>,
-}
-
 impl Args {
     /// Reads the command line; help, version and mistakes end the process, as clap does.
     pub(crate) fn from_command_line() -> Self {
@@ -103,27 +82,6 @@ fn color_asked_for(arguments: impl Iterator<Item = std::ffi::OsString>) -> Color
     }
 }
 
-/// `KEY=VALUE`.
-pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
-        _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
-    }
-}
-
-/// A whole number.
-pub(crate) fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
-}
-
-/// A time in seconds.
-pub(crate) fn duration(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if (0.0..=1e9).contains(&seconds) => Ok(seconds),
-        _ => Err("expected a number of seconds, 0 to 1e9".to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,18 +89,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Args::command().debug_assert();
-    }
-
-    #[test]
-    fn a_value_may_contain_an_equals_sign() {
-        assert_eq!(key_value("a = b=c"), Ok(("a".into(), "b=c".into())));
-        assert!(key_value("a").is_err() && key_value("=1").is_err());
-    }
-
-    #[test]
-    fn a_duration_is_finite_and_not_negative() {
-        assert_eq!(duration("1.5"), Ok(1.5));
-        assert!(["-1", "nan", "inf", "x"].iter().all(|t| duration(t).is_err()));
     }
 
     #[test]

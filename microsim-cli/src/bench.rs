@@ -1,12 +1,13 @@
 //! `bench`: how long steps and their phases take, and how well the constraints hold meanwhile.
 
-use crate::args::{ScenarioArgs, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::scenario_args::ScenarioArgs;
 use crate::simulate::{Tally, simulate};
 use crate::source::prepare;
 use crate::summary::{RunReport, Table, mean, median};
+use crate::value_parser::whole;
 use indicatif::ProgressBar;
 use microsim_core::scenario::{Built, Script};
 use microsim_core::{Inputs, Phase, Quality, World};

@@ -1,9 +1,10 @@
 //! `check`: whether a scenario can be run.
 
-use crate::args::ScenarioArgs;
 use crate::console::stdout;
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
-use crate::source::{Prepared, Source, prepare};
+use crate::scenario_args::ScenarioArgs;
+use crate::source::{Prepared, prepare};
 use microsim_core::Census;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use serde::Serialize;
@@ -100,7 +101,7 @@ impl<'a> Answer<'a> {
         Self { ok: true, file: prepared.source.origin(), scenario: Some(scenario), problems: Vec::new() }
     }
 
-    fn refused(source: &'a Source, problems: &'a Diagnostics) -> Self {
+    fn refused(source: &'a ScenarioText, problems: &'a Diagnostics) -> Self {
         let problem = |problem: &'a Diagnostic| Problem {
             line: problem.line,
             column: problem.column,

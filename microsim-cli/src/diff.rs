@@ -2,8 +2,7 @@
 
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
-use crate::replay::lost;
-use crate::saved::{Playing, Saved};
+use crate::saved::{Playing, Saved, lost};
 use microsim_core::World;
 use microsim_core::replay::Ending;
 use microsim_core::snapshot::Checkpoint;

@@ -1,8 +1,7 @@
 //! Why the process ends without having done what was asked, and with which exit code.
 
 use crate::console::Console;
-use crate::diagnostics;
-use crate::source::Source;
+use crate::diagnostics::{self, ScenarioText};
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -18,7 +17,7 @@ pub(crate) enum Failure {
     /// In words.
     Message(String),
     /// The scenario is refused.
-    Scenario(Source, Diagnostics),
+    Scenario(ScenarioText, Diagnostics),
     /// The scenario is refused, and stdout says so.
     Told,
     /// Something that was asked about is not so; the answer is on stdout.

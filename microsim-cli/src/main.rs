@@ -9,6 +9,8 @@ mod console;
 mod diagnostics;
 mod failure;
 mod interrupt;
+mod scenario_args;
+mod value_parser;
 
 // Verbs.
 mod bench;
@@ -38,6 +40,7 @@ mod source;
 mod summary;
 
 use args::{Args, Verb};
+use clap::CommandFactory;
 use console::Console;
 use failure::Failure;
 use std::process::ExitCode;
@@ -66,7 +69,7 @@ fn perform(verb: &Verb, console: &Console) -> Result<(), Failure> {
         Verb::Sweep(verb) => sweep::sweep(verb, console),
         Verb::Report(args) => report::report(args, console),
         Verb::Bench(args) => bench::bench(args, console),
-        Verb::Completions(args) => manual::completions(args),
-        Verb::Man(args) => manual::man(args, console),
+        Verb::Completions(args) => manual::completions(args, Args::command()),
+        Verb::Man(args) => manual::man(args, Args::command(), console),
     }
 }

@@ -1,10 +1,9 @@
 //! `completions` and `man`: what the command line says of itself.
 
-use crate::args::Args;
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::output::Outputs;
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::io::Write;
@@ -34,18 +33,17 @@ pub(crate) struct ManArgs {
 }
 
 /// Prints completions.
-pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
+pub(crate) fn completions(args: &CompletionsArgs, mut program: Command) -> Result<(), Failure> {
     // The generator panics where it cannot write, so it writes to memory.
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut Args::command(), "microsim", &mut text);
+    clap_complete::generate(args.shell, &mut program, "microsim", &mut text);
     let mut out = stdout();
     out.write_all(&text)?;
     Ok(out.flush()?)
 }
 
 /// Prints or writes manual pages.
-pub(crate) fn man(args: &ManArgs, console: &Console) -> Result<(), Failure> {
-    let mut program = Args::command();
+pub(crate) fn man(args: &ManArgs, mut program: Command, console: &Console) -> Result<(), Failure> {
     program.build();
     if let Some(folder) = &args.out {
         let outputs = Outputs::open(folder, true)?;

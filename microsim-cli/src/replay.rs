@@ -3,11 +3,11 @@
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::saved::{play, read_replay};
-use microsim_core::replay::{Ending, Mismatch, Player, Replay};
+use crate::saved::{in_words, lost, play, read_replay};
+use microsim_core::replay::{Ending, Player, Replay};
 use serde::Serialize;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// `replay`.
 #[derive(Debug, clap::Args)]
@@ -58,27 +58,6 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
         text => text.iter().for_each(|text| console.note(text)),
     }
     Ok(())
-}
-
-/// What is lost of a replay, if anything is.
-pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
-    let path = path.display();
-    match replay.ending() {
-        Ending::Complete => None,
-        Ending::CutOff => Some(format!("{path}: cut off, played to its last whole record")),
-        Ending::Damaged { at } => Some(format!("{path}: damaged at byte {at}, played to the last whole record")),
-    }
-}
-
-/// Where a replay is not what was recorded.
-pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> String {
-    format!("{}: {mismatch}{}", path.display(), recorded_by(replay))
-}
-
-/// A hint where another version has recorded it.
-fn recorded_by(replay: &Replay) -> String {
-    let (recorder, own) = (replay.made_by(), env!("CARGO_PKG_VERSION"));
-    if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
 }
 
 fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure> {

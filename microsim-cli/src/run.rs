@@ -1,15 +1,16 @@
 //! `run`: a whole scenario, with its files.
 
-use crate::args::{Changes, duration, whole};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, check_formats};
 use crate::record::KeepArgs;
+use crate::scenario_args::Changes;
 use crate::session::{Session, timed_step};
 use crate::source::{Prepared, load};
 use crate::summary::{Table, median};
 use crate::sweep;
+use crate::value_parser::{duration, whole};
 use std::path::PathBuf;
 
 /// Steps that are tried to say how long a run would take.

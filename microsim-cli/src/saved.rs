@@ -1,11 +1,10 @@
 //! Files that hold worlds: snapshots, checkpoints and replays.
 
 use crate::checkpoint;
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
-use crate::replay::in_words;
-use crate::source::Source;
 use microsim_core::World;
-use microsim_core::replay::{Mismatch, Player, Replay, ReplayError};
+use microsim_core::replay::{Ending, Mismatch, Player, Replay, ReplayError};
 use microsim_core::snapshot::{Checkpoint, SnapshotError};
 use std::fs;
 use std::path::Path;
@@ -92,6 +91,27 @@ impl<'a> Playing<'a> {
     }
 }
 
+/// What is lost of a replay, if anything is.
+pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
+    let path = path.display();
+    match replay.ending() {
+        Ending::Complete => None,
+        Ending::CutOff => Some(format!("{path}: cut off, played to its last whole record")),
+        Ending::Damaged { at } => Some(format!("{path}: damaged at byte {at}, played to the last whole record")),
+    }
+}
+
+/// Where a replay is not what was recorded.
+pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> String {
+    format!("{}: {mismatch}{}", path.display(), recorded_by(replay))
+}
+
+/// A hint where another version has recorded it.
+fn recorded_by(replay: &Replay) -> String {
+    let (recorder, own) = (replay.made_by(), env!("CARGO_PKG_VERSION"));
+    if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
+}
+
 /// Reads a replay.
 pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
     let bytes = read(path)?;
@@ -106,7 +126,7 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Failure {
 pub(crate) fn play(replay: &Replay, path: &Path) -> Result<Player, Failure> {
     Player::new(replay).map_err(|problems| {
         let origin = format!("<scenario in {}>", path.display());
-        Failure::Scenario(Source::new(origin, replay.origin().text.clone()), problems)
+        Failure::Scenario(ScenarioText::new(origin, replay.origin().text.clone()), problems)
     })
 }
 

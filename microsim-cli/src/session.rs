@@ -2,12 +2,13 @@
 
 use crate::checkpoint::{self, Saved};
 use crate::console::{Console, stdout};
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, Recorder, write_description};
 use crate::record::{KeepArgs, Recording};
 use crate::simulate::Tally;
-use crate::source::{Prepared, Source};
+use crate::source::Prepared;
 use crate::summary::RunReport;
 use microsim_core::World;
 use microsim_core::scenario::{Built, OutputPlan};
@@ -55,7 +56,7 @@ impl<'o> Session<'o> {
     /// Goes on with the run of a folder.
     pub(crate) fn resume(outputs: &'o Outputs) -> Result<Self, Failure> {
         let (saved, Checkpoint { origin, run: built, .. }) = checkpoint::read(outputs.folder())?;
-        let source = Source::new(saved.source.clone(), origin.text.clone());
+        let source = ScenarioText::new(saved.source.clone(), origin.text.clone());
         let scenario = match origin.scenario() {
             Ok(scenario) => scenario,
             Err(problems) => return Err(Failure::Scenario(source, problems)),

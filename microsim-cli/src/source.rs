@@ -1,7 +1,8 @@
 //! Where a scenario comes from: a built-in one, a file or stdin.
 
-use crate::args::{Changes, ScenarioArgs};
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
+use crate::scenario_args::{Changes, ScenarioArgs};
 use microsim_core::scenario::{Built, Diagnostics, Scenario, builtin, builtins};
 use std::fs::File;
 use std::io::{self, Read};
@@ -10,42 +11,10 @@ use std::path::Path;
 /// Longest scenario that is read, bytes; also keeps endless devices from filling the memory.
 const LONGEST: u64 = 16 << 20;
 
-/// The text of a scenario and where it is from.
-#[derive(Clone, Debug)]
-pub(crate) struct Source {
-    origin: String,
-    text: String,
-}
-
-impl Source {
-    /// Name of the file, for messages.
-    pub(crate) fn origin(&self) -> &str {
-        &self.origin
-    }
-
-    pub(crate) fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// A text that was handed over by something that knows where it is from.
-    pub(crate) fn new(origin: String, text: String) -> Self {
-        Self { origin, text }
-    }
-
-    fn build(&self, changes: &Changes) -> Result<(Scenario, Built), Diagnostics> {
-        let mut scenario = Scenario::parse(&self.text, &changes.set)?;
-        if let Some(seed) = changes.seed {
-            scenario.set_seed(seed);
-        }
-        let built = scenario.build()?;
-        Ok((scenario, built))
-    }
-}
-
 /// A scenario that was parsed, with what was said about it on the command line.
 #[derive(Debug)]
 pub(crate) struct Prepared {
-    pub source: Source,
+    pub source: ScenarioText,
     pub scenario: Scenario,
     pub built: Built,
     /// What the command line changes, `key=value`.
@@ -54,8 +23,8 @@ pub(crate) struct Prepared {
 
 impl Prepared {
     /// Reads the text and makes its world.
-    pub(crate) fn new(source: Source, changes: &Changes) -> Result<Self, Failure> {
-        match source.build(changes) {
+    pub(crate) fn new(source: ScenarioText, changes: &Changes) -> Result<Self, Failure> {
+        match build(&source, changes) {
             Ok((scenario, built)) => Ok(Self { source, scenario, built, overrides: changes.set.clone() }),
             Err(problems) => Err(Failure::Scenario(source, problems)),
         }
@@ -74,18 +43,27 @@ impl Prepared {
     }
 }
 
+fn build(source: &ScenarioText, changes: &Changes) -> Result<(Scenario, Built), Diagnostics> {
+    let mut scenario = Scenario::parse(source.text(), &changes.set)?;
+    if let Some(seed) = changes.seed {
+        scenario.set_seed(seed);
+    }
+    let built = scenario.build()?;
+    Ok((scenario, built))
+}
+
 /// Reads, parses and builds: whatever is wrong with a scenario is found here, before anything is written.
 pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
     Prepared::new(load(&args.scenario)?, &args.changes)
 }
 
 /// Reads the text of a scenario.
-pub(crate) fn load(name: &str) -> Result<Source, Failure> {
+pub(crate) fn load(name: &str) -> Result<ScenarioText, Failure> {
     if name == "-" {
         return read("<stdin>", Path::new("stdin"), io::stdin().lock());
     }
     if let Some(found) = builtin(name) {
-        return Ok(Source { origin: format!("<built-in {name}>"), text: found.text.to_owned() });
+        return Ok(ScenarioText::new(format!("<built-in {name}>"), found.text.to_owned()));
     }
     let path = Path::new(name);
     if !(is_path(name) || path.exists()) {
@@ -102,14 +80,14 @@ fn is_path(name: &str) -> bool {
     name.ends_with(".toml") || name.contains(std::path::is_separator)
 }
 
-fn read(origin: &str, path: &Path, from: impl Read) -> Result<Source, Failure> {
+fn read(origin: &str, path: &Path, from: impl Read) -> Result<ScenarioText, Failure> {
     let mut bytes = Vec::new();
     from.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Failure::file("read", path, &error))?;
     if bytes.len() as u64 > LONGEST {
         return Err(Failure::Message(format!("{origin} is longer than {LONGEST} bytes, accepted: a scenario in TOML")));
     }
     let text = String::from_utf8(bytes).map_err(|error| not_text(origin, &error))?;
-    Ok(Source { origin: origin.to_owned(), text })
+    Ok(ScenarioText::new(origin.to_owned(), text))
 }
 
 fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Failure {

@@ -8,13 +8,14 @@ mod projector;
 
 use options::{FilmStock, OpticsList, Size, ViewSpec};
 
-use crate::args::{ScenarioArgs, duration};
 use crate::console::Console;
 use crate::draw::png::Picture;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Outputs;
+use crate::scenario_args::ScenarioArgs;
 use crate::source::Prepared;
+use crate::value_parser::duration;
 use animation::{Format, Movie};
 use indicatif::ProgressBar;
 use microsim_core::World;

@@ -1,9 +1,10 @@
 //! What makes the world go on between two pictures: a scenario's script, or a record of what happened.
 
-use crate::args::{Changes, ScenarioArgs};
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::saved::{play, read_replay};
-use crate::source::{Prepared, Source, prepare};
+use crate::scenario_args::{Changes, ScenarioArgs};
+use crate::source::{Prepared, prepare};
 use microsim_core::World;
 use microsim_core::replay::{Player, Replay};
 use microsim_core::scenario::Script;
@@ -25,7 +26,7 @@ pub(super) fn open(args: &ScenarioArgs) -> Result<(Prepared, Option<Replay>), Fa
     }
     let replay = read_replay(Path::new(&args.scenario))?;
     let origin = replay.origin();
-    let source = Source::new(format!("<scenario in {}>", args.scenario), origin.text.clone());
+    let source = ScenarioText::new(format!("<scenario in {}>", args.scenario), origin.text.clone());
     let changes = Changes { seed: Some(origin.seed), set: origin.overrides.clone() };
     Ok((Prepared::new(source, &changes)?, Some(replay)))
 }

@@ -16,9 +16,9 @@ pub(crate) use task::Outcome;
 
 use pool::Shard;
 
-use crate::args::{duration, whole};
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::value_parser::{duration, key_value, whole};
 use std::path::PathBuf;
 
 /// `sweep`.
@@ -52,7 +52,7 @@ pub(crate) struct PlanArgs {
     #[arg(long, value_name = "SEEDS")]
     pub seeds: Option<Seeds>,
     /// A value that is the same in all tasks; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = crate::args::key_value)]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set: Vec<(String, String)>,
     /// Number of steps; without it, the scenario's duration
     #[arg(long, value_name = "N", value_parser = whole, conflicts_with = "seconds")]

@@ -2,9 +2,9 @@
 
 use super::task::Task;
 use super::{Axis, PlanArgs};
-use crate::args::Changes;
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
+use crate::scenario_args::Changes;
 use crate::source::{Prepared, load};
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,10 +1,11 @@
 //! One task: what it is, and what comes of it.
 
-use crate::args::Changes;
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::hex;
-use crate::source::{Prepared, Source};
+use crate::scenario_args::Changes;
+use crate::source::Prepared;
 use crate::summary::rounded;
 use microsim_core::Measure;
 use serde::{Deserialize, Serialize};
@@ -85,7 +86,7 @@ impl Task {
 
     /// Runs it; `None` when the user asked to stop.
     pub(crate) fn run(&self) -> Result<Option<Outcome>, Failure> {
-        let source = Source::new(format!("<task {}>", self.key), self.text.clone());
+        let source = ScenarioText::new(format!("<task {}>", self.key), self.text.clone());
         let mut built = Prepared::new(source, &Changes::default())?.built;
         let mut broken = None;
         let (mut events, mut first) = (BTreeMap::new(), BTreeMap::new());
@@ -127,7 +128,7 @@ fn shortest(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::args::ScenarioArgs;
+    use crate::scenario_args::ScenarioArgs;
     use crate::source::prepare;
 
     fn task(seed: u64) -> Task {
