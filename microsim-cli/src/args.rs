@@ -1,6 +1,7 @@
-//! The command line: what all verbs share. The arguments of each verb stand beside it.
+//! The command line: the options that all verbs share. Those of one verb are in its file under `verbs`.
 
-use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use crate::verbs::Verb;
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
 
 /// Everything that the command line says.
 #[derive(Debug, Parser)]
@@ -23,42 +24,6 @@ pub(crate) struct Args {
     pub verbose: bool,
     #[command(subcommand)]
     pub verb: Verb,
-}
-
-/// What to do.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Verb {
-    /// Write a commented scenario to start from
-    New(crate::new::NewArgs),
-    /// Check a scenario without running it: its text, and that everything finds its place
-    Check(crate::check::CheckArgs),
-    /// Print the JSON Schema of scenario files, for editors
-    Schema,
-    /// List the built-in scenarios
-    List,
-    /// Run a scenario and say what came of it
-    Run(Box<crate::run::RunArgs>),
-    /// Go on with a run that was stopped, bit for bit
-    Resume(crate::resume::ResumeArgs),
-    /// Make a recorded run again and compare it with the record
-    Replay(crate::replay::ReplayArgs),
-    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
-    Diff(crate::diff::DiffArgs),
-    /// Say what is in a snapshot, a checkpoint or a replay
-    Inspect(crate::inspect::InspectArgs),
-    /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
-    Render(crate::render::RenderArgs),
-    /// Run a scenario many times, with other parameters and seeds each time
-    #[command(subcommand)]
-    Sweep(crate::sweep::SweepVerb),
-    /// Make one HTML page of a run or a sweep
-    Report(crate::report::ReportArgs),
-    /// Measure how long steps and their phases take, and how well the constraints hold
-    Bench(crate::bench::BenchArgs),
-    /// Print the completions of a shell
-    Completions(crate::manual::CompletionsArgs),
-    /// Print the manual page of a verb, or write all of them
-    Man(crate::manual::ManArgs),
 }
 
 impl Args {

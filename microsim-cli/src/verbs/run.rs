@@ -1,5 +1,6 @@
 //! `run`: a whole scenario, with its files.
 
+use super::sweep;
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -9,7 +10,6 @@ use crate::scenario_args::Changes;
 use crate::session::{Session, timed_step};
 use crate::source::{Prepared, load};
 use crate::summary::{Table, median};
-use crate::sweep;
 use crate::value_parser::{duration, whole};
 use std::path::PathBuf;
 

@@ -1,9 +1,9 @@
 //! `new`: a scenario to start from.
 
+use super::schema;
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::output::Outputs;
-use crate::schema;
 use microsim_core::scenario::{builtin, builtins};
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -6,7 +6,7 @@ use super::heat_map::Grid;
 use super::page::{Page, escape, figure, figures, folded};
 use super::scale::short;
 use crate::failure::Failure;
-use crate::sweep::Outcome;
+use crate::verbs::sweep::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
