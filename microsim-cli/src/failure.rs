@@ -19,9 +19,9 @@ pub(crate) enum Failure {
     /// The scenario is refused.
     Scenario(ScenarioText, Diagnostics),
     /// The scenario is refused, and stdout says so.
-    Told,
+    Reported,
     /// Something that was asked about is not so; the answer is on stdout.
-    No,
+    Negative,
     /// Whoever reads stdout has enough.
     PipeClosed,
     /// What the scenario says must hold does not; what there was has been written.
@@ -46,11 +46,13 @@ impl Failure {
                 console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
             }
             Self::Broken(lines) => {
-                lines.iter().for_each(|line| console.complain(line));
+                for line in &lines {
+                    console.complain(line);
+                }
                 return ExitCode::from(BROKEN);
             }
-            Self::Told => {}
-            Self::No => return ExitCode::from(BROKEN),
+            Self::Reported => {}
+            Self::Negative => return ExitCode::from(BROKEN),
             Self::PipeClosed => return ExitCode::SUCCESS,
             Self::Stopped(text) => {
                 console.note(&text);

@@ -6,8 +6,8 @@ mod table;
 pub(crate) use statistics::{Spread, mean, median};
 pub(crate) use table::Table;
 
-use crate::simulate::Tally;
-use crate::source::Prepared;
+use crate::prepared::Prepared;
+use crate::tally::Tally;
 use microsim_core::{OrganismId, World};
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -3,10 +3,10 @@
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::prepared::prepare;
 use crate::scenario_args::ScenarioArgs;
-use crate::simulate::{Tally, simulate};
-use crate::source::prepare;
 use crate::summary::{RunReport, Table, mean, median};
+use crate::tally::Tally;
 use crate::value_parser::whole;
 use indicatif::ProgressBar;
 use microsim_core::scenario::{Built, Script};
@@ -77,11 +77,11 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     let steps = args.steps.unwrap_or_else(|| prepared.steps_in(None));
     let bar = console.progress(args.warmup.saturating_add(steps), "step");
     let mut stopwatch = Stopwatch::default();
-    let warmup = measure(&mut world, &mut script, args.warmup, &bar, &mut stopwatch, |_| {})?;
+    let warmup = measure(&mut world, &mut script, args.warmup, &bar, &mut stopwatch, |_| {});
     stopwatch = Stopwatch::default();
     let mut qualities = Vec::new();
     let see = |world: &World| qualities.push(world.quality());
-    let mut tally = measure(&mut world, &mut script, steps, &bar, &mut stopwatch, see)?;
+    let mut tally = measure(&mut world, &mut script, steps, &bar, &mut stopwatch, see);
     bar.finish_and_clear();
     tally.leaks = tally.leaks.max(warmup.leaks);
     tally.improper_absorptions = tally.improper_absorptions.max(warmup.improper_absorptions);
@@ -99,6 +99,7 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
     Ok(())
 }
 
+/// Takes so many steps and shows `see` the world after each.
 fn measure(
     world: &mut World,
     script: &mut Script,
@@ -106,16 +107,19 @@ fn measure(
     bar: &ProgressBar,
     stopwatch: &mut Stopwatch,
     mut see: impl FnMut(&World),
-) -> Result<Tally, Failure> {
-    let step = |world: &mut World| {
+) -> Tally {
+    let start = Instant::now();
+    let mut tally = Tally::default();
+    while tally.steps < steps && !interrupt::is_asked() {
         let inputs = script.before_step(world);
-        stopwatch.step(world, inputs)
-    };
-    simulate(world, steps, step, |world| {
+        let took = stopwatch.step(world, inputs);
+        tally.add(world, took);
         bar.set_position(world.step_index());
         see(world);
-        Ok(())
-    })
+    }
+    tally.is_interrupted = tally.steps < steps;
+    tally.wall = start.elapsed();
+    tally
 }
 
 /// Times of every phase of every step, ms.

@@ -3,8 +3,8 @@
 use crate::console::stdout;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
+use crate::prepared::{Prepared, prepare};
 use crate::scenario_args::ScenarioArgs;
-use crate::source::{Prepared, prepare};
 use microsim_core::Census;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use serde::Serialize;
@@ -17,13 +17,13 @@ pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
     /// For people, or one JSON object on stdout
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
-    pub format: Format,
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = AnswerFormat::Text)]
+    pub format: AnswerFormat,
 }
 
 /// How the answer is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Format {
+pub(crate) enum AnswerFormat {
     Text,
     Json,
 }
@@ -31,11 +31,11 @@ pub(crate) enum Format {
 /// Says whether a scenario can be run, and what would be in it.
 pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     match (prepare(&args.scenario), args.format) {
-        (Ok(prepared), Format::Text) => print_summary(&prepared),
-        (Ok(prepared), Format::Json) => print_json(&Answer::sound(&prepared)),
-        (Err(Failure::Scenario(source, problems)), Format::Json) => {
+        (Ok(prepared), AnswerFormat::Text) => print_summary(&prepared),
+        (Ok(prepared), AnswerFormat::Json) => print_json(&Answer::sound(&prepared)),
+        (Err(Failure::Scenario(source, problems)), AnswerFormat::Json) => {
             print_json(&Answer::refused(&source, &problems))?;
-            Err(Failure::Told)
+            Err(Failure::Reported)
         }
         (Err(failure), _) => Err(failure),
     }
@@ -65,12 +65,12 @@ struct Answer<'a> {
     ok: bool,
     file: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    scenario: Option<Sound<'a>>,
+    scenario: Option<ScenarioSummary<'a>>,
     problems: Vec<Problem<'a>>,
 }
 
 #[derive(Serialize)]
-struct Sound<'a> {
+struct ScenarioSummary<'a> {
     name: &'a str,
     seed: u64,
     duration: f32,
@@ -97,7 +97,7 @@ impl<'a> Answer<'a> {
     fn sound(prepared: &'a Prepared) -> Self {
         let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
         let (name, seed, duration) = (prepared.scenario.name(), prepared.scenario.seed(), prepared.scenario.duration());
-        let scenario = Sound { name, seed, duration, organisms, bodies, particles, constraints };
+        let scenario = ScenarioSummary { name, seed, duration, organisms, bodies, particles, constraints };
         Self { ok: true, file: prepared.source.origin(), scenario: Some(scenario), problems: Vec::new() }
     }
 

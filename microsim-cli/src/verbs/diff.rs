@@ -2,7 +2,7 @@
 
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
-use crate::saved::{Playing, Saved, lost};
+use crate::world_file::{Playback, WorldFile, lost};
 use microsim_core::World;
 use microsim_core::replay::Ending;
 use microsim_core::snapshot::Checkpoint;
@@ -29,7 +29,7 @@ pub(crate) struct DiffArgs {
 
 /// What came of a comparison.
 #[derive(Debug)]
-struct Outcome {
+struct Comparison {
     difference: Option<String>,
     /// In what nothing differs, if nothing does.
     compared: &'static str,
@@ -39,27 +39,28 @@ struct Outcome {
 
 /// Compares two files and says where they differ.
 pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
-    let (one, other) = (Saved::read(&args.one)?, Saved::read(&args.other)?);
+    let (one, other) = (WorldFile::read(&args.one)?, WorldFile::read(&args.other)?);
     let mut damage = None;
     for (saved, path) in [(&one, &args.one), (&other, &args.other)] {
-        let Saved::Replay(replay) = saved else { continue };
+        let WorldFile::Replay(replay) = saved else { continue };
         match lost(replay, path) {
             text @ Some(_) if matches!(replay.ending(), Ending::Damaged { .. }) => damage = text,
-            text => text.iter().for_each(|text| console.note(text)),
+            Some(text) => console.note(&text),
+            None => {}
         }
     }
-    let outcome = match (one, other) {
-        (Saved::Replay(one), Saved::Replay(other)) => {
-            compare_replays(Playing::start(&one, &args.one)?, Playing::start(&other, &args.other)?)
+    let comparison = match (one, other) {
+        (WorldFile::Replay(one), WorldFile::Replay(other)) => {
+            compare_replays(Playback::start(&one, &args.one)?, Playback::start(&other, &args.other)?)
         }
-        (Saved::Run(one), Saved::Run(other)) => compare_checkpoints(&one, &other),
+        (WorldFile::Run(one), WorldFile::Run(other)) => compare_checkpoints(&one, &other),
         (one, other) => compare_worlds((one, args.one.as_path()), (other, args.other.as_path()))?,
     };
-    outcome.tell()?;
+    comparison.tell()?;
     damage.map_or(Ok(()), |text| Err(Failure::Message(text)))
 }
 
-impl Outcome {
+impl Comparison {
     /// What differs is a result, on stdout; the exit code says that something does, or that a replay is not what it was.
     fn tell(self) -> Result<(), Failure> {
         let Self { difference, compared, mismatches } = self;
@@ -72,30 +73,30 @@ impl Outcome {
     }
 }
 
-fn compare_replays(mut one: Playing<'_>, mut other: Playing<'_>) -> Outcome {
+fn compare_replays(mut one: Playback<'_>, mut other: Playback<'_>) -> Comparison {
     let difference = first_difference_of_runs(&mut one, &mut other);
-    let mismatches = [one, other].iter().filter_map(Playing::mismatch).collect();
-    Outcome { difference, compared: "", mismatches }
+    let mismatches = [one, other].iter().filter_map(Playback::mismatch).collect();
+    Comparison { difference, compared: "", mismatches }
 }
 
-fn compare_checkpoints(one: &Checkpoint, other: &Checkpoint) -> Outcome {
+fn compare_checkpoints(one: &Checkpoint, other: &Checkpoint) -> Comparison {
     let world = &one.run.world;
     let beside = || Some(format!("step {}: not the same {}", world.step_index(), one.difference_beside_worlds(other)?));
     let difference = first_difference(world, &other.run.world).or_else(beside);
-    Outcome { difference, compared: " in world, player, names, script and checks", mismatches: Vec::new() }
+    Comparison { difference, compared: " in world, player, names, script and checks", mismatches: Vec::new() }
 }
 
 /// Compares the worlds of two files at the step of the one that has a single step.
-fn compare_worlds(one: (Saved, &Path), other: (Saved, &Path)) -> Result<Outcome, Failure> {
+fn compare_worlds(one: (WorldFile, &Path), other: (WorldFile, &Path)) -> Result<Comparison, Failure> {
     let step = one.0.step().or(other.0.step()).unwrap_or_default();
-    let are_played = [&one.0, &other.0].map(|saved| matches!(saved, Saved::Replay(_)));
+    let are_played = [&one.0, &other.0].map(|saved| matches!(saved, WorldFile::Replay(_)));
     let (one, mismatch) = one.0.world_at(step, one.1)?;
     let (other, mismatch_of_other) = other.0.world_at(step, other.1)?;
     let mismatches = mismatch.into_iter().chain(mismatch_of_other).collect();
     let ends = are_played.into_iter().zip([&one, &other]).filter(|(is_played, _)| *is_played);
     let end = ends.map(|(_, world)| world.step_index()).find(|end| *end < step);
     let difference = end.map(|end| format!("step {end}: the replay ends")).or_else(|| first_difference(&one, &other));
-    Ok(Outcome { difference, compared: " in the world", mismatches })
+    Ok(Comparison { difference, compared: " in the world", mismatches })
 }
 
 /// The first difference between two worlds, with the step.
@@ -105,7 +106,7 @@ fn first_difference(one: &World, other: &World) -> Option<String> {
 }
 
 /// Plays two replays side by side, up to the first difference.
-fn first_difference_of_runs(one: &mut Playing<'_>, other: &mut Playing<'_>) -> Option<String> {
+fn first_difference_of_runs(one: &mut Playback<'_>, other: &mut Playback<'_>) -> Option<String> {
     loop {
         if one.world().digest() != other.world().digest() {
             return first_difference(one.world(), other.world());

@@ -2,8 +2,8 @@
 
 use crate::console::stdout;
 use crate::failure::Failure;
-use crate::saved::Saved;
 use crate::summary::{Table, rounded};
+use crate::world_file::WorldFile;
 use microsim_core::World;
 use microsim_core::replay::Ending;
 use microsim_core::scenario::Origin;
@@ -25,17 +25,17 @@ pub(crate) struct InspectArgs {
 /// Says what is in a file.
 pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     let mut table = Table::default();
-    match Saved::read(&args.file)? {
-        Saved::World(world) => {
+    match WorldFile::read(&args.file)? {
+        WorldFile::World(world) => {
             table.row("what", "snapshot of a world");
             describe(&world, &mut table);
         }
-        Saved::Run(checkpoint) => {
+        WorldFile::Run(checkpoint) => {
             table.row("what", "checkpoint of a run");
             origin(&checkpoint.origin, &mut table);
             describe(&checkpoint.run.world, &mut table);
         }
-        Saved::Replay(replay) => {
+        WorldFile::Replay(replay) => {
             table.row("what", "replay of a run");
             origin(replay.origin(), &mut table);
             table.row("recorded by", format!("version {}", replay.made_by()));

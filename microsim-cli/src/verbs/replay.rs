@@ -3,7 +3,7 @@
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::saved::{in_words, lost, play, read_replay};
+use crate::world_file::{in_words, lost, play, read_replay};
 use microsim_core::replay::{Ending, Player, Replay};
 use serde::Serialize;
 use std::io::Write;
@@ -25,7 +25,7 @@ pub(crate) struct ReplayArgs {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct ReplayReport<'a> {
     scenario: &'a str,
     seed: u64,
     recorded_by: &'a str,
@@ -54,16 +54,19 @@ pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure
     bar.finish_and_clear();
     print(&replay, &player, args.json)?;
     match lost(&replay, &args.file) {
-        Some(text) if matches!(replay.ending(), Ending::Damaged { .. }) => return Err(Failure::Message(text)),
-        text => text.iter().for_each(|text| console.note(text)),
+        Some(text) if matches!(replay.ending(), Ending::Damaged { .. }) => Err(Failure::Message(text)),
+        Some(text) => {
+            console.note(&text);
+            Ok(())
+        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure> {
     let world = player.world();
     let scenario = replay.origin().scenario().map(|scenario| scenario.name().to_owned()).unwrap_or_default();
-    let report = Report {
+    let report = ReplayReport {
         scenario: &scenario,
         seed: replay.origin().seed,
         recorded_by: replay.made_by(),
@@ -77,7 +80,7 @@ fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure>
         serde_json::to_writer(&mut out, &report).map_err(std::io::Error::from)?;
         writeln!(out)?;
     } else {
-        let Report { steps, simulated_seconds, seed, digest, .. } = &report;
+        let ReplayReport { steps, simulated_seconds, seed, digest, .. } = &report;
         let every = replay.interval();
         writeln!(out, "{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded")?;
         writeln!(out, "digest {digest}, compared every {every} steps")?;

@@ -5,10 +5,10 @@ use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, check_formats};
-use crate::record::KeepArgs;
+use crate::prepared::{Prepared, load};
+use crate::record_args::RecordArgs;
 use crate::scenario_args::Changes;
 use crate::session::{Session, timed_step};
-use crate::source::{Prepared, load};
 use crate::summary::{Table, median};
 use crate::value_parser::{duration, whole};
 use std::path::PathBuf;
@@ -46,7 +46,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub outputs: OutputArgs,
     #[command(flatten)]
-    pub keep: KeepArgs,
+    pub keep: RecordArgs,
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,

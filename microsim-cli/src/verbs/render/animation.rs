@@ -10,14 +10,14 @@ use std::process::{Child, Command, Stdio};
 
 /// What a file is, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
+pub(crate) enum PictureFormat {
     Png,
     Gif,
     Apng,
     Mp4,
 }
 
-impl Format {
+impl PictureFormat {
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         match extension.to_ascii_lowercase().as_str() {
@@ -46,16 +46,16 @@ impl Movie {
     /// Writes the frames as they come. The file appears when it is complete.
     pub(crate) fn write(
         &self,
-        format: Format,
+        format: PictureFormat,
         path: &Path,
         frames: impl Iterator<Item = Result<Picture, Failure>>,
     ) -> Result<(), Failure> {
         let (outputs, name) = Outputs::beside(path)?;
         let mut file = outputs.file(&name)?;
         match format {
-            Format::Gif => self.write_gif(&mut file, frames),
-            Format::Apng | Format::Png => self.write_apng(&mut file, frames),
-            Format::Mp4 => self.write_mp4(&mut file, frames),
+            PictureFormat::Gif => self.write_gif(&mut file, frames),
+            PictureFormat::Apng | PictureFormat::Png => self.write_apng(&mut file, frames),
+            PictureFormat::Mp4 => self.write_mp4(&mut file, frames),
         }?;
         file.finish()
     }
@@ -167,9 +167,9 @@ mod tests {
 
     #[test]
     fn a_format_is_known_by_the_name_of_the_file() {
-        let of = |name: &str| Format::of(Path::new(name)).ok();
-        assert_eq!(of("a.PNG"), Some(Format::Png));
-        assert_eq!(of("b.c/clip.gif"), Some(Format::Gif));
+        let of = |name: &str| PictureFormat::of(Path::new(name)).ok();
+        assert_eq!(of("a.PNG"), Some(PictureFormat::Png));
+        assert_eq!(of("b.c/clip.gif"), Some(PictureFormat::Gif));
         assert!(of("clip").is_none() && of("clip.mov").is_none());
     }
 

@@ -13,10 +13,10 @@ use crate::draw::png::Picture;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Outputs;
+use crate::prepared::Prepared;
 use crate::scenario_args::ScenarioArgs;
-use crate::source::Prepared;
 use crate::value_parser::duration;
-use animation::{Format, Movie};
+use animation::{Movie, PictureFormat};
 use indicatif::ProgressBar;
 use microsim_core::World;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
@@ -86,12 +86,12 @@ pub(crate) struct RenderArgs {
 
 /// Renders a still, a sheet or a movie.
 pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure> {
-    let format = Format::of(&args.output)?;
+    let format = PictureFormat::of(&args.output)?;
     let (prepared, replay) = projector::open(&args.scenario)?;
-    let plan = Plan::of(args, &prepared, replay.as_ref())?;
+    let plan = RenderPlan::of(args, &prepared, replay.as_ref())?;
     // A sheet is a PNG like a still.
-    let is_sheet = format == Format::Png && plan.pictures() > 1;
-    if format != Format::Png && plan.optics.len() > 1 {
+    let is_sheet = format == PictureFormat::Png && plan.pictures() > 1;
+    if format != PictureFormat::Png && plan.optics.len() > 1 {
         return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
     }
     if is_sheet && plan.pictures() as u64 * plan.size.pixels() > MOST_SHEET {
@@ -107,7 +107,7 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
         plan.run_to(moment, &mut projector, &bar)?;
         plan.shoot(projector.world(), optics, &prepared)
     });
-    if format == Format::Png {
+    if format == PictureFormat::Png {
         let mut pictures = pictures.collect::<Result<Vec<_>, _>>()?;
         let columns = args.columns.map_or(plan.columns(), |columns| columns as usize);
         let picture = if is_sheet { Picture::sheet_in(&pictures, columns) } else { pictures.swap_remove(0) };
@@ -123,7 +123,7 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
 }
 
 /// What is rendered.
-struct Plan {
+struct RenderPlan {
     moments: Vec<f64>,
     fps: f64,
     optics: Vec<Optics>,
@@ -135,7 +135,7 @@ struct Plan {
     shows_chemicals: bool,
 }
 
-impl Plan {
+impl RenderPlan {
     fn of(args: &RenderArgs, prepared: &Prepared, replay: Option<&Replay>) -> Result<Self, Failure> {
         let fps = args.fps.unwrap_or(FPS);
         let dt = f64::from(prepared.scenario.config().dt);

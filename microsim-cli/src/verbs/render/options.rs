@@ -1,7 +1,7 @@
 //! What the command line says about a picture.
 
 use crate::failure::Failure;
-use crate::source::Prepared;
+use crate::prepared::Prepared;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Optics};
 use microsim_core::{OrganismId, World};

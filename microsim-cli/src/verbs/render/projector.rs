@@ -2,9 +2,9 @@
 
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
-use crate::saved::{play, read_replay};
+use crate::prepared::{Prepared, prepare};
 use crate::scenario_args::{Changes, ScenarioArgs};
-use crate::source::{Prepared, prepare};
+use crate::world_file::{play, read_replay};
 use microsim_core::World;
 use microsim_core::replay::{Player, Replay};
 use microsim_core::scenario::Script;

@@ -10,13 +10,13 @@ const RAMP: [[f64; 3]; 5] =
     [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
 
 /// The values of a heat map, row by row; `None` where there is none.
-pub(super) struct Grid<'a> {
+pub(super) struct HeatMap<'a> {
     pub columns: (&'a str, &'a [String]),
     pub rows: (&'a str, &'a [String]),
     pub values: Vec<Option<f64>>,
 }
 
-impl Grid<'_> {
+impl HeatMap<'_> {
     pub(super) fn svg(&self) -> String {
         let (left, right, top, bottom) = (64.0, 70.0, 6.0, 40.0);
         let (columns, rows) = (self.columns.1.len().max(1), self.rows.1.len().max(1));
@@ -113,7 +113,7 @@ mod tests {
         let names = |count: usize| (0..count).map(|k| format!("{k}")).collect::<Vec<_>>();
         let (columns, rows) = (names(3), names(2));
         let values = vec![Some(1.0), Some(2.0), None, Some(4.0), Some(5.0), Some(f64::NAN)];
-        let svg = Grid { columns: ("a", &columns), rows: ("b", &rows), values }.svg();
+        let svg = HeatMap { columns: ("a", &columns), rows: ("b", &rows), values }.svg();
         assert_eq!(svg.matches("<title>").count(), 4);
         assert!(svg.contains("a 1, b 1: 5") && !svg.contains("NaN"), "{svg}");
         assert_eq!((colour(0.0), colour(1.0)), ("#440154".to_owned(), "#fde725".to_owned()));

@@ -2,11 +2,11 @@
 
 use super::chart;
 use super::data;
-use super::heat_map::Grid;
+use super::heat_map::HeatMap;
 use super::page::{Page, escape, figure, figures, folded};
 use super::scale::short;
 use crate::failure::Failure;
-use crate::verbs::sweep::Outcome;
+use crate::verbs::sweep::TaskOutcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -15,7 +15,7 @@ type Quantity = (String, Vec<f64>);
 
 /// The page of merged results.
 pub(super) fn make(path: &Path) -> Result<String, Failure> {
-    let outcomes: Vec<Outcome> = data::lines(path)?;
+    let outcomes: Vec<TaskOutcome> = data::lines(path)?;
     let Some(first) = outcomes.first() else {
         let accepted = "accepted: the folder of a run, or what `microsim sweep merge -o NAME.jsonl` wrote";
         return Err(Failure::Message(format!("{} has no results, {accepted}", path.display())));
@@ -38,7 +38,7 @@ pub(super) fn make(path: &Path) -> Result<String, Failure> {
 }
 
 /// What was varied, and its values in the order of the plan.
-fn axes(outcomes: &[Outcome]) -> Vec<(String, Vec<String>)> {
+fn axes(outcomes: &[TaskOutcome]) -> Vec<(String, Vec<String>)> {
     let mut axes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (name, value) in outcomes.iter().flat_map(|outcome| &outcome.set) {
         let values = axes.entry(name).or_default();
@@ -49,7 +49,7 @@ fn axes(outcomes: &[Outcome]) -> Vec<(String, Vec<String>)> {
     axes.into_iter().filter(|(_, values)| values.len() > 1).map(|(name, values)| (name.to_owned(), values)).collect()
 }
 
-fn broken(outcomes: &[Outcome]) -> Vec<String> {
+fn broken(outcomes: &[TaskOutcome]) -> Vec<String> {
     let count = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
     if count == 0 {
         return Vec::new();
@@ -60,18 +60,18 @@ fn broken(outcomes: &[Outcome]) -> Vec<String> {
 }
 
 /// Everything that differs between tasks; not a number where a task has none.
-fn quantities(outcomes: &[Outcome]) -> Vec<Quantity> {
-    let names = |of: fn(&Outcome) -> Vec<&String>| -> BTreeSet<&String> { outcomes.iter().flat_map(of).collect() };
+fn quantities(outcomes: &[TaskOutcome]) -> Vec<Quantity> {
+    let names = |of: fn(&TaskOutcome) -> Vec<&String>| -> BTreeSet<&String> { outcomes.iter().flat_map(of).collect() };
     let mut all: Vec<Quantity> = Vec::new();
     all.push(("failures".to_owned(), outcomes.iter().map(|outcome| outcome.failures.len() as f64).collect()));
     for name in names(|outcome| outcome.events.keys().collect()) {
-        let count = |outcome: &Outcome| *outcome.events.get(name).unwrap_or(&0) as f64;
+        let count = |outcome: &TaskOutcome| *outcome.events.get(name).unwrap_or(&0) as f64;
         all.push((format!("{}, events", name.replace('_', " ")), outcomes.iter().map(count).collect()));
-        let first = |outcome: &Outcome| outcome.first.get(name).copied().unwrap_or(f64::NAN);
+        let first = |outcome: &TaskOutcome| outcome.first.get(name).copied().unwrap_or(f64::NAN);
         all.push((format!("first {}, s", name.replace('_', " ")), outcomes.iter().map(first).collect()));
     }
     for name in names(|outcome| outcome.measures.keys().collect()) {
-        let value = |outcome: &Outcome| outcome.measures.get(name).copied().unwrap_or(f64::NAN);
+        let value = |outcome: &TaskOutcome| outcome.measures.get(name).copied().unwrap_or(f64::NAN);
         all.push((format!("{} at the end", name.replace('_', " ")), outcomes.iter().map(value).collect()));
     }
     all.retain(|(_, values)| {
@@ -83,8 +83,8 @@ fn quantities(outcomes: &[Outcome]) -> Vec<Quantity> {
 }
 
 /// Means over all seeds, by what was varied.
-fn picture((name, values): &Quantity, outcomes: &[Outcome], axes: &[(String, Vec<String>)]) -> String {
-    let of = |outcome: &Outcome, axis: &str| outcome.set.get(axis).cloned().unwrap_or_default();
+fn picture((name, values): &Quantity, outcomes: &[TaskOutcome], axes: &[(String, Vec<String>)]) -> String {
+    let of = |outcome: &TaskOutcome, axis: &str| outcome.set.get(axis).cloned().unwrap_or_default();
     let finite = || outcomes.iter().zip(values.iter().copied()).filter(|(_, value)| value.is_finite());
     let chart = match axes {
         [] => chart::histogram(values, name),
@@ -104,13 +104,13 @@ fn picture((name, values): &Quantity, outcomes: &[Outcome], axes: &[(String, Vec
                 (count > 0.0).then_some(sum / count)
             };
             let values = rows.iter().flat_map(|row| columns.iter().map(move |column| mean(row, column))).collect();
-            Grid { columns: (x, columns), rows: (y, rows), values }.svg()
+            HeatMap { columns: (x, columns), rows: (y, rows), values }.svg()
         }
     };
     figure(name, &chart)
 }
 
-fn tasks(outcomes: &[Outcome], axes: &[(String, Vec<String>)], quantities: &[Quantity]) -> String {
+fn tasks(outcomes: &[TaskOutcome], axes: &[(String, Vec<String>)], quantities: &[Quantity]) -> String {
     let names = axes.iter().map(|(name, _)| name).chain(quantities.iter().map(|(name, _)| name));
     let header: String = names.map(|name| format!("<th>{}</th>", escape(name))).collect();
     let mut html = format!("<div class=\"all\"><table><tr><th>seed</th>{header}<th>digest</th></tr>");

@@ -1,7 +1,7 @@
 //! `sweep status` and `sweep merge`.
 
-use super::store::Store;
-use super::task::{Outcome, Task};
+use super::store::ResultStore;
+use super::task::{Task, TaskOutcome};
 use super::{MergeArgs, StatusArgs, plan};
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
@@ -13,13 +13,13 @@ use std::path::Path;
 /// Prints the keys of missing tasks.
 pub(super) fn status(args: &StatusArgs, console: &Console) -> Result<(), Failure> {
     let tasks = plan::read(&args.plan)?;
-    let (outcomes, missing) = gather(&tasks, &Store::open(&args.store)?)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
     let broken = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
     console.note(&format!("{} of {} tasks done, {broken} with failures", outcomes.len(), tasks.len()));
     let mut out = stdout();
     missing.iter().try_for_each(|task| writeln!(out, "{}", task.key))?;
     out.flush()?;
-    if missing.is_empty() { Ok(()) } else { Err(Failure::No) }
+    if missing.is_empty() { Ok(()) } else { Err(Failure::Negative) }
 }
 
 /// Writes the table.
@@ -34,7 +34,7 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
         }
     };
     let tasks = plan::read(&args.plan)?;
-    let (outcomes, missing) = gather(&tasks, &Store::open(&args.store)?)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
     if !missing.is_empty() {
         let keys: Vec<&str> = missing.iter().map(|task| task.key.as_str()).collect();
         let what = format!("{} of {} results are missing:\n{}", missing.len(), tasks.len(), keys.join("\n"));
@@ -57,7 +57,7 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
 }
 
 /// Results in the order of the plan, and tasks without one.
-fn gather<'a>(tasks: &'a [Task], store: &Store) -> Result<(Vec<Outcome>, Vec<&'a Task>), Failure> {
+fn gather<'a>(tasks: &'a [Task], store: &ResultStore) -> Result<(Vec<TaskOutcome>, Vec<&'a Task>), Failure> {
     let (mut outcomes, mut missing) = (Vec::new(), Vec::new());
     for task in tasks {
         match store.get(task)? {
@@ -68,7 +68,7 @@ fn gather<'a>(tasks: &'a [Task], store: &Store) -> Result<(Vec<Outcome>, Vec<&'a
     Ok((outcomes, missing))
 }
 
-fn lines(outcomes: &[Outcome]) -> Result<Vec<u8>, Failure> {
+fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
     for outcome in outcomes {
         serde_json::to_writer(&mut text, outcome).map_err(std::io::Error::from)?;
@@ -77,7 +77,7 @@ fn lines(outcomes: &[Outcome]) -> Result<Vec<u8>, Failure> {
     Ok(text)
 }
 
-fn csv(outcomes: &[Outcome]) -> Result<Vec<u8>, Failure> {
+fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     fn names<'a>(of: impl Iterator<Item = &'a String>) -> BTreeSet<&'a str> {
         of.map(String::as_str).collect()
     }

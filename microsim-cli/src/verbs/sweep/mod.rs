@@ -6,15 +6,15 @@
 mod grid;
 mod merge;
 mod plan;
-mod pool;
+mod run;
 mod store;
 mod task;
 
 use grid::{Axis, Seeds};
-pub(crate) use pool::run_tasks;
-pub(crate) use task::Outcome;
+pub(crate) use run::run_tasks;
+pub(crate) use task::TaskOutcome;
 
-use pool::Shard;
+use run::Shard;
 
 use crate::console::Console;
 use crate::failure::Failure;
@@ -27,7 +27,7 @@ pub(crate) enum SweepVerb {
     /// Print one task a line for every combination of parameters and seeds
     Plan(PlanArgs),
     /// Run the tasks of a plan that are not in the store yet
-    Run(RunArgs),
+    Run(SweepRunArgs),
     /// Say which tasks of a plan are in the store
     Status(StatusArgs),
     /// Put the results of a plan into one table, in the order of the plan
@@ -69,7 +69,7 @@ pub(crate) struct PlanArgs {
 at any time: microsim sweep run plan.jsonl --store results --shard $SLURM_ARRAY_TASK_ID/100\n\
 The exit code is 1 if what a scenario says must hold does not in any task of this shard."
 )]
-pub(crate) struct RunArgs {
+pub(crate) struct SweepRunArgs {
     /// The plan
     #[arg(value_name = "PLAN")]
     pub plan: PathBuf,
@@ -121,7 +121,7 @@ pub(crate) struct MergeArgs {
 pub(crate) fn sweep(verb: &SweepVerb, console: &Console) -> Result<(), Failure> {
     match verb {
         SweepVerb::Plan(args) => plan::plan(args, console),
-        SweepVerb::Run(args) => pool::run(args, console),
+        SweepVerb::Run(args) => run::run(args, console),
         SweepVerb::Status(args) => merge::status(args, console),
         SweepVerb::Merge(args) => merge::merge(args, console),
     }

@@ -1,6 +1,6 @@
 //! Where results are kept: one file for each task, named after its key. It is there whole or not at all.
 
-use super::task::{Outcome, Task};
+use super::task::{Task, TaskOutcome};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use std::fs;
@@ -8,11 +8,11 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 #[derive(Debug)]
-pub(crate) struct Store {
+pub(crate) struct ResultStore {
     outputs: Outputs,
 }
 
-impl Store {
+impl ResultStore {
     /// Creates the folder if it is missing.
     pub(crate) fn open(folder: &Path) -> Result<Self, Failure> {
         if folder.exists() && !folder.is_dir() {
@@ -24,7 +24,7 @@ impl Store {
     }
 
     /// The result of a task, if there is one.
-    pub(crate) fn get(&self, task: &Task) -> Result<Option<Outcome>, Failure> {
+    pub(crate) fn get(&self, task: &Task) -> Result<Option<TaskOutcome>, Failure> {
         let path = self.outputs.folder().join(name(task));
         let text = match fs::read_to_string(&path) {
             Ok(text) => text,
@@ -33,12 +33,13 @@ impl Store {
         };
         let refuse =
             |why: String| Failure::Message(format!("{}: {why}; remove it and run the task again", path.display()));
-        let outcome: Outcome = serde_json::from_str(&text).map_err(|error| refuse(format!("not a result: {error}")))?;
+        let outcome: TaskOutcome =
+            serde_json::from_str(&text).map_err(|error| refuse(format!("not a result: {error}")))?;
         if outcome.key == task.key { Ok(Some(outcome)) } else { Err(refuse("the result of another task".to_owned())) }
     }
 
     /// Keeps the result of a task.
-    pub(crate) fn put(&self, outcome: &Outcome) -> Result<(), Failure> {
+    pub(crate) fn put(&self, outcome: &TaskOutcome) -> Result<(), Failure> {
         let text = serde_json::to_string(outcome).map_err(std::io::Error::from)?;
         self.outputs.write(&format!("{}.json", outcome.key), format!("{text}\n").as_bytes())
     }

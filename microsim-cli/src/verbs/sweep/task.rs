@@ -4,8 +4,8 @@ use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::hex;
+use crate::prepared::Prepared;
 use crate::scenario_args::Changes;
-use crate::source::Prepared;
 use crate::summary::rounded;
 use microsim_core::Measure;
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,7 @@ pub(crate) struct Task {
 
 /// What comes of a task. The same wherever and whenever it is run: there are no times of a clock in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Outcome {
+pub(crate) struct TaskOutcome {
     pub key: String,
     pub scenario: String,
     pub seed: u64,
@@ -85,7 +85,7 @@ impl Task {
     }
 
     /// Runs it; `None` when the user asked to stop.
-    pub(crate) fn run(&self) -> Result<Option<Outcome>, Failure> {
+    pub(crate) fn run(&self) -> Result<Option<TaskOutcome>, Failure> {
         let source = ScenarioText::new(format!("<task {}>", self.key), self.text.clone());
         let mut built = Prepared::new(source, &Changes::default())?.built;
         let mut broken = None;
@@ -104,7 +104,7 @@ impl Task {
         }
         let refusals = built.script.refusals().iter().map(ToString::to_string);
         let of = |measure: &Measure| (measure.name().to_owned(), shortest(measure.of(&built.world)));
-        Ok(Some(Outcome {
+        Ok(Some(TaskOutcome {
             key: self.key.clone(),
             scenario: self.scenario.clone(),
             seed: self.seed,
@@ -128,8 +128,8 @@ fn shortest(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::prepared::prepare;
     use crate::scenario_args::ScenarioArgs;
-    use crate::source::prepare;
 
     fn task(seed: u64) -> Task {
         let changes = Changes { seed: Some(seed), set: Vec::new() };

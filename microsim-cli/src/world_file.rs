@@ -11,13 +11,13 @@ use std::path::Path;
 
 /// What a file holds.
 #[derive(Debug)]
-pub(crate) enum Saved {
+pub(crate) enum WorldFile {
     World(Box<World>),
     Run(Box<Checkpoint>),
     Replay(Replay),
 }
 
-impl Saved {
+impl WorldFile {
     /// Reads a file of any of these kinds.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let bytes = read(path)?;
@@ -36,7 +36,7 @@ impl Saved {
     }
 }
 
-impl Saved {
+impl WorldFile {
     /// The step of its world; a replay has many.
     pub(crate) fn step(&self) -> Option<u64> {
         match self {
@@ -52,7 +52,7 @@ impl Saved {
             Self::World(world) => Ok((*world, None)),
             Self::Run(checkpoint) => Ok((checkpoint.run.world, None)),
             Self::Replay(replay) => {
-                let mut playing = Playing::start(&replay, path)?;
+                let mut playing = Playback::start(&replay, path)?;
                 while playing.world().step_index() < step && playing.step() {}
                 Ok((playing.world().clone(), playing.mismatch()))
             }
@@ -62,14 +62,14 @@ impl Saved {
 
 /// A replay that is played to its end, also where it is not what was recorded.
 #[derive(Debug)]
-pub(crate) struct Playing<'a> {
+pub(crate) struct Playback<'a> {
     player: Player,
     replay: &'a Replay,
     path: &'a Path,
     first: Option<Mismatch>,
 }
 
-impl<'a> Playing<'a> {
+impl<'a> Playback<'a> {
     pub(crate) fn start(replay: &'a Replay, path: &'a Path) -> Result<Self, Failure> {
         Ok(Self { player: play(replay, path)?, replay, path, first: None })
     }

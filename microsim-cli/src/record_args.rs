@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Options of a run that is kept.
 #[derive(Clone, Debug, clap::Args)]
-pub(crate) struct KeepArgs {
+pub(crate) struct RecordArgs {
     /// Record the run into this file, for `replay` and `diff`; it can be played even if the run is killed
     #[arg(long, value_name = "FILE", conflicts_with = "checkpoint_every")]
     pub record: Option<PathBuf>,
@@ -27,13 +27,13 @@ pub(crate) struct KeepArgs {
 
 /// A record that grows with the run.
 #[derive(Debug)]
-pub(crate) struct Recording {
+pub(crate) struct ReplayWriter {
     recorder: Recorder,
     file: File,
     path: PathBuf,
 }
 
-impl KeepArgs {
+impl RecordArgs {
     /// Refuses files that would take each other's place, or that of something in the folder of the results.
     pub(crate) fn check(&self, out: Option<&Path>) -> Result<(), Failure> {
         let whole = |path: &Path| std::path::absolute(path).map_err(|error| Failure::file("write", path, &error));
@@ -52,8 +52,8 @@ impl KeepArgs {
     }
 
     /// Begins the record, if one is asked for.
-    pub(crate) fn start(&self, origin: Origin) -> Result<Option<Recording>, Failure> {
-        self.record.as_deref().map(|path| Recording::start(path, origin, self.digest_every)).transpose()
+    pub(crate) fn start(&self, origin: Origin) -> Result<Option<ReplayWriter>, Failure> {
+        self.record.as_deref().map(|path| ReplayWriter::start(path, origin, self.digest_every)).transpose()
     }
 
     /// Saves the end of a run, if that is asked for.
@@ -66,7 +66,7 @@ impl KeepArgs {
     }
 }
 
-impl Recording {
+impl ReplayWriter {
     /// The file appears with its header: whoever finds it can read it.
     fn start(path: &Path, origin: Origin, interval: NonZeroU32) -> Result<Self, Failure> {
         let (recorder, header) = Recorder::new(origin, interval);

@@ -5,7 +5,7 @@ use super::events::Events;
 use super::folder::Outputs;
 use super::measures::Measures;
 use super::moments::Moments;
-use super::table::Table;
+use super::table::DataTable;
 use super::trajectories::{self, Trajectories};
 use crate::draw::png::Picture;
 use crate::draw::{self, svg};
@@ -22,7 +22,7 @@ const FRAME: u32 = 1200;
 
 /// What is collected while a run goes on.
 #[derive(Debug)]
-pub(crate) struct Recorder<'o> {
+pub(crate) struct RunWriter<'o> {
     outputs: &'o Outputs,
     measures: Option<Measures>,
     trajectories: Option<Trajectories>,
@@ -39,7 +39,7 @@ pub(crate) struct Recorder<'o> {
 
 /// How far the files are.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Progress {
+pub(crate) struct FileProgress {
     /// Bytes of the files that grow.
     lengths: BTreeMap<String, u64>,
     /// Events that no row of the measures counts yet.
@@ -58,12 +58,12 @@ pub(crate) fn check_formats(plan: &OutputPlan) -> Result<(), Failure> {
     Err(Failure::Message(format!("output.formats: this program was built without Parquet, {accepted}")))
 }
 
-impl<'o> Recorder<'o> {
+impl<'o> RunWriter<'o> {
     /// Begins, with the world as it is before its first step.
     pub(crate) fn start(outputs: &'o Outputs, plan: &OutputPlan, built: &Built, steps: u64) -> Result<Self, Failure> {
-        let mut recorder = Self::open(outputs, plan, built, steps, &BTreeMap::new())?;
-        recorder.look_at(&built.world)?;
-        Ok(recorder)
+        let mut writer = Self::open(outputs, plan, built, steps, &BTreeMap::new())?;
+        writer.look_at(&built.world)?;
+        Ok(writer)
     }
 
     /// Goes on with a run that came as far as this.
@@ -72,14 +72,14 @@ impl<'o> Recorder<'o> {
         plan: &OutputPlan,
         built: &Built,
         steps: u64,
-        progress: &Progress,
+        progress: &FileProgress,
     ) -> Result<Self, Failure> {
-        let mut recorder = Self::open(outputs, plan, built, steps, &progress.lengths)?;
-        if let Some(measures) = &mut recorder.measures {
+        let mut writer = Self::open(outputs, plan, built, steps, &progress.lengths)?;
+        if let Some(measures) = &mut writer.measures {
             *measures.pending_events() = progress.events;
         }
         outputs.note_written(&progress.whole);
-        if let Some(moments) = &mut recorder.moments {
+        if let Some(moments) = &mut writer.moments {
             for step in moments.until(built.world.step_index()).collect::<Vec<_>>() {
                 let path = outputs.folder().join(moment_name(step));
                 let raw = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
@@ -87,11 +87,11 @@ impl<'o> Recorder<'o> {
                 moments.add(Picture::from_raw(&raw).ok_or_else(broken)?);
             }
         }
-        Ok(recorder)
+        Ok(writer)
     }
 
     /// How far the files are, all that was written included.
-    pub(crate) fn progress(&mut self) -> Result<Progress, Failure> {
+    pub(crate) fn progress(&mut self) -> Result<FileProgress, Failure> {
         let mut lengths = BTreeMap::new();
         for table in
             self.measures.iter_mut().map(|m| &mut m.table).chain(self.trajectories.iter_mut().map(|t| &mut t.table))
@@ -102,7 +102,7 @@ impl<'o> Recorder<'o> {
             lengths.insert(Events::FILE.to_owned(), events.0.sync()?);
         }
         let events = self.measures.as_mut().map_or(0, |measures| *measures.pending_events());
-        Ok(Progress { lengths, events, whole: self.outputs.names_written() })
+        Ok(FileProgress { lengths, events, whole: self.outputs.names_written() })
     }
 
     /// Opens the files; those of a run that goes on have lengths.
@@ -116,7 +116,7 @@ impl<'o> Recorder<'o> {
         let world = &built.world;
         let length = |name: &str| lengths.get(name).copied();
         let open = |name: &str, formats: &[TableFormat], columns: Vec<&'static str>| {
-            let table = || Table::open(outputs, name, formats, columns, length);
+            let table = || DataTable::open(outputs, name, formats, columns, length);
             (!formats.is_empty()).then(table).transpose()
         };
         let measures = open("measures", &plan.measures.formats, Measures::columns(&plan.measured))?;

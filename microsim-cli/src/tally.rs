@@ -1,11 +1,9 @@
 //! What is counted over the steps of a run or a benchmark.
 
-use crate::failure::Failure;
-use crate::interrupt;
-use microsim_core::{Census, World};
+use microsim_core::World;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What was seen over some steps.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -29,8 +27,9 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Counts a step.
-    pub(crate) fn add(&mut self, world: &World, census: &Census, took: Duration) {
+    /// Counts a step that took so long.
+    pub(crate) fn add(&mut self, world: &World, took: Duration) {
+        let census = world.census();
         self.steps += 1;
         self.step_ms.push(took.as_secs_f64() * 1e3);
         self.leaks = self.leaks.max(census.leaks);
@@ -39,27 +38,4 @@ impl Tally {
             *self.events.entry(event.name().to_owned()).or_default() += 1;
         }
     }
-}
-
-/// Takes `steps` steps with `step`, which says how long one took; `after` is shown each result. The census is taken after
-/// every step and belongs to no step's time.
-pub(crate) fn simulate(
-    world: &mut World,
-    steps: u64,
-    mut step: impl FnMut(&mut World) -> Duration,
-    mut after: impl FnMut(&World) -> Result<(), Failure>,
-) -> Result<Tally, Failure> {
-    let start = Instant::now();
-    let mut tally = Tally::default();
-    for _ in 0..steps {
-        if interrupt::is_asked() {
-            tally.is_interrupted = true;
-            break;
-        }
-        let took = step(world);
-        tally.add(world, &world.census(), took);
-        after(world)?;
-    }
-    tally.wall = start.elapsed();
-    Ok(tally)
 }

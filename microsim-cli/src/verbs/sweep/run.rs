@@ -1,8 +1,8 @@
 //! `sweep run` and `run --task`: tasks, several at once.
 
-use super::store::Store;
+use super::store::ResultStore;
 use super::task::Task;
-use super::{RunArgs, plan};
+use super::{SweepRunArgs, plan};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -30,21 +30,21 @@ impl FromStr for Shard {
 }
 
 /// Runs the tasks of a plan.
-pub(super) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
+pub(super) fn run(args: &SweepRunArgs, console: &Console) -> Result<(), Failure> {
     let tasks = plan::read(&args.plan)?;
     let Shard { index, count } = args.shard.unwrap_or(Shard { index: 0, count: 1 });
     let tasks: Vec<Task> = tasks.into_iter().skip(index).step_by(count).collect();
     let jobs = args.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-    run_all(&tasks, &Store::open(&args.store)?, jobs, console)
+    run_all(&tasks, &ResultStore::open(&args.store)?, jobs, console)
 }
 
 /// Runs the tasks of a file, one after the other.
 pub(crate) fn run_tasks(file: &str, store: &Path, console: &Console) -> Result<(), Failure> {
     let tasks = plan::read(Path::new(file))?;
-    run_all(&tasks, &Store::open(store)?, 1, console)
+    run_all(&tasks, &ResultStore::open(store)?, 1, console)
 }
 
-fn run_all(tasks: &[Task], store: &Store, jobs: usize, console: &Console) -> Result<(), Failure> {
+fn run_all(tasks: &[Task], store: &ResultStore, jobs: usize, console: &Console) -> Result<(), Failure> {
     interrupt::listen();
     let pool = Pool { tasks, store, next: AtomicUsize::new(0), done: Mutex::default() };
     let bar = console.progress(tasks.len() as u64, "task");
@@ -66,7 +66,7 @@ fn run_all(tasks: &[Task], store: &Store, jobs: usize, console: &Console) -> Res
 /// Tasks that workers take one by one.
 struct Pool<'a> {
     tasks: &'a [Task],
-    store: &'a Store,
+    store: &'a ResultStore,
     next: AtomicUsize,
     done: Mutex<Done>,
 }
