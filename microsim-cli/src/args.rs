@@ -3,14 +3,14 @@
 use crate::verbs::Verb;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
 
-/// Everything that the command line says.
+/// The command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a\n\
-refused scenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 success; 1 a check that failed, a difference or a missing result; 2 wrong usage, a refused scenario or\n\
+an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed

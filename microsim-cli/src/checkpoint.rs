@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 /// Its name in the folder of the run.
 pub(crate) const FILE: &str = "checkpoint";
 
-/// What the program knows beside the run itself.
+/// What a checkpoint holds beside the run itself.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct CheckpointHeader {
     /// Where the scenario was from.
     pub source: String,
     /// Steps that the run takes in all.
     pub steps: u64,
-    /// How far its files are.
+    /// Lengths and names of its files.
     pub progress: FileProgress,
     pub tally: Tally,
     pub validates: bool,
@@ -48,7 +48,7 @@ pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Fail
         }
         Err(error) => return Err(Failure::file("read", &path, &error)),
     };
-    parse(&bytes).map_err(|why| Failure::Message(format!("{}: {why}; run the scenario anew", path.display())))
+    parse(&bytes).map_err(|why| Failure::Message(format!("{}: {why}; run the scenario again", path.display())))
 }
 
 /// The two parts of a checkpoint.

@@ -1,7 +1,7 @@
 //! `microsim`: runs, measures and pictures scenarios without a window.
 //!
-//! Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 what the scenario says must hold
-//! does not, 2 wrong usage, a scenario that is refused or an output that cannot be written, 130 interrupted.
+//! Results go to stdout, everything else to stderr. Exit codes: 0 success, 1 a check that failed, a difference or a
+//! missing result, 2 wrong usage, a refused scenario or an output that cannot be written, 130 interrupted.
 
 mod args;
 mod checkpoint;

@@ -1,4 +1,4 @@
-//! Where a scenario comes from: a built-in one, a file or stdin.
+//! Reads a scenario from its built-in text, a file or stdin, and builds it.
 
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use std::path::Path;
 /// Longest scenario that is read, bytes; also keeps endless devices from filling the memory.
 const LONGEST: u64 = 16 << 20;
 
-/// A scenario that was parsed, with what was said about it on the command line.
+/// A scenario that was parsed and built, with its changes from the command line.
 #[derive(Debug)]
 pub(crate) struct Prepared {
     pub source: ScenarioText,

@@ -1,4 +1,4 @@
-//! What a run leaves beside its results: a replay, written as it goes on, and a checkpoint of its end.
+//! `run --record` and `--save`: a replay, written during the run, and a checkpoint of its end.
 
 use crate::failure::Failure;
 use crate::output::Outputs;
@@ -11,7 +11,7 @@ use std::io::Write;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-/// Options of a run that is kept.
+/// Options of `run` that keep it for `replay`, `diff` and `inspect`.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct RecordArgs {
     /// Record the run into this file, for `replay` and `diff`; it can be played even if the run is killed
@@ -20,12 +20,12 @@ pub(crate) struct RecordArgs {
     /// Steps from one digest of a record to the next
     #[arg(long, value_name = "N", default_value = "60", requires = "record")]
     pub digest_every: NonZeroU32,
-    /// Save the end of the run into this file: the world and where its scenario stands
+    /// Save a checkpoint of the end of the run into this file
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
 }
 
-/// A record that grows with the run.
+/// Writes a replay during the run.
 #[derive(Debug)]
 pub(crate) struct ReplayWriter {
     recorder: Recorder,
@@ -76,7 +76,7 @@ impl ReplayWriter {
         Ok(Self { recorder, file, path: path.to_owned() })
     }
 
-    /// Notes a step in which nobody was told anything but by the scenario.
+    /// Adds a step; its inputs follow from the scenario.
     pub(crate) fn add(&mut self, world: &World) -> Result<(), Failure> {
         let bytes = self.recorder.step(&Inputs::new(), world);
         self.append(&bytes)

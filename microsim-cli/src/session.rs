@@ -53,7 +53,7 @@ impl<'o> Session<'o> {
         Ok(Self { prepared, steps, outputs, writer, tally, validates, broken, digest_at_start, replay, record })
     }
 
-    /// Goes on with the run of a folder.
+    /// Continues the run of a folder from its checkpoint.
     pub(crate) fn resume(outputs: &'o Outputs) -> Result<Self, Failure> {
         let (header, Checkpoint { origin, run: built, .. }) = checkpoint::read(outputs.folder())?;
         let source = ScenarioText::new(header.source.clone(), origin.text.clone());
@@ -81,7 +81,7 @@ impl<'o> Session<'o> {
         self.prepared.scenario.output()
     }
 
-    /// Takes the steps that are left, finishes the files, prints what came of it, and says whether all that must hold did.
+    /// Takes the remaining steps, finishes the files and prints the summary. Fails if a check of the scenario did.
     pub(crate) fn run(mut self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let (name, seed, first) = (self.prepared.name(), self.prepared.scenario.seed(), self.tally.steps);
         console.detail(|| format!("running {name} with seed {seed}: steps {first} to {}", self.steps));

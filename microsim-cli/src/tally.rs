@@ -1,11 +1,11 @@
-//! What is counted over the steps of a run or a benchmark.
+//! Counts and times over the steps of a run or a benchmark.
 
 use microsim_core::World;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// What was seen over some steps.
+/// Counts and times over some steps.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Tally {
     /// Number of steps taken.

@@ -46,7 +46,7 @@ impl WorldFile {
         }
     }
 
-    /// Its world; that of a replay after so many steps, or at its end, and where it was not what was recorded until then.
+    /// Its world, of a replay after `step` steps or at its end, and where the replay differed from its record until then.
     pub(crate) fn world_at(self, step: u64, path: &Path) -> Result<(World, Option<String>), Failure> {
         match self {
             Self::World(world) => Ok((*world, None)),
@@ -60,7 +60,7 @@ impl WorldFile {
     }
 }
 
-/// A replay that is played to its end, also where it is not what was recorded.
+/// A replay that is played to its end, even if it differs from its record.
 #[derive(Debug)]
 pub(crate) struct Playback<'a> {
     player: Player,
@@ -85,13 +85,13 @@ impl<'a> Playback<'a> {
         played.is_some()
     }
 
-    /// Where it first was not what was recorded.
+    /// Where it first differed from its record.
     pub(crate) fn mismatch(&self) -> Option<String> {
         self.first.map(|mismatch| in_words(&mismatch, self.replay, self.path))
     }
 }
 
-/// What is lost of a replay, if anything is.
+/// What a damaged or cut-off replay has lost.
 pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
     let path = path.display();
     match replay.ending() {
@@ -101,12 +101,12 @@ pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
     }
 }
 
-/// Where a replay is not what was recorded.
+/// Where a replay first differs from its record.
 pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> String {
     format!("{}: {mismatch}{}", path.display(), recorded_by(replay))
 }
 
-/// A hint where another version has recorded it.
+/// The version that recorded a replay, if it is another.
 fn recorded_by(replay: &Replay) -> String {
     let (recorder, own) = (replay.made_by(), env!("CARGO_PKG_VERSION"));
     if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
@@ -119,10 +119,10 @@ pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
 }
 
 fn refused(path: &Path, error: &dyn std::error::Error) -> Failure {
-    Failure::Message(format!("{}: {error}; write it anew", path.display()))
+    Failure::Message(format!("{}: {error}; write it again", path.display()))
 }
 
-/// Sets a replay up.
+/// A player at the start of a replay.
 pub(crate) fn play(replay: &Replay, path: &Path) -> Result<Player, Failure> {
     Player::new(replay).map_err(|problems| {
         let origin = format!("<scenario in {}>", path.display());

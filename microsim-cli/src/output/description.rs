@@ -1,4 +1,4 @@
-//! `run.json`: what came of a run, and what is needed to run it again.
+//! `run.json`: the results of a run, and what is needed to repeat it.
 
 use super::folder::{Outputs, sha256};
 use crate::failure::Failure;

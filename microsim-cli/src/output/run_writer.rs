@@ -1,4 +1,4 @@
-//! Looks at a world after every step and writes what the scenario wants written.
+//! Writes the outputs of a scenario while it runs: tables, events, pictures and snapshots.
 
 use super::Rhythm;
 use super::events::Events;
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// Longer side of the picture of the end, pixels.
 const FRAME: u32 = 1200;
 
-/// What is collected while a run goes on.
+/// The files of a run and what they still wait for.
 #[derive(Debug)]
 pub(crate) struct RunWriter<'o> {
     outputs: &'o Outputs,
@@ -37,7 +37,7 @@ pub(crate) struct RunWriter<'o> {
     is_resumable: bool,
 }
 
-/// How far the files are.
+/// Lengths and names of the files that a run has written so far.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct FileProgress {
     /// Bytes of the files that grow.
@@ -59,14 +59,14 @@ pub(crate) fn check_formats(plan: &OutputPlan) -> Result<(), Failure> {
 }
 
 impl<'o> RunWriter<'o> {
-    /// Begins, with the world as it is before its first step.
+    /// Opens new files and writes the world before its first step.
     pub(crate) fn start(outputs: &'o Outputs, plan: &OutputPlan, built: &Built, steps: u64) -> Result<Self, Failure> {
         let mut writer = Self::open(outputs, plan, built, steps, &BTreeMap::new())?;
         writer.look_at(&built.world)?;
         Ok(writer)
     }
 
-    /// Goes on with a run that came as far as this.
+    /// Continues the files of a run from a checkpoint.
     pub(crate) fn resume(
         outputs: &'o Outputs,
         plan: &OutputPlan,
@@ -83,14 +83,14 @@ impl<'o> RunWriter<'o> {
             for step in moments.until(built.world.step_index()).collect::<Vec<_>>() {
                 let path = outputs.folder().join(moment_name(step));
                 let raw = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
-                let broken = || Failure::Message(format!("{}: no picture; run the scenario anew", path.display()));
+                let broken = || Failure::Message(format!("{}: no picture; run the scenario again", path.display()));
                 moments.add(Picture::from_raw(&raw).ok_or_else(broken)?);
             }
         }
         Ok(writer)
     }
 
-    /// How far the files are, all that was written included.
+    /// Flushes the files and returns their lengths and names.
     pub(crate) fn progress(&mut self) -> Result<FileProgress, Failure> {
         let mut lengths = BTreeMap::new();
         for table in
@@ -105,7 +105,7 @@ impl<'o> RunWriter<'o> {
         Ok(FileProgress { lengths, events, whole: self.outputs.names_written() })
     }
 
-    /// Opens the files; those of a run that goes on have lengths.
+    /// Opens the files, at their `lengths` if the run is resumed.
     fn open(
         outputs: &'o Outputs,
         plan: &OutputPlan,
@@ -137,7 +137,7 @@ impl<'o> RunWriter<'o> {
         Ok(Self { outputs, measures, trajectories, events, moments, frames, frame_width, snapshots, is_resumable })
     }
 
-    /// Writes what there is to write of a world after a step.
+    /// Writes the outputs that are due after a step.
     pub(crate) fn look_at(&mut self, world: &World) -> Result<(), Failure> {
         let step = world.step_index();
         let moment = self.moments.as_mut().and_then(|moments| moments.look_at(world));
@@ -165,7 +165,7 @@ impl<'o> RunWriter<'o> {
         Ok(())
     }
 
-    /// Leaves all files so that another process can go on.
+    /// Leaves all files so that another process can continue them.
     pub(crate) fn leave(self) -> Result<(), Failure> {
         self.measures.map_or(Ok(()), |measures| measures.table.leave())?;
         self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.leave())?;

@@ -1,4 +1,4 @@
-//! `bench`: how long steps and their phases take, and how well the constraints hold meanwhile.
+//! `bench`: the time of steps and their phases, and the errors of the constraints.
 
 use crate::console::{Console, stdout};
 use crate::failure::Failure;

@@ -27,13 +27,13 @@ pub(crate) struct DiffArgs {
     pub other: PathBuf,
 }
 
-/// What came of a comparison.
+/// The result of a comparison.
 #[derive(Debug)]
 struct Comparison {
     difference: Option<String>,
-    /// In what nothing differs, if nothing does.
+    /// What was compared.
     compared: &'static str,
-    /// Where replays are not what was recorded.
+    /// Where replays differ from their records.
     mismatches: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
 }
 
 impl Comparison {
-    /// What differs is a result, on stdout; the exit code says that something does, or that a replay is not what it was.
+    /// Prints the difference. Fails if there is one, or if a replay differs from its record.
     fn tell(self) -> Result<(), Failure> {
         let Self { difference, compared, mismatches } = self;
         let is_equal = difference.is_none() && mismatches.is_empty();

@@ -1,4 +1,4 @@
-//! What the program can be told to do, one file or folder for each verb: its arguments and its work.
+//! The verbs of the command line: a file or folder for each, with its arguments and its work.
 
 mod bench;
 mod check;
@@ -23,30 +23,30 @@ use crate::failure::Failure;
 pub(crate) enum Verb {
     /// Write a commented scenario to start from
     New(new::NewArgs),
-    /// Check a scenario without running it: its text, and that everything finds its place
+    /// Check a scenario without running it: its text, values and placements
     Check(check::CheckArgs),
     /// Print the JSON Schema of scenario files, for editors
     Schema,
     /// List the built-in scenarios
     List,
-    /// Run a scenario and say what came of it
+    /// Run a scenario and print a summary
     Run(Box<run::RunArgs>),
-    /// Go on with a run that was stopped, bit for bit
+    /// Continue a stopped run, bit for bit
     Resume(resume::ResumeArgs),
-    /// Make a recorded run again and compare it with the record
+    /// Repeat a recorded run and compare it with the record
     Replay(replay::ReplayArgs),
-    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
+    /// Compare two snapshots, checkpoints or replays: the first step and field that differ
     Diff(diff::DiffArgs),
-    /// Say what is in a snapshot, a checkpoint or a replay
+    /// Describe a snapshot, a checkpoint or a replay
     Inspect(inspect::InspectArgs),
     /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
     Render(render::RenderArgs),
-    /// Run a scenario many times, with other parameters and seeds each time
+    /// Run a scenario many times, each with other parameters and seeds
     #[command(subcommand)]
     Sweep(sweep::SweepVerb),
     /// Make one HTML page of a run or a sweep
     Report(report::ReportArgs),
-    /// Measure how long steps and their phases take, and how well the constraints hold
+    /// Measure the time of steps and their phases, and the errors of the constraints
     Bench(bench::BenchArgs),
     /// Print the completions of a shell
     Completions(manual::CompletionsArgs),

@@ -15,9 +15,7 @@ const SCHEMA: &str = "scenario.schema.json";
 
 /// `new`.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Beside it lies scenario.schema.json then, with which editors check the file while it is written."
-)]
+#[command(after_help = "Also writes scenario.schema.json beside it, with which editors check the file.")]
 pub(crate) struct NewArgs {
     /// The file to write, or `-` for stdout
     #[arg(value_name = "FILE")]

@@ -1,4 +1,4 @@
-//! `replay`: makes a recorded run again and compares it with the record.
+//! `replay`: repeats a recorded run and compares it with the record.
 
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 A record that was cut off is played up to its last whole frame."
 )]
 pub(crate) struct ReplayArgs {
-    /// What `run --record` has written
+    /// A replay that `run --record` has written
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Print one JSON object instead of a sentence
@@ -35,7 +35,7 @@ struct ReplayReport<'a> {
     is_complete: bool,
 }
 
-/// Plays a record and says what came of it.
+/// Plays a replay and prints whether it is as recorded.
 pub(crate) fn replay(args: &ReplayArgs, console: &Console) -> Result<(), Failure> {
     let replay = read_replay(&args.file)?;
     let mut player = play(&replay, &args.file)?;

@@ -1,4 +1,4 @@
-//! `resume`: goes on with a run that was stopped.
+//! `resume`: continues a stopped run.
 
 use crate::console::Console;
 use crate::failure::Failure;
@@ -22,7 +22,7 @@ pub(crate) struct ResumeArgs {
     pub json: bool,
 }
 
-/// Goes on with a run.
+/// Continues a run.
 pub(crate) fn resume(args: &ResumeArgs, console: &Console) -> Result<(), Failure> {
     if !args.folder.is_dir() {
         let message = format!("{}: there is no such folder, accepted: the folder of a run", args.folder.display());

@@ -19,8 +19,8 @@ const TRIED: u64 = 20;
 /// `run`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "What must hold is checked after every step; the first that breaks is named on stderr, the run goes on, and the\n\
-exit code is 1. Equal scenario, seed and steps give equal bytes in all files but run.json."
+    after_help = "Invariants and expectations are checked after every step; the first that fails is named on stderr, the run goes on,\n\
+and the exit code is 1. Equal scenario, seed and steps give equal bytes in all files but run.json."
 )]
 pub(crate) struct RunArgs {
     /// A built-in scenario, a TOML file, or `-` for stdin
@@ -50,10 +50,10 @@ pub(crate) struct RunArgs {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
-    /// Say what would be simulated, and roughly how long it would take; write nothing
+    /// Print what would be simulated and roughly how long it would take; write nothing
     #[arg(long)]
     pub dry_run: bool,
-    /// Run the tasks of a sweep, one a line, from a file or `-`; one that is in the store is done already
+    /// Run the tasks of a sweep, one a line, from a file or `-`; those in the store are skipped
     #[arg(long, value_name = "FILE", requires = "store", conflicts_with_all = ["scenario", "out", "dry_run", "json"])]
     pub task: Option<String>,
     /// Where the results of tasks are kept
@@ -70,7 +70,7 @@ pub(crate) struct OutputArgs {
     /// Time between two rows of measures, s; 0 for every step
     #[arg(long, value_name = "S", value_parser = duration, requires = "out")]
     every: Option<f64>,
-    /// Formats of the place, speed and area of every organism over time
+    /// Formats of the position, speed and area of every organism over time
     #[arg(long, value_name = "FORMATS", requires = "out")]
     trajectories: Option<String>,
     /// Times of more pictures, s, with commas
@@ -79,7 +79,7 @@ pub(crate) struct OutputArgs {
     /// Times at which the whole state is written, s, with commas
     #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
     snapshots: Option<String>,
-    /// Steps between two checkpoints, to go on from with `resume` after Ctrl-C or a crash
+    /// Steps between two checkpoints, from which `resume` continues after Ctrl-C or a crash
     #[arg(long, value_name = "N", requires = "out")]
     checkpoint_every: Option<u32>,
     /// Leave out the pictures of the end and of six moments
@@ -107,7 +107,7 @@ impl OutputArgs {
     }
 }
 
-/// Runs a scenario, writes its files and says what came of it.
+/// Runs a scenario, writes its files and prints a summary.
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     if let (Some(tasks), Some(store)) = (&args.task, &args.store) {
         return sweep::run_tasks(tasks, store, console);

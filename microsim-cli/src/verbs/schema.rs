@@ -1,4 +1,4 @@
-//! `schema`: the JSON Schema of scenario files, made from what the reader says of itself.
+//! `schema`: the JSON Schema of scenario files, made from the descriptions of their fields.
 
 use crate::console::stdout;
 use crate::failure::Failure;

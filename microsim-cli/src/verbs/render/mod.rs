@@ -35,7 +35,7 @@ const MOST_SHEET: u64 = 1 << 28;
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "NAME|FILE may also be a replay that `run --record` has written, with a name that ends in .replay.\n\
-The name of the file says what it is: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
+The ending of the file name chooses the format: .png is a still; .gif, .apng and .mp4 are movies (an mp4 needs ffmpeg).\n\
 Several moments or optics in one .png make a contact sheet. Equal scenario, seed and options give equal bytes,\n\
 whatever the number of threads.\n\
 Optics: phase-contrast, negative-phase-contrast, dic, dark-field, bright-field, stained, fluorescence, classic."
@@ -55,10 +55,10 @@ pub(crate) struct RenderArgs {
     /// Simulated time of the last frame, s; without it, the scenario's duration
     #[arg(long, value_name = "S", value_parser = duration)]
     pub to: Option<f64>,
-    /// Frames per second of simulated time, 24 unless said otherwise
+    /// Frames per second of simulated time, 24 by default
     #[arg(long, value_name = "N", value_parser = options::frame_rate)]
     pub fps: Option<f64>,
-    /// What contrast is made of; several with commas, or all
+    /// Contrast method; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
     /// Film with its grain and flicker, or a digital camera
@@ -67,7 +67,7 @@ pub(crate) struct RenderArgs {
     /// Width and height, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// What is seen: X,Y,WIDTH in micrometres, or follow:NAME,WIDTH (width optional) of an organism; else the room
+    /// Field of view: X,Y,WIDTH in micrometres, or follow:NAME,WIDTH (width optional) of an organism; else the room
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
     pub view: Option<ViewSpec>,
     /// Pictures side by side in a contact sheet

@@ -1,4 +1,4 @@
-//! What makes the world go on between two pictures: a scenario's script, or a record of what happened.
+//! Steps a world from one picture to the next: by its scenario's script, or as a replay recorded it.
 
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -31,7 +31,7 @@ pub(super) fn open(args: &ScenarioArgs) -> Result<(Prepared, Option<Replay>), Fa
     Ok((Prepared::new(source, &changes)?, Some(replay)))
 }
 
-/// A world that goes on.
+/// A world that is stepped.
 pub(super) enum Projector {
     /// By its scenario's script.
     Script(Box<World>, Box<Script>),

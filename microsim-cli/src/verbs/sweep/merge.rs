@@ -39,7 +39,7 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
         let keys: Vec<&str> = missing.iter().map(|task| task.key.as_str()).collect();
         let what = format!("{} of {} results are missing:\n{}", missing.len(), tasks.len(), keys.join("\n"));
         if !args.partial {
-            let hint = "run `microsim sweep run` again, or take what there is with --partial";
+            let hint = "run `microsim sweep run` again, or write the others with --partial";
             return Err(Failure::Broken(vec![what, hint.to_owned()]));
         }
         console.note(&what);

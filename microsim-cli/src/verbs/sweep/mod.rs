@@ -1,4 +1,4 @@
-//! `sweep`: a scenario many times, with other parameters and seeds each time.
+//! `sweep`: a scenario many times, each with other parameters and seeds.
 //!
 //! A plan has one task a line, complete in itself. The result of a task is a file whose name is a hash of the task, so it
 //! does not matter who runs which task, where, in what order and how often.
@@ -65,9 +65,9 @@ pub(crate) struct PlanArgs {
 /// `sweep run`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Ctrl-C loses only the tasks in progress; run it again to go on. Shards may run anywhere that sees the store,\n\
+    after_help = "Ctrl-C loses only the tasks in progress; run it again to continue. Shards may run anywhere that sees the store,\n\
 at any time: microsim sweep run plan.jsonl --store results --shard $SLURM_ARRAY_TASK_ID/100\n\
-The exit code is 1 if what a scenario says must hold does not in any task of this shard."
+The exit code is 1 if a check fails in any task of this shard."
 )]
 pub(crate) struct SweepRunArgs {
     /// The plan
@@ -99,8 +99,8 @@ pub(crate) struct StatusArgs {
 /// `sweep merge`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The name of the file says what it is: .csv or .jsonl; `-` is JSON lines on stdout. Where results are missing, they are\n\
-listed, nothing is written, and the exit code is 1; with --partial the table has what there is."
+    after_help = "The file name ends in .csv or .jsonl; `-` is JSON lines on stdout. Where results are missing, they are listed, nothing\n\
+is written, and the exit code is 1; with --partial the table has the others."
 )]
 pub(crate) struct MergeArgs {
     /// The plan
@@ -112,12 +112,12 @@ pub(crate) struct MergeArgs {
     /// The table to write
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Write what there is
+    /// Write the table even if results are missing
     #[arg(long)]
     pub partial: bool,
 }
 
-/// Does what one of the verbs says.
+/// Performs a verb of `sweep`.
 pub(crate) fn sweep(verb: &SweepVerb, console: &Console) -> Result<(), Failure> {
     match verb {
         SweepVerb::Plan(args) => plan::plan(args, console),

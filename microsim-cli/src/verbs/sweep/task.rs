@@ -1,4 +1,4 @@
-//! One task: what it is, and what comes of it.
+//! One task and its result.
 
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -33,7 +33,7 @@ pub(crate) struct Task {
     pub text: String,
 }
 
-/// What comes of a task. The same wherever and whenever it is run: there are no times of a clock in it.
+/// The result of a task. It holds no clock times: it is the same wherever and whenever the task is run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskOutcome {
     pub key: String,
@@ -75,10 +75,10 @@ impl Task {
         let task: Self = serde_json::from_str(line)
             .map_err(|error| refuse(format!("not a task: {error}; plan it with `microsim sweep plan`")))?;
         if task.key != task.hash() {
-            return Err(refuse("the task was changed: its key does not fit; plan it anew".to_owned()));
+            return Err(refuse("the task was changed: its key does not fit; plan it again".to_owned()));
         }
         if task.version != VERSION {
-            let why = format!("planned for version {}, this is {VERSION}; plan it anew", task.version);
+            let why = format!("planned for version {}, this is {VERSION}; plan it again", task.version);
             return Err(refuse(why));
         }
         Ok(task)
