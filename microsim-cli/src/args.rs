@@ -1,15 +1,16 @@
-//! The command line: what all verbs share. The arguments of each verb stand beside it.
+//! The command line: the options that all verbs share. Those of one verb are in its file under `verbs`.
 
-use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use crate::verbs::Verb;
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
 
-/// Everything that the command line says.
+/// The command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "microsim",
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
-    after_help = "Exit codes: 0 done; 1 what the scenario says must hold does not, or something is missing; 2 wrong usage, a\n\
-refused scenario or an output that cannot be written; 130 interrupted."
+    after_help = "Exit codes: 0 success; 1 a check that failed, a difference or a missing result; 2 wrong usage, a refused scenario or\n\
+an output that cannot be written; 130 interrupted."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
@@ -23,63 +24,6 @@ pub(crate) struct Args {
     pub verbose: bool,
     #[command(subcommand)]
     pub verb: Verb,
-}
-
-/// What to do.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Verb {
-    /// Write a commented scenario to start from
-    New(crate::new::NewArgs),
-    /// Check a scenario without running it: its text, and that everything finds its place
-    Check(crate::check::CheckArgs),
-    /// Print the JSON Schema of scenario files, for editors
-    Schema,
-    /// List the built-in scenarios
-    List,
-    /// Run a scenario and say what came of it
-    Run(Box<crate::run::RunArgs>),
-    /// Go on with a run that was stopped, bit for bit
-    Resume(crate::resume::ResumeArgs),
-    /// Make a recorded run again and compare it with the record
-    Replay(crate::replay::ReplayArgs),
-    /// Say where two snapshots, checkpoints or replays differ: the first step and the first field
-    Diff(crate::diff::DiffArgs),
-    /// Say what is in a snapshot, a checkpoint or a replay
-    Inspect(crate::inspect::InspectArgs),
-    /// Picture a scenario as a microscope would show it: stills, contact sheets and movies
-    Render(crate::render::RenderArgs),
-    /// Run a scenario many times, with other parameters and seeds each time
-    #[command(subcommand)]
-    Sweep(crate::sweep::SweepVerb),
-    /// Make one HTML page of a run or a sweep
-    Report(crate::report::ReportArgs),
-    /// Measure how long steps and their phases take, and how well the constraints hold
-    Bench(crate::bench::BenchArgs),
-    /// Print the completions of a shell
-    Completions(crate::manual::CompletionsArgs),
-    /// Print the manual page of a verb, or write all of them
-    Man(crate::manual::ManArgs),
-}
-
-/// Which scenario, and what to change in it.
-#[derive(Clone, Debug, clap::Args)]
-pub(crate) struct ScenarioArgs {
-    /// A built-in scenario, a TOML file, or `-` for stdin
-    #[arg(value_name = "NAME|FILE")]
-    pub scenario: String,
-    #[command(flatten)]
-    pub changes: Changes,
-}
-
-/// What to change in a scenario.
-#[derive(Clone, Debug, Default, clap::Args)]
-pub(crate) struct Changes {
-    /// Seed of all random numbers, in place of the scenario's own
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
-    pub seed: Option<u64>,
-    /// Replace one value of the scenario, for example `step.substeps=12`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
-    pub set: Vec<(String, String)>,
 }
 
 impl Args {
@@ -103,27 +47,6 @@ fn color_asked_for(arguments: impl Iterator<Item = std::ffi::OsString>) -> Color
     }
 }
 
-/// `KEY=VALUE`.
-pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
-        _ => Err("expected KEY=VALUE, for example step.substeps=12".to_owned()),
-    }
-}
-
-/// A whole number.
-pub(crate) fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
-}
-
-/// A time in seconds.
-pub(crate) fn duration(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if (0.0..=1e9).contains(&seconds) => Ok(seconds),
-        _ => Err("expected a number of seconds, 0 to 1e9".to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,18 +54,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Args::command().debug_assert();
-    }
-
-    #[test]
-    fn a_value_may_contain_an_equals_sign() {
-        assert_eq!(key_value("a = b=c"), Ok(("a".into(), "b=c".into())));
-        assert!(key_value("a").is_err() && key_value("=1").is_err());
-    }
-
-    #[test]
-    fn a_duration_is_finite_and_not_negative() {
-        assert_eq!(duration("1.5"), Ok(1.5));
-        assert!(["-1", "nan", "inf", "x"].iter().all(|t| duration(t).is_err()));
     }
 
     #[test]

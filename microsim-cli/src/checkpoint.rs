@@ -1,8 +1,8 @@
 //! The file that an unfinished run can be resumed from: one line of JSON about its files, then the run as bytes.
 
 use crate::failure::Failure;
-use crate::output::{Outputs, Progress};
-use crate::simulate::Tally;
+use crate::output::{FileProgress, Outputs};
+use crate::tally::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -11,15 +11,15 @@ use std::path::{Path, PathBuf};
 /// Its name in the folder of the run.
 pub(crate) const FILE: &str = "checkpoint";
 
-/// What the program knows beside the run itself.
+/// What a checkpoint holds beside the run itself.
 #[derive(Debug, Serialize, Deserialize)]
-pub(crate) struct Saved {
+pub(crate) struct CheckpointHeader {
     /// Where the scenario was from.
     pub source: String,
     /// Steps that the run takes in all.
     pub steps: u64,
-    /// How far its files are.
-    pub progress: Progress,
+    /// Lengths and names of its files.
+    pub progress: FileProgress,
     pub tally: Tally,
     pub validates: bool,
     pub broken: Option<String>,
@@ -27,8 +27,8 @@ pub(crate) struct Saved {
 }
 
 /// Writes the checkpoint in place of the one before.
-pub(crate) fn write(outputs: &Outputs, saved: &Saved, run: &Checkpoint) -> Result<(), Failure> {
-    let mut bytes = serde_json::to_vec(saved).map_err(std::io::Error::from)?;
+pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
+    let mut bytes = serde_json::to_vec(header).map_err(std::io::Error::from)?;
     bytes.push(b'\n');
     let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
     bytes.extend(run);
@@ -36,7 +36,7 @@ pub(crate) fn write(outputs: &Outputs, saved: &Saved, run: &Checkpoint) -> Resul
 }
 
 /// Reads the checkpoint of a folder.
-pub(crate) fn read(folder: &Path) -> Result<(Saved, Checkpoint), Failure> {
+pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Failure> {
     let path = folder.join(FILE);
     let bytes = match fs::read(&path) {
         Ok(bytes) => bytes,
@@ -48,16 +48,16 @@ pub(crate) fn read(folder: &Path) -> Result<(Saved, Checkpoint), Failure> {
         }
         Err(error) => return Err(Failure::file("read", &path, &error)),
     };
-    parse(&bytes).map_err(|why| Failure::Message(format!("{}: {why}; run the scenario anew", path.display())))
+    parse(&bytes).map_err(|why| Failure::Message(format!("{}: {why}; run the scenario again", path.display())))
 }
 
 /// The two parts of a checkpoint.
-fn parse(bytes: &[u8]) -> Result<(Saved, Checkpoint), String> {
+fn parse(bytes: &[u8]) -> Result<(CheckpointHeader, Checkpoint), String> {
     let run = run_of(bytes).ok_or("not a checkpoint")?;
-    let saved = &bytes[..bytes.len() - run.len()];
-    let saved = serde_json::from_slice(saved).map_err(|error| format!("not a checkpoint: {error}"))?;
+    let header = &bytes[..bytes.len() - run.len()];
+    let header = serde_json::from_slice(header).map_err(|error| format!("not a checkpoint: {error}"))?;
     let run = Checkpoint::from_bytes(run).map_err(|error| error.to_string())?;
-    Ok((saved, run))
+    Ok((header, run))
 }
 
 /// The run behind the line about its files; `None` where there is no such line.

@@ -1,13 +1,35 @@
 //! Shows what is wrong with a scenario, with the lines that it is about.
 
-use crate::source::Source;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use std::ops::Range;
 
+/// The text of a scenario and where it is from.
+#[derive(Clone, Debug)]
+pub(crate) struct ScenarioText {
+    origin: String,
+    text: String,
+}
+
+impl ScenarioText {
+    /// Name of the file, for messages.
+    pub(crate) fn origin(&self) -> &str {
+        &self.origin
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// A text that was handed over by something that knows where it is from.
+    pub(crate) fn new(origin: String, text: String) -> Self {
+        Self { origin, text }
+    }
+}
+
 /// All problems of one scenario, as a text for a terminal.
-pub(crate) fn render(source: &Source, problems: &Diagnostics, is_coloured: bool) -> String {
+pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured: bool) -> String {
     let renderer = if is_coloured { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let shown = problems.iter().map(|problem| {
@@ -21,7 +43,7 @@ pub(crate) fn render(source: &Source, problems: &Diagnostics, is_coloured: bool)
     text
 }
 
-fn group<'a>(source: &'a Source, problem: &'a Diagnostic) -> Group<'a> {
+fn group<'a>(source: &'a ScenarioText, problem: &'a Diagnostic) -> Group<'a> {
     let title = Level::ERROR.primary_title(title(problem));
     let group = match &problem.span {
         Some(span) => title.element(snippet(source, span)),
@@ -42,12 +64,12 @@ fn title(problem: &Diagnostic) -> String {
     }
 }
 
-fn snippet<'a>(source: &'a Source, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+fn snippet<'a>(source: &'a ScenarioText, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let annotation = AnnotationKind::Primary.span(within(source.text(), span));
     Snippet::source(source.text()).path(source.origin()).annotation(annotation)
 }
 
-fn origin<'a>(source: &'a Source, problem: &Diagnostic) -> Origin<'a> {
+fn origin<'a>(source: &'a ScenarioText, problem: &Diagnostic) -> Origin<'a> {
     let origin = Origin::path(source.origin());
     match (problem.line, problem.column) {
         (Some(line), Some(column)) => origin.line(line).char_column(column),

@@ -1,8 +1,7 @@
-//! Why the process ends without having done what was asked, and with which exit code.
+//! Reasons why the program fails, and their exit codes.
 
 use crate::console::Console;
-use crate::diagnostics;
-use crate::source::Source;
+use crate::diagnostics::{self, ScenarioText};
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -12,24 +11,24 @@ const BROKEN: u8 = 1;
 const REFUSED: u8 = 2;
 const INTERRUPTED: u8 = 130;
 
-/// A reason to stop.
+/// A reason to stop without success.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// In words.
+    /// An error message.
     Message(String),
     /// The scenario is refused.
-    Scenario(Source, Diagnostics),
-    /// The scenario is refused, and stdout says so.
-    Told,
-    /// Something that was asked about is not so; the answer is on stdout.
-    No,
-    /// Whoever reads stdout has enough.
+    Scenario(ScenarioText, Diagnostics),
+    /// The scenario is refused; its problems are on stdout.
+    Reported,
+    /// The answer on stdout is negative.
+    Negative,
+    /// The reader of stdout has closed it.
     PipeClosed,
-    /// What the scenario says must hold does not; what there was has been written.
+    /// Checks that failed, one a line; all outputs have been written.
     Broken(Vec<String>),
-    /// Ctrl-C; what there was has been written.
+    /// Ctrl-C; all outputs so far have been written.
     Interrupted,
-    /// Ctrl-C; how to go on.
+    /// Ctrl-C, with the command that resumes the run.
     Stopped(String),
 }
 
@@ -47,11 +46,13 @@ impl Failure {
                 console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
             }
             Self::Broken(lines) => {
-                lines.iter().for_each(|line| console.complain(line));
+                for line in &lines {
+                    console.complain(line);
+                }
                 return ExitCode::from(BROKEN);
             }
-            Self::Told => {}
-            Self::No => return ExitCode::from(BROKEN),
+            Self::Reported => {}
+            Self::Negative => return ExitCode::from(BROKEN),
             Self::PipeClosed => return ExitCode::SUCCESS,
             Self::Stopped(text) => {
                 console.note(&text);
@@ -66,7 +67,7 @@ impl Failure {
     }
 }
 
-/// What helps, if anything is known to.
+/// Advice for an I/O error.
 fn remedy(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; free some space or choose another place",

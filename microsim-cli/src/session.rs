@@ -1,14 +1,15 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
-use crate::checkpoint::{self, Saved};
+use crate::checkpoint::{self, CheckpointHeader};
 use crate::console::{Console, stdout};
+use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::{Outputs, Recorder, write_description};
-use crate::record::{KeepArgs, Recording};
-use crate::simulate::Tally;
-use crate::source::{Prepared, Source};
+use crate::output::{Outputs, RunWriter, write_description};
+use crate::prepared::Prepared;
+use crate::record_args::{RecordArgs, ReplayWriter};
 use crate::summary::RunReport;
+use crate::tally::Tally;
 use microsim_core::World;
 use microsim_core::scenario::{Built, OutputPlan};
 use microsim_core::snapshot::Checkpoint;
@@ -24,15 +25,15 @@ pub(crate) struct Session<'o> {
     /// Steps that it takes in all.
     steps: u64,
     outputs: Option<&'o Outputs>,
-    recorder: Option<Recorder<'o>>,
+    writer: Option<RunWriter<'o>>,
     tally: Tally,
     /// Whether the whole state is checked after every step.
     validates: bool,
     /// The first check that broke, or what was wrong with the state.
     broken: Option<String>,
     digest_at_start: String,
-    recording: Option<Recording>,
-    keep: Option<&'o KeepArgs>,
+    replay: Option<ReplayWriter>,
+    record: Option<&'o RecordArgs>,
 }
 
 impl<'o> Session<'o> {
@@ -42,37 +43,37 @@ impl<'o> Session<'o> {
         steps: u64,
         outputs: Option<&'o Outputs>,
         validates: bool,
-        keep: &'o KeepArgs,
+        record: &'o RecordArgs,
     ) -> Result<Self, Failure> {
-        let start = |outputs| Recorder::start(outputs, prepared.scenario.output(), &prepared.built, steps);
-        let recorder = outputs.map(start).transpose()?;
+        let start = |outputs| RunWriter::start(outputs, prepared.scenario.output(), &prepared.built, steps);
+        let writer = outputs.map(start).transpose()?;
         let digest_at_start = format!("{:016x}", prepared.built.world.digest());
-        let recording = keep.start(prepared.scenario.origin())?;
-        let (tally, broken, keep) = (Tally::default(), None, Some(keep));
-        Ok(Self { prepared, steps, outputs, recorder, tally, validates, broken, digest_at_start, recording, keep })
+        let replay = record.start(prepared.scenario.origin())?;
+        let (tally, broken, record) = (Tally::default(), None, Some(record));
+        Ok(Self { prepared, steps, outputs, writer, tally, validates, broken, digest_at_start, replay, record })
     }
 
-    /// Goes on with the run of a folder.
+    /// Continues the run of a folder from its checkpoint.
     pub(crate) fn resume(outputs: &'o Outputs) -> Result<Self, Failure> {
-        let (saved, Checkpoint { origin, run: built, .. }) = checkpoint::read(outputs.folder())?;
-        let source = Source::new(saved.source.clone(), origin.text.clone());
+        let (header, Checkpoint { origin, run: built, .. }) = checkpoint::read(outputs.folder())?;
+        let source = ScenarioText::new(header.source.clone(), origin.text.clone());
         let scenario = match origin.scenario() {
             Ok(scenario) => scenario,
             Err(problems) => return Err(Failure::Scenario(source, problems)),
         };
-        let recorder = Recorder::resume(outputs, scenario.output(), &built, saved.steps, &saved.progress)?;
+        let writer = RunWriter::resume(outputs, scenario.output(), &built, header.steps, &header.progress)?;
         let prepared = Prepared { source, scenario, built, overrides: origin.overrides };
         Ok(Self {
             prepared,
-            steps: saved.steps,
+            steps: header.steps,
             outputs: Some(outputs),
-            recorder: Some(recorder),
-            tally: saved.tally,
-            validates: saved.validates,
-            broken: saved.broken,
-            digest_at_start: saved.digest_at_start,
-            recording: None,
-            keep: None,
+            writer: Some(writer),
+            tally: header.tally,
+            validates: header.validates,
+            broken: header.broken,
+            digest_at_start: header.digest_at_start,
+            replay: None,
+            record: None,
         })
     }
 
@@ -80,7 +81,7 @@ impl<'o> Session<'o> {
         self.prepared.scenario.output()
     }
 
-    /// Takes the steps that are left, finishes the files, prints what came of it, and says whether all that must hold did.
+    /// Takes the remaining steps, finishes the files and prints the summary. Fails if a check of the scenario did.
     pub(crate) fn run(mut self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let (name, seed, first) = (self.prepared.name(), self.prepared.scenario.seed(), self.tally.steps);
         console.detail(|| format!("running {name} with seed {seed}: steps {first} to {}", self.steps));
@@ -106,12 +107,12 @@ impl<'o> Session<'o> {
     fn step(&mut self) -> Result<(), Failure> {
         let built = &mut self.prepared.built;
         let took = timed_step(built);
-        self.tally.add(&built.world, &built.world.census(), took);
+        self.tally.add(&built.world, took);
         let broken = built.checks.after_step(&built.world).first().map(ToString::to_string);
         let violation = || if self.validates { violation(&built.world) } else { None };
         self.broken = self.broken.take().or(broken).or_else(violation);
-        self.recording.as_mut().map_or(Ok(()), |recording| recording.add(&built.world))?;
-        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.look_at(&built.world))
+        self.replay.as_mut().map_or(Ok(()), |replay| replay.add(&built.world))?;
+        self.writer.as_mut().map_or(Ok(()), |writer| writer.look_at(&built.world))
     }
 
     fn checkpoint_every(&self) -> Option<u64> {
@@ -121,39 +122,39 @@ impl<'o> Session<'o> {
 
     /// Writes a checkpoint.
     fn save(&mut self) -> Result<(), Failure> {
-        let (Some(outputs), Some(recorder)) = (self.outputs, &mut self.recorder) else {
+        let (Some(outputs), Some(writer)) = (self.outputs, &mut self.writer) else {
             return Ok(());
         };
-        let saved = Saved {
+        let header = CheckpointHeader {
             source: self.prepared.source.origin().to_owned(),
             steps: self.steps,
-            progress: recorder.progress()?,
+            progress: writer.progress()?,
             tally: self.tally.clone(),
             validates: self.validates,
             broken: self.broken.clone(),
             digest_at_start: self.digest_at_start.clone(),
         };
         let run = self.prepared.built.clone();
-        checkpoint::write(outputs, &saved, &Checkpoint { origin: self.prepared.scenario.origin(), run })
+        checkpoint::write(outputs, &header, &Checkpoint { origin: self.prepared.scenario.origin(), run })
     }
 
     /// Stops so that the run can be resumed.
     fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
         self.save()?;
-        self.recorder.map_or(Ok(()), Recorder::leave)?;
+        self.writer.map_or(Ok(()), RunWriter::leave)?;
         let (step, folder) = (self.tally.steps, shown(outputs.folder()));
         Err(Failure::Stopped(format!("stopped after step {step}; to go on: microsim resume {folder}")))
     }
 
     fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let built = &self.prepared.built;
-        self.recording.map_or(Ok(()), |recording| recording.finish(&built.world))?;
-        self.keep.map_or(Ok(()), |keep| keep.save(self.prepared.scenario.origin(), built))?;
+        self.replay.map_or(Ok(()), |replay| replay.finish(&built.world))?;
+        self.record.map_or(Ok(()), |record| record.save(self.prepared.scenario.origin(), built))?;
         let refusals = built.script.refusals().iter().map(ToString::to_string);
         let failures = self.broken.into_iter().chain(refusals).collect();
         let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.tally) };
-        if let (Some(recorder), Some(outputs)) = (self.recorder, self.outputs) {
-            let waiting = recorder.finish(&built.world)?;
+        if let (Some(writer), Some(outputs)) = (self.writer, self.outputs) {
+            let waiting = writer.finish(&built.world)?;
             write_description(outputs, &self.prepared, &report, &self.digest_at_start)?;
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));

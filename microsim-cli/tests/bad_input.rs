@@ -41,11 +41,11 @@ const BAD: &[(&[&str], &str, &str)] = &[
     // Checkpoints, snapshots and reports.
     (&["resume", "{}/none"], "none", "the folder of a run"),
     (&["resume", "{}"], "there is no checkpoint", "output.checkpoint_every"),
-    (&["resume", "{}/broken"], "broken/checkpoint", "run the scenario anew"),
+    (&["resume", "{}/broken"], "broken/checkpoint", "run the scenario again"),
     (&["inspect", "{}/file.toml"], "file.toml", "a snapshot, a checkpoint or a replay"),
-    (&["inspect", "{}/damaged.snapshot"], "damaged.snapshot", "write it anew"),
-    (&["replay", "{}/file.toml"], "file.toml", "write it anew"),
-    (&["diff", "{}/damaged.snapshot", "{}/file.toml"], "damaged.snapshot", "write it anew"),
+    (&["inspect", "{}/damaged.snapshot"], "damaged.snapshot", "write it again"),
+    (&["replay", "{}/file.toml"], "file.toml", "write it again"),
+    (&["diff", "{}/damaged.snapshot", "{}/file.toml"], "damaged.snapshot", "write it again"),
     (&["report", "{}", "-o", "{}/page.html"], "run.json", "microsim run --out"),
     (&["report", "{}/file.toml", "-o", "{}/page.html"], "file.toml:1", "expected"),
     // Sweeps.
@@ -56,7 +56,7 @@ const BAD: &[(&[&str], &str, &str)] = &[
     (&["sweep", "plan", "empty", "--seeds", "one"], "one", "0..99"),
     (&["sweep", "run", "{}/none.jsonl", "--store", "{}/store"], "none.jsonl", "No such file"),
     (&["sweep", "run", "{}/file.toml", "--store", "{}/store"], "file.toml:1", "microsim sweep plan"),
-    (&["sweep", "run", "{}/changed.jsonl", "--store", "{}/store"], "changed.jsonl:1", "plan it anew"),
+    (&["sweep", "run", "{}/changed.jsonl", "--store", "{}/store"], "changed.jsonl:1", "plan it again"),
     (&["sweep", "run", "{}/plan.jsonl", "--store", "{}/file.toml"], "file.toml", "a directory"),
     (&["sweep", "run", "{}/plan.jsonl", "--store", "{}/store", "--shard", "4/4"], "4/4", "i from 0 to n-1"),
     (

@@ -153,7 +153,7 @@ fn a_run_that_is_stopped_at_20_moments_is_resumed_to_the_same_bytes() {
                 break;
             }
             stops += 1;
-            // Killed before its first checkpoint it has to begin anew.
+            // Killed before its first checkpoint it has to begin again.
             first = !trial.folder.root().join(&name).join("checkpoint").exists();
             if first {
                 let _ = fs::remove_dir_all(&out);

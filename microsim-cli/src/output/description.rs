@@ -1,14 +1,14 @@
-//! `run.json`: what came of a run, and what is needed to run it again.
+//! `run.json`: the results of a run, and what is needed to repeat it.
 
 use super::folder::{Outputs, sha256};
 use crate::failure::Failure;
-use crate::source::Prepared;
+use crate::prepared::Prepared;
 use crate::summary::RunReport;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 #[derive(Serialize)]
-struct Description<'a> {
+struct RunDescription<'a> {
     #[serde(flatten)]
     report: &'a RunReport,
     target: String,
@@ -31,7 +31,7 @@ pub(crate) fn write_description(
     report: &RunReport,
     digest_at_start: &str,
 ) -> Result<(), Failure> {
-    let description = Description {
+    let description = RunDescription {
         report,
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         features: if cfg!(feature = "parquet") { vec!["parquet"] } else { Vec::new() },

@@ -80,7 +80,8 @@ impl Outputs {
         }
         let mut file = OpenOptions::new().write(true).open(&temporary).map_err(fail)?;
         if file.metadata().map_err(fail)?.len() < length {
-            let message = format!("{} is shorter than its checkpoint says; run the scenario anew", temporary.display());
+            let message =
+                format!("{} is shorter than its checkpoint says; run the scenario again", temporary.display());
             return Err(Failure::Message(message));
         }
         file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0))).map_err(fail)?;

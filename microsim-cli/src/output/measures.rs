@@ -1,14 +1,14 @@
 //! `measures`: one row per sample, one column per measure.
 
 use super::Rhythm;
-use super::table::{Cell, Table};
+use super::table::{Cell, DataTable};
 use crate::failure::Failure;
 use crate::summary::rounded;
 use microsim_core::{Measure, World};
 
 #[derive(Debug)]
 pub(super) struct Measures {
-    pub table: Table,
+    pub table: DataTable,
     of: Vec<Measure>,
     rhythm: Rhythm,
     /// Events since the last row.
@@ -20,7 +20,7 @@ impl Measures {
         ["step", "time", "events"].into_iter().chain(of.iter().map(|measure| measure.name())).collect()
     }
 
-    pub(super) fn new(table: Table, of: &[Measure], rhythm: Rhythm) -> Self {
+    pub(super) fn new(table: DataTable, of: &[Measure], rhythm: Rhythm) -> Self {
         Self { table, of: of.to_vec(), rhythm, events: 0 }
     }
 

@@ -7,13 +7,13 @@ mod measures;
 mod moments;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod recorder;
+mod run_writer;
 mod table;
 mod trajectories;
 
 pub(crate) use description::write_description;
 pub(crate) use folder::{Outputs, PendingFile, hex};
-pub(crate) use recorder::{Progress, Recorder, check_formats};
+pub(crate) use run_writer::{FileProgress, RunWriter, check_formats};
 
 use microsim_core::World;
 

@@ -29,7 +29,7 @@ impl Serialize for Cell<'_> {
 
 /// One table in one or several formats.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct DataTable {
     columns: Vec<&'static str>,
     sinks: Vec<Sink>,
 }
@@ -40,7 +40,7 @@ struct Sink {
     file: PendingFile,
 }
 
-impl Table {
+impl DataTable {
     /// Begins a table, or continues one whose files had the lengths that `lengths` knows by name.
     pub(super) fn open(
         outputs: &Outputs,

@@ -1,7 +1,7 @@
 //! `trajectories`: place, speed and area of every organism over time.
 
 use super::Rhythm;
-use super::table::{Cell, Table};
+use super::table::{Cell, DataTable};
 use crate::failure::Failure;
 use crate::summary::{handle, rounded};
 use microsim_core::geometry::signed_area;
@@ -13,13 +13,13 @@ pub(super) const COLUMNS: [&str; 9] = ["step", "time", "organism", "kind", "name
 
 #[derive(Debug)]
 pub(super) struct Trajectories {
-    pub table: Table,
+    pub table: DataTable,
     names: Vec<(String, OrganismId)>,
     rhythm: Rhythm,
 }
 
 impl Trajectories {
-    pub(super) fn new(table: Table, names: &[(String, OrganismId)], rhythm: Rhythm) -> Self {
+    pub(super) fn new(table: DataTable, names: &[(String, OrganismId)], rhythm: Rhythm) -> Self {
         Self { table, names: names.to_vec(), rhythm }
     }
 

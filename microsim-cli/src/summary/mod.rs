@@ -1,4 +1,4 @@
-//! What a run amounts to, as JSON and as text.
+//! The summary of a run, as JSON and as text.
 
 mod statistics;
 mod table;
@@ -6,13 +6,13 @@ mod table;
 pub(crate) use statistics::{Spread, mean, median};
 pub(crate) use table::Table;
 
-use crate::simulate::Tally;
-use crate::source::Prepared;
+use crate::prepared::Prepared;
+use crate::tally::Tally;
 use microsim_core::{OrganismId, World};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What every run reports.
+/// The report of a run.
 #[derive(Debug, Serialize)]
 pub(crate) struct RunReport {
     pub version: &'static str,

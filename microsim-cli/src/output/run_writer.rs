@@ -1,0 +1,211 @@
+//! Writes the outputs of a scenario while it runs: tables, events, pictures and snapshots.
+
+use super::Rhythm;
+use super::events::Events;
+use super::folder::Outputs;
+use super::measures::Measures;
+use super::moments::Moments;
+use super::table::DataTable;
+use super::trajectories::{self, Trajectories};
+use crate::draw::png::Picture;
+use crate::draw::{self, svg};
+use crate::failure::Failure;
+use microsim_core::World;
+use microsim_core::scenario::{Built, OutputPlan, TableFormat};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+/// Longer side of the picture of the end, pixels.
+const FRAME: u32 = 1200;
+
+/// The files of a run and what they still wait for.
+#[derive(Debug)]
+pub(crate) struct RunWriter<'o> {
+    outputs: &'o Outputs,
+    measures: Option<Measures>,
+    trajectories: Option<Trajectories>,
+    events: Option<Events>,
+    moments: Option<Moments>,
+    /// Steps that are pictured.
+    frames: Vec<u64>,
+    frame_width: u32,
+    /// Steps of which the state is written.
+    snapshots: Vec<u64>,
+    /// Whether it must be possible to resume.
+    is_resumable: bool,
+}
+
+/// Lengths and names of the files that a run has written so far.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(crate) struct FileProgress {
+    /// Bytes of the files that grow.
+    lengths: BTreeMap<String, u64>,
+    /// Events that no row of the measures counts yet.
+    events: u64,
+    /// Files that were written whole.
+    whole: Vec<String>,
+}
+
+/// Refuses formats that this program was built without.
+pub(crate) fn check_formats(plan: &OutputPlan) -> Result<(), Failure> {
+    let mut wanted = plan.measures.formats.iter().chain(&plan.trajectories.formats);
+    if cfg!(feature = "parquet") || !wanted.any(|format| *format == TableFormat::Parquet) {
+        return Ok(());
+    }
+    let accepted = "accepted: csv, jsonl, or a build with --features parquet";
+    Err(Failure::Message(format!("output.formats: this program was built without Parquet, {accepted}")))
+}
+
+impl<'o> RunWriter<'o> {
+    /// Opens new files and writes the world before its first step.
+    pub(crate) fn start(outputs: &'o Outputs, plan: &OutputPlan, built: &Built, steps: u64) -> Result<Self, Failure> {
+        let mut writer = Self::open(outputs, plan, built, steps, &BTreeMap::new())?;
+        writer.look_at(&built.world)?;
+        Ok(writer)
+    }
+
+    /// Continues the files of a run from a checkpoint.
+    pub(crate) fn resume(
+        outputs: &'o Outputs,
+        plan: &OutputPlan,
+        built: &Built,
+        steps: u64,
+        progress: &FileProgress,
+    ) -> Result<Self, Failure> {
+        let mut writer = Self::open(outputs, plan, built, steps, &progress.lengths)?;
+        if let Some(measures) = &mut writer.measures {
+            *measures.pending_events() = progress.events;
+        }
+        outputs.note_written(&progress.whole);
+        if let Some(moments) = &mut writer.moments {
+            for step in moments.until(built.world.step_index()).collect::<Vec<_>>() {
+                let path = outputs.folder().join(moment_name(step));
+                let raw = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+                let broken = || Failure::Message(format!("{}: no picture; run the scenario again", path.display()));
+                moments.add(Picture::from_raw(&raw).ok_or_else(broken)?);
+            }
+        }
+        Ok(writer)
+    }
+
+    /// Flushes the files and returns their lengths and names.
+    pub(crate) fn progress(&mut self) -> Result<FileProgress, Failure> {
+        let mut lengths = BTreeMap::new();
+        for table in
+            self.measures.iter_mut().map(|m| &mut m.table).chain(self.trajectories.iter_mut().map(|t| &mut t.table))
+        {
+            lengths.extend(table.lengths()?);
+        }
+        if let Some(events) = &mut self.events {
+            lengths.insert(Events::FILE.to_owned(), events.0.sync()?);
+        }
+        let events = self.measures.as_mut().map_or(0, |measures| *measures.pending_events());
+        Ok(FileProgress { lengths, events, whole: self.outputs.names_written() })
+    }
+
+    /// Opens the files, at their `lengths` if the run is resumed.
+    fn open(
+        outputs: &'o Outputs,
+        plan: &OutputPlan,
+        built: &Built,
+        steps: u64,
+        lengths: &BTreeMap<String, u64>,
+    ) -> Result<Self, Failure> {
+        let world = &built.world;
+        let length = |name: &str| lengths.get(name).copied();
+        let open = |name: &str, formats: &[TableFormat], columns: Vec<&'static str>| {
+            let table = || DataTable::open(outputs, name, formats, columns, length);
+            (!formats.is_empty()).then(table).transpose()
+        };
+        let measures = open("measures", &plan.measures.formats, Measures::columns(&plan.measured))?;
+        let rhythm = Rhythm::every(plan.measures.every, world);
+        let measures = measures.map(|table| Measures::new(table, &plan.measured, rhythm));
+        let trajectories = open("trajectories", &plan.trajectories.formats, trajectories::COLUMNS.to_vec())?;
+        let rhythm = Rhythm::every(plan.trajectories.every, world);
+        let trajectories = trajectories.map(|table| Trajectories::new(table, &built.named, rhythm));
+        let events = match length(Events::FILE) {
+            _ if !plan.events => None,
+            Some(length) => Some(Events(outputs.resume(Events::FILE, length)?)),
+            None => Some(Events(outputs.file(Events::FILE)?)),
+        };
+        let moments = plan.pictures.then(|| Moments::new(steps));
+        let (frames, frame_width) = (frames(plan, world, steps), plan.frames.width);
+        let snapshots = plan.snapshots.iter().map(|&time| step_at(time, world)).collect();
+        let is_resumable = plan.checkpoint_every > 0;
+        Ok(Self { outputs, measures, trajectories, events, moments, frames, frame_width, snapshots, is_resumable })
+    }
+
+    /// Writes the outputs that are due after a step.
+    pub(crate) fn look_at(&mut self, world: &World) -> Result<(), Failure> {
+        let step = world.step_index();
+        let moment = self.moments.as_mut().and_then(|moments| moments.look_at(world));
+        if let Some(picture) = moment.filter(|_| self.is_resumable) {
+            self.outputs.replace(&moment_name(step), &picture.to_raw())?;
+        }
+        if let Some(events) = &mut self.events {
+            events.look_at(world)?;
+        }
+        if let Some(measures) = &mut self.measures {
+            measures.look_at(world)?;
+        }
+        if let Some(trajectories) = &mut self.trajectories {
+            trajectories.look_at(world)?;
+        }
+        if self.frames.binary_search(&step).is_ok() {
+            let picture = Picture::of(&draw::draw(world), self.frame_width);
+            self.outputs.write(&format!("frames/{step:08}.png"), &picture.encoded()?)?;
+        }
+        if self.snapshots.contains(&step) {
+            let bytes = world.to_snapshot();
+            let bytes = bytes.map_err(|error| Failure::Message(format!("cannot write a snapshot: {error}")))?;
+            self.outputs.write(&format!("snapshots/{step:08}.snapshot"), &bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Leaves all files so that another process can continue them.
+    pub(crate) fn leave(self) -> Result<(), Failure> {
+        self.measures.map_or(Ok(()), |measures| measures.table.leave())?;
+        self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.leave())?;
+        self.events.map_or(Ok(()), |events| events.0.leave())
+    }
+
+    /// Gives all files their names. Returns those that only an unfinished run needs, for [`crate::checkpoint::remove`].
+    pub(crate) fn finish(self, world: &World) -> Result<Vec<PathBuf>, Failure> {
+        let outputs = self.outputs;
+        self.measures.map_or(Ok(()), |measures| measures.table.finish(outputs))?;
+        self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.finish(outputs))?;
+        self.events.map_or(Ok(()), |events| outputs.finish(events.0))?;
+        let Some(moments) = self.moments else {
+            return Ok(Vec::new());
+        };
+        let page = draw::draw(world);
+        outputs.write("frame.svg", svg::write(&page, FRAME).as_bytes())?;
+        outputs.write("frame.png", &Picture::of(&page, FRAME).encoded()?)?;
+        outputs.write("frames.png", &moments.sheet().encoded()?)?;
+        let waiting = moments.until(u64::MAX).filter(|_| self.is_resumable);
+        Ok(waiting.map(|step| outputs.folder().join(moment_name(step))).collect())
+    }
+}
+
+/// Where the picture of a moment waits for the sheet.
+fn moment_name(step: u64) -> String {
+    format!(".moment-{step:08}")
+}
+
+fn step_at(time: f32, world: &World) -> u64 {
+    (f64::from(time) / f64::from(world.config().dt)).round() as u64
+}
+
+/// Steps that are pictured, in order.
+fn frames(plan: &OutputPlan, world: &World, steps: u64) -> Vec<u64> {
+    let mut frames: Vec<u64> = plan.frames.at.iter().map(|&time| step_at(time, world)).collect();
+    if plan.frames.every > 0.0 {
+        frames.extend((0..=steps).step_by(step_at(plan.frames.every, world).max(1) as usize));
+    }
+    frames.sort_unstable();
+    frames.dedup();
+    frames
+}

@@ -1,0 +1,115 @@
+//! `check`: whether a scenario can be run.
+
+use crate::console::stdout;
+use crate::diagnostics::ScenarioText;
+use crate::failure::Failure;
+use crate::prepared::{Prepared, prepare};
+use crate::scenario_args::ScenarioArgs;
+use microsim_core::Census;
+use microsim_core::scenario::{Diagnostic, Diagnostics};
+use serde::Serialize;
+use std::io::Write;
+
+/// `check`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "All problems are shown at once, each with its line and what would be accepted.")]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub scenario: ScenarioArgs,
+    /// For people, or one JSON object on stdout
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = AnswerFormat::Text)]
+    pub format: AnswerFormat,
+}
+
+/// How the answer is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum AnswerFormat {
+    Text,
+    Json,
+}
+
+/// Says whether a scenario can be run, and what would be in it.
+pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
+    match (prepare(&args.scenario), args.format) {
+        (Ok(prepared), AnswerFormat::Text) => print_summary(&prepared),
+        (Ok(prepared), AnswerFormat::Json) => print_json(&Answer::sound(&prepared)),
+        (Err(Failure::Scenario(source, problems)), AnswerFormat::Json) => {
+            print_json(&Answer::refused(&source, &problems))?;
+            Err(Failure::Reported)
+        }
+        (Err(failure), _) => Err(failure),
+    }
+}
+
+fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
+    let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
+    let name = prepared.scenario.name();
+    let mut out = stdout();
+    writeln!(
+        out,
+        "ok: {name}, {organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints"
+    )?;
+    Ok(out.flush()?)
+}
+
+fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
+    let mut out = stdout();
+    serde_json::to_writer_pretty(&mut out, answer).map_err(std::io::Error::from)?;
+    writeln!(out)?;
+    Ok(out.flush()?)
+}
+
+/// What `--format json` prints.
+#[derive(Serialize)]
+struct Answer<'a> {
+    ok: bool,
+    file: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scenario: Option<ScenarioSummary<'a>>,
+    problems: Vec<Problem<'a>>,
+}
+
+#[derive(Serialize)]
+struct ScenarioSummary<'a> {
+    name: &'a str,
+    seed: u64,
+    duration: f32,
+    organisms: usize,
+    bodies: usize,
+    particles: usize,
+    constraints: usize,
+}
+
+#[derive(Serialize)]
+struct Problem<'a> {
+    /// From 1; absent when it came from the command line.
+    line: Option<usize>,
+    /// In characters, from 1.
+    column: Option<usize>,
+    /// First byte of the value and the one after its last.
+    span: Option<[usize; 2]>,
+    field: &'a str,
+    message: &'a str,
+    accepted: Option<&'a str>,
+}
+
+impl<'a> Answer<'a> {
+    fn sound(prepared: &'a Prepared) -> Self {
+        let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
+        let (name, seed, duration) = (prepared.scenario.name(), prepared.scenario.seed(), prepared.scenario.duration());
+        let scenario = ScenarioSummary { name, seed, duration, organisms, bodies, particles, constraints };
+        Self { ok: true, file: prepared.source.origin(), scenario: Some(scenario), problems: Vec::new() }
+    }
+
+    fn refused(source: &'a ScenarioText, problems: &'a Diagnostics) -> Self {
+        let problem = |problem: &'a Diagnostic| Problem {
+            line: problem.line,
+            column: problem.column,
+            span: problem.span.as_ref().map(|span| [span.start, span.end]),
+            field: &problem.field,
+            message: &problem.message,
+            accepted: problem.accepted.as_deref(),
+        };
+        Self { ok: false, file: source.origin(), scenario: None, problems: problems.iter().map(problem).collect() }
+    }
+}

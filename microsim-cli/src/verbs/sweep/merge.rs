@@ -1,0 +1,110 @@
+//! `sweep status` and `sweep merge`.
+
+use super::store::ResultStore;
+use super::task::{Task, TaskOutcome};
+use super::{MergeArgs, StatusArgs, plan};
+use crate::console::{Console, stdout};
+use crate::failure::Failure;
+use crate::output::Outputs;
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::Path;
+
+/// Prints the keys of missing tasks.
+pub(super) fn status(args: &StatusArgs, console: &Console) -> Result<(), Failure> {
+    let tasks = plan::read(&args.plan)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
+    let broken = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
+    console.note(&format!("{} of {} tasks done, {broken} with failures", outcomes.len(), tasks.len()));
+    let mut out = stdout();
+    missing.iter().try_for_each(|task| writeln!(out, "{}", task.key))?;
+    out.flush()?;
+    if missing.is_empty() { Ok(()) } else { Err(Failure::Negative) }
+}
+
+/// Writes the table.
+pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> {
+    let is_csv = match args.output.extension().and_then(|ending| ending.to_str()) {
+        Some("csv") => true,
+        Some("jsonl") => false,
+        _ if args.output == Path::new("-") => false,
+        _ => {
+            let message = format!("-o {}: accepted: a name that ends in .csv or .jsonl, or -", args.output.display());
+            return Err(Failure::Message(message));
+        }
+    };
+    let tasks = plan::read(&args.plan)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
+    if !missing.is_empty() {
+        let keys: Vec<&str> = missing.iter().map(|task| task.key.as_str()).collect();
+        let what = format!("{} of {} results are missing:\n{}", missing.len(), tasks.len(), keys.join("\n"));
+        if !args.partial {
+            let hint = "run `microsim sweep run` again, or write the others with --partial";
+            return Err(Failure::Broken(vec![what, hint.to_owned()]));
+        }
+        console.note(&what);
+    }
+    let text = if is_csv { csv(&outcomes)? } else { lines(&outcomes)? };
+    if args.output == Path::new("-") {
+        let mut out = stdout();
+        out.write_all(&text)?;
+        return Ok(out.flush()?);
+    }
+    let (outputs, name) = Outputs::beside(&args.output)?;
+    outputs.write(&name, &text)?;
+    console.note(&format!("wrote {}: {} results", args.output.display(), outcomes.len()));
+    Ok(())
+}
+
+/// Results in the order of the plan, and tasks without one.
+fn gather<'a>(tasks: &'a [Task], store: &ResultStore) -> Result<(Vec<TaskOutcome>, Vec<&'a Task>), Failure> {
+    let (mut outcomes, mut missing) = (Vec::new(), Vec::new());
+    for task in tasks {
+        match store.get(task)? {
+            Some(outcome) => outcomes.push(outcome),
+            None => missing.push(task),
+        }
+    }
+    Ok((outcomes, missing))
+}
+
+fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
+    let mut text = Vec::new();
+    for outcome in outcomes {
+        serde_json::to_writer(&mut text, outcome).map_err(std::io::Error::from)?;
+        text.push(b'\n');
+    }
+    Ok(text)
+}
+
+fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
+    fn names<'a>(of: impl Iterator<Item = &'a String>) -> BTreeSet<&'a str> {
+        of.map(String::as_str).collect()
+    }
+    let set = names(outcomes.iter().flat_map(|outcome| outcome.set.keys()));
+    let events = names(outcomes.iter().flat_map(|outcome| outcome.events.keys()));
+    let measures = names(outcomes.iter().flat_map(|outcome| outcome.measures.keys()));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut header: Vec<String> = ["key", "scenario", "seed"].map(str::to_owned).into();
+    header.extend(set.iter().map(|name| (*name).to_owned()));
+    header.extend(["steps", "simulated_seconds", "digest", "failures"].map(str::to_owned));
+    header.extend(events.iter().flat_map(|name| [format!("events.{name}"), format!("first.{name}")]));
+    header.extend(measures.iter().map(|name| (*name).to_owned()));
+    let mut rows = vec![header];
+    for outcome in outcomes {
+        let mut row = vec![outcome.key.clone(), outcome.scenario.clone(), outcome.seed.to_string()];
+        row.extend(set.iter().map(|name| outcome.set.get(*name).cloned().unwrap_or_default()));
+        let (time, failures) = (outcome.simulated_seconds.to_string(), outcome.failures.join("; "));
+        row.extend([outcome.steps.to_string(), time, outcome.digest.clone(), failures]);
+        for name in &events {
+            row.push(outcome.events.get(*name).unwrap_or(&0).to_string());
+            row.push(outcome.first.get(*name).map_or(String::new(), f64::to_string));
+        }
+        row.extend(measures.iter().map(|name| outcome.measures.get(*name).map_or(String::new(), f64::to_string)));
+        rows.push(row);
+    }
+    let written = rows.iter().try_for_each(|row| writer.write_record(row));
+    let fail = |error: &dyn std::fmt::Display| Failure::Message(format!("cannot write the table: {error}"));
+    written.map_err(|error| fail(&error))?;
+    writer.into_inner().map_err(|error| fail(&error))
+}
