@@ -14,9 +14,9 @@ pub(crate) const FILE: &str = "checkpoint";
 /// What a checkpoint holds beside the run itself.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct CheckpointHeader {
-    /// Where the scenario was from.
+    /// Origin of the scenario.
     pub source: String,
-    /// Steps that the run takes in all.
+    /// Total number of steps.
     pub steps: u64,
     /// Lengths and names of its files.
     pub progress: FileProgress,
@@ -66,7 +66,7 @@ pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
     bytes.starts_with(b"{").then(|| &bytes[end + 1..])
 }
 
-/// Removes what only an unfinished run needs: the checkpoint first, which cannot be resumed without the `others`.
+/// Removes the files of an unfinished run: the checkpoint first, which cannot be resumed without the `others`.
 pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
     for path in std::iter::once(folder.join(FILE)).chain(others) {
         // It does no harm where it cannot be removed: `run.json` says that the run is finished.

@@ -1,7 +1,8 @@
-//! What goes to the terminal beside the results: notes, progress, and whether to use colour.
+//! Stdout for results, stderr for notes, errors and progress, and whether to use colour.
 
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 
 /// How to talk to the user on stderr.
@@ -34,7 +35,7 @@ impl Console {
         }
     }
 
-    /// One line for who asked for more.
+    /// One line for `--verbose`.
     pub(crate) fn detail(self, text: impl FnOnce() -> String) {
         if self.is_verbose {
             let _ = writeln!(io::stderr(), "{}", text());
@@ -62,4 +63,18 @@ impl Console {
 /// Locked and buffered stdout: the only way to it, so that a closed pipe is an error and no panic.
 pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
     BufWriter::new(io::stdout().lock())
+}
+
+/// Writes bytes to stdout.
+pub(crate) fn print(bytes: &[u8]) -> io::Result<()> {
+    let mut out = stdout();
+    out.write_all(bytes)?;
+    out.flush()
+}
+
+/// Writes a value to stdout as one line of JSON.
+pub(crate) fn print_json(value: &impl Serialize) -> io::Result<()> {
+    let mut line = serde_json::to_vec(value)?;
+    line.push(b'\n');
+    print(&line)
 }

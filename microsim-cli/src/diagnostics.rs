@@ -1,11 +1,11 @@
-//! Shows what is wrong with a scenario, with the lines that it is about.
+//! Shows the problems of a scenario with the lines that cause them.
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use std::ops::Range;
 
-/// The text of a scenario and where it is from.
+/// The text of a scenario and its origin.
 #[derive(Clone, Debug)]
 pub(crate) struct ScenarioText {
     origin: String,
@@ -22,7 +22,6 @@ impl ScenarioText {
         &self.text
     }
 
-    /// A text that was handed over by something that knows where it is from.
     pub(crate) fn new(origin: String, text: String) -> Self {
         Self { origin, text }
     }

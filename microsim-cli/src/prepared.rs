@@ -17,7 +17,7 @@ pub(crate) struct Prepared {
     pub source: ScenarioText,
     pub scenario: Scenario,
     pub built: Built,
-    /// What the command line changes, `key=value`.
+    /// Changes from the command line, `key=value`.
     pub overrides: Vec<(String, String)>,
 }
 
@@ -36,7 +36,7 @@ impl Prepared {
         if name.is_empty() { self.source.origin() } else { name }
     }
 
-    /// Steps in so many simulated seconds; without a number, in the scenario's duration.
+    /// Steps in `seconds` of simulated time; `None` is the scenario's duration.
     pub(crate) fn steps_in(&self, seconds: Option<f64>) -> u64 {
         let seconds = seconds.unwrap_or(f64::from(self.scenario.duration()));
         (seconds / f64::from(self.scenario.config().dt)).round() as u64

@@ -67,7 +67,7 @@ impl RecordArgs {
 }
 
 impl ReplayWriter {
-    /// The file appears with its header: whoever finds it can read it.
+    /// The file appears with its header, so that it can be read at any time.
     fn start(path: &Path, origin: Origin, interval: NonZeroU32) -> Result<Self, Failure> {
         let (recorder, header) = Recorder::new(origin, interval);
         let (outputs, name) = Outputs::beside(path)?;

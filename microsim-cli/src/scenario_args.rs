@@ -2,7 +2,7 @@
 
 use crate::value_parser::{key_value, whole};
 
-/// Which scenario, and what to change in it.
+/// A scenario and the changes to it.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ScenarioArgs {
     /// A built-in scenario, a TOML file, or `-` for stdin
@@ -12,7 +12,7 @@ pub(crate) struct ScenarioArgs {
     pub changes: Changes,
 }
 
-/// What to change in a scenario.
+/// Changes to a scenario.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Changes {
     /// Seed of all random numbers, in place of the scenario's own

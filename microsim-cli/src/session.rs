@@ -1,7 +1,7 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
 use crate::checkpoint::{self, CheckpointHeader};
-use crate::console::{Console, stdout};
+use crate::console::{Console, print_json, stdout};
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -13,23 +13,22 @@ use crate::tally::Tally;
 use microsim_core::World;
 use microsim_core::scenario::{Built, OutputPlan};
 use microsim_core::snapshot::Checkpoint;
-use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A run that is under way.
 #[derive(Debug)]
 pub(crate) struct Session<'o> {
-    /// What is run, and the world as it is now.
+    /// The scenario and its world at the current step.
     prepared: Prepared,
-    /// Steps that it takes in all.
+    /// Total number of steps.
     steps: u64,
     outputs: Option<&'o Outputs>,
     writer: Option<RunWriter<'o>>,
     tally: Tally,
     /// Whether the whole state is checked after every step.
     validates: bool,
-    /// The first check that broke, or what was wrong with the state.
+    /// The first failed check or violation of the state.
     broken: Option<String>,
     digest_at_start: String,
     replay: Option<ReplayWriter>,
@@ -159,12 +158,12 @@ impl<'o> Session<'o> {
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }
-        print(&report, is_json)?;
+        if is_json { print_json(&report) } else { report.table().print(stdout()) }?;
         verdict(&report, self.prepared.name())
     }
 }
 
-/// What is wrong with the state, if anything is.
+/// The first violation of the state, if any.
 fn violation(world: &World) -> Option<String> {
     world.validate().err().map(|violation| format!("after step {}: {violation}", world.step_index()))
 }
@@ -192,14 +191,4 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     }
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
-}
-
-fn print(report: &RunReport, is_json: bool) -> Result<(), Failure> {
-    let mut out = stdout();
-    if is_json {
-        serde_json::to_writer(&mut out, report).map_err(std::io::Error::from)?;
-        writeln!(out)?;
-        return Ok(out.flush()?);
-    }
-    Ok(report.table().print(out)?)
 }

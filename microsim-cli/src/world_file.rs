@@ -9,7 +9,7 @@ use microsim_core::snapshot::{Checkpoint, SnapshotError};
 use std::fs;
 use std::path::Path;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Debug)]
 pub(crate) enum WorldFile {
     World(Box<World>),

@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A folder that was found fit to write to.
+/// A folder that can be written to.
 #[derive(Debug)]
 pub(crate) struct Outputs {
     folder: PathBuf,
@@ -71,7 +71,7 @@ impl Outputs {
         Ok(PendingFile { writer: Some(BufWriter::new(file)), temporary, path, name: name.to_owned() })
     }
 
-    /// Continues a file after its first so many bytes, whether it was finished or not.
+    /// Continues a file after its first `length` bytes, whether it was finished or not.
     pub(crate) fn resume(&self, name: &str, length: u64) -> Result<PendingFile, Failure> {
         let (path, temporary) = self.names_of(name);
         let fail = |error: io::Error| Failure::file("continue", &path, &error);
@@ -129,7 +129,7 @@ impl Outputs {
         self.names().extend_from_slice(names);
     }
 
-    /// The files that were finished, in the order of their names, with what `digest` says of each.
+    /// The files that were finished, in the order of their names, with the `digest` of each.
     pub(crate) fn written<T>(&self, digest: impl Fn(&Path) -> Result<T, Failure>) -> Result<Vec<(String, T)>, Failure> {
         let mut names = self.names().clone();
         names.sort();

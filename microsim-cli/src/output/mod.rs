@@ -1,4 +1,4 @@
-//! What a run leaves behind: tables, events, pictures, and what is needed to run it again.
+//! The output files of a run: tables, events, pictures, snapshots and `run.json`.
 
 mod description;
 mod events;
@@ -22,7 +22,7 @@ use microsim_core::World;
 struct Rhythm(u64);
 
 impl Rhythm {
-    /// Every so many seconds, to the nearest step; 0 for every step.
+    /// Every `seconds`, to the nearest step; 0 for every step.
     fn every(seconds: f32, world: &World) -> Self {
         Self(((f64::from(seconds) / f64::from(world.config().dt)).round() as u64).max(1))
     }

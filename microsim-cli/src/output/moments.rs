@@ -1,4 +1,4 @@
-//! Which moments of a run are pictured, and their sheet.
+//! Pictures of evenly spaced moments of a run, on one sheet.
 
 use crate::draw;
 use crate::draw::png::Picture;
@@ -17,7 +17,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Of a run of so many steps.
+    /// The moments of a run of `steps` steps.
     pub(crate) fn new(steps: u64) -> Self {
         let last = MOMENTS - 1;
         let at = |k: u64| (u128::from(k) * u128::from(steps) / u128::from(last)) as u64;

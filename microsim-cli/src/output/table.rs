@@ -97,7 +97,7 @@ impl DataTable {
     }
 }
 
-/// Text is names, which need no quotes, or has none of what would need them.
+/// Text is names, none of which needs quotes.
 fn write_csv(file: &mut PendingFile, cells: &[Cell<'_>]) -> io::Result<()> {
     for (index, cell) in cells.iter().enumerate() {
         if index > 0 {

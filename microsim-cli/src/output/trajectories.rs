@@ -53,7 +53,7 @@ fn speed(organism: OrganismView<'_>) -> f32 {
     if count > 0.0 { (sum / count).length() } else { 0.0 }
 }
 
-/// Within its outline; for what has none, the area that it was spawned with.
+/// The area within its outline; without one, the area at its spawn.
 fn area(organism: OrganismView<'_>) -> f32 {
     let outline: Vec<Vec2> = organism.outline().collect();
     if outline.len() < 3 { organism.spawn_area() } else { signed_area(&outline).abs() }

@@ -41,7 +41,7 @@ pub(crate) struct RunReport {
 }
 
 impl RunReport {
-    /// Of the world as it is now, after the steps of the tally.
+    /// The report of a world after the steps of the tally.
     pub(crate) fn new(prepared: &Prepared, world: &World, tally: Tally) -> Self {
         let census = world.census();
         Self {

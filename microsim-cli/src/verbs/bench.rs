@@ -1,6 +1,6 @@
 //! `bench`: the time of steps and their phases, and the errors of the constraints.
 
-use crate::console::{Console, stdout};
+use crate::console::{Console, print_json, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::prepared::prepare;
@@ -13,7 +13,6 @@ use microsim_core::scenario::{Built, Script};
 use microsim_core::{Inputs, Phase, Quality, World};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::time::{Duration, Instant};
 
 /// `bench`.
@@ -36,7 +35,7 @@ pub(crate) struct BenchArgs {
     pub json: bool,
 }
 
-/// What a benchmark reports beyond a run.
+/// The report of a benchmark: that of a run, and more.
 #[derive(Debug, Serialize)]
 struct BenchReport {
     #[serde(flatten)]
@@ -177,13 +176,7 @@ impl QualityReport {
 
 impl BenchReport {
     fn print(&self, is_json: bool) -> Result<(), Failure> {
-        let mut out = stdout();
-        if is_json {
-            serde_json::to_writer(&mut out, self).map_err(std::io::Error::from)?;
-            writeln!(out)?;
-            return Ok(out.flush()?);
-        }
-        Ok(self.table().print(out)?)
+        Ok(if is_json { print_json(self) } else { self.table().print(stdout()) }?)
     }
 
     fn table(&self) -> Table {

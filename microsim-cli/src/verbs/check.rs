@@ -28,7 +28,7 @@ pub(crate) enum AnswerFormat {
     Json,
 }
 
-/// Says whether a scenario can be run, and what would be in it.
+/// Checks a scenario and prints its size or its problems.
 pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     match (prepare(&args.scenario), args.format) {
         (Ok(prepared), AnswerFormat::Text) => print_summary(&prepared),
@@ -59,7 +59,7 @@ fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
-/// What `--format json` prints.
+/// The JSON of `--format json`.
 #[derive(Serialize)]
 struct Answer<'a> {
     ok: bool,

@@ -22,7 +22,7 @@ pub(crate) struct InspectArgs {
     pub file: PathBuf,
 }
 
-/// Says what is in a file.
+/// Prints the content of a file.
 pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     let mut table = Table::default();
     match WorldFile::read(&args.file)? {

@@ -1,12 +1,11 @@
 //! `completions` and `man`: shell completions and manual pages.
 
-use crate::console::{Console, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// `completions`.
@@ -37,9 +36,7 @@ pub(crate) fn completions(args: &CompletionsArgs, mut program: Command) -> Resul
     // The generator panics where it cannot write, so it writes to memory.
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut program, "microsim", &mut text);
-    let mut out = stdout();
-    out.write_all(&text)?;
-    Ok(out.flush()?)
+    Ok(print(&text)?)
 }
 
 /// Prints or writes manual pages.
@@ -61,9 +58,7 @@ pub(crate) fn man(args: &ManArgs, mut program: Command, console: &Console) -> Re
         };
         command = found;
     }
-    let mut out = stdout();
-    out.write_all(&page(command)?)?;
-    Ok(out.flush()?)
+    Ok(print(&page(command)?)?)
 }
 
 /// Pages of a command and of all below it, by name.

@@ -18,7 +18,7 @@ mod sweep;
 use crate::console::Console;
 use crate::failure::Failure;
 
-/// What to do.
+/// A verb and its arguments.
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum Verb {
     /// Write a commented scenario to start from
@@ -54,7 +54,7 @@ pub(crate) enum Verb {
     Man(manual::ManArgs),
 }
 
-/// Does what a verb asks for. `program` is the whole command line, for its completions and manual pages.
+/// Performs a verb. `program` is the whole command line, for its completions and manual pages.
 pub(crate) fn perform(verb: &Verb, program: clap::Command, console: &Console) -> Result<(), Failure> {
     match verb {
         Verb::New(args) => new::new(args, console),

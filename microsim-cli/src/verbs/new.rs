@@ -1,16 +1,15 @@
 //! `new`: a scenario to start from.
 
 use super::schema;
-use crate::console::{Console, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use microsim_core::scenario::{builtin, builtins};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The file, each table explained.
 const STARTER: &str = include_str!("starter.toml");
-/// What the starter calls its schema.
+/// File name of the schema.
 const SCHEMA: &str = "scenario.schema.json";
 
 /// `new`.
@@ -35,9 +34,7 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<(), Failure> {
         Some(name) => format!("#:schema ./{SCHEMA}\n{}", text_of(name)?),
     };
     if args.file == Path::new("-") {
-        let mut out = stdout();
-        out.write_all(text.as_bytes())?;
-        return Ok(out.flush()?);
+        return Ok(print(text.as_bytes())?);
     }
     if args.file.exists() && !args.force {
         let message = format!("{} exists, accepted: a new file, or any with --force", args.file.display());

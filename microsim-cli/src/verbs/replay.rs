@@ -1,6 +1,6 @@
 //! `replay`: repeats a recorded run and compares it with the record.
 
-use crate::console::{Console, stdout};
+use crate::console::{Console, print_json, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::world_file::{in_words, lost, play, read_replay};
@@ -75,15 +75,13 @@ fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure>
         digest: format!("{:016x}", world.digest()),
         is_complete: replay.ending() == Ending::Complete,
     };
-    let mut out = stdout();
     if is_json {
-        serde_json::to_writer(&mut out, &report).map_err(std::io::Error::from)?;
-        writeln!(out)?;
-    } else {
-        let ReplayReport { steps, simulated_seconds, seed, digest, .. } = &report;
-        let every = replay.interval();
-        writeln!(out, "{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded")?;
-        writeln!(out, "digest {digest}, compared every {every} steps")?;
+        return Ok(print_json(&report)?);
     }
+    let ReplayReport { steps, simulated_seconds, seed, digest, .. } = &report;
+    let every = replay.interval();
+    let mut out = stdout();
+    writeln!(out, "{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded")?;
+    writeln!(out, "digest {digest}, compared every {every} steps")?;
     Ok(out.flush()?)
 }

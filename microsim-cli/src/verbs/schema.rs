@@ -1,19 +1,16 @@
 //! `schema`: the JSON Schema of scenario files, made from the descriptions of their fields.
 
-use crate::console::stdout;
+use crate::console::print;
 use crate::failure::Failure;
 use microsim_core::scenario::{Description, Entry, ValueType, describe};
 use serde_json::{Map, Value, json};
-use std::io::Write;
 
 /// Names of prototypes, controllers and parameters.
 const NAME: &str = "^[A-Za-z0-9_-]{1,64}$";
 
 /// Prints the schema.
 pub(crate) fn schema() -> Result<(), Failure> {
-    let mut out = stdout();
-    out.write_all(text().as_bytes())?;
-    Ok(out.flush()?)
+    Ok(print(text().as_bytes())?)
 }
 
 /// The schema as a file.
@@ -77,7 +74,7 @@ fn value(field: &Description, value_type: &ValueType, default: Option<&str>) -> 
     if !accepted.is_empty() {
         schema["description"] = format!("{} Accepted: {accepted}.", field.words).into();
     }
-    // What a file would say is JSON too.
+    // Values in TOML are JSON too.
     if let Some(default) = default.and_then(|text| serde_json::from_str::<Value>(text).ok()) {
         schema["default"] = default;
     }

@@ -122,7 +122,7 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     Ok(())
 }
 
-/// What is rendered.
+/// The pictures to render.
 struct RenderPlan {
     moments: Vec<f64>,
     fps: f64,
@@ -209,7 +209,7 @@ fn stop_if_asked() -> Result<(), Failure> {
     if interrupt::is_asked() { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
-/// Moments from one time to another, so many per second.
+/// Moments from one time to another, `fps` per second.
 fn moments(from: f64, to: f64, fps: f64) -> Result<Vec<f64>, Failure> {
     let count = ((to - from) * fps + 1e-6).floor() + 1.0;
     if !(to >= from && count <= MOST_FRAMES) {

@@ -1,4 +1,4 @@
-//! What the command line says about a picture.
+//! Values of `render`'s options.
 
 use crate::failure::Failure;
 use crate::prepared::Prepared;
@@ -101,7 +101,7 @@ impl FromStr for ViewSpec {
 }
 
 impl ViewSpec {
-    /// What is seen of a world now.
+    /// The field of view in a world.
     pub(crate) fn field(&self, world: &World, prepared: &Prepared, size: Size) -> Result<Field, Failure> {
         let Size(pixels) = size;
         let room = world.config().size;

@@ -1,4 +1,4 @@
-//! What is painted over a picture: chemicals, and the scale bar in a corner.
+//! Overlays of a picture: chemicals, and the scale bar in a corner.
 
 use crate::draw::{caption, png::Picture};
 use microsim_core::World;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 const WIDTH: f64 = 420.0;
 const HEIGHT: f64 = 190.0;
-/// Room for what is written beside the axes.
+/// Margin for the labels of the axes.
 const LEFT: f64 = 48.0;
 const RIGHT: f64 = 10.0;
 const TOP: f64 = 8.0;
@@ -86,7 +86,7 @@ pub(super) fn rows(kinds: &[(String, Vec<f64>)], end: f64) -> String {
     for (index, (name, times)) in kinds.iter().enumerate() {
         let y = index as f64 * step + 4.0;
         let _ = write!(svg, "<text x=\"0\" y=\"{:.1}\">{} ({})</text>", y + 12.0, escape(name), times.len());
-        // Those on the same pixel are one mark.
+        // Marks on the same pixel are one.
         let mut places: Vec<i64> = times.iter().map(|time| x.place(*time).round() as i64).collect();
         places.dedup();
         let marks: String = places.iter().map(|place| format!("M{place} {y:.0}v{:.0}", step - 8.0)).collect();
@@ -125,7 +125,7 @@ pub(super) fn lines(series: &[(&str, Vec<Point>)], x_name: &str) -> String {
     frame(&x, &y, x_name, &content)
 }
 
-/// What colours mean.
+/// The legend of colours.
 pub(super) fn legend(names: &[(&str, &str)]) -> String {
     let entry = |(colour, name): &(&str, &str)| format!("<span style=\"color:{colour}\">■</span> {} ", escape(name));
     format!("<p>{}</p>", names.iter().map(entry).collect::<String>())

@@ -39,7 +39,7 @@ impl Columns {
         self.rows.iter().map(|row| at.and_then(|at| row.get(at)).map_or("", String::as_str)).collect()
     }
 
-    /// One column's numbers; not a number where there is none.
+    /// One column's numbers; NaN where there is none.
     pub(super) fn numbers(&self, name: &str) -> Vec<f64> {
         self.texts(name).into_iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
     }

@@ -8,10 +8,9 @@ mod run_page;
 mod scale;
 mod sweep_page;
 
-use crate::console::{Console, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// `report`.
@@ -35,9 +34,7 @@ pub(crate) struct ReportArgs {
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<(), Failure> {
     let page = if args.input.is_dir() { run_page::make(&args.input)? } else { sweep_page::make(&args.input)? };
     if args.output == Path::new("-") {
-        let mut out = stdout();
-        out.write_all(page.as_bytes())?;
-        return Ok(out.flush()?);
+        return Ok(print(page.as_bytes())?);
     }
     let (outputs, name) = Outputs::beside(&args.output)?;
     outputs.write(&name, page.as_bytes())?;

@@ -20,14 +20,14 @@ impl Page {
         self.body.push('\n');
     }
 
-    /// A heading and what stands below it; nothing if there is nothing.
+    /// A section: a heading and its content; none if the content is empty.
     pub(super) fn section(&mut self, heading: &str, html: &str) {
         if !html.is_empty() {
             self.push(&format!("<section><h2>{}</h2>{html}</section>", escape(heading)));
         }
     }
 
-    /// What went wrong, to be seen first.
+    /// Failures, above everything else.
     pub(super) fn warning(&mut self, lines: &[String]) {
         if !lines.is_empty() {
             let items: String = lines.iter().map(|line| format!("<li>{}</li>", escape(line))).collect();

@@ -16,7 +16,7 @@ const FIXED: [&str; 2] = ["step", "time"];
 /// Most organisms that are drawn one by one.
 const MOST: usize = 60;
 
-/// The page of what is in a folder.
+/// The page of a run's folder.
 pub(super) fn make(folder: &Path) -> Result<String, Failure> {
     let path = folder.join("run.json");
     let Some(bytes) = data::bytes(&path)? else {
@@ -139,7 +139,7 @@ fn step_times(run: &Value) -> String {
     }
 }
 
-/// What the summary of the run says, one row each.
+/// The rows of the run's summary.
 fn rows(run: &Value) -> Vec<(String, String)> {
     let names = [
         "digest",

@@ -37,7 +37,7 @@ pub(super) fn make(path: &Path) -> Result<String, Failure> {
     Ok(page.finish(&title))
 }
 
-/// What was varied, and its values in the order of the plan.
+/// The varied parameters, and their values in the order of the plan.
 fn axes(outcomes: &[TaskOutcome]) -> Vec<(String, Vec<String>)> {
     let mut axes: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (name, value) in outcomes.iter().flat_map(|outcome| &outcome.set) {
@@ -59,7 +59,7 @@ fn broken(outcomes: &[TaskOutcome]) -> Vec<String> {
     [format!("{count} of {} tasks broke what must hold", outcomes.len())].into_iter().chain(example).collect()
 }
 
-/// Everything that differs between tasks; not a number where a task has none.
+/// All results that differ between tasks; NaN where a task has none.
 fn quantities(outcomes: &[TaskOutcome]) -> Vec<Quantity> {
     let names = |of: fn(&TaskOutcome) -> Vec<&String>| -> BTreeSet<&String> { outcomes.iter().flat_map(of).collect() };
     let mut all: Vec<Quantity> = Vec::new();
@@ -82,7 +82,7 @@ fn quantities(outcomes: &[TaskOutcome]) -> Vec<Quantity> {
     all
 }
 
-/// Means over all seeds, by what was varied.
+/// Means over all seeds, by the varied parameters.
 fn picture((name, values): &Quantity, outcomes: &[TaskOutcome], axes: &[(String, Vec<String>)]) -> String {
     let of = |outcome: &TaskOutcome, axis: &str| outcome.set.get(axis).cloned().unwrap_or_default();
     let finite = || outcomes.iter().zip(values.iter().copied()).filter(|(_, value)| value.is_finite());

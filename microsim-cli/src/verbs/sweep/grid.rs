@@ -1,4 +1,4 @@
-//! The values that a sweep goes through.
+//! The axes and seeds of a sweep.
 
 use std::str::FromStr;
 
@@ -65,7 +65,7 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
     Ok(Some((low..=high).map(|value| value.to_string()).collect()))
 }
 
-/// To nine digits: what is left of a division is noise. Whole numbers without a fraction, so that they can be counts.
+/// To nine decimals, which drops the rounding errors of divisions. Whole numbers without a fraction, to serve as counts.
 fn shortest(value: f64) -> String {
     format!("{value:.9}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -3,7 +3,7 @@
 use super::store::ResultStore;
 use super::task::{Task, TaskOutcome};
 use super::{MergeArgs, StatusArgs, plan};
-use crate::console::{Console, stdout};
+use crate::console::{Console, print, stdout};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use std::collections::BTreeSet;
@@ -46,9 +46,7 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
     }
     let text = if is_csv { csv(&outcomes)? } else { lines(&outcomes)? };
     if args.output == Path::new("-") {
-        let mut out = stdout();
-        out.write_all(&text)?;
-        return Ok(out.flush()?);
+        return Ok(print(&text)?);
     }
     let (outputs, name) = Outputs::beside(&args.output)?;
     outputs.write(&name, &text)?;

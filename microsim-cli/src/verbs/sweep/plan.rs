@@ -1,4 +1,4 @@
-//! `sweep plan`, and reading what it wrote.
+//! `sweep plan`, and reading its files.
 
 use super::task::Task;
 use super::{Axis, PlanArgs};

@@ -75,7 +75,7 @@ struct Pool<'a> {
 struct Done {
     run: usize,
     found: usize,
-    /// What did not hold.
+    /// Failed checks.
     broken: Vec<String>,
     /// Why work stopped.
     failure: Option<Failure>,
@@ -97,7 +97,7 @@ impl Pool<'_> {
         }
     }
 
-    /// Makes sure that the result of a task is in the store.
+    /// Runs a task unless its result is in the store.
     fn finish(&self, task: &Task) -> Result<(), Failure> {
         let found = self.store.get(task)?;
         let is_found = found.is_some();

@@ -24,7 +24,7 @@ pub(crate) struct Task {
     /// The scenario's name, for people.
     pub scenario: String,
     pub seed: u64,
-    /// What differs between tasks.
+    /// The parameters that differ between tasks.
     pub set: BTreeMap<String, String>,
     pub steps: u64,
     /// Version of the program that it was planned for.

@@ -1,6 +1,7 @@
 //! `run`: a whole scenario, with its files.
 
-use super::sweep;
+mod output_args;
+
 use crate::console::{Console, stdout};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -11,9 +12,11 @@ use crate::scenario_args::Changes;
 use crate::session::{Session, timed_step};
 use crate::summary::{Table, median};
 use crate::value_parser::{duration, whole};
+use crate::verbs::sweep;
+use output_args::OutputArgs;
 use std::path::PathBuf;
 
-/// Steps that are tried to say how long a run would take.
+/// Steps that are timed to estimate the time of a run.
 const TRIED: u64 = 20;
 
 /// `run`.
@@ -61,52 +64,6 @@ pub(crate) struct RunArgs {
     pub store: Option<PathBuf>,
 }
 
-/// What to write beside or in place of what the scenario says: the same as `--set output...`.
-#[derive(Debug, clap::Args)]
-pub(crate) struct OutputArgs {
-    /// Formats of the measures over time: csv, jsonl, parquet, several with commas, or none
-    #[arg(long, value_name = "FORMATS", requires = "out")]
-    measures: Option<String>,
-    /// Time between two rows of measures, s; 0 for every step
-    #[arg(long, value_name = "S", value_parser = duration, requires = "out")]
-    every: Option<f64>,
-    /// Formats of the position, speed and area of every organism over time
-    #[arg(long, value_name = "FORMATS", requires = "out")]
-    trajectories: Option<String>,
-    /// Times of more pictures, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
-    frames: Option<String>,
-    /// Times at which the whole state is written, s, with commas
-    #[arg(long, value_name = "TIMES", requires = "out", allow_hyphen_values = true)]
-    snapshots: Option<String>,
-    /// Steps between two checkpoints, from which `resume` continues after Ctrl-C or a crash
-    #[arg(long, value_name = "N", requires = "out")]
-    checkpoint_every: Option<u32>,
-    /// Leave out the pictures of the end and of six moments
-    #[arg(long, requires = "out")]
-    no_pictures: bool,
-}
-
-impl OutputArgs {
-    /// As overrides of the scenario.
-    fn overrides(&self) -> Vec<(String, String)> {
-        let formats = |list: &String| match list.as_str() {
-            "none" => "[]".to_owned(),
-            list => format!("[{}]", list.split(',').map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")),
-        };
-        let set = [
-            ("output.measures.formats", self.measures.as_ref().map(formats)),
-            ("output.measures.every", self.every.map(|every| every.to_string())),
-            ("output.trajectories.formats", self.trajectories.as_ref().map(formats)),
-            ("output.frames.at", self.frames.as_ref().map(|times| format!("[{times}]"))),
-            ("output.snapshots", self.snapshots.as_ref().map(|times| format!("[{times}]"))),
-            ("output.checkpoint_every", self.checkpoint_every.map(|every| every.to_string())),
-            ("output.pictures", self.no_pictures.then(|| "false".to_owned())),
-        ];
-        set.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect()
-    }
-}
-
 /// Runs a scenario, writes its files and prints a summary.
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     if let (Some(tasks), Some(store)) = (&args.task, &args.store) {
@@ -126,7 +83,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
 }
 
-/// Says what a run would be.
+/// Prints size and estimated time of a run.
 fn estimate(prepared: &Prepared, steps: u64) -> Result<(), Failure> {
     let mut built = prepared.built.clone();
     let tried: Vec<f64> = (0..steps.min(TRIED)).map(|_| timed_step(&mut built).as_secs_f64()).collect();
