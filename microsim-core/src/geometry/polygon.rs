@@ -1,8 +1,7 @@
 //! Measures and predicates of closed polygons.
 //!
-//! A polygon is a slice of vertices in order, in world units of length; the edge from the last
-//! vertex to the first is implied. Sums run in `f64`, because the products of large coordinates
-//! cancel badly in `f32`.
+//! A polygon is a slice of vertices in order, in world units of length; the edge from the last vertex to the first is
+//! implied. Sums run in `f64`, because the products of large coordinates cancel badly in `f32`.
 
 use super::segment::{folds_back, offset, segments_touch, turn};
 use glam::Vec2;
@@ -14,11 +13,10 @@ const DEGENERATE_AREA: f64 = 1.0e-7;
 
 /// Whether `point` lies inside `polygon`, of either winding, by the even-odd rule.
 ///
-/// A horizontal ray is cast from the point towards +x and its crossings with the edges are
-/// counted: an odd count is inside. An edge owns its lower end and not its upper one, so a ray
-/// through a vertex counts once where the boundary passes and twice or never where it turns.
-/// Points on the boundary may fall on either side. Fewer than three vertices contain nothing, and
-/// nothing contains a point with a NaN coordinate.
+/// A horizontal ray is cast from the point towards +x and its crossings with the edges are counted: an odd count is
+/// inside. An edge owns its lower end and not its upper one, so a ray through a vertex counts once where the boundary
+/// passes and twice or never where it turns. Points on the boundary may fall on either side. Fewer than three vertices
+/// contain nothing, and nothing contains a point with a NaN coordinate.
 ///
 /// Source: M. Shimrat, "Algorithm 112: Position of point relative to polygon", CACM 5(8), 1962.
 pub fn contains_point(polygon: &[Vec2], point: Vec2) -> bool {
@@ -53,8 +51,7 @@ pub fn centroid(polygon: &[Vec2]) -> Option<Vec2> {
     }
 }
 
-/// Whether `polygon` has an interior in one piece: no two of its edges meet except where
-/// neighbours share a vertex.
+/// Whether `polygon` has an interior in one piece: no two of its edges meet except where neighbours share a vertex.
 ///
 /// Edges that cross, touch or fold back on each other and repeated vertices make it false, and so
 /// do fewer than three vertices or a coordinate that is not finite. Takes O(n²) time.
@@ -91,8 +88,7 @@ fn crosses_ray(a: Vec2, b: Vec2, point: Vec2) -> bool {
     turn(lower, upper, point) > 0.0
 }
 
-/// Twice the signed area; taken from the first vertex, so that it does not lose digits far away
-/// from the origin.
+/// Twice the signed area; taken from the first vertex, so that it does not lose digits far away from the origin.
 fn doubled_area(polygon: &[Vec2]) -> f64 {
     let Some(&origin) = polygon.first() else {
         return 0.0;

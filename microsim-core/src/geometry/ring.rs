@@ -18,8 +18,7 @@ pub fn unit_vector(angle: f32) -> Vec2 {
     Vec2::new(libm::cosf(angle), libm::sinf(angle))
 }
 
-/// `count` points on the ellipse around the origin with half axes `radii` (x, y), evenly spaced by
-/// arc length.
+/// `count` points on the ellipse around the origin with half axes `radii` (x, y), evenly spaced by arc length.
 ///
 /// Counter-clockwise, starting at (radii.x, 0). The ring is its own mirror image in the x axis to
 /// the last bit, and in the y axis too if `count` is even. On a circle the points have equal

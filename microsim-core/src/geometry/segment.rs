@@ -22,8 +22,7 @@ pub fn nearest_on_segment(a: Vec2, b: Vec2, point: Vec2) -> Vec2 {
 
 /// Twice the signed area of the triangle `a b c`: positive when it turns counter-clockwise.
 ///
-/// Differences and products of `f32` fit into `f64`, so for coordinates of similar size the sign
-/// is exact.
+/// Differences and products of `f32` fit into `f64`, so for coordinates of similar size the sign is exact.
 pub(super) fn turn(a: Vec2, b: Vec2, c: Vec2) -> f64 {
     let (bx, by) = offset(a, b);
     let (cx, cy) = offset(a, c);

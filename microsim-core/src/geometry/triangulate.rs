@@ -7,11 +7,10 @@ use super::segment::turn;
 
 /// Splits `polygon`, of either winding, into triangles of indices into it.
 ///
-/// n vertices give n - 2 triangles, none if n < 3. For a simple polygon, convex or not, they cover
-/// it without overlap, and all are counter-clockwise with a positive area. A polygon that crosses
-/// or touches itself is cut up too, by force where no ear is left: its triangles may overlap, have
-/// no area or turn clockwise, and only the sum of their signed areas is sure to be that of the
-/// polygon (as its absolute value). Takes O(n²) time as a rule and O(n³) at worst.
+/// n vertices give n - 2 triangles, none if n < 3. For a simple polygon, convex or not, they cover it without overlap,
+/// and all are counter-clockwise with a positive area. A polygon that crosses or touches itself is cut up too, by force
+/// where no ear is left: its triangles may overlap, have no area or turn clockwise, and only the sum of their signed
+/// areas is sure to be that of the polygon (as its absolute value). Takes O(n²) time as a rule and O(n³) at worst.
 ///
 /// An ear is a triangle of three successive vertices that lies inside; every simple polygon with
 /// more than three vertices has two, and clipping one leaves a simple polygon.
