@@ -105,7 +105,9 @@ impl Inputs {
 impl From<Vec<(OrganismId, Intent)>> for Inputs {
     fn from(intents: Vec<(OrganismId, Intent)>) -> Self {
         let mut inputs = Self::new();
-        intents.into_iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        for (organism, intent) in intents {
+            inputs.set(organism, intent);
+        }
         inputs
     }
 }

@@ -1,8 +1,7 @@
 //! Measures of an outline's shape: how far it is from convex, and how wide it is across a direction.
 
-use glam::Vec2;
-
 use super::segment::turn;
+use glam::Vec2;
 
 /// How much more `polygon` turns than a convex one, radians: the sum of the magnitudes of its exterior angles less 2 pi.
 ///

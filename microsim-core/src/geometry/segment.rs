@@ -74,12 +74,9 @@ mod tests {
     proptest! {
         #[test]
         fn nearest_on_segment_beats_samples(
-            a in (-9.0f32..9.0, -9.0f32..9.0),
-            b in (-9.0f32..9.0, -9.0f32..9.0),
-            p in (-9.0f32..9.0, -9.0f32..9.0),
-            fraction in 0.0f32..1.0,
+            points in prop::array::uniform3((-9.0f32..9.0, -9.0f32..9.0)), fraction in 0.0f32..1.0,
         ) {
-            let (a, b, p) = (Vec2::from(a), Vec2::from(b), Vec2::from(p));
+            let [a, b, p] = points.map(Vec2::from);
             let nearest = nearest_on_segment(a, b, p).distance(p);
             prop_assert!(nearest <= a.lerp(b, fraction).distance(p) + 1.0e-5);
         }

@@ -1,9 +1,8 @@
 //! Triangulation of polygons by ear clipping.
 
-use glam::Vec2;
-
 use super::polygon::signed_area;
 use super::segment::turn;
+use glam::Vec2;
 
 /// Splits `polygon`, of either winding, into triangles of indices into it.
 ///
@@ -79,12 +78,11 @@ fn is_in_triangle([a, b, c]: [Vec2; 3], point: Vec2) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use glam::vec2;
-    use proptest::prelude::*;
-
     use super::super::arbitrary::{star_polygon, tangled_polygon};
     use super::super::{contains_point, perimeter};
     use super::*;
+    use glam::vec2;
+    use proptest::prelude::*;
 
     fn triangle_areas(polygon: &[Vec2], triangles: &[[u32; 3]]) -> Vec<f32> {
         let area = |triangle: &[u32; 3]| signed_area(&triangle.map(|i| polygon[i as usize]));
