@@ -1,4 +1,4 @@
-//! Inputs: what organisms are told to do in a step, the same for mouse, bot and replay.
+//! Inputs: commands to organisms for one step, the same for mouse, bot and replay.
 
 use crate::error::{Error, in_range};
 use crate::id::OrganismId;

@@ -84,7 +84,7 @@ mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
     #[test]
-    fn nobody_waits_for_work_that_has_panicked() {
+    fn work_that_panics_keeps_no_thread_waiting() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
         let panicking = AssertUnwindSafe(|| serial(LARGE + 1, || panic!("on purpose")));
         assert!(pool.install(|| catch_unwind(panicking)).is_err());

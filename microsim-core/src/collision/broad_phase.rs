@@ -52,7 +52,7 @@ pub(crate) struct SearchInput<'a> {
 }
 
 impl BroadPhase {
-    /// Takes over what is asked for between steps.
+    /// Copies the contacts, which queries between steps need.
     pub(crate) fn share_pairs_of(&mut self, other: &Self) {
         self.contacts.clone_from(&other.contacts);
         self.ring_contacts.clone_from(&other.ring_contacts);
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_get_faster_than_expected_miss_nobody() {
+    fn late_pairs_complete_the_pairs_of_bodies_that_exceed_their_margin() {
         let (mut widened, mut missed_at_first) = (0, 0);
         for seed in 0..20 {
             let mut rng = Rng::new(seed, 1);

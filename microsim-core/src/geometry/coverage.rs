@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_area_has_no_samples_and_what_is_huge_few() {
+    fn shapes_without_area_have_no_samples_and_huge_ones_few() {
         assert!(Coverage::of(&[], 0.1).is_none());
         assert!(Coverage::of(&[Vec2::ZERO, Vec2::NAN, Vec2::X], 0.1).is_none());
         assert!(Coverage::of(&[Vec2::ZERO, Vec2::X, Vec2::Y], f32::NAN).is_none());

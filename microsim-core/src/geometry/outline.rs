@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_shape_has_no_measures() {
+    fn degenerate_outlines_have_no_measures() {
         assert_eq!(excess_turning(&[Vec2::ZERO, Vec2::X, Vec2::X, Vec2::ZERO]), 0.0);
         assert_eq!(excess_turning(&[Vec2::ZERO, Vec2::X, Vec2::splat(f32::NAN)]), 0.0);
         assert_eq!(quarter_widths(&[Vec2::ZERO, Vec2::X], Vec2::X), None);

@@ -32,7 +32,7 @@ use serde::{Deserialize, Serialize};
 
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
-/// No disc is larger, nor farther away or faster, in whatever units.
+/// Limits of what is read from a file: radius, and each coordinate of position and velocity.
 #[cfg(feature = "snapshot")]
 const MAX_RADIUS: f32 = 1e5;
 #[cfg(feature = "snapshot")]
@@ -159,7 +159,7 @@ impl Particles {
         self.live_count
     }
 
-    /// What of all particles moves.
+    /// The columns of all particles that constraints and integration use.
     pub(crate) fn columns(&mut self) -> Columns<'_> {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = self;
         Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }

@@ -89,7 +89,7 @@ pub(crate) fn enforce(measured: &MeasuredRing, ring: &[u32], error: f32, alpha: 
     let count = ring.len();
     let offset = |particles: &Columns<'_>, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
     let multiplier = ratio(-error, measured.weight + alpha);
-    // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
+    // The old places of nodes that have moved are kept; all are relative to the first node's old place.
     let mut before = offset(particles, count - 1);
     let mut here = Vec2::ZERO;
     let mut moved_first = Vec2::ZERO;

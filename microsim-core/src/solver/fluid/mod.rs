@@ -75,7 +75,7 @@ pub(crate) struct Fluid {
     pub particles: Vec<u32>,
 }
 
-/// What fluids are projected with; nothing in it outlasts a step.
+/// Scratch of the projection of fluids; valid for one step.
 #[derive(Debug)]
 pub(crate) struct Workspace {
     rest_density: f32,
@@ -273,9 +273,7 @@ mod tests {
     fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
         let (fluid, mut particles) = block(FluidMode::Density, 0.7);
         let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
-        for _ in 0..60 {
-            project(&fluid, &mut particles);
-        }
+        (0..60).for_each(|_| project(&fluid, &mut particles));
         let after = fluid.mean_compression(&particles);
         assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
         assert!((centre(&particles) - start).length() < 1e-3, "momentum");
@@ -313,9 +311,7 @@ mod tests {
     #[test]
     fn grains_separate_to_their_spacing() {
         let (fluid, mut particles) = block(FluidMode::Granular, 0.8);
-        for _ in 0..200 {
-            project(&fluid, &mut particles);
-        }
+        (0..200).for_each(|_| project(&fluid, &mut particles));
         for i in 0..200 {
             for j in 0..i {
                 let gap = (particles.position(i) - particles.position(j)).length();
@@ -348,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_found_at_the_start_of_a_step_do_until_the_next() {
+    fn neighbours_found_once_per_step_are_enough() {
         for (mode, spacing) in [(FluidMode::Density, 0.8), (FluidMode::Granular, 0.8)] {
             // Eight substeps of shear and push, with a search before the first or before each; a workspace that has seen others.
             let after = |searches: usize| {
@@ -381,9 +377,7 @@ mod tests {
         for _ in 0..4 {
             fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
         }
-        for _ in 0..20 {
-            project(&fluid, &mut particles);
-        }
+        (0..20).for_each(|_| project(&fluid, &mut particles));
         let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
         assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
     }
