@@ -158,11 +158,9 @@ impl BroadPhase {
             let aabb = obstacle.aabb();
             let (low, high) = (aabb.mins, aabb.maxs);
             let is_near = |disc: &&Disc| {
-                let i = disc.index as usize;
-                let near = aabb.loosened(disc.swept_radius);
-                near.contains_local_point(disc.at)
-                    && input.particles.inv_mass[i] > 0.0
-                    && input.particles.groups[i].meets(obstacle.groups)
+                let (p, i) = (input.particles, disc.index as usize);
+                let is_inside = aabb.loosened(disc.swept_radius).contains_local_point(disc.at);
+                is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(obstacle.groups)
             };
             let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
             let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
@@ -175,8 +173,7 @@ impl BroadPhase {
 
 /// Whether a disc's fluid is not that of the first disc: then there are several.
 fn is_of_another_fluid(disc: &Disc, fluid: &DiscGrid, p: &Particles) -> bool {
-    let first = fluid.iter().next();
-    first.is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
+    fluid.iter().next().is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }
 
 /// The contact of two discs that are near each other, if they collide at all.

@@ -20,10 +20,6 @@ use serde::{Deserialize, Serialize};
 
 /// Largest length or area that a constraint may ask for.
 const MAX_LENGTH: f32 = 1e6;
-/// The first place in the order of projection for kinds that pull towards something.
-const PULL: u8 = 0;
-/// The first place for kinds that limit something. They come last, because the last projection wins.
-const LIMIT: u8 = 128;
 
 /// A rule for the places of some nodes of a body. Nodes are slots of a template.
 ///
@@ -41,9 +37,6 @@ pub enum Constraint {
 
 /// What every kind of constraint says of itself.
 pub(crate) trait Constrain {
-    /// Place in the order of projection, counted from [`PULL`] or [`LIMIT`]; a different one for each kind.
-    fn order(&self) -> u8;
-
     /// Pairs of nodes that it acts between, for drawing.
     fn links(&self) -> Vec<[u32; 2]>;
 
@@ -66,6 +59,17 @@ impl Constraint {
     /// Checks its nodes and numbers; errors name the field.
     pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
         self.inner().validate(nodes)
+    }
+
+    /// Place of its kind in the order of projection. Kinds that limit something come last, because the last projection wins.
+    fn order(&self) -> u8 {
+        match self {
+            Self::Distance(_) => 0,
+            Self::Area(_) => 1,
+            Self::Anchor(_) => 2,
+            Self::MinDistance(_) => 3,
+            Self::Rope(_) => 4,
+        }
     }
 
     /// What is inside, for uses in which speed does not matter.
@@ -106,7 +110,7 @@ fn project_one<const L: usize>(constraint: &impl Constrain, spans: &[Span<L>], p
 
 /// Sorts constraints by kind, in the order of projection; those of one kind stay in their order.
 pub(crate) fn sort(list: &mut [Constraint]) {
-    list.sort_by_key(|constraint| constraint.inner().order());
+    list.sort_by_key(Constraint::order);
 }
 
 /// Checks that nodes are different and below a number.
@@ -133,14 +137,14 @@ mod tests {
     #[test]
     fn each_kind_has_its_own_place_in_the_order_of_projection() {
         let (a, b, rest_length, compliance) = (0, 1, 1.0, 0.0);
-        let kinds: [&dyn Constrain; 5] = [
-            &Distance { a, b, rest_length, compliance, damping: 0.0 },
-            &MinDistance { a, b, min_length: 1.0 },
-            &Area { ring: vec![0, 1, 2], rest_area: 1.0, compliance, is_upper_bound: false },
-            &Anchor { node: a, anchor: b, rest_length, max_length: 1.0, compliance },
-            &Rope { a, b, max_length: 1.0 },
+        let kinds = [
+            Constraint::from(Distance { a, b, rest_length, compliance, damping: 0.0 }),
+            MinDistance { a, b, min_length: 1.0 }.into(),
+            Area { ring: vec![0, 1, 2], rest_area: 1.0, compliance, is_upper_bound: false }.into(),
+            Anchor { node: a, anchor: b, rest_length, max_length: 1.0, compliance }.into(),
+            Rope { a, b, max_length: 1.0 }.into(),
         ];
-        let orders: std::collections::BTreeSet<u8> = kinds.iter().map(|kind| kind.order()).collect();
+        let orders = std::collections::BTreeSet::from(kinds.each_ref().map(Constraint::order));
         assert_eq!(orders.len(), kinds.len());
     }
 }
