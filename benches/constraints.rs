@@ -19,16 +19,13 @@ type Link = fn(&mut TemplateBuilder, u32, u32);
 
 const LINKS: [(&str, Link); 3] = [
     ("distance", |builder, a, b| {
-        let (rest_length, compliance, damping) = (1.0, 1e-6, 0.01);
-        builder.constraint(Distance { a, b, rest_length, compliance, damping });
+        builder.constraint(Distance { a, b, rest_length: 1.0, compliance: 1e-6, damping: 0.01 });
     }),
     ("rope", |builder, a, b| {
-        let max_length = 1.0;
-        builder.constraint(Rope { a, b, max_length });
+        builder.constraint(Rope { a, b, max_length: 1.0 });
     }),
     ("min_distance", |builder, a, b| {
-        let min_length = 1.05;
-        builder.constraint(MinDistance { a, b, min_length });
+        builder.constraint(MinDistance { a, b, min_length: 1.05 });
     }),
 ];
 
@@ -47,7 +44,7 @@ fn loose(position: Vec2) -> Node {
     Node { groups: CollisionGroups::NONE, ..Node::disc(position, 1.0, 0.1) }
 }
 
-fn woven(link: Link) -> Template {
+fn linked_net(link: Link) -> Template {
     let mut builder = net();
     for k in SIDE..SIDE * SIDE {
         link(&mut builder, k - SIDE, k);
@@ -58,8 +55,8 @@ fn woven(link: Link) -> Template {
     builder.build().expect("the net is valid")
 }
 
-/// One ring around the loose part of a net, that wants to be smaller.
-fn blown_up() -> Template {
+/// One ring around the loose part of a net, with an area constraint of 0.9 of its area.
+fn net_with_area() -> Template {
     let mut builder = net();
     let (first, last) = (1, SIDE - 1);
     let left = (first..last).map(|row| row * SIDE);
@@ -72,7 +69,7 @@ fn blown_up() -> Template {
     builder.build().expect("the ring is valid")
 }
 
-fn hung_up(template: &Template) -> World {
+fn hanging(template: &Template) -> World {
     let config = WorldConfig { size: Vec2::splat(400.0), gravity: Vec2::new(0.0, -20.0), ..WorldConfig::default() };
     let mut world = World::new(config).expect("the settings are valid");
     let id = world.add_template(template.clone());
@@ -84,10 +81,10 @@ fn hung_up(template: &Template) -> World {
 }
 
 fn constraints(criterion: &mut Criterion) {
-    let woven = LINKS.map(|(name, link)| (name, woven(link)));
+    let linked = LINKS.map(|(name, link)| (name, linked_net(link)));
     let mut group = criterion.benchmark_group("constraints");
-    for (name, template) in woven.into_iter().chain([("area", blown_up())]) {
-        let world = hung_up(&template);
+    for (name, template) in linked.into_iter().chain([("area", net_with_area())]) {
+        let world = hanging(&template);
         let projected = template.constraints().len() as u64 * u64::from(NETS * world.config().substeps);
         group.throughput(Throughput::Elements(projected));
         group.bench_function(name, |bencher| {

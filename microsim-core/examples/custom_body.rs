@@ -58,10 +58,10 @@ fn main() -> Result<(), Error> {
 fn jelly() -> Result<Template, Error> {
     let mut builder = Template::builder();
     let material = Material { friction: 0.6, restitution: 0.0 };
-    let middle = 0.5 * PITCH * (SIDE - 1) as f32;
+    let width = PITCH * (SIDE - 1) as f32;
     for row in 0..SIDE {
         for column in 0..SIDE {
-            let position = Vec2::new(column as f32 * PITCH - middle, row as f32 * PITCH - middle);
+            let position = Vec2::new(column as f32, row as f32) * PITCH - 0.5 * width;
             let role = if is_border(row) || is_border(column) { Role::Membrane } else { Role::Plain };
             builder.node(Node { material, role, ..Node::disc(position, 1.0, 0.5 * PITCH) });
         }
@@ -82,7 +82,6 @@ fn jelly() -> Result<Template, Error> {
         }
     }
     let ring = outline();
-    let width = PITCH * (SIDE - 1) as f32;
     let rest_area = width * width;
     builder.constraint(Area { ring: ring.clone(), rest_area, compliance: 0.0, is_upper_bound: false });
     builder.outline(&ring);

@@ -13,7 +13,7 @@ fn main() -> Result<(), Error> {
 
     let mut inputs = Inputs::new();
     while !has_met(&world) {
-        // Decide anew in each step; here the cell simply follows the agar.
+        // The cell follows the agar.
         let goal = world.centroid(agar).unwrap_or(Vec2::ZERO);
         inputs.set(cell, Intent::toward(goal)?);
         world.step(&inputs);

@@ -94,8 +94,7 @@ fn squeeze(spec: &AmoeboidCellSpec) -> Result<Option<(MembraneQuality, f32)>, Er
     let (mut world, cell) = room(spec, 9.0)?;
     let middle = Vec2::new(4.5 * radius, 0.5 * world.config().size.y);
     for side in [-1.0, 1.0] {
-        let centre = middle + Vec2::new(0.0, side * 1.5 * radius);
-        let pose = Pose::translation(centre.x, centre.y);
+        let pose = Pose::translation(middle.x, middle.y + side * 1.5 * radius);
         world.add_obstacle(Obstacle::new(SharedShape::ball(radius), pose))?;
     }
     let mut inputs = Inputs::new();

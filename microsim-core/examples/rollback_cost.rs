@@ -1,5 +1,5 @@
-//! What it costs to save a world and to go back to it, beside its step: the pattern of a game with prediction, which saves
-//! every step into a ring of worlds and goes back when it learns that it guessed wrong. All take turns, in one process.
+//! Cost of saving a world and restoring it, relative to its step, as rollback netcode does: each step is saved into a ring
+//! of worlds, and the world is restored when a prediction was wrong. All variants take turns, in one process.
 //!
 //! `cargo run --release -p microsim-core --features scenario --example rollback_cost -- [SCENARIO] [KEY=VALUE]...`
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "reads the command line and the clock")]
@@ -15,7 +15,7 @@ use std::time::Instant;
 #[global_allocator]
 static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 
-/// Worlds that are kept, and how far is gone back.
+/// Worlds that are kept: the steps of a rollback.
 const RING: usize = 8;
 /// Steps before measuring starts.
 const WARM_UP: u32 = 240;

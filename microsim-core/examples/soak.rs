@@ -29,8 +29,8 @@ static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 const MINUTE: u64 = 3600;
 /// Steps between lines of output.
 const REPORT: u64 = 10_000;
-/// Memory that is allocated at most, in what the same world takes anew: lists double when they are full, and stay as long as
-/// they once were.
+/// Most memory that may be allocated, relative to what a copy of the world takes: lists double when they are full, and do
+/// not shrink.
 const MOST_SLACK: usize = 2;
 
 /// Tells organisms what to do.
@@ -55,8 +55,8 @@ impl Director {
         match self.rng.next_u32() % 8 {
             0 => self.inputs.set(id, Intent::REST),
             1..=4 => {
-                let intent = Intent::toward(goal).unwrap_or_default();
-                self.inputs.set(id, intent.digesting(self.rng.unit() < 0.5));
+                let digests = self.rng.unit() < 0.5;
+                self.inputs.set(id, Intent::toward(goal).unwrap_or_default().digesting(digests));
             }
             _ => {
                 self.inputs.remove(id);
@@ -64,7 +64,7 @@ impl Director {
                 self.try_to("set_controller", world.set_controller(id, controller));
             }
         }
-        // Who can do neither refuses; that is part of the test.
+        // Organisms that cannot do it refuse; that is part of the test.
         let other = world.organisms().find(|_| self.rng.unit() < 0.05);
         if self.rng.unit() < 0.03 {
             self.try_to("divide", world.divide(id));
@@ -103,7 +103,9 @@ impl Director {
     fn look(&mut self, world: &World) {
         world.events().iter().for_each(|event| *self.counts.entry(event.name()).or_default() += 1);
         let gone: Vec<_> = self.inputs.iter().map(|(id, _)| id).filter(|&id| world.kind(id).is_none()).collect();
-        gone.into_iter().for_each(|id| self.inputs.remove(id));
+        for id in gone {
+            self.inputs.remove(id);
+        }
     }
 }
 
@@ -114,8 +116,7 @@ fn resident_kb() -> u64 {
     line.and_then(|line| line.split_whitespace().next()).and_then(|kb| kb.parse().ok()).unwrap_or(0)
 }
 
-/// What a world of this state takes that has no history, bytes: one that was read from a snapshot (a clone would share) and
-/// has taken a step.
+/// Bytes that a new world of this state takes: one that was read from a snapshot (a clone would share) and has taken a step.
 fn needed(world: &World) -> usize {
     let snapshot = world.to_snapshot().expect("all shapes are known");
     let before = ALLOCATOR.allocated();
@@ -145,8 +146,7 @@ fn main() -> ExitCode {
             let (allocated, needed) = (ALLOCATOR.allocated(), needed(&world));
             let census = world.census();
             let rate = world.step_index() as f64 / start.elapsed().as_secs_f64();
-            let outlines = world.view().organisms().map(|organism| organism.outline().len());
-            let nodes: usize = outlines.sum();
+            let nodes: usize = world.view().organisms().map(|organism| organism.outline().len()).sum();
             print!("{step}\t{rate:.0}\t{}\t{}\t{nodes}\t", census.organisms, census.particles);
             println!("{}\t{}\t{}\t{:?}", allocated / 1000, needed / 1000, resident_kb(), director.counts);
             if census.quarantined > 0 || (step >= MINUTE && allocated > MOST_SLACK * needed) {

@@ -89,15 +89,11 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let field = &self.field;
         match &self.kind {
-            ErrorKind::OutOfRange { value, accepted } => {
-                write!(f, "`{field}` is {value}, accepted: {accepted}")
-            }
+            ErrorKind::OutOfRange { value, accepted } => write!(f, "`{field}` is {value}, accepted: {accepted}"),
             ErrorKind::BadReference { accepted } => {
                 write!(f, "`{field}` refers to nothing usable, accepted: {accepted}")
             }
-            ErrorKind::OutsideWorld { accepted } => {
-                write!(f, "`{field}` lies outside the walls, accepted: {accepted}")
-            }
+            ErrorKind::OutsideWorld { accepted } => write!(f, "`{field}` lies outside the walls, accepted: {accepted}"),
             ErrorKind::Overlap { with } => {
                 write!(f, "`{field}` overlaps {with}, accepted: a place where nothing overlaps")
             }
@@ -105,9 +101,7 @@ impl fmt::Display for Error {
                 write!(f, "`{field}` asks for {asked} particles, accepted: at most {limit} in one world")
             }
             ErrorKind::Stale => write!(f, "`{field}` no longer exists"),
-            ErrorKind::Unsupported { accepted } => {
-                write!(f, "`{field}` cannot do that, accepted: {accepted}")
-            }
+            ErrorKind::Unsupported { accepted } => write!(f, "`{field}` cannot do that, accepted: {accepted}"),
         }
     }
 }
@@ -122,10 +116,8 @@ pub(crate) fn in_range(field: &str, value: f32, low: f32, high: f32) -> Result<(
 
 /// Checks that `value` is within `low..=high`.
 pub(crate) fn count_in_range(field: &str, value: u32, low: u32, high: u32) -> Result<(), Error> {
-    (low..=high)
-        .contains(&value)
-        .then_some(())
-        .ok_or_else(|| out_of_range(field, f64::from(value), format!("{low} to {high}")))
+    let is_inside = (low..=high).contains(&value);
+    is_inside.then_some(()).ok_or_else(|| out_of_range(field, f64::from(value), format!("{low} to {high}")))
 }
 
 pub(crate) fn out_of_range(field: &str, value: f64, accepted: String) -> Error {

@@ -1,4 +1,4 @@
-//! Inputs: what organisms are told to do in a step, the same for mouse, bot and replay.
+//! Inputs: commands to organisms for one step, the same for mouse, bot and replay.
 
 use crate::error::{Error, in_range};
 use crate::id::OrganismId;
@@ -105,7 +105,9 @@ impl Inputs {
 impl From<Vec<(OrganismId, Intent)>> for Inputs {
     fn from(intents: Vec<(OrganismId, Intent)>) -> Self {
         let mut inputs = Self::new();
-        intents.into_iter().for_each(|(organism, intent)| inputs.set(organism, intent));
+        for (organism, intent) in intents {
+            inputs.set(organism, intent);
+        }
         inputs
     }
 }

@@ -22,17 +22,13 @@ pub(crate) fn in_pool(particles: usize, work: impl FnOnce() + Send) {
     work();
 }
 
-/// Does each part. One at a time may be taken over by another thread: fewer would leave it waiting at the end.
+/// Does each part.
 pub(crate) fn for_each<T: Send>(parts: Vec<T>, work: impl Fn(T) + Send + Sync) {
-    #[cfg(feature = "parallel")]
-    if parts.len() > 1 && is_inside() {
-        use rayon::prelude::*;
-        return parts.into_par_iter().with_max_len(1).for_each(work);
-    }
-    parts.into_iter().for_each(work);
+    map(parts, work);
 }
 
-/// What each part gives, in their order.
+/// What each part gives, in their order. One at a time may be taken over by another thread: fewer would leave it waiting at
+/// the end.
 pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send + Sync) -> Vec<R> {
     #[cfg(feature = "parallel")]
     if parts.len() > 1 && is_inside() {
@@ -88,7 +84,7 @@ mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
     #[test]
-    fn nobody_waits_for_work_that_has_panicked() {
+    fn work_that_panics_keeps_no_thread_waiting() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
         let panicking = AssertUnwindSafe(|| serial(LARGE + 1, || panic!("on purpose")));
         assert!(pool.install(|| catch_unwind(panicking)).is_err());

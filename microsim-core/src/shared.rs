@@ -1,11 +1,11 @@
-//! Values that clones share until one of them changes its own.
+//! Copy on write: values that clones share until one of them changes.
 
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A value of its own, to whoever looks: the first change after a clone copies it. For values that seldom change, so that a
-/// snapshot need not copy them. A mutable borrow counts as a change, and asks each time whether the value is shared.
+/// A value that the first change after a clone copies. For values that seldom change, so that a snapshot need not copy them.
+/// A mutable borrow counts as a change and checks each time whether the value is shared.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Shared<T>(Arc<T>);
@@ -17,7 +17,7 @@ impl<T> Shared<T> {
 }
 
 impl<T: Clone> Shared<T> {
-    /// The value, to be filled; while clones share it, a `blank` one made from it takes its place.
+    /// The value, to be filled; a shared one is replaced by a `blank` one made from it.
     pub(crate) fn get_mut_or(&mut self, blank: impl FnOnce(&T) -> T) -> &mut T {
         if Arc::get_mut(&mut self.0).is_none() {
             *self = Self::new(blank(self));
@@ -35,7 +35,7 @@ impl<T> Clone for Shared<T> {
         Self(Arc::clone(&self.0))
     }
 
-    /// Leaves the counter alone where both share already, as most do from one snapshot to the next.
+    /// Leaves the counter alone if both share already, as most do from one snapshot to the next.
     fn clone_from(&mut self, source: &Self) {
         if !Arc::ptr_eq(&self.0, &source.0) {
             self.0 = Arc::clone(&source.0);

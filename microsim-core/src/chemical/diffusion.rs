@@ -60,12 +60,8 @@ impl DiffusionGrid {
             let (left, below) = (at + row, at);
             if corner(x + 0.5, y + 0.5) {
                 self.is_open[at] = false;
-                for face in [left, left + 1] {
-                    self.across[face] = 0.0;
-                }
-                for face in [below, below + columns] {
-                    self.upwards[face] = 0.0;
-                }
+                self.across[left..=left + 1].fill(0.0);
+                (self.upwards[below], self.upwards[below + columns]) = (0.0, 0.0);
             }
             if corner(x, y + 0.5) {
                 self.across[left] = 0.0;

@@ -61,9 +61,8 @@ impl ChemicalSpec {
             let accepted = format!("so large that {MAX_CELLS} cells fill the room");
             return Err(out_of_range("spacing", self.spacing.into(), accepted));
         }
-        let rounds =
-            diffusion::rounds(config.size / Vec2::from(count.map(|count| count as f32)), self.diffusion, config.dt);
-        let rounds = rounds.map_err(|most| {
+        let cell = config.size / Vec2::from(count.map(|count| count as f32));
+        let rounds = diffusion::rounds(cell, self.diffusion, config.dt).map_err(|most| {
             let accepted = format!("0 to {most} with this spacing and time step");
             out_of_range("diffusion", self.diffusion.into(), accepted)
         })?;
@@ -93,7 +92,7 @@ pub(crate) struct ChemicalRecord {
 }
 
 impl Chemical {
-    /// Takes over the concentrations that were read.
+    /// Sets the concentrations that were read.
     ///
     /// # Errors
     /// See [`Chemical::check`].
@@ -113,12 +112,9 @@ impl Chemical {
         if self.grid.count != count || values.len() != cells.len() {
             return Err(format!("{} concentrations do not fill {count:?} cells", values.len()));
         }
-        let is_sound =
-            |value: f32, is_open: bool| if is_open { (0.0..=f32::MAX).contains(&value) } else { value == 0.0 };
-        match values.iter().zip(cells).position(|(&value, &is_open)| !is_sound(value, is_open)) {
-            Some(cell) => Err(format!("the concentration in cell {cell} is {}", values[cell])),
-            None => Ok(()),
-        }
+        let is_sound = |value: f32, is_open| if is_open { (0.0..=f32::MAX).contains(&value) } else { value == 0.0 };
+        let unsound = values.iter().zip(cells).position(|(&value, &is_open)| !is_sound(value, is_open));
+        unsound.map_or(Ok(()), |cell| Err(format!("the concentration in cell {cell} is {}", values[cell])))
     }
 
     /// A chemical in a world of these settings.
@@ -152,7 +148,7 @@ impl Chemical {
         }
     }
 
-    /// Clears `area` square units at a point of what is in them, or as good as, so that nothing becomes negative.
+    /// Takes about the content of `area` square units at a point; implicit, so that nothing becomes negative.
     pub(crate) fn take(&mut self, at: Vec2, area: f32) {
         let cells = area / self.grid.cell_area();
         for (cell, share) in self.grid.around(at) {
@@ -198,7 +194,7 @@ impl Chemical {
         Vec2::new(rise(Vec2::new(x, 0.0)), rise(Vec2::new(0.0, y))) / (2.0 * self.grid.cell)
     }
 
-    /// All of it that is in the room.
+    /// Amount in the room.
     #[must_use]
     pub fn amount(&self) -> f64 {
         self.values.iter().map(|&value| f64::from(value)).sum::<f64>() * f64::from(self.grid.cell_area())
@@ -221,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn what_flows_in_is_there_or_has_decayed() {
+    fn the_amount_is_the_inflow_less_the_decay() {
         let spec = ChemicalSpec { diffusion: 300.0, decay: 0.5, ..ChemicalSpec::default() };
         let mut chemical = chemical(spec);
         let (mut expected, keep) = (0.0, (1.0 + f64::from(0.5 * DT) / f64::from(chemical.rounds)).powi(-1));
@@ -275,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_gets_through_an_obstacle_but_around_it() {
+    fn chemicals_do_not_pass_through_obstacles() {
         let mut chemical = chemical(ChemicalSpec { diffusion: 100.0, decay: 0.0, ..ChemicalSpec::default() });
         chemical.close(|at| (at.x - 40.0).abs() < 1.5);
         for _ in 0..600 {

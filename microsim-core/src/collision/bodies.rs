@@ -67,7 +67,7 @@ struct Portion<'a> {
 /// All bodies.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
-    /// BodyProxy by body; entries between two bodies are unused.
+    /// Body by body; entries between two bodies are unused.
     discs: Vec<Disc>,
     /// The box of each disc.
     aabbs: Vec<Aabb>,
@@ -113,6 +113,10 @@ impl Bodies {
         large.sort(&larger, size);
     }
 
+    fn iter(&self) -> impl Iterator<Item = &BodyProxy> {
+        self.small.bodies.iter().chain(&self.large.bodies)
+    }
+
     /// Its discs.
     pub(super) fn discs_of(&self, body: &BodyProxy) -> &[Disc] {
         &self.discs[body.discs.clone()]
@@ -120,7 +124,7 @@ impl Bodies {
 
     /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
     pub(super) fn pairs_with(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
-        for body in self.small.bodies.iter().chain(&self.large.bodies) {
+        for body in self.iter() {
             let near_body = grid.in_box(body.aabb.low(), body.aabb.high());
             for other in near_body.filter(|other| other.aabb().overlaps(body.aabb)) {
                 let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
@@ -137,8 +141,7 @@ impl Bodies {
 
     /// Bodies that sleep, unless something that moves comes near.
     pub(super) fn sleepers(&self, sleep: &Sleep) -> impl Iterator<Item = &BodyProxy> {
-        let all = self.small.bodies.iter().chain(&self.large.bodies);
-        all.filter(|body| sleep.is_asleep(body.block))
+        self.iter().filter(|body| sleep.is_asleep(body.block))
     }
 
     /// Whether a body near this one moves.
@@ -183,8 +186,7 @@ impl Bodies {
         found: &mut Vec<Contact>,
     ) {
         let mut near = Vec::new();
-        let all = self.small.bodies.iter().chain(&self.large.bodies);
-        for body in all.filter(|body| body.block != NO_BLOCK) {
+        for body in self.iter().filter(|body| body.block != NO_BLOCK) {
             if margins.remaining(body.block, body.lane) >= next {
                 continue;
             }
@@ -294,10 +296,8 @@ impl PairFilter<'_> {
 impl SizeClass {
     fn sort(&mut self, found: &[BodyProxy], size: Vec2) {
         let Self { bodies, grid, extent } = self;
-        *extent = found
-            .iter()
-            .map(|body| body.aabb.extent())
-            .fold(0.0, |far, extent| if extent > far { extent } else { far });
+        let extents = found.iter().map(|body| body.aabb.extent());
+        *extent = extents.fold(0.0, |most, extent| if extent > most { extent } else { most });
         grid.fill(Vec2::ZERO, size, Vec2::splat(*extent), found.len(), |k| found[k].aabb.centre());
         bodies.clear();
         bodies.extend(grid.order().iter().map(|&k| found[k as usize].clone()));

@@ -52,7 +52,7 @@ pub(crate) struct SearchInput<'a> {
 }
 
 impl BroadPhase {
-    /// Takes over what is asked for between steps.
+    /// Copies the contacts, which queries between steps need.
     pub(crate) fn share_pairs_of(&mut self, other: &Self) {
         self.contacts.clone_from(&other.contacts);
         self.ring_contacts.clone_from(&other.ring_contacts);
@@ -158,11 +158,9 @@ impl BroadPhase {
             let aabb = obstacle.aabb();
             let (low, high) = (aabb.mins, aabb.maxs);
             let is_near = |disc: &&Disc| {
-                let i = disc.index as usize;
-                let near = aabb.loosened(disc.swept_radius);
-                near.contains_local_point(disc.at)
-                    && input.particles.inv_mass[i] > 0.0
-                    && input.particles.groups[i].meets(obstacle.groups)
+                let (p, i) = (input.particles, disc.index as usize);
+                let is_inside = aabb.loosened(disc.swept_radius).contains_local_point(disc.at);
+                is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(obstacle.groups)
             };
             let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
             let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
@@ -175,8 +173,7 @@ impl BroadPhase {
 
 /// Whether a disc's fluid is not that of the first disc: then there are several.
 fn is_of_another_fluid(disc: &Disc, fluid: &DiscGrid, p: &Particles) -> bool {
-    let first = fluid.iter().next();
-    first.is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
+    fluid.iter().next().is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }
 
 /// The contact of two discs that are near each other, if they collide at all.
@@ -211,10 +208,10 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particle::{CollisionGroups, LANES};
+    use crate::particle::{CollisionGroups, LANES, Particle};
     use crate::rng::Rng;
     use crate::solver::block::subtract_displacement;
-    use crate::solver::testing::{disc, overlapping};
+    use crate::solver::testing::{disc, overlapping, search_input};
     use std::collections::BTreeSet;
 
     #[test]
@@ -245,18 +242,8 @@ mod tests {
 
     fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
         let mut broad = BroadPhase::default();
-        let size = Vec2::new(40.0, 30.0);
-        let input = SearchInput {
-            particles,
-            blocks: &[],
-            obstacles: &[],
-            exemptions,
-            rings: &[],
-            containments: &[],
-            size,
-            limits: DisplacementLimits { step: 0.1, substep: 0.1, dt: 0.01 },
-        };
-        broad.find_pairs(input, &mut Sleep::default(), 1);
+        let limits = DisplacementLimits { step: 0.1, substep: 0.1, dt: 0.01 };
+        broad.find_pairs(search_input(particles, exemptions, limits), &mut Sleep::default(), 1);
         pairs_of(&broad).into_iter().collect()
     }
 
@@ -286,19 +273,16 @@ mod tests {
     /// Bodies of four discs in blocks, somewhere, some of them fast, those of the first block large.
     fn random_blocks(rng: &mut Rng, count: u32) -> (Particles, Vec<BlockRange>) {
         let mut p = Particles::default();
-        let ranges = (0..count).map(|_| BlockRange { base: p.extend(4 * LANES) as usize, slots: 4 });
-        let ranges: Vec<_> = ranges.collect();
+        let ranges: Vec<_> = (0..count).map(|_| BlockRange { base: p.extend(4 * LANES) as usize, slots: 4 }).collect();
         for (block, k) in ranges.iter().zip(0..) {
             for lane in 0..LANES {
-                let (at, speed) =
-                    (Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 15.0)), rng.range(-9.0, 9.0).max(0.0));
+                let at = Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 15.0));
+                let velocity = Vec2::new(0.0, rng.range(-9.0, 9.0).max(0.0));
                 let size = if k == 0 { 4.0 } else { 1.0 };
                 for slot in 0..4 {
                     let place = at + Vec2::new(0.5 * size * slot as f32, rng.range(-0.2, 0.2));
-                    let velocity = Vec2::new(0.0, speed);
                     let owner = 8 * k + lane as u32;
-                    let particle =
-                        crate::particle::Particle { owner, radius: 0.3 * size, velocity, ..disc(place, 1.0) };
+                    let particle = Particle { owner, radius: 0.3 * size, velocity, ..disc(place, 1.0) };
                     p.set(block.entry(slot, lane), &particle);
                 }
             }
@@ -322,25 +306,15 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_get_faster_than_expected_miss_nobody() {
+    fn late_pairs_complete_the_pairs_of_bodies_that_exceed_their_margin() {
         let (mut widened, mut missed_at_first) = (0, 0);
         for seed in 0..20 {
             let mut rng = Rng::new(seed, 1);
             let (mut p, blocks) = random_blocks(&mut rng, 12);
             let (exemptions, sleep) = (Exemptions::default(), &mut Sleep::default());
             let mut broad = BroadPhase::default();
-            let size = Vec2::new(20.0, 15.0);
-            let input = SearchInput {
-                particles: &p,
-                blocks: &blocks,
-                obstacles: &[],
-                exemptions: &exemptions,
-                rings: &[],
-                containments: &[],
-                size,
-                limits: LIMITS,
-            };
-            broad.find_pairs(input, sleep, 1);
+            let input = search_input(&p, &exemptions, LIMITS);
+            broad.find_pairs(SearchInput { blocks: &blocks, size: Vec2::new(20.0, 15.0), ..input }, sleep, 1);
             let at_first = pairs_of(&broad);
             for substep in 0..8 {
                 move_all(&mut p, &blocks, &mut broad, &mut rng);
@@ -365,16 +339,15 @@ mod tests {
     fn owners_groups_and_exemptions_keep_pairs_apart() {
         let mut particles = Particles::default();
         for owner in [0, 0, 1] {
-            particles.insert(&crate::particle::Particle { owner, ..disc(Vec2::new(5.0, 5.0), 1.0) });
+            particles.insert(&Particle { owner, ..disc(Vec2::new(5.0, 5.0), 1.0) });
         }
         let none = Exemptions::default();
         assert_eq!(found(&particles, &none), [(0, 2), (1, 2)]);
         let mut exempt = Exemptions::default();
         exempt.set(0, 1, true);
         assert_eq!(found(&particles, &exempt), []);
-        particles.groups[2] = CollisionGroups { memberships: 2, filter: 1 };
-        particles.groups[0] = CollisionGroups { memberships: 1, filter: 2 };
-        particles.groups[1] = CollisionGroups { memberships: 4, filter: 2 };
+        let groups = [(1, 2), (4, 2), (2, 1)];
+        *particles.groups = groups.map(|(memberships, filter)| CollisionGroups { memberships, filter }).to_vec();
         assert_eq!(found(&particles, &none), [(0, 2)]);
     }
 }

@@ -59,7 +59,9 @@ impl Exemptions {
     pub(crate) fn inherit(&mut self, from: u32, to: u32) {
         let others = self.pairs.iter().filter(|&&(a, b)| a == from || b == from);
         let others: Vec<u32> = others.map(|&(a, b)| if a == from { b } else { a }).collect();
-        others.into_iter().for_each(|other| self.set(to, other, true));
+        for other in others {
+            self.set(to, other, true);
+        }
     }
 
     /// Forgets every pair of an owner that is gone.

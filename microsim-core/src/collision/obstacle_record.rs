@@ -102,16 +102,17 @@ impl ShapeRecord {
 
     #[cfg(feature = "snapshot")]
     fn restore(self) -> Option<SharedShape> {
+        let are_finite = |points: &[Vec2]| points.iter().all(|at| at.is_finite());
         let is_sound = match &self {
             Self::Ball(radius) => is_length(*radius),
             Self::Cuboid(half, border) => is_length(half.x) && is_length(half.y) && is_length(*border),
-            Self::Capsule(a, b, radius) => a.is_finite() && b.is_finite() && is_length(*radius),
-            Self::Segment(a, b) => a.is_finite() && b.is_finite(),
-            Self::Triangle(corners, border) => corners.iter().all(|at| at.is_finite()) && is_length(*border),
-            Self::ConvexPolygon(corners, border) => corners.iter().all(|at| at.is_finite()) && is_length(*border),
+            Self::Capsule(a, b, radius) => are_finite(&[*a, *b]) && is_length(*radius),
+            Self::Segment(a, b) => are_finite(&[*a, *b]),
+            Self::Triangle(corners, border) => are_finite(corners) && is_length(*border),
+            Self::ConvexPolygon(corners, border) => are_finite(corners) && is_length(*border),
             Self::Polyline(corners, links) => {
                 let is_known = |&k: &u32| (k as usize) < corners.len();
-                corners.iter().all(|at| at.is_finite()) && !links.is_empty() && links.iter().flatten().all(is_known)
+                are_finite(corners) && !links.is_empty() && links.iter().flatten().all(is_known)
             }
         };
         let shape = match self {
@@ -125,10 +126,9 @@ impl ShapeRecord {
             Self::Triangle([a, b, c], border) => SharedShape::round_triangle(a, b, c, border),
             Self::ConvexPolygon(corners, border) => {
                 let polygon = parry2d::shape::ConvexPolygon::from_convex_polyline_unmodified(corners)?;
-                if border == 0.0 {
-                    SharedShape::new(polygon)
-                } else {
-                    SharedShape::new(RoundShape { inner_shape: polygon, border_radius: border })
+                match border {
+                    0.0 => SharedShape::new(polygon),
+                    _ => SharedShape::new(RoundShape { inner_shape: polygon, border_radius: border }),
                 }
             }
             Self::Polyline(corners, links) => SharedShape::new(Polyline::new(corners, Some(links))),

@@ -101,7 +101,7 @@ pub(super) struct RingQuery<'a> {
 impl RingContacts {
     /// The links that a disc may touch.
     pub(crate) fn links_of(&self, contact: &RingContact) -> &[Link] {
-        &self.links[contact.links.start as usize..contact.links.end as usize]
+        &self.links[contact.range()]
     }
 
     /// The contacts, to be worked on, and all links.
@@ -127,21 +127,12 @@ impl RingContacts {
     fn group(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
         let p = near.particles;
         for group in self.found.chunk_by(|a, b| a.0 == b.0) {
-            let particle = group[0].0;
-            let first = self.links.len() as u32;
+            let (particle, first) = (group[0].0, self.links.len() as u32);
             self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
             let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
             let side = side_of(p.owner[particle as usize], ring, near.containments);
-            let links = first..self.links.len() as u32;
-            self.contacts.push(RingContact {
-                particle,
-                ring: place,
-                side,
-                friction,
-                touched: None,
-                is_close: true,
-                links,
-            });
+            let (links, touched, is_close) = (first..self.links.len() as u32, None, true);
+            self.contacts.push(RingContact { particle, ring: place, side, friction, touched, is_close, links });
         }
     }
 }

@@ -1,9 +1,8 @@
 //! How much of a polygon is left free by what lies in it, on a raster.
 
-use glam::Vec2;
-
 use super::polygon::contains_point;
 use super::segment::nearest_on_segment;
+use glam::Vec2;
 
 /// Most samples along one side of the raster.
 const MOST: f32 = 2048.0;
@@ -29,10 +28,7 @@ impl Coverage {
     /// The samples of a polygon, `pitch` apart (farther, where it is too large for that). `None` where there is no sample
     /// or a coordinate is not finite.
     pub(crate) fn of(polygon: &[Vec2], pitch: f32) -> Option<Self> {
-        let first = *polygon.first()?;
-        let (low, high) = polygon.iter().fold((first, first), |(low, high), &p| {
-            (Vec2::select(p.cmplt(low), p, low), Vec2::select(p.cmpgt(high), p, high))
-        });
+        let (low, high) = bounds(polygon)?;
         let size = high - low;
         let side = if size.x > size.y { size.x } else { size.y };
         let pitch = if side / MOST > pitch { side / MOST } else { pitch };
@@ -65,11 +61,7 @@ impl Coverage {
 
     /// Covers the area of a polygon.
     pub(crate) fn cover_polygon(&mut self, polygon: &[Vec2]) {
-        let bounds = polygon.iter().fold(None, |bounds, &p| {
-            let (low, high) = bounds.unwrap_or((p, p));
-            Some((Vec2::select(p.cmplt(low), p, low), Vec2::select(p.cmpgt(high), p, high)))
-        });
-        if let Some((low, high)) = bounds {
+        if let Some((low, high)) = bounds(polygon) {
             self.cover(low, high, |p| contains_point(polygon, p));
         }
     }
@@ -114,6 +106,14 @@ impl Coverage {
     fn index(&self, coordinate: f32, axis: usize, count: usize) -> usize {
         (((coordinate / self.pitch).ceil() - self.low[axis]) as usize).min(count)
     }
+}
+
+/// Lower left and upper right corner of the box around a polygon.
+fn bounds(polygon: &[Vec2]) -> Option<(Vec2, Vec2)> {
+    let first = *polygon.first()?;
+    Some(polygon.iter().fold((first, first), |(low, high), &p| {
+        (Vec2::select(p.cmplt(low), p, low), Vec2::select(p.cmpgt(high), p, high))
+    }))
 }
 
 #[cfg(test)]
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_area_has_no_samples_and_what_is_huge_few() {
+    fn shapes_without_area_have_no_samples_and_huge_ones_few() {
         assert!(Coverage::of(&[], 0.1).is_none());
         assert!(Coverage::of(&[Vec2::ZERO, Vec2::NAN, Vec2::X], 0.1).is_none());
         assert!(Coverage::of(&[Vec2::ZERO, Vec2::X, Vec2::Y], f32::NAN).is_none());

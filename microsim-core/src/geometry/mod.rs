@@ -1,9 +1,8 @@
 //! Plane geometry: polygons, rings of points and triangulation.
 //!
-//! Pure functions on slices of [`glam::Vec2`], with no knowledge of particles. Polygons are closed
-//! (the last vertex joins the first) and need not be convex; +y points up, so counter-clockwise is
-//! the positive direction. Results have the same bits on every platform: only `+ - * /`, `sqrt`,
-//! comparisons and `libm` are used. No input makes a function panic, NaN included.
+//! Pure functions on slices of [`glam::Vec2`]. Polygons are closed (the last vertex joins the first) and need not be convex;
+//! +y points up, so counter-clockwise is the positive direction. Results have the same bits on every platform: only
+//! `+ - * /`, `sqrt`, comparisons and `libm` are used. No input makes a function panic, NaN included.
 
 pub(crate) mod coverage;
 pub mod outline;
@@ -23,7 +22,6 @@ pub(crate) mod arbitrary {
     //! Random polygons for the property tests of this module.
 
     use core::f32::consts::TAU;
-
     use glam::Vec2;
     use proptest::prelude::*;
 

@@ -1,8 +1,7 @@
 //! Measures of an outline's shape: how far it is from convex, and how wide it is across a direction.
 
-use glam::Vec2;
-
 use super::segment::turn;
+use glam::Vec2;
 
 /// How much more `polygon` turns than a convex one, radians: the sum of the magnitudes of its exterior angles less 2 pi.
 ///
@@ -95,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_shape_has_no_measures() {
+    fn degenerate_outlines_have_no_measures() {
         assert_eq!(excess_turning(&[Vec2::ZERO, Vec2::X, Vec2::X, Vec2::ZERO]), 0.0);
         assert_eq!(excess_turning(&[Vec2::ZERO, Vec2::X, Vec2::splat(f32::NAN)]), 0.0);
         assert_eq!(quarter_widths(&[Vec2::ZERO, Vec2::X], Vec2::X), None);

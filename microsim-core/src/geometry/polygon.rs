@@ -1,8 +1,7 @@
 //! Measures and predicates of closed polygons.
 //!
-//! A polygon is a slice of vertices in order, in world units of length; the edge from the last
-//! vertex to the first is implied. Sums run in `f64`, because the products of large coordinates
-//! cancel badly in `f32`.
+//! A polygon is a slice of vertices in order, in world units of length; the edge from the last vertex to the first is
+//! implied. Sums run in `f64`, because the products of large coordinates cancel badly in `f32`.
 
 use super::segment::{folds_back, offset, segments_touch, turn};
 use glam::Vec2;
@@ -14,11 +13,10 @@ const DEGENERATE_AREA: f64 = 1.0e-7;
 
 /// Whether `point` lies inside `polygon`, of either winding, by the even-odd rule.
 ///
-/// A horizontal ray is cast from the point towards +x and its crossings with the edges are
-/// counted: an odd count is inside. An edge owns its lower end and not its upper one, so a ray
-/// through a vertex counts once where the boundary passes and twice or never where it turns.
-/// Points on the boundary may fall on either side. Fewer than three vertices contain nothing, and
-/// nothing contains a point with a NaN coordinate.
+/// A horizontal ray is cast from the point towards +x and its crossings with the edges are counted: an odd count is
+/// inside. An edge owns its lower end and not its upper one, so a ray through a vertex counts once where the boundary
+/// passes and twice or never where it turns. Points on the boundary may fall on either side. Fewer than three vertices
+/// contain nothing, and nothing contains a point with a NaN coordinate.
 ///
 /// Source: M. Shimrat, "Algorithm 112: Position of point relative to polygon", CACM 5(8), 1962.
 pub fn contains_point(polygon: &[Vec2], point: Vec2) -> bool {
@@ -46,15 +44,11 @@ pub fn centroid(polygon: &[Vec2]) -> Option<Vec2> {
     let origin = *polygon.first()?;
     let doubled_area = doubled_area(polygon);
     let length = f64::from(perimeter(polygon));
-    if doubled_area.abs() > 2.0 * DEGENERATE_AREA * length * length {
-        Some(area_centroid(polygon, origin, doubled_area))
-    } else {
-        Some(vertex_mean(polygon, origin))
-    }
+    let has_area = doubled_area.abs() > 2.0 * DEGENERATE_AREA * length * length;
+    Some(if has_area { area_centroid(polygon, origin, doubled_area) } else { vertex_mean(polygon, origin) })
 }
 
-/// Whether `polygon` has an interior in one piece: no two of its edges meet except where
-/// neighbours share a vertex.
+/// Whether `polygon` has an interior in one piece: no two of its edges meet except where neighbours share a vertex.
 ///
 /// Edges that cross, touch or fold back on each other and repeated vertices make it false, and so
 /// do fewer than three vertices or a coordinate that is not finite. Takes O(n²) time.
@@ -75,9 +69,7 @@ pub fn perimeter(polygon: &[Vec2]) -> f32 {
 
 /// The edges as pairs of end points, ending with the edge that closes the polygon.
 fn edges(polygon: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
-    let starts = polygon.iter().copied();
-    let ends = polygon.iter().copied().cycle().skip(1);
-    starts.zip(ends)
+    polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1))
 }
 
 /// Whether the ray from `point` towards +x crosses the edge.
@@ -91,12 +83,9 @@ fn crosses_ray(a: Vec2, b: Vec2, point: Vec2) -> bool {
     turn(lower, upper, point) > 0.0
 }
 
-/// Twice the signed area; taken from the first vertex, so that it does not lose digits far away
-/// from the origin.
+/// Twice the signed area; taken from the first vertex, so that it does not lose digits far away from the origin.
 fn doubled_area(polygon: &[Vec2]) -> f64 {
-    let Some(&origin) = polygon.first() else {
-        return 0.0;
-    };
+    let origin = polygon.first().copied().unwrap_or_default();
     edges(polygon).fold(0.0, |sum, (a, b)| sum + turn(origin, a, b))
 }
 
@@ -145,13 +134,12 @@ fn is_clear_of_later(edges: &[(Vec2, Vec2)], index: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use glam::vec2;
-    use parry2d::utils::point_in_poly2d;
-    use proptest::prelude::*;
-
     use super::super::arbitrary::{convex_polygon, star_polygon, tangled_polygon};
     use super::super::segment::nearest_on_segment;
     use super::*;
+    use glam::vec2;
+    use parry2d::utils::point_in_poly2d;
+    use proptest::prelude::*;
 
     fn unit_square() -> Vec<Vec2> {
         vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0)]
@@ -297,19 +285,13 @@ mod tests {
     proptest! {
         #[test]
         fn contains_point_agrees_with_parry(
-            polygon in star_polygon(),
-            x in -31.0f32..31.0,
-            y in -31.0f32..31.0,
-            near in -11.0f32..11.0,
+            polygon in star_polygon(), x in -31.0f32..31.0, y in -31.0f32..31.0, near in -11.0f32..11.0,
         ) {
             // Uniform points mostly miss the polygon, so test others close to a vertex too.
             let around = polygon[0] + vec2(near, x * 0.3);
             for point in [vec2(x, y), around, vec2(x, polygon[1].y)] {
                 if distance_to_boundary(&polygon, point) > 1.0e-3 {
-                    prop_assert_eq!(
-                        contains_point(&polygon, point),
-                        point_in_poly2d(point, &polygon)
-                    );
+                    prop_assert_eq!(contains_point(&polygon, point), point_in_poly2d(point, &polygon));
                 }
             }
         }
@@ -338,11 +320,7 @@ mod tests {
         }
 
         #[test]
-        fn centroid_moves_with_the_polygon(
-            polygon in star_polygon(),
-            x in -100.0f32..100.0,
-            y in -100.0f32..100.0,
-        ) {
+        fn centroid_moves_with_the_polygon(polygon in star_polygon(), x in -100.0f32..100.0, y in -100.0f32..100.0) {
             let shift = vec2(x, y);
             let moved: Vec<_> = polygon.iter().map(|vertex| *vertex + shift).collect();
             let expected = centroid(&polygon).map(|centre| centre + shift);

@@ -5,7 +5,6 @@
 //! on every platform, which those of the standard library do not.
 
 use core::f64::consts::FRAC_PI_2;
-
 use glam::Vec2;
 
 /// Steps of the arc length table of a quarter ellipse, before those for the number of points.
@@ -18,22 +17,21 @@ pub fn unit_vector(angle: f32) -> Vec2 {
     Vec2::new(libm::cosf(angle), libm::sinf(angle))
 }
 
-/// `count` points on the ellipse around the origin with half axes `radii` (x, y), evenly spaced by
-/// arc length.
+/// `count` points on the ellipse around the origin with half axes `radii` (x, y), evenly spaced by arc length.
 ///
 /// Counter-clockwise, starting at (radii.x, 0). The ring is its own mirror image in the x axis to
 /// the last bit, and in the y axis too if `count` is even. On a circle the points have equal
 /// angles. The signs of the radii are ignored; radii that are not finite give points that are not.
 pub fn ellipse(radii: Vec2, count: usize) -> Vec<Vec2> {
     let radii = radii.abs();
-    let quarter = QuarterArc::new(radii, count);
+    let lengths = arc_lengths(radii, count);
     (0..count)
         .map(|index| {
             // Every point is folded into the first quadrant and mirrored back, so symmetry is
             // exact. In units of a quarter arc / `count`, the position of the point is 4 index.
             let (quadrant, rest) = (4 * index / count, 4 * index % count);
             let part = if quadrant % 2 == 0 { rest } else { count - rest };
-            mirrored(quarter.point(radii, part, count), quadrant)
+            mirrored(point_on_quarter(radii, lengths.as_deref(), part as f64 / count as f64), quadrant)
         })
         .collect()
 }
@@ -70,47 +68,36 @@ pub fn direction_or(v: Vec2, fallback: Vec2) -> Vec2 {
     scaled / scaled.length()
 }
 
-/// The first quadrant of an ellipse, from (radii.x, 0) to (0, radii.y), by arc length.
-struct QuarterArc {
-    /// Arc length from the x axis to each of equal steps of the parameter angle; `None` where
-    /// equal angles are equal arcs anyway (a circle) or there is no arc to measure.
-    lengths: Option<Vec<f64>>,
+/// Arc length of a quarter ellipse from (radii.x, 0) to each of equal steps of the parameter angle: sums of the speed
+/// |d(rx cos t, ry sin t)/dt| at the middle of each step. `None` where equal angles are equal arcs anyway (a circle) or
+/// there is no arc to measure.
+fn arc_lengths(radii: Vec2, count: usize) -> Option<Vec<f64>> {
+    if radii.x == radii.y || !radii.is_finite() {
+        return None;
+    }
+    let steps = MIN_ARC_STEPS + count;
+    let mut sum = 0.0;
+    let mut lengths = vec![sum];
+    for step in 0..steps {
+        let middle = (step as f64 + 0.5) / steps as f64 * FRAC_PI_2;
+        let (sine, cosine) = (libm::sin(middle), libm::cos(middle));
+        let (dx, dy) = (f64::from(radii.x) * sine, f64::from(radii.y) * cosine);
+        sum += (dx * dx + dy * dy).sqrt();
+        lengths.push(sum);
+    }
+    Some(lengths)
 }
 
-impl QuarterArc {
-    /// Sums the speed |d(rx cos t, ry sin t)/dt| at the middle of each step of t.
-    fn new(radii: Vec2, count: usize) -> Self {
-        if radii.x == radii.y || !radii.is_finite() {
-            return Self { lengths: None };
-        }
-        let steps = MIN_ARC_STEPS + count;
-        let mut sum = 0.0;
-        let mut lengths = vec![sum];
-        for step in 0..steps {
-            let middle = (step as f64 + 0.5) / steps as f64 * FRAC_PI_2;
-            let (sine, cosine) = (libm::sin(middle), libm::cos(middle));
-            let (dx, dy) = (f64::from(radii.x) * sine, f64::from(radii.y) * cosine);
-            sum += (dx * dx + dy * dy).sqrt();
-            lengths.push(sum);
-        }
-        Self { lengths: Some(lengths) }
+/// The point at `fraction` of the arc of a quarter ellipse, 0 to 1.
+fn point_on_quarter(radii: Vec2, lengths: Option<&[f64]>, fraction: f64) -> Vec2 {
+    if fraction == 0.0 {
+        return Vec2::new(radii.x, 0.0);
     }
-
-    /// The point at `part` / `count` of the arc, with `part` in 0..=count.
-    fn point(&self, radii: Vec2, part: usize, count: usize) -> Vec2 {
-        if part == 0 {
-            return Vec2::new(radii.x, 0.0);
-        }
-        if part == count {
-            return Vec2::new(0.0, radii.y);
-        }
-        let fraction = part as f64 / count as f64;
-        let turn = match &self.lengths {
-            Some(lengths) => turn_at(lengths, fraction),
-            None => fraction,
-        };
-        radii * unit_vector((turn * FRAC_PI_2) as f32)
+    if fraction == 1.0 {
+        return Vec2::new(0.0, radii.y);
     }
+    let turn = lengths.map_or(fraction, |lengths| turn_at(lengths, fraction));
+    radii * unit_vector((turn * FRAC_PI_2) as f32)
 }
 
 /// The fraction of the steps after which `fraction` of the total length has passed.
@@ -133,13 +120,11 @@ fn mirrored(point: Vec2, quadrant: usize) -> Vec2 {
 
 #[cfg(test)]
 mod tests {
-    use core::f32::consts::{FRAC_PI_2, PI, TAU};
-
-    use glam::vec2;
-    use proptest::prelude::*;
-
     use super::super::{is_simple, signed_area};
     use super::*;
+    use core::f32::consts::{FRAC_PI_2, PI, TAU};
+    use glam::vec2;
+    use proptest::prelude::*;
 
     /// Length of the arc between parameter angles, in f64 and by other means than the table.
     fn arc_length(radii: Vec2, from: f64, to: f64) -> f64 {
@@ -241,11 +226,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn ellipse_points_lie_on_it_at_even_arcs(
-            rx in 0.1f32..100.0,
-            ratio in 0.05f32..20.0,
-            count in 3usize..80,
-        ) {
+        fn ellipse_points_lie_on_it_at_even_arcs(rx in 0.1f32..100.0, ratio in 0.05f32..20.0, count in 3usize..80) {
             let radii = vec2(rx, rx * ratio);
             let ring = ellipse(radii, count);
             prop_assert_eq!(ring.len(), count);
@@ -263,9 +244,7 @@ mod tests {
 
         #[test]
         fn ellipse_is_simple_counter_clockwise_and_symmetric(
-            rx in 0.1f32..100.0,
-            ry in 0.1f32..100.0,
-            count in 3usize..80,
+            rx in 0.1f32..100.0, ry in 0.1f32..100.0, count in 3usize..80,
         ) {
             let ring = ellipse(vec2(rx, ry), count);
             prop_assert!(is_simple(&ring));
@@ -287,9 +266,7 @@ mod tests {
         }
 
         #[test]
-        fn nearest_index_is_no_farther_than_any(
-            points in prop::collection::vec((-9.0f32..9.0, -9.0f32..9.0), 1..20),
-        ) {
+        fn nearest_index_is_no_farther_than_any(points in prop::collection::vec((-9.0f32..9.0, -9.0f32..9.0), 1..20)) {
             let points: Vec<Vec2> = points.into_iter().map(Vec2::from).collect();
             let nearest = nearest_index(&points, Vec2::ONE).map(|index| points[index]);
             let least = nearest.map(|point| point.distance_squared(Vec2::ONE));

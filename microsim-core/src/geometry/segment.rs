@@ -22,8 +22,7 @@ pub fn nearest_on_segment(a: Vec2, b: Vec2, point: Vec2) -> Vec2 {
 
 /// Twice the signed area of the triangle `a b c`: positive when it turns counter-clockwise.
 ///
-/// Differences and products of `f32` fit into `f64`, so for coordinates of similar size the sign
-/// is exact.
+/// Differences and products of `f32` fit into `f64`, so for coordinates of similar size the sign is exact.
 pub(super) fn turn(a: Vec2, b: Vec2, c: Vec2) -> f64 {
     let (bx, by) = offset(a, b);
     let (cx, cy) = offset(a, c);
@@ -75,12 +74,9 @@ mod tests {
     proptest! {
         #[test]
         fn nearest_on_segment_beats_samples(
-            a in (-9.0f32..9.0, -9.0f32..9.0),
-            b in (-9.0f32..9.0, -9.0f32..9.0),
-            p in (-9.0f32..9.0, -9.0f32..9.0),
-            fraction in 0.0f32..1.0,
+            points in prop::array::uniform3((-9.0f32..9.0, -9.0f32..9.0)), fraction in 0.0f32..1.0,
         ) {
-            let (a, b, p) = (Vec2::from(a), Vec2::from(b), Vec2::from(p));
+            let [a, b, p] = points.map(Vec2::from);
             let nearest = nearest_on_segment(a, b, p).distance(p);
             prop_assert!(nearest <= a.lerp(b, fraction).distance(p) + 1.0e-5);
         }

@@ -1,17 +1,15 @@
 //! Triangulation of polygons by ear clipping.
 
-use glam::Vec2;
-
 use super::polygon::signed_area;
 use super::segment::turn;
+use glam::Vec2;
 
 /// Splits `polygon`, of either winding, into triangles of indices into it.
 ///
-/// n vertices give n - 2 triangles, none if n < 3. For a simple polygon, convex or not, they cover
-/// it without overlap, and all are counter-clockwise with a positive area. A polygon that crosses
-/// or touches itself is cut up too, by force where no ear is left: its triangles may overlap, have
-/// no area or turn clockwise, and only the sum of their signed areas is sure to be that of the
-/// polygon (as its absolute value). Takes O(n²) time as a rule and O(n³) at worst.
+/// n vertices give n - 2 triangles, none if n < 3. For a simple polygon, convex or not, they cover it without overlap,
+/// and all are counter-clockwise with a positive area. A polygon that crosses or touches itself is cut up too, by force
+/// where no ear is left: its triangles may overlap, have no area or turn clockwise, and only the sum of their signed
+/// areas is sure to be that of the polygon (as its absolute value). Takes O(n²) time as a rule and O(n³) at worst.
 ///
 /// An ear is a triangle of three successive vertices that lies inside; every simple polygon with
 /// more than three vertices has two, and clipping one leaves a simple polygon.
@@ -80,12 +78,11 @@ fn is_in_triangle([a, b, c]: [Vec2; 3], point: Vec2) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use glam::vec2;
-    use proptest::prelude::*;
-
     use super::super::arbitrary::{star_polygon, tangled_polygon};
     use super::super::{contains_point, perimeter};
     use super::*;
+    use glam::vec2;
+    use proptest::prelude::*;
 
     fn triangle_areas(polygon: &[Vec2], triangles: &[[u32; 3]]) -> Vec<f32> {
         let area = |triangle: &[u32; 3]| signed_area(&triangle.map(|i| polygon[i as usize]));

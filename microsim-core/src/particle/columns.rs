@@ -31,54 +31,37 @@ impl<'a> Columns<'a> {
     /// Some of them.
     pub(crate) fn part(&mut self, range: Range<usize>) -> Columns<'_> {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;
-        Columns {
-            origin_x: &origin_x[range.clone()],
-            origin_y: &origin_y[range.clone()],
-            x: &mut x[range.clone()],
-            y: &mut y[range.clone()],
-            prev_x: &mut prev_x[range.clone()],
-            prev_y: &mut prev_y[range.clone()],
-            vx: &mut vx[range.clone()],
-            vy: &mut vy[range.clone()],
-            inv_mass: &inv_mass[range],
-        }
+        let [origin_x, origin_y, inv_mass] = [*origin_x, *origin_y, *inv_mass].map(|column| &column[range.clone()]);
+        let moving = [x, y, prev_x, prev_y, vx, vy];
+        let [x, y, prev_x, prev_y, vx, vy] = moving.map(|column| &mut column[range.clone()]);
+        Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
     }
 
-    /// The first `count` entries, and the others.
-    pub(crate) fn split_at(self, count: usize) -> (Self, Self) {
-        let (origin_x, origin_x_rest) = self.origin_x.split_at(count);
-        let (origin_y, origin_y_rest) = self.origin_y.split_at(count);
-        let (x, x_rest) = self.x.split_at_mut(count);
-        let (y, y_rest) = self.y.split_at_mut(count);
-        let (prev_x, prev_x_rest) = self.prev_x.split_at_mut(count);
-        let (prev_y, prev_y_rest) = self.prev_y.split_at_mut(count);
-        let (vx, vx_rest) = self.vx.split_at_mut(count);
-        let (vy, vy_rest) = self.vy.split_at_mut(count);
-        let (inv_mass, inv_mass_rest) = self.inv_mass.split_at(count);
-        let rest = Columns {
-            origin_x: origin_x_rest,
-            origin_y: origin_y_rest,
-            x: x_rest,
-            y: y_rest,
-            prev_x: prev_x_rest,
-            prev_y: prev_y_rest,
-            vx: vx_rest,
-            vy: vy_rest,
-            inv_mass: inv_mass_rest,
-        };
-        (Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }, rest)
+    /// Takes out the first `count` entries; the others stay.
+    pub(crate) fn take_front(&mut self, count: usize) -> Self {
+        let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;
+        let [origin_x, origin_y, inv_mass] = [origin_x, origin_y, inv_mass].map(|column| {
+            let (front, others) = column.split_at(count);
+            *column = others;
+            front
+        });
+        let [x, y, prev_x, prev_y, vx, vy] = [x, y, prev_x, prev_y, vx, vy].map(|column| {
+            let (front, others) = std::mem::take(column).split_at_mut(count);
+            *column = others;
+            front
+        });
+        Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
     }
 
     /// Chunks of at most `count` entries that together are these ranges, of which each lies after the one before.
-    pub(crate) fn chunks(self, ranges: impl Iterator<Item = Range<usize>>, count: usize) -> Vec<Self> {
-        let (mut chunks, mut rest, mut start) = (Vec::new(), self, 0);
+    pub(crate) fn chunks(mut self, ranges: impl Iterator<Item = Range<usize>>, count: usize) -> Vec<Self> {
+        let (mut chunks, mut start) = (Vec::new(), 0);
         for range in ranges {
             for first in range.clone().step_by(count) {
                 let end = range.end.min(first + count);
-                let (_, from_first) = rest.split_at(first - start);
-                let (chunk, others) = from_first.split_at(end - first);
-                chunks.push(chunk);
-                (rest, start) = (others, end);
+                self.take_front(first - start);
+                chunks.push(self.take_front(end - first));
+                start = end;
             }
         }
         chunks

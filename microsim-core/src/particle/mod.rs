@@ -32,7 +32,7 @@ use serde::{Deserialize, Serialize};
 
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
-/// No disc is larger, nor farther away or faster, in whatever units.
+/// Limits of what is read from a file: radius, and each coordinate of position and velocity.
 #[cfg(feature = "snapshot")]
 const MAX_RADIUS: f32 = 1e5;
 #[cfg(feature = "snapshot")]
@@ -159,7 +159,7 @@ impl Particles {
         self.live_count
     }
 
-    /// What of all particles moves.
+    /// The columns of all particles that constraints and integration use.
     pub(crate) fn columns(&mut self) -> Columns<'_> {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass, .. } = self;
         Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
@@ -232,18 +232,9 @@ impl Particles {
     pub(crate) fn extend(&mut self, count: usize) -> u32 {
         let first = self.len();
         let len = first + count;
-        for column in [
-            &mut self.origin_x,
-            &mut self.origin_y,
-            &mut self.x,
-            &mut self.y,
-            &mut self.prev_x,
-            &mut self.prev_y,
-            &mut self.vx,
-            &mut self.vy,
-            &mut self.inv_mass,
-            &mut self.radius,
-        ] {
+        let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass, radius, .. } = self;
+        let shared: [&mut Vec<f32>; 4] = [origin_x, origin_y, inv_mass, radius];
+        for column in shared.into_iter().chain([x, y, prev_x, prev_y, vx, vy]) {
             column.resize(len, 0.0);
         }
         self.groups.resize(len, CollisionGroups::NONE);
@@ -259,7 +250,7 @@ impl Particles {
     pub(crate) fn get(&self, i: usize) -> Particle {
         Particle {
             origin: self.origin(i),
-            offset: Vec2::new(self.x[i], self.y[i]),
+            offset: self.offset(i),
             velocity: self.velocity(i),
             inv_mass: self.inv_mass[i],
             radius: self.radius[i],
@@ -273,14 +264,8 @@ impl Particles {
 
     /// Overwrites entry `i`.
     pub(crate) fn set(&mut self, i: usize, particle: &Particle) {
-        self.origin_x[i] = particle.origin.x;
-        self.origin_y[i] = particle.origin.y;
-        self.x[i] = particle.offset.x;
-        self.y[i] = particle.offset.y;
-        self.prev_x[i] = particle.offset.x;
-        self.prev_y[i] = particle.offset.y;
-        self.vx[i] = particle.velocity.x;
-        self.vy[i] = particle.velocity.y;
+        self.place(i, particle.origin, particle.offset);
+        (self.vx[i], self.vy[i]) = particle.velocity.into();
         self.inv_mass[i] = particle.inv_mass;
         self.radius[i] = particle.radius;
         self.groups[i] = particle.groups;
@@ -290,6 +275,13 @@ impl Particles {
         self.next_in_ring[i] = NO_OWNER;
         self.owner[i] = particle.owner;
         self.fluid[i] = particle.fluid;
+    }
+
+    /// Puts entry `i` somewhere, as if it had been there when the substep began.
+    fn place(&mut self, i: usize, origin: Vec2, offset: Vec2) {
+        (self.origin_x[i], self.origin_y[i]) = origin.into();
+        (self.x[i], self.y[i]) = offset.into();
+        (self.prev_x[i], self.prev_y[i]) = offset.into();
     }
 
     /// Notes which nodes follow each other in a membrane.
@@ -307,8 +299,7 @@ impl Particles {
     /// Makes entry `i` dead without freeing its index (a lane of a block).
     pub(crate) fn clear_entry(&mut self, i: usize) {
         self.live_count -= usize::from(self.is_live(i));
-        self.vx[i] = 0.0;
-        self.vy[i] = 0.0;
+        (self.vx[i], self.vy[i]) = (0.0, 0.0);
         self.inv_mass[i] = 0.0;
         self.groups[i] = CollisionGroups::NONE;
         self.owner[i] = NO_OWNER;
@@ -316,14 +307,10 @@ impl Particles {
         self.fluid[i] = 0;
     }
 
-    /// Stops entry `i` for good: no velocity, no collisions, infinite mass, and numbers that are finite.
+    /// Stops entry `i`: no velocity, no collisions, infinite mass, and numbers that are finite.
     pub(crate) fn freeze(&mut self, i: usize, origin: Vec2, at: Vec2) {
-        let offset = at - origin;
-        (self.origin_x[i], self.origin_y[i]) = (origin.x, origin.y);
-        (self.x[i], self.y[i]) = (offset.x, offset.y);
-        (self.prev_x[i], self.prev_y[i]) = (offset.x, offset.y);
-        self.vx[i] = 0.0;
-        self.vy[i] = 0.0;
+        self.place(i, origin, at - origin);
+        (self.vx[i], self.vy[i]) = (0.0, 0.0);
         self.inv_mass[i] = 0.0;
         self.groups[i] = CollisionGroups::NONE;
         if !(self.radius[i].is_finite() && self.radius[i] >= 0.0) {
@@ -336,12 +323,12 @@ impl Particles {
         self.origin(i) + Vec2::new(self.prev_x[i], self.prev_y[i])
     }
 
-    /// Makes what is not read with a store: positions at the start of the substep, and how many live.
+    /// Restores what a file leaves out: positions at the start of the substep, and the number of live particles.
     ///
     /// # Errors
     /// When columns differ in length, or a number is not finite or outside its range.
     #[cfg(feature = "snapshot")]
-    pub(crate) fn complete(&mut self) -> Result<(), String> {
+    pub(crate) fn restore_skipped(&mut self) -> Result<(), String> {
         let len = self.len();
         let Self { origin_x, origin_y, x, y, vx, vy, inv_mass, radius, groups, material, role, .. } = &*self;
         let columns = [origin_x, origin_y, x, y, vx, vy, inv_mass, radius];

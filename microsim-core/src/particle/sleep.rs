@@ -7,7 +7,7 @@
 use super::{BlockRange, LANES, Particles};
 use serde::{Deserialize, Serialize};
 
-/// Stands for the block of what is in none.
+/// Block of a body that is in none.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
 /// Sleep times of the bodies in blocks, and the blocks that sleep.
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn no_count_that_a_file_may_have_overflows() {
+    fn sleep_times_read_from_a_file_do_not_overflow() {
         let (block, particles) = block();
         let mut sleep = Sleep { sleep_time: vec![[u16::MAX; LANES]], asleep: vec![false] };
         sleep.update_sleep_times([block].into_iter(), &particles, 0.5, 30);

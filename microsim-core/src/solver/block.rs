@@ -70,9 +70,8 @@ pub(crate) fn batches<'a, T>(blocks: &'a mut [(&'a Block, T)], particles: &'a mu
     for of_template in blocks.chunk_by_mut(|a, b| a.0.template == b.0.template) {
         for blocks in of_template.chunks_mut(BATCH) {
             let end = blocks.last().map_or(start, |(block, _)| block.range().end());
-            let (stretch, others) = rest.split_at(end - start);
-            batches.push(Batch { blocks, start, stretch });
-            (rest, start) = (others, end);
+            batches.push(Batch { blocks, start, stretch: rest.take_front(end - start) });
+            start = end;
         }
     }
     batches

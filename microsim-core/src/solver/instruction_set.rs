@@ -22,14 +22,12 @@ pub(crate) struct Dispatch {
 }
 
 impl Dispatch {
-    #[cfg(target_arch = "x86_64")]
     pub(crate) fn new(set: InstructionSet) -> Self {
-        Self { has_avx2: set == InstructionSet::Best && std::arch::is_x86_feature_detected!("avx2") }
-    }
-
-    #[cfg(not(target_arch = "x86_64"))]
-    pub(crate) fn new(_: InstructionSet) -> Self {
-        Self { has_avx2: false }
+        #[cfg(target_arch = "x86_64")]
+        let has_avx2 = std::arch::is_x86_feature_detected!("avx2");
+        #[cfg(not(target_arch = "x86_64"))]
+        let has_avx2 = false;
+        Self { has_avx2: has_avx2 && set == InstructionSet::Best }
     }
 
     /// Runs a kernel: a closure marked `#[inline(always)]`.

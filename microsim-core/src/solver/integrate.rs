@@ -112,13 +112,15 @@ mod tests {
     use super::super::testing::line;
     use super::*;
 
+    fn substep(p: &mut Particles, gravity: Vec2, damping: f32, h: f32) {
+        predict_positions(&mut p.columns(), gravity, 1e3, h);
+        update_velocities(&mut p.columns(), damping, 1e3, h);
+    }
+
     #[test]
     fn free_fall_follows_the_closed_form() {
         let mut p = line(1.0, [1.0, 0.0]);
-        for _ in 0..100 {
-            predict_positions(&mut p.columns(), Vec2::new(0.0, -10.0), 1e3, 0.01);
-            update_velocities(&mut p.columns(), 0.0, 1e3, 0.01);
-        }
+        (0..100).for_each(|_| substep(&mut p, Vec2::new(0.0, -10.0), 0.0, 0.01));
         assert!((p.vy[0] + 10.0).abs() < 1e-2, "v {}", p.vy[0]);
         assert!((p.y[0] + 5.0).abs() < 0.06, "y {}", p.y[0]);
         assert_eq!((p.y[1], p.vy[1]), (0.0, 0.0), "what has no inverse mass does not fall");
@@ -139,10 +141,7 @@ mod tests {
     fn damping_takes_its_share_per_second() {
         let mut p = line(1.0, [1.0, 1.0]);
         p.vx[0] = 1.0;
-        for _ in 0..1000 {
-            predict_positions(&mut p.columns(), Vec2::ZERO, 10.0, 0.001);
-            update_velocities(&mut p.columns(), 0.5, 10.0, 0.001);
-        }
+        (0..1000).for_each(|_| substep(&mut p, Vec2::ZERO, 0.5, 0.001));
         assert!((p.vx[0] - (-0.5f64).exp() as f32).abs() < 3e-3, "v {}", p.vx[0]);
     }
 
@@ -151,8 +150,7 @@ mod tests {
         let mut p = line(1.0, [1.0, 1.0]);
         (p.vx[0], p.vx[1]) = (1.0, 1.0);
         for _ in 0..1000 {
-            predict_positions(&mut p.columns(), Vec2::ZERO, 10.0, 0.001);
-            update_velocities(&mut p.columns(), 0.5, 10.0, 0.001);
+            substep(&mut p, Vec2::ZERO, 0.5, 0.001);
             undo_damping(&[1], &mut p, 0.5, 0.001);
         }
         assert!(p.vx[0] < 0.7 && (p.vx[1] - 1.0).abs() < 1e-3, "{} {}", p.vx[0], p.vx[1]);

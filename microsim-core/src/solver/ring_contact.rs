@@ -74,8 +74,8 @@ pub(crate) fn gaps<'a>(
     })
 }
 
-/// The last word in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away by itself.
-/// What has not touched a link in this substep cannot have got there. Returns how many were on the wrong side.
+/// Last in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away; the link stays. Discs
+/// that have touched no link in this substep cannot be there. Returns how many were on the wrong side.
 pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
@@ -87,34 +87,34 @@ pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
         if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
             let length = relation.squared.sqrt();
             let direction = if is_wrong { -1.0 } else { 1.0 };
-            shift(p, i, homewards(contact.side, &relation) * (standoff - direction * length));
+            shift(p, i, to_own_side(contact.side, &relation) * (standoff - direction * length));
         }
     }
     wrong
 }
 
-/// The safety net: casts a ray from every disc near a ring and takes those on the wrong side back to the nearest link.
+/// Safety net: casts a ray from every disc near a ring and moves those on the wrong side back to the nearest link.
 /// `place` is the ring's place among those that were searched. Returns how many there were.
 pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p: &mut Particles) -> u32 {
     let outline: Vec<Vec2> = ring.nodes.iter().map(|&node| p.position(node as usize)).collect();
-    // A ring that is about to be frozen takes nothing along.
+    // Such a ring is about to be frozen.
     if !outline.iter().all(|at| at.is_finite()) {
         return 0;
     }
-    let mut caught = 0;
+    let mut count = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.ring == place) {
         let position = p.position(contact.particle as usize);
-        let is_stray = match contact.side {
+        let is_on_wrong_side = match contact.side {
             Side::Inside => !contains_point(&outline, position),
             Side::Outside => contains_point(&outline, position),
             Side::Either => false,
         };
-        if is_stray {
-            caught += 1;
+        if is_on_wrong_side {
+            count += 1;
             return_to_side(contact, ring, p);
         }
     }
-    caught
+    count
 }
 
 /// Moves a disc to its own side of the link of a whole ring that is nearest to it.
@@ -123,7 +123,7 @@ fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
     let i = contact.particle as usize;
     let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
-    shift(p, i, -relation.away + homewards(contact.side, &relation) * standoff);
+    shift(p, i, -relation.away + to_own_side(contact.side, &relation) * standoff);
 }
 
 fn is_wrong(side: Side, relation: &Relation) -> bool {
@@ -135,7 +135,7 @@ fn is_wrong(side: Side, relation: &Relation) -> bool {
 }
 
 /// Unit vector across the link, to the disc's own side.
-fn homewards(side: Side, relation: &Relation) -> Vec2 {
+fn to_own_side(side: Side, relation: &Relation) -> Vec2 {
     let length = relation.squared.sqrt();
     if length > 1e-6 {
         let away = relation.away / length;
@@ -183,7 +183,7 @@ fn relate(particle: u32, link: Link, p: &Particles) -> Relation {
 /// Moves disc and link `depth` apart, the disc to its own side.
 fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f32, p: &mut Particles) {
     let (i, a, b) = (contact.particle as usize, link.a as usize, link.b as usize);
-    let normal = homewards(contact.side, relation);
+    let normal = to_own_side(contact.side, relation);
     let (share_a, share_b) = (1.0 - relation.t, relation.t);
     let (wi, wa, wb) = (p.inv_mass[i], p.inv_mass[a] * share_a, p.inv_mass[b] * share_b);
     let wi = no_heavier(wi, p.inv_mass[a]);
@@ -201,7 +201,7 @@ fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{disc, momentum};
+    use super::super::testing::{disc, momentum, search_input};
     use super::*;
     use crate::collision::broad_phase::{BroadPhase, SearchInput};
     use crate::collision::exemptions::Exemptions;
@@ -223,15 +223,12 @@ mod tests {
         p.link_ring(&nodes);
         p.insert(&particle(at, owner));
         let mut broad_phase = BroadPhase::default();
+        let exemptions = Exemptions::default();
         let input = SearchInput {
-            particles: &p,
-            blocks: &[],
-            obstacles: &[],
-            exemptions: &Exemptions::default(),
             rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
             containments: &[Containment::Free, Containment::Free, Containment::Inside(0), Containment::Passing(0)],
             size: Vec2::ONE,
-            limits: DisplacementLimits { step: 50.0, substep: 50.0, dt: 1.0 },
+            ..search_input(&p, &exemptions, DisplacementLimits { step: 50.0, substep: 50.0, dt: 1.0 })
         };
         broad_phase.find_pairs(input, &mut Sleep::default(), 1);
         (p, broad_phase.ring_contacts.into_inner(), nodes)
@@ -266,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn prey_on_its_way_stays_where_it_is_and_a_gate_lets_it_through() {
+    fn prey_that_passes_stays_on_its_side_and_a_gate_lets_it_through() {
         for y in [0.3, -0.3] {
             let (mut p, mut contacts, _) = scene(&square(), Vec2::new(2.0, y), 3);
             assert_eq!(project(&mut contacts, &mut p) + keep_sides(&contacts, &mut p), 0);
@@ -292,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_word_moves_the_disc_alone() {
+    fn keeping_sides_moves_the_disc_and_not_the_link() {
         for (owner, y) in [(0, -0.2), (0, 0.1), (1, 0.2), (1, -0.1)] {
             let (mut p, contacts, nodes) = scene(&square(), Vec2::new(2.0, y), owner);
             let before: Vec<Vec2> = nodes.iter().map(|&i| p.position(i as usize)).collect();
@@ -325,7 +322,7 @@ mod tests {
         }
 
         #[test]
-        fn the_net_takes_every_stray_back(outline in star_polygon(), x in -12.0f32..12.0, y in -12.0f32..12.0) {
+        fn every_disc_on_the_wrong_side_is_returned(outline in star_polygon(), x in -12.0f32..12.0, y in -12.0f32..12.0) {
             let at = Vec2::new(x, y);
             let is_inside = contains_point(&outline, at);
             let (mut p, contacts, nodes) = scene(&outline, at, 0);

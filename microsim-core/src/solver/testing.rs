@@ -1,5 +1,8 @@
 //! What every constraint must obey, as a shared check for the tests of each.
 
+use crate::collision::broad_phase::SearchInput;
+use crate::collision::exemptions::Exemptions;
+use crate::collision::speculative_margin::DisplacementLimits;
 use crate::geometry::ring::unit_vector;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
 use glam::Vec2;
@@ -18,6 +21,16 @@ pub(crate) fn disc(position: Vec2, inv_mass: f32) -> Particle {
         owner: 0,
         fluid: 0,
     }
+}
+
+/// A search among discs in a room of 40 by 30 units without blocks, obstacles or rings.
+pub(crate) fn search_input<'a>(
+    particles: &'a Particles,
+    exemptions: &'a Exemptions,
+    limits: DisplacementLimits,
+) -> SearchInput<'a> {
+    let size = Vec2::new(40.0, 30.0);
+    SearchInput { particles, blocks: &[], obstacles: &[], exemptions, rings: &[], containments: &[], size, limits }
 }
 
 /// Two particles on the x axis, the first at the origin.

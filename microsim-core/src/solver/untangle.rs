@@ -1,6 +1,6 @@
-//! The net under a ring's own shape. Its nodes keep off each other as discs do, which is enough but where a cell is overfull
-//! and pressed against something: then a tooth of a few links can be squeezed so thin that its sides cross. What crosses
-//! itself within a few links is laid out straight.
+//! Safety net against rings that cross themselves. Nodes keep apart as discs do, which is enough unless a cell is overfull
+//! and pressed against something: then a fold of a few links can be squeezed so thin that its sides cross. Nodes between
+//! two crossing links that are a few links apart are put on a straight line.
 
 use super::contact::shift;
 use crate::geometry::segment::{folds_back, segments_touch};
@@ -10,13 +10,12 @@ use glam::Vec2;
 /// Links that are at most this many links apart are looked at.
 const FARTHEST: usize = 12;
 
-/// What is farther off than this, in its radii, has not got there by being squeezed: as far as the longest links looked at
-/// reach when they are stretched to their limit, and some more.
+/// A node farther away than this, in its radii, is broken: more than the links looked at reach when stretched to their limit.
 const BROKEN: f32 = 40.0;
-/// Most rounds: what is laid out may cross the next few links.
+/// Most rounds: straightened links may cross the next ones.
 const ROUNDS: usize = 4;
 
-/// Lays out straight what crosses itself within a few links. Returns how often it had to.
+/// Straightens the ring between each two links that cross, a few links apart. Returns the number of crossings.
 pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
     // The way between the two links that cross is the shorter one.
     let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
@@ -24,8 +23,8 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
     for _ in 0..ROUNDS {
         let before = crossings;
         for first in 0..ring.len() {
-            if let Some(apart) = (1..=farthest).find(|&apart| meet(ring, first, apart, p)) {
-                crossings += u32::from(lay_out(ring, first, apart + 1, p));
+            if let Some(apart) = (1..=farthest).find(|&apart| cross(ring, first, apart, p)) {
+                crossings += u32::from(straighten(ring, first, apart + 1, p));
             }
         }
         if crossings == before {
@@ -35,22 +34,24 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
     crossings
 }
 
-/// Whether a link and the one that comes so many links later share a point that they should not.
-fn meet(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
+/// Whether a link crosses, or folds back onto, the one `apart` links later.
+fn cross(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
     let at = |k: usize| position(ring, k, p);
     let (a, b, c, d) = (at(first), at(first + 1), at(first + apart), at(first + apart + 1));
     if apart == 1 { folds_back(a, b, d) } else { segments_touch(a, b, c, d) }
 }
 
-/// Puts the nodes between two of a ring evenly on the line between those, unless one is so far off that it is broken: that
-/// is a matter of quarantine.
-fn lay_out(ring: &[u32], first: usize, count: usize, p: &mut Particles) -> bool {
+/// Puts the nodes between two of a ring evenly on the line between those, unless one is so far away that it is broken: such
+/// organisms are for quarantine.
+fn straighten(ring: &[u32], first: usize, count: usize, p: &mut Particles) -> bool {
     let (from, to) = (position(ring, first, p), position(ring, first + count, p));
     let way = |k: usize| from + (to - from) * (k as f32 / count as f32) - position(ring, first + k, p);
     let moves: Vec<_> = (1..count).map(|k| (ring[(first + k) % ring.len()] as usize, way(k))).collect();
     let is_sound = moves.iter().all(|&(i, way)| way.length() < BROKEN * p.radius[i]);
     if is_sound {
-        moves.into_iter().for_each(|(i, way)| shift(p, i, way));
+        for (i, way) in moves {
+            shift(p, i, way);
+        }
     }
     is_sound
 }
@@ -86,10 +87,10 @@ mod tests {
     }
 
     #[test]
-    fn what_crosses_itself_within_a_few_links_is_laid_out() {
+    fn links_that_cross_a_few_links_apart_are_straightened() {
         for moved in [
-            // A tooth with its sides across each other; two nodes that have changed places on their line; one that lies
-            // behind the one before it; a loop of five links; one over the ring's seam.
+            // A fold whose sides cross; two nodes in the wrong order on their line; a node behind its predecessor; a loop
+            // of five links; one across the ring's first node.
             &[(2, [3.5, 1.0]), (3, [2.5, 1.0])][..],
             &[(2, [3.0, 0.0]), (3, [2.0, 0.0])],
             &[(3, [1.5, 0.0])],
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_broken_is_left_to_quarantine() {
+    fn broken_rings_are_left_to_quarantine() {
         for far in [300.0, f32::NAN, f32::INFINITY] {
             let (ring, mut p) = ring_of(&square(&[(2, [1.0, -far]), (3, [0.9, 1.0])]));
             let before = outline(&ring, &p);

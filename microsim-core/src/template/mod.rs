@@ -80,8 +80,7 @@ impl Node {
     /// A point that nothing moves or touches.
     #[must_use]
     pub fn fixed(position: Vec2) -> Self {
-        let (groups, material) = (CollisionGroups::NONE, Material::default());
-        Self { position, mass: f32::INFINITY, radius: 0.0, groups, material, role: Role::Anchor }
+        Self { groups: CollisionGroups::NONE, role: Role::Anchor, ..Self::disc(position, f32::INFINITY, 0.0) }
     }
 
     fn validate(&self, k: usize) -> Result<(), Error> {
@@ -184,7 +183,10 @@ impl TemplateBuilder {
 
     /// Links two slots at their present distance, with this compliance and damping time.
     pub fn spring(&mut self, a: u32, b: u32, compliance: f32, damping: f32) -> &mut Self {
-        let rest_length = self.distance_between(a, b);
+        let rest_length = match (self.nodes.get(a as usize), self.nodes.get(b as usize)) {
+            (Some(a), Some(b)) => (b.position - a.position).length(),
+            _ => 0.0,
+        };
         self.constraint(Distance { a, b, rest_length, compliance, damping })
     }
 
@@ -230,13 +232,6 @@ impl TemplateBuilder {
         }
         Ok(Template { nodes, constraints, outline })
     }
-
-    fn distance_between(&self, a: u32, b: u32) -> f32 {
-        match (self.nodes.get(a as usize), self.nodes.get(b as usize)) {
-            (Some(a), Some(b)) => (b.position - a.position).length(),
-            _ => 0.0,
-        }
-    }
 }
 
 #[cfg(test)]
@@ -245,6 +240,7 @@ mod tests {
     use crate::error::ErrorKind;
     use crate::solver::constraint::{Anchor, Area, MinDistance, Rope};
 
+    /// Discs at (0, 0) and (0, 2).
     fn two_nodes() -> TemplateBuilder {
         let mut builder = Template::builder();
         builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
@@ -257,8 +253,7 @@ mod tests {
         let mut builder = two_nodes();
         builder.link(0, 1, 1e-4);
         let template = builder.build().unwrap();
-        let rest_length = 2.0;
-        let link = Distance { a: 0, b: 1, rest_length, compliance: 1e-4, damping: 0.0 };
+        let link = Distance { a: 0, b: 1, rest_length: 2.0, compliance: 1e-4, damping: 0.0 };
         assert_eq!(template.constraints(), [link.into()]);
         assert_eq!(template.extent(), 2.5);
     }

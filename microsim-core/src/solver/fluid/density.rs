@@ -39,7 +39,7 @@ pub(super) struct Sums {
     pub multiplier: Lanes,
 }
 
-/// First pass: what the neighbours amount to.
+/// First pass: sums over the neighbours.
 #[inline(always)]
 pub(super) fn sum(group: &Group, neighbours: &[Neighbour]) -> Sums {
     let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
@@ -66,7 +66,7 @@ pub(super) fn sum(group: &Group, neighbours: &[Neighbour]) -> Sums {
 }
 
 impl Sums {
-    /// Adds what the walls amount to.
+    /// Adds the walls' density and gradient.
     #[inline(always)]
     pub(super) fn add_walls(&mut self, group: &Group, neighbours: &[Neighbour], walls: &Walls) {
         let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));

@@ -35,8 +35,8 @@ pub enum FluidMode {
     Granular,
 }
 
-/// A kind of fluid. Neighbours are found once per step: what comes nearer than its cutoff within a step, because it moves by
-/// more than its spacing against others, is seen from the next one on.
+/// A kind of fluid. Neighbours are found once per step: what comes nearer than the support radius within a step, because
+/// it moves by more than its spacing against others, is seen from the next one on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidParams {
     /// Distance of neighbours at rest, units, 0.05 to 100. The particles' radius is half of it.
@@ -88,7 +88,7 @@ pub(crate) struct Fluid {
     pub particles: Vec<u32>,
 }
 
-/// What fluids are projected with; nothing in it outlasts a step.
+/// Scratch of the projection of fluids; valid for one step.
 #[derive(Debug)]
 pub(crate) struct Workspace {
     rest_density: f32,
@@ -111,16 +111,16 @@ impl Fluid {
         Self { params, is_enclosed, particles: Vec::new() }
     }
 
-    /// Distance at which particles no longer see each other.
-    fn cutoff(&self) -> f32 {
+    /// Distance at which the kernel becomes 0.
+    fn support_radius(&self) -> f32 {
         match self.params.mode {
             FluidMode::Density => SUPPORT * self.params.spacing,
             FluidMode::Granular => self.params.spacing,
         }
     }
 
-    /// How much farther neighbours are looked for, in units of the cutoff, because they move until the next search. At the
-    /// border of its support the weight of the density's kernel is next to nothing; grains are hard.
+    /// How much farther neighbours are looked for, in units of the support radius, because they move until the next search.
+    /// At the border of its support the weight of the density's kernel is next to nothing; grains are hard.
     fn margin(&self) -> f32 {
         match self.params.mode {
             FluidMode::Density => 0.0,
@@ -131,9 +131,9 @@ impl Fluid {
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
-        let cutoff = SUPPORT * self.params.spacing;
-        sorted.sort(&self.particles, particles, Vec2::ZERO, [cutoff, 0.0]);
-        sorted.read(particles, cutoff);
+        let support_radius = SUPPORT * self.params.spacing;
+        sorted.sort(&self.particles, particles, Vec2::ZERO, [support_radius, 0.0]);
+        sorted.read(particles, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
             let compression = density::sum(group, &sorted.neighbours).compression(rest_density);
@@ -148,7 +148,7 @@ impl Workspace {
     pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, size: Vec2) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
         for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, size, [fluid.cutoff(), fluid.margin()]);
+            sorted.sort(&fluid.particles, particles, size, [fluid.support_radius(), fluid.margin()]);
         }
     }
 
@@ -157,43 +157,47 @@ impl Workspace {
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
         let Self { rest_density, sorted, sums, shifts } = self;
         for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
-            let cutoff = fluid.cutoff();
-            sorted.read(particles, cutoff);
+            let support_radius = fluid.support_radius();
+            sorted.read(particles, support_radius);
             sums.resize(sorted.groups.len(), Sums::default());
             shifts.resize(sorted.groups.len(), Default::default());
             let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
             match fluid.params.mode {
                 FluidMode::Density => {
                     find_multipliers(sorted, sums, *rest_density, dispatch);
-                    let shifts = (sums.as_slice(), shifts.as_mut_slice());
                     // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
                     if fluid.is_enclosed {
-                        find_density_shifts(sorted, shifts, viscosity, density::keep_spacing, dispatch);
+                        find_density_shifts(sorted, sums, shifts, viscosity, density::keep_spacing, dispatch);
                     } else {
-                        find_density_shifts(sorted, shifts, viscosity, density::keep_no_spacing, dispatch);
+                        find_density_shifts(sorted, sums, shifts, viscosity, density::keep_no_spacing, dispatch);
                     }
                 }
-                FluidMode::Granular => find_granular_shifts(sorted, shifts, viscosity, dispatch),
+                FluidMode::Granular => for_each_group(
+                    &sorted.groups,
+                    shifts,
+                    dispatch,
+                    #[inline(always)]
+                    |_, group, shifts| *shifts = granular::shifts(group, &sorted.neighbours, viscosity),
+                ),
             }
-            sorted.shift(shifts, cutoff, particles);
+            sorted.shift(shifts, support_radius, particles);
         }
     }
 }
 
 fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, dispatch: Dispatch) {
     let Sorted { groups, neighbours, walls, .. } = sorted;
-    parallel::for_each(in_portions(groups, sums), |(groups, sums)| {
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for (group, sums) in groups.iter().zip(sums) {
-                    *sums = density::sum(group, neighbours);
-                    sums.add_walls(group, neighbours, walls);
-                    sums.find_multipliers(rest_density);
-                }
-            },
-        );
-    });
+    for_each_group(
+        groups,
+        sums,
+        dispatch,
+        #[inline(always)]
+        |_, group, sums| {
+            *sums = density::sum(group, neighbours);
+            sums.add_walls(group, neighbours, walls);
+            sums.find_multipliers(rest_density);
+        },
+    );
     for (group, sums) in groups.iter().zip(sums) {
         for (neighbour, multiplier) in neighbours[group.members.clone()].iter_mut().zip(sums.multiplier) {
             neighbour.multiplier = multiplier;
@@ -202,43 +206,40 @@ fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, d
 }
 
 fn find_density_shifts(
-    sorted: &Sorted,
-    (sums, shifts): (&[Sums], &mut [[Lanes; 2]]),
+    Sorted { groups, neighbours, .. }: &Sorted,
+    sums: &[Sums],
+    shifts: &mut [[Lanes; 2]],
     viscosity: f32,
     added: impl Fn(f32, f32) -> f32 + Copy + Sync + Send,
     dispatch: Dispatch,
 ) {
-    let Sorted { groups, neighbours, .. } = sorted;
-    let portions = in_portions(groups, shifts).into_iter().zip(sums.chunks(PORTION)).collect();
-    parallel::for_each(portions, |((groups, shifts), sums)| {
+    for_each_group(
+        groups,
+        shifts,
+        dispatch,
+        #[inline(always)]
+        |k, group, shifts| *shifts = density::shifts(group, neighbours, &sums[k], viscosity, added),
+    );
+}
+
+/// Finds something for each group. The kernel gets a group, its place, and what is to be written.
+fn for_each_group<T: Send>(
+    groups: &[Group],
+    found: &mut [T],
+    dispatch: Dispatch,
+    kernel: impl Fn(usize, &Group, &mut T) + Send + Sync,
+) {
+    let portions = groups.chunks(PORTION).zip(found.chunks_mut(PORTION)).zip((0..).step_by(PORTION)).collect();
+    parallel::for_each(portions, |((groups, found), first): ((&[Group], &mut [T]), usize)| {
         dispatch.run(
             #[inline(always)]
             || {
-                for ((group, sums), shifts) in groups.iter().zip(sums).zip(shifts) {
-                    *shifts = density::shifts(group, neighbours, sums, viscosity, added);
+                for ((group, found), k) in groups.iter().zip(found).zip(first..) {
+                    kernel(k, group, found);
                 }
             },
         );
     });
-}
-
-fn find_granular_shifts(sorted: &Sorted, shifts: &mut [[Lanes; 2]], viscosity: f32, dispatch: Dispatch) {
-    let Sorted { groups, neighbours, .. } = sorted;
-    parallel::for_each(in_portions(groups, shifts), |(groups, shifts)| {
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for (group, shifts) in groups.iter().zip(shifts) {
-                    *shifts = granular::shifts(group, neighbours, viscosity);
-                }
-            },
-        );
-    });
-}
-
-/// Groups and what is found for them, some at a time.
-fn in_portions<'a, T>(groups: &'a [Group], found: &'a mut [T]) -> Vec<(&'a [Group], &'a mut [T])> {
-    groups.chunks(PORTION).zip(found.chunks_mut(PORTION)).collect()
 }
 
 /// Area that a number of particles take up at rest: each has its share of a hexagonal lattice.
@@ -285,9 +286,7 @@ mod tests {
     fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
         let (fluid, mut particles) = block(FluidMode::Density, 0.7);
         let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
-        for _ in 0..60 {
-            project(&fluid, &mut particles);
-        }
+        (0..60).for_each(|_| project(&fluid, &mut particles));
         let after = fluid.mean_compression(&particles);
         assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
         assert!((centre(&particles) - start).length() < 1e-3, "momentum");
@@ -325,9 +324,7 @@ mod tests {
     #[test]
     fn grains_separate_to_their_spacing() {
         let (fluid, mut particles) = block(FluidMode::Granular, 0.8);
-        for _ in 0..200 {
-            project(&fluid, &mut particles);
-        }
+        (0..200).for_each(|_| project(&fluid, &mut particles));
         for i in 0..200 {
             for j in 0..i {
                 let gap = (particles.position(i) - particles.position(j)).length();
@@ -360,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_found_at_the_start_of_a_step_do_until_the_next() {
+    fn neighbours_found_once_per_step_are_enough() {
         for (mode, spacing) in [(FluidMode::Density, 0.8), (FluidMode::Granular, 0.8)] {
             // Eight substeps of shear and push, with a search before the first or before each; a workspace that has seen others.
             let after = |searches: usize| {
@@ -393,9 +390,7 @@ mod tests {
         for _ in 0..4 {
             fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
         }
-        for _ in 0..20 {
-            project(&fluid, &mut particles);
-        }
+        (0..20).for_each(|_| project(&fluid, &mut particles));
         let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
         assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
     }

@@ -1,14 +1,14 @@
 //! Particles in cell order, eight at a time, and where the neighbours of each eight are.
 //!
 //! ```text
-//!            |    | .  |  . | .. |  . | .. |    |       three windows, contiguous in cell order:
-//!            |    | .. | AB | CD | EF | GH | .  |       whatever is within the cutoff of one of A to H is in one of them
+//!            |    | .  |  . | .. |  . | .. |    |       three windows, contiguous in cell order: whatever is
+//!            |    | .. | AB | CD | EF | GH | .  |       within the support radius of one of A to H is in one of them
 //!            |    | .  | .. |  . | .  | .. |    |
 //! ```
 //!
 //! Lanes are the eight particles A to H; each of them meets the same candidates one after the other and keeps its own sums.
-//! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the cutoff drops the candidates that
-//! are not neighbours. Cells are as high as the cutoff and [`COLUMN_WIDTH`] wide.
+//! So nothing is scattered or reduced across lanes, and a kernel that vanishes beyond the support radius drops the
+//! candidates that are not neighbours. Cells are as high as the support radius and [`COLUMN_WIDTH`] wide.
 
 use crate::collision::uniform_grid::UniformGrid;
 use crate::particle::Particles;
@@ -18,15 +18,15 @@ use std::ops::Range;
 
 /// Where a particle without a finite position is put: nowhere near the others.
 const NOWHERE: Vec2 = Vec2::splat(-1e9);
-/// Nearer than this, in units of the cutoff, there is no direction between two particles.
+/// Nearer than this, in units of the support radius, there is no direction between two particles.
 const CONTACT: f32 = 1e-6;
-/// Width of a cell, in units of the cutoff: about as many cells as particles.
+/// Width of a cell, in units of the support radius: about as many cells as particles.
 const COLUMN_WIDTH: f32 = 0.25;
 
 /// A value for each particle of a group.
 pub(super) type Lanes = [f32; LANES];
 
-/// A particle as its neighbours see it, in units of the cutoff.
+/// A particle as its neighbours see it, in units of the support radius.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Neighbour {
     pub x: f32,
@@ -70,24 +70,30 @@ pub(super) struct Walls {
 }
 
 impl Sorted {
-    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `cutoff`, in units of it.
-    pub(super) fn sort(&mut self, indices: &[u32], particles: &Particles, size: Vec2, [cutoff, margin]: [f32; 2]) {
-        let inverse = 1.0 / cutoff;
+    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `support_radius`, in units of it.
+    pub(super) fn sort(
+        &mut self,
+        indices: &[u32],
+        particles: &Particles,
+        size: Vec2,
+        [support_radius, margin]: [f32; 2],
+    ) {
+        let inverse = 1.0 / support_radius;
         self.found.clear();
         self.found.extend(indices.iter().map(|&i| particles.position(i as usize)));
         let (low, high) = bounds(&self.found);
         self.low = low;
         self.walls = Walls { low: -low * inverse, high: (size - low) * inverse };
-        let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * cutoff;
+        let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * support_radius;
         self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
         self.particles.clear();
         self.particles.extend(self.grid.order().iter().map(|&k| indices[k as usize]));
-        self.find_groups((1.0 + margin) * cutoff);
+        self.find_groups((1.0 + margin) * support_radius);
     }
 
     /// Reads where the particles are now, and how far they have moved in this substep.
-    pub(super) fn read(&mut self, particles: &Particles, cutoff: f32) {
-        let inverse = 1.0 / cutoff;
+    pub(super) fn read(&mut self, particles: &Particles, support_radius: f32) {
+        let inverse = 1.0 / support_radius;
         let Self { particles: sorted, neighbours, low, .. } = self;
         neighbours.clear();
         neighbours.extend(sorted.iter().map(|&i| neighbour(particles, i as usize, *low, inverse)));
@@ -96,12 +102,12 @@ impl Sorted {
         neighbours.resize(sorted.len() + LANES, nowhere);
     }
 
-    /// Moves the members of each group, in units of the cutoff.
-    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], cutoff: f32, particles: &mut Particles) {
+    /// Moves the members of each group, in units of the support radius.
+    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], support_radius: f32, particles: &mut Particles) {
         for (group, [shift_x, shift_y]) in self.groups.iter().zip(shifts) {
             for (l, &i) in self.particles[group.members.clone()].iter().enumerate() {
-                particles.x[i as usize] += shift_x[l] * cutoff;
-                particles.y[i as usize] += shift_y[l] * cutoff;
+                particles.x[i as usize] += shift_x[l] * support_radius;
+                particles.y[i as usize] += shift_y[l] * support_radius;
             }
         }
     }
@@ -193,14 +199,14 @@ mod tests {
         let mut particles = Particles::default();
         let mut place = || Vec2::new(rng.range(0.0, 30.0), rng.range(0.0, 12.0));
         let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
-        for [cutoff, margin] in [[2.0, 0.0], [1.0, 0.25]] {
+        for [support_radius, margin] in [[2.0, 0.0], [1.0, 0.25]] {
             let mut sorted = Sorted::default();
-            sorted.sort(&indices, &particles, Vec2::INFINITY, [cutoff, margin]);
+            sorted.sort(&indices, &particles, Vec2::INFINITY, [support_radius, margin]);
             for group in &sorted.groups {
                 let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
                 for &member in &sorted.particles[group.members.clone()] {
                     let way = |other: u32| particles.between(member as usize, other as usize).length();
-                    let near = indices.iter().filter(|&&other| way(other) < cutoff * (1.0 + margin));
+                    let near = indices.iter().filter(|&&other| way(other) < support_radius * (1.0 + margin));
                     assert!(near.copied().all(|other| seen.contains(&other)));
                 }
             }

@@ -66,7 +66,7 @@ impl World {
         world.touching = state.touching;
         world.events = state.events;
         world.guard = state.guard;
-        world.particles.complete()?;
+        world.particles.restore_skipped()?;
         world.organisms.complete();
         validate::structure::check(&world).map_err(|violation| violation.to_string())?;
         // Measures need the pairs of the last step, which are not part of the state.
