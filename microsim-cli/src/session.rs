@@ -110,8 +110,13 @@ impl<'o> Session<'o> {
         let broken = built.checks.after_step(&built.world).first().map(ToString::to_string);
         let violation = || if self.validates { violation(&built.world) } else { None };
         self.broken = self.broken.take().or(broken).or_else(violation);
-        self.replay.as_mut().map_or(Ok(()), |replay| replay.add(&built.world))?;
-        self.writer.as_mut().map_or(Ok(()), |writer| writer.look_at(&built.world))
+        if let Some(replay) = &mut self.replay {
+            replay.add(&built.world)?;
+        }
+        if let Some(writer) = &mut self.writer {
+            writer.look_at(&built.world)?;
+        }
+        Ok(())
     }
 
     fn checkpoint_every(&self) -> Option<u64> {
@@ -140,15 +145,21 @@ impl<'o> Session<'o> {
     /// Stops so that the run can be resumed.
     fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
         self.save()?;
-        self.writer.map_or(Ok(()), RunWriter::leave)?;
+        if let Some(writer) = self.writer {
+            writer.leave()?;
+        }
         let (step, folder) = (self.tally.steps, shown(outputs.folder()));
-        Err(Failure::Stopped(format!("stopped after step {step}; to go on: microsim resume {folder}")))
+        Err(Failure::Stopped(format!("stopped after step {step}; to continue: microsim resume {folder}")))
     }
 
     fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let built = &self.prepared.built;
-        self.replay.map_or(Ok(()), |replay| replay.finish(&built.world))?;
-        self.record.map_or(Ok(()), |record| record.save(self.prepared.scenario.origin(), built))?;
+        if let Some(replay) = self.replay {
+            replay.finish(&built.world)?;
+        }
+        if let Some(record) = self.record {
+            record.save(self.prepared.scenario.origin(), built)?;
+        }
         let refusals = built.script.refusals().iter().map(ToString::to_string);
         let failures = self.broken.into_iter().chain(refusals).collect();
         let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.tally) };

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// `resume`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The run goes on from its last checkpoint, bit for bit: digests and data files are those of a run that was never\n\
+    after_help = "The run continues from its last checkpoint, bit for bit: digests and data files are those of a run that was never\n\
 stopped. Checkpoints are written by microsim run --out DIR --checkpoint-every N."
 )]
 pub(crate) struct ResumeArgs {

@@ -22,7 +22,7 @@ const TRIED: u64 = 20;
 /// `run`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Invariants and expectations are checked after every step; the first that fails is named on stderr, the run goes on,\n\
+    after_help = "Invariants and expectations are checked after every step; the first that fails is named on stderr, the run continues,\n\
 and the exit code is 1. Equal scenario, seed and steps give equal bytes in all files but run.json."
 )]
 pub(crate) struct RunArgs {
