@@ -8,20 +8,12 @@ use std::ops::Range;
 /// The text of a scenario and its origin.
 #[derive(Clone, Debug)]
 pub(crate) struct ScenarioText {
-    origin: String,
-    text: String,
+    /// Name of the file, for messages.
+    pub origin: String,
+    pub text: String,
 }
 
 impl ScenarioText {
-    /// Name of the file, for messages.
-    pub(crate) fn origin(&self) -> &str {
-        &self.origin
-    }
-
-    pub(crate) fn text(&self) -> &str {
-        &self.text
-    }
-
     pub(crate) fn new(origin: String, text: String) -> Self {
         Self { origin, text }
     }
@@ -31,14 +23,11 @@ impl ScenarioText {
 pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured: bool) -> String {
     let renderer = if is_coloured { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.decor_style(DecorStyle::Ascii);
-    let shown = problems.iter().map(|problem| {
-        let group = group(source, problem);
-        renderer.render(&[group])
-    });
+    let shown = problems.iter().map(|problem| renderer.render(&[group(source, problem)]));
     let mut text = shown.collect::<Vec<_>>().join("\n\n");
     let count = problems.iter().count();
     let plural = if count == 1 { "" } else { "s" };
-    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", source.origin()));
+    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", &source.origin));
     text
 }
 
@@ -64,12 +53,12 @@ fn title(problem: &Diagnostic) -> String {
 }
 
 fn snippet<'a>(source: &'a ScenarioText, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
-    let annotation = AnnotationKind::Primary.span(within(source.text(), span));
-    Snippet::source(source.text()).path(source.origin()).annotation(annotation)
+    let annotation = AnnotationKind::Primary.span(within(&source.text, span));
+    Snippet::source(&source.text).path(&source.origin).annotation(annotation)
 }
 
 fn origin<'a>(source: &'a ScenarioText, problem: &Diagnostic) -> Origin<'a> {
-    let origin = Origin::path(source.origin());
+    let origin = Origin::path(&source.origin);
     match (problem.line, problem.column) {
         (Some(line), Some(column)) => origin.line(line).char_column(column),
         (Some(line), None) => origin.line(line),

@@ -7,10 +7,6 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
 
-const BROKEN: u8 = 1;
-const REFUSED: u8 = 2;
-const INTERRUPTED: u8 = 130;
-
 /// A reason to stop without success.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -40,30 +36,23 @@ impl Failure {
 
     /// Tells the user, and says which code to exit with.
     pub(crate) fn report(self, console: &Console) -> ExitCode {
+        let code = match self {
+            Self::PipeClosed => ExitCode::SUCCESS,
+            Self::Broken(_) | Self::Negative => ExitCode::from(1),
+            Self::Message(_) | Self::Scenario(..) | Self::Reported => ExitCode::from(2),
+            Self::Interrupted | Self::Stopped(_) => ExitCode::from(130),
+        };
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),
             Self::Scenario(source, problems) => {
                 console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
             }
-            Self::Broken(lines) => {
-                for line in &lines {
-                    console.complain(line);
-                }
-                return ExitCode::from(BROKEN);
-            }
-            Self::Reported => {}
-            Self::Negative => return ExitCode::from(BROKEN),
-            Self::PipeClosed => return ExitCode::SUCCESS,
-            Self::Stopped(text) => {
-                console.note(&text);
-                return ExitCode::from(INTERRUPTED);
-            }
-            Self::Interrupted => {
-                console.note("interrupted");
-                return ExitCode::from(INTERRUPTED);
-            }
+            Self::Broken(lines) => lines.iter().for_each(|line| console.complain(line)),
+            Self::Stopped(text) => console.note(&text),
+            Self::Interrupted => console.note("interrupted"),
+            Self::Reported | Self::Negative | Self::PipeClosed => {}
         }
-        ExitCode::from(REFUSED)
+        code
     }
 }
 

@@ -33,7 +33,7 @@ impl Prepared {
     /// The scenario's name; where it has none, its file's.
     pub(crate) fn name(&self) -> &str {
         let name = self.scenario.name();
-        if name.is_empty() { self.source.origin() } else { name }
+        if name.is_empty() { &self.source.origin } else { name }
     }
 
     /// Steps in `seconds` of simulated time; `None` is the scenario's duration.
@@ -44,7 +44,7 @@ impl Prepared {
 }
 
 fn build(source: &ScenarioText, changes: &Changes) -> Result<(Scenario, Built), Diagnostics> {
-    let mut scenario = Scenario::parse(source.text(), &changes.set)?;
+    let mut scenario = Scenario::parse(&source.text, &changes.set)?;
     if let Some(seed) = changes.seed {
         scenario.set_seed(seed);
     }

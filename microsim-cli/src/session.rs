@@ -41,7 +41,7 @@ impl<'o> Session<'o> {
         let writer = outputs.map(start).transpose()?;
         let replay = record.start(prepared.scenario.origin())?;
         let header = CheckpointHeader {
-            source: prepared.source.origin().to_owned(),
+            source: prepared.source.origin.clone(),
             steps,
             progress: FileProgress::default(),
             tally: Tally::default(),

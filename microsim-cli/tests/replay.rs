@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, crowd, json, run, stderr, stdout, success};
+use common::{Folder, crowd, json, refused, run, stderr, stdout, success};
 use microsim_core::Inputs;
 use microsim_core::replay::Recorder;
 use microsim_core::scenario::Scenario;
@@ -142,10 +142,8 @@ fn a_damaged_record_is_played_as_far_as_it_goes_and_refused() {
     let at = bytes.len() - 15;
     bytes[at] ^= 1;
     let damaged = folder.file("damaged.replay", &bytes);
-    let output = run(&["replay", &damaged]);
-    assert_eq!(output.status.code(), Some(2));
+    let output = refused(&["replay", &damaged], "damaged at byte");
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
-    assert!(stderr(&output).contains("damaged at byte"), "{}", stderr(&output));
 
     let mut bytes = fs::read(&record).unwrap();
     *bytes.last_mut().unwrap() ^= 1;
@@ -171,9 +169,7 @@ fn files_that_would_take_the_place_of_something_are_refused() {
     #[cfg(unix)]
     cases.extend([(vec!["--save", &socket], "not a regular file"), (vec!["--record", &socket], "not a regular file")]);
     for (options, problem) in cases {
-        let output = run(&[&["run", "empty", "--steps", "2"], &options[..]].concat());
-        assert_eq!(output.status.code(), Some(2), "{options:?}");
-        assert!(stderr(&output).contains(problem), "{options:?}: {}", stderr(&output));
+        refused(&[&["run", "empty", "--steps", "2"], &options[..]].concat(), problem);
     }
     assert!(!std::path::Path::new(&one).exists());
 }
@@ -211,9 +207,7 @@ fn files_that_are_none_are_refused() {
         (vec!["run", "empty", "--steps", "1", "--record", "nowhere/else/x/"], "nowhere/else/x"),
     ];
     for (arguments, message) in cases {
-        let output = run(&arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains(message), "{arguments:?}: {}", stderr(&output));
+        refused(&arguments, message);
     }
     let _ = fs::remove_dir_all("nowhere");
 }

@@ -36,9 +36,9 @@ pub(crate) fn write_description(
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         features: if cfg!(feature = "parquet") { vec!["parquet"] } else { Vec::new() },
         digest_at_start,
-        source: prepared.source.origin(),
+        source: &prepared.source.origin,
         overrides: &prepared.overrides,
-        scenario_text: prepared.source.text(),
+        scenario_text: &prepared.source.text,
         effective_scenario: prepared.scenario.effective(),
         files: outputs.written(sha256)?.into_iter().collect(),
     };

@@ -93,9 +93,8 @@ impl<'o> RunWriter<'o> {
     /// Flushes the files and returns their lengths and names.
     pub(crate) fn progress(&mut self) -> Result<FileProgress, Failure> {
         let mut lengths = BTreeMap::new();
-        for table in
-            self.measures.iter_mut().map(|m| &mut m.table).chain(self.trajectories.iter_mut().map(|t| &mut t.table))
-        {
+        let measures = self.measures.iter_mut().map(|m| &mut m.table);
+        for table in measures.chain(self.trajectories.iter_mut().map(|t| &mut t.table)) {
             lengths.extend(table.lengths()?);
         }
         if let Some(events) = &mut self.events {

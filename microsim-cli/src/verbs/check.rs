@@ -90,7 +90,7 @@ impl<'a> Answer<'a> {
         let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
         let (name, seed, duration) = (prepared.scenario.name(), prepared.scenario.seed(), prepared.scenario.duration());
         let scenario = ScenarioSummary { name, seed, duration, organisms, bodies, particles, constraints };
-        Self { ok: true, file: prepared.source.origin(), scenario: Some(scenario), problems: Vec::new() }
+        Self { ok: true, file: &prepared.source.origin, scenario: Some(scenario), problems: Vec::new() }
     }
 
     fn refused(source: &'a ScenarioText, problems: &'a Diagnostics) -> Self {
@@ -102,6 +102,6 @@ impl<'a> Answer<'a> {
             message: &problem.message,
             accepted: problem.accepted.as_deref(),
         };
-        Self { ok: false, file: source.origin(), scenario: None, problems: problems.iter().map(problem).collect() }
+        Self { ok: false, file: &source.origin, scenario: None, problems: problems.iter().map(problem).collect() }
     }
 }

@@ -23,6 +23,15 @@ pub(crate) fn success(arguments: &[&str]) -> Output {
     output
 }
 
+/// The output of a program that must exit with 2 and these words on stderr.
+pub(crate) fn refused(arguments: &[&str], words: &str) -> Output {
+    let output = run(arguments);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+    assert!(said.contains(words), "{arguments:?}: {said}");
+    output
+}
+
 pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
