@@ -8,7 +8,7 @@ use std::io::{self, IsTerminal, Write};
 /// How to talk to the user on stderr.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Console {
-    is_coloured: bool,
+    pub is_coloured: bool,
     is_quiet: bool,
     is_verbose: bool,
 }
@@ -22,10 +22,6 @@ impl Console {
             ColorChoice::Auto => !refused && io::stderr().is_terminal(),
         };
         Self { is_coloured, is_quiet, is_verbose }
-    }
-
-    pub(crate) fn is_coloured(self) -> bool {
-        self.is_coloured
     }
 
     /// One line for the user. That stderr is closed is no reason to fail.

@@ -45,7 +45,7 @@ impl Failure {
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),
             Self::Scenario(source, problems) => {
-                console.complain(&diagnostics::render(&source, &problems, console.is_coloured()));
+                console.complain(&diagnostics::render(&source, &problems, console.is_coloured));
             }
             Self::Broken(lines) => lines.iter().for_each(|line| console.complain(line)),
             Self::Stopped(text) => console.note(&text),

@@ -57,7 +57,6 @@ pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
     Prepared::new(load(&args.scenario)?, &args.changes)
 }
 
-/// Reads the text of a scenario.
 pub(crate) fn load(name: &str) -> Result<ScenarioText, Failure> {
     if name == "-" {
         return read("<stdin>", Path::new("stdin"), io::stdin().lock());

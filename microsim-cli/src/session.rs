@@ -29,7 +29,6 @@ pub(crate) struct Session<'o> {
 }
 
 impl<'o> Session<'o> {
-    /// Begins a run.
     pub(crate) fn start(
         prepared: Prepared,
         steps: u64,
@@ -113,7 +112,6 @@ impl<'o> Session<'o> {
         self.outputs.filter(|_| every > 0).map(|_| every)
     }
 
-    /// Writes a checkpoint.
     fn save(&mut self) -> Result<(), Failure> {
         let (Some(outputs), Some(writer)) = (self.outputs, &mut self.writer) else {
             return Ok(());

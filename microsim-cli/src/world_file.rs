@@ -106,7 +106,6 @@ pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> Str
     format!("{}: {mismatch}{version}", path.display())
 }
 
-/// Reads a replay.
 pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
     let bytes = read(path)?;
     Replay::read(&bytes).map_err(|error| refused(path, &error))

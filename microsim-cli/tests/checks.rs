@@ -1,4 +1,4 @@
-//! Scenarios that say what must hold, and commands.
+//! Invariants, expectations and commands of scenarios.
 
 mod common;
 
@@ -21,7 +21,7 @@ fn outcome(test: &str, more: &str) -> (Option<i32>, String, String) {
 }
 
 #[test]
-fn what_holds_exits_with_0() {
+fn checks_that_pass_exit_with_0() {
     let more = "[invariants]\nleaks = 0\norganisms = [1, 1]\nedge_stretch_max = 0.25\n\
                 [[expect]]\nby = 0.5\nmeasure = 'particles'\nmin = 20\n";
     let (code, said, _) = outcome("holds", more);
@@ -44,7 +44,7 @@ fn a_broken_invariant_exits_with_1_and_is_named_once() {
 }
 
 #[test]
-fn an_expectation_that_does_not_come_exits_with_1() {
+fn an_unmet_expectation_exits_with_1() {
     let expect = |by: f32| format!("[[expect]]\nby = {by}\nmeasure = 'ingested'\nmin = 1\n");
     let (code, said, _) = outcome("late", &expect(0.25));
     assert_eq!(code, Some(1));
@@ -83,7 +83,7 @@ fn a_valid_state_exits_with_0() {
 
 /// With one substep a membrane does not hold under an absurd load, see `WorldConfig::substeps`.
 #[test]
-fn a_state_that_must_not_be_exits_with_1_and_says_what_is_wrong_with_it() {
+fn an_invalid_state_exits_with_1_and_is_described() {
     let absurd = ["--set", "step.substeps=1", "--set", "world.gravity=[0,-1000]"];
     let output = run(&[&["run", "demo", "--steps", "240", "--validate"][..], &absurd].concat());
     assert_eq!(output.status.code(), Some(1));

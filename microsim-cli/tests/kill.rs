@@ -134,7 +134,7 @@ impl Trial {
         json(&["replay", &self.record, "--json", "--quiet"])["steps"].as_u64().unwrap()
     }
 
-    /// Goes on from the last checkpoint, if there is one: that reads what was not finished, and finishes it.
+    /// Resumes from the last checkpoint, if there is one, and checks the finished files.
     fn resume(&self) -> bool {
         if !self.out.join("checkpoint").exists() {
             return false;

@@ -102,7 +102,7 @@ impl Trial {
         Self { folder, scenario, reference }
     }
 
-    /// Starts the run or goes on with it, and stops it after a time; whether it was done before.
+    /// Starts or resumes the run and stops it after a time. Returns whether it finished first.
     fn stop_after(&self, out: &str, first: bool, after: Duration, signal: &str) -> bool {
         let start = ["run", &self.scenario, "--steps", Self::STEPS, "--out", out];
         let resume = ["resume", out];

@@ -34,7 +34,7 @@ fn a_record_is_played_and_found_right() {
 }
 
 #[test]
-fn another_run_is_told_apart_by_its_first_field() {
+fn different_runs_are_reported_by_their_first_different_field() {
     let folder = Folder::new("replay-other");
     let (one, one_saved) = keep(&folder, "one", &[]);
     let (other, other_saved) = keep(&folder, "other", &["--set", "spawn.2.at=[60.0, 10.5]"]);
@@ -47,7 +47,7 @@ fn another_run_is_told_apart_by_its_first_field() {
     }
 }
 
-/// A record of a crowd that has lost somebody after 12 steps, which no scenario says.
+/// A record of a crowd from which an organism was removed after 12 steps, which a replay cannot repeat.
 fn wrong(folder: &Folder, name: &str) -> String {
     let scenario = Scenario::parse(&crowd(), &[]).unwrap();
     let mut built = scenario.build().unwrap();
@@ -65,7 +65,7 @@ fn wrong(folder: &Folder, name: &str) -> String {
 }
 
 #[test]
-fn a_run_that_is_not_the_recorded_one_is_found_out() {
+fn a_replay_that_differs_from_its_record_is_reported() {
     let folder = Folder::new("replay-wrong");
     let record = wrong(&folder, "wrong.replay");
     let output = run(&["replay", &record]);
@@ -100,7 +100,7 @@ fn equal_runs_that_are_not_the_recorded_ones_are_not_called_equal() {
     assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(0), "no difference\n"));
 }
 
-/// The end of a run of the crowd and one more, of whom the scenario goes on with this text.
+/// A checkpoint of the end of a run of the crowd and one more swimmer; `more` is appended to the scenario.
 fn saved_with(folder: &Folder, name: &str, more: &str) -> String {
     let text = crowd() + "[[spawn]]\nof = \"swimmer\"\nat = [12.0, 8.0]\n" + more;
     let scenario = folder.file(&format!("{name}.toml"), text.as_bytes());
@@ -191,7 +191,7 @@ fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
 }
 
 #[test]
-fn files_that_are_none_are_refused() {
+fn files_of_other_kinds_are_refused() {
     let folder = Folder::new("replay-none");
     let (record, saved) = keep(&folder, "a", &[]);
     let text = folder.file("text", b"no such thing");

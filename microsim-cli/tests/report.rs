@@ -26,13 +26,8 @@ fn check(html: &str) {
 fn open(folder: &Folder, page: &str) {
     let log = folder.path("net.json");
     let output = Command::new("chromium")
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--enable-logging=stderr",
-            "--disable-background-networking",
-        ])
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr"])
+        .args(["--disable-background-networking"])
         .args(["--disable-component-update", "--no-first-run", "--window-size=1300,2000"])
         // The browser asks for the time by itself.
         .arg("--disable-features=NetworkTimeServiceQuerying")

@@ -28,7 +28,7 @@ impl Events {
             let line = Line { step, time, kind, organisms };
             let written = serde_json::to_writer(&mut self.0, &line).map_err(std::io::Error::from);
             let written = written.and_then(|()| self.0.write_all(b"\n"));
-            written.map_err(|error| Failure::file("write", self.0.path(), &error))?;
+            written.map_err(|error| Failure::file("write", &self.0.path, &error))?;
         }
         Ok(())
     }

@@ -60,7 +60,6 @@ impl Outputs {
         &self.folder
     }
 
-    /// Starts a file.
     pub(crate) fn file(&self, name: &str) -> Result<PendingFile, Failure> {
         let (path, temporary) = self.names_of(name);
         let fail = |error| Failure::file("write", &path, &error);
@@ -174,27 +173,15 @@ pub(crate) fn hex(bytes: &[u8]) -> String {
 pub(crate) struct PendingFile {
     /// Gone once the file is closed.
     writer: Option<BufWriter<File>>,
-    temporary: PathBuf,
-    path: PathBuf,
-    name: String,
+    /// Where it lies until it is finished.
+    pub temporary: PathBuf,
+    /// The path that it will have.
+    pub path: PathBuf,
+    /// The name within its folder.
+    pub name: String,
 }
 
 impl PendingFile {
-    /// The name that it will have.
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The name within its folder.
-    pub(crate) fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Where it lies until it is finished.
-    pub(crate) fn temporary(&self) -> &Path {
-        &self.temporary
-    }
-
     /// Everything that was written is in the file. Returns its length.
     pub(crate) fn sync(&mut self) -> Result<u64, Failure> {
         let length = self.flush().and_then(|()| fs::metadata(&self.temporary));

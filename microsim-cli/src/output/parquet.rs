@@ -21,10 +21,10 @@ type Row = serde_json::Map<String, Value>;
 /// Writes `NAME.parquet` for the rows of `NAME.parquet-rows`, which vanish.
 pub(super) fn convert(outputs: &Outputs, columns: &[&str], mut rows: PendingFile) -> std::result::Result<(), Failure> {
     rows.sync()?;
-    let name = rows.name().trim_end_matches("-rows").to_owned();
+    let name = rows.name.trim_end_matches("-rows").to_owned();
     let mut file = outputs.file(&name)?;
-    let path = file.path().to_owned();
-    let from = File::open(rows.temporary()).map_err(|error| Failure::file("read", rows.temporary(), &error))?;
+    let path = file.path.clone();
+    let from = File::open(&rows.temporary).map_err(|error| Failure::file("read", &rows.temporary, &error))?;
     write(&mut file, columns, BufReader::new(from))
         .map_err(|error| Failure::Message(format!("cannot write {}: {error}", path.display())))?;
     outputs.finish(file)

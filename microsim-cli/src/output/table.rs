@@ -59,7 +59,7 @@ impl DataTable {
             let mut file = outputs.file(&name)?;
             if format == TableFormat::Csv {
                 let header = writeln!(file, "{}", columns.join(","));
-                header.map_err(|error| Failure::file("write", file.path(), &error))?;
+                header.map_err(|error| Failure::file("write", &file.path, &error))?;
             }
             Ok(Sink { format, file })
         };
@@ -74,14 +74,14 @@ impl DataTable {
                 TableFormat::Csv => write_csv(file, cells),
                 TableFormat::Jsonl | TableFormat::Parquet => write_line(file, &self.columns, cells),
             };
-            written.map_err(|error| Failure::file("write", file.path(), &error))?;
+            written.map_err(|error| Failure::file("write", &file.path, &error))?;
         }
         Ok(())
     }
 
     /// Names and lengths of its files, with all rows in them.
     pub(super) fn lengths(&mut self) -> Result<Vec<(String, u64)>, Failure> {
-        self.sinks.iter_mut().map(|sink| Ok((sink.file.name().to_owned(), sink.file.sync()?))).collect()
+        self.sinks.iter_mut().map(|sink| Ok((sink.file.name.clone(), sink.file.sync()?))).collect()
     }
 
     pub(super) fn finish(self, outputs: &Outputs) -> Result<(), Failure> {

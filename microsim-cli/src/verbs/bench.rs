@@ -67,7 +67,6 @@ struct QualityReport {
     speed_kept_mean: f64,
 }
 
-/// Measures a scenario.
 pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> {
     let prepared = prepare(&args.scenario)?;
     interrupt::listen();

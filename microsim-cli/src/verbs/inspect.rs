@@ -20,7 +20,6 @@ pub(crate) struct InspectArgs {
     pub file: PathBuf,
 }
 
-/// Prints the content of a file.
 pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     let mut table = Table::default();
     match WorldFile::read(&args.file)? {

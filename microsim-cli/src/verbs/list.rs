@@ -4,7 +4,6 @@ use crate::failure::Failure;
 use crate::summary::Table;
 use microsim_core::scenario::builtins;
 
-/// Prints the built-in scenarios.
 pub(crate) fn list() -> Result<(), Failure> {
     let mut table = Table::default();
     for known in builtins() {

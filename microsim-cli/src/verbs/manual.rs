@@ -29,7 +29,6 @@ pub(crate) struct ManArgs {
     pub out: Option<PathBuf>,
 }
 
-/// Prints completions.
 pub(crate) fn completions(args: &CompletionsArgs, mut program: Command) -> Result<(), Failure> {
     // The generator panics where it cannot write, so it writes to memory.
     let mut text = Vec::new();
@@ -37,7 +36,6 @@ pub(crate) fn completions(args: &CompletionsArgs, mut program: Command) -> Resul
     Ok(print(&text)?)
 }
 
-/// Prints or writes manual pages.
 pub(crate) fn man(args: &ManArgs, mut program: Command, console: &Console) -> Result<(), Failure> {
     program.build();
     if let Some(folder) = &args.out {

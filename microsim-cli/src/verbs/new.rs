@@ -26,7 +26,6 @@ pub(crate) struct NewArgs {
     pub force: bool,
 }
 
-/// Writes the file.
 pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<(), Failure> {
     let text = match &args.from {
         None => STARTER.to_owned(),

@@ -21,7 +21,6 @@ pub(crate) struct ResumeArgs {
     pub json: bool,
 }
 
-/// Continues a run.
 pub(crate) fn resume(args: &ResumeArgs, console: &Console) -> Result<(), Failure> {
     if !args.folder.is_dir() {
         let message = format!("{}: there is no such folder, accepted: the folder of a run", args.folder.display());

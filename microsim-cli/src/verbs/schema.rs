@@ -8,7 +8,6 @@ use serde_json::{Map, Value, json};
 /// Names of prototypes, controllers and parameters.
 const NAME: &str = "^[A-Za-z0-9_-]{1,64}$";
 
-/// Prints the schema.
 pub(crate) fn schema() -> Result<(), Failure> {
     Ok(print(text())?)
 }

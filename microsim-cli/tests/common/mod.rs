@@ -47,7 +47,7 @@ pub(crate) fn json(arguments: &[&str]) -> serde_json::Value {
 
 /// A small scenario with several kinds of organisms that move.
 pub(crate) fn crowd() -> String {
-    let text = r#"
+    r#"
         schema = 1
         name = "crowd-of-the-test"
         duration = 1.0
@@ -77,8 +77,8 @@ pub(crate) fn crowd() -> String {
         [[spawn]]
         of = "stone"
         at = [70.0, 50.0]
-    "#;
-    text.to_owned()
+    "#
+    .to_owned()
 }
 
 /// A folder of its own that is removed at the end.

@@ -95,7 +95,7 @@ impl Movie {
 
     /// Hands the frames to `ffmpeg`, which writes the file that `file` has reserved.
     fn write_mp4(&self, file: &mut PendingFile, frames: Frames<'_>) -> Result<(), Failure> {
-        let mut child = self.ffmpeg(file.temporary())?;
+        let mut child = self.ffmpeg(&file.temporary)?;
         let mut input = child.stdin.take();
         let written: Result<(), Failure> = frames
             .map(|picture| {

@@ -54,7 +54,6 @@ impl Projector {
         }
     }
 
-    /// One step.
     pub(super) fn step(&mut self) -> Result<(), Failure> {
         match self {
             Self::Script(world, script) => {

@@ -125,13 +125,11 @@ pub(super) fn lines(series: &[(&str, Vec<Point>)], x_name: &str) -> String {
     frame(&x, &y, x_name, &content)
 }
 
-/// The legend of colours.
 pub(super) fn legend(names: &[(&str, &str)]) -> String {
     let entry = |(colour, name): &(&str, &str)| format!("<span style=\"color:{colour}\">■</span> {} ", escape(name));
     format!("<p>{}</p>", names.iter().map(entry).collect::<String>())
 }
 
-/// Opens an SVG of this size.
 pub(super) fn open(width: f64, height: f64) -> String {
     format!("<svg viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\">")
 }

@@ -80,7 +80,6 @@ fn labels(all: &[String], room: f64, needed: f64) -> impl Iterator<Item = (usize
     all.iter().enumerate().step_by(every).map(|(index, label)| (index, escape(label)))
 }
 
-/// The legend of colours.
 fn key(svg: &mut String, x: f64, y: f64, height: f64, [low, high]: [f64; 2]) {
     const STEPS: u32 = 24;
     let step = height / f64::from(STEPS);

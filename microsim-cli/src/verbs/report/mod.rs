@@ -29,7 +29,6 @@ pub(crate) struct ReportArgs {
     pub output: PathBuf,
 }
 
-/// Writes the page.
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<(), Failure> {
     let page = if args.input.is_dir() { run_page::make(&args.input)? } else { sweep_page::make(&args.input)? };
     if args.output == Path::new("-") {

@@ -55,7 +55,6 @@ impl Page {
     }
 }
 
-/// Figures side by side.
 pub(super) fn figures(figures: &[String]) -> String {
     if figures.is_empty() { String::new() } else { format!("<div class=\"figures\">{}</div>", figures.concat()) }
 }

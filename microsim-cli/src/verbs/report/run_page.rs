@@ -16,7 +16,6 @@ const FIXED: [&str; 2] = ["step", "time"];
 /// Most organisms that are drawn one by one.
 const MOST: usize = 60;
 
-/// The page of a run's folder.
 pub(super) fn make(folder: &Path) -> Result<String, Failure> {
     let path = folder.join("run.json");
     let Some(bytes) = data::bytes(&path)? else {
@@ -104,7 +103,7 @@ fn organisms(trajectories: &TextTable) -> String {
         wanted.take(MOST).map(|track| (colour(track.kind), of(track))).collect()
     };
     let is_cell = |kind: &str| kind == "amoeboid_cell";
-    let mut all = vec![figure("Ways", &chart::paths(&series(|track| track.place.clone(), |_| true)))];
+    let mut all = vec![figure("Paths", &chart::paths(&series(|track| track.place.clone(), |_| true)))];
     let speeds = series(|track| track.speed.clone(), |_| true);
     all.push(figure("Speed, µm/s", &chart::lines(&speeds, "time, s")));
     let areas = series(|track| track.area.clone(), is_cell);
@@ -124,7 +123,7 @@ fn events(folder: &Path, end: f64) -> Result<String, Failure> {
         return Ok(String::new());
     }
     let kinds: Vec<_> = kinds.into_iter().map(|(name, times)| (name.replace('_', " "), times)).collect();
-    Ok(figure("When they happened", &chart::rows(&kinds, end)))
+    Ok(figure("Times of events", &chart::rows(&kinds, end)))
 }
 
 fn step_times(run: &Value) -> String {

@@ -13,7 +13,6 @@ use std::path::Path;
 /// A name and its value in each task.
 type Quantity = (String, Vec<f64>);
 
-/// The page of merged results.
 pub(super) fn make(path: &Path) -> Result<String, Failure> {
     let outcomes: Vec<TaskOutcome> = data::lines(path)?;
     let Some(first) = outcomes.first() else {

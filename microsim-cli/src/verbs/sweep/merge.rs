@@ -11,15 +11,14 @@ use std::path::Path;
 
 /// Prints the keys of missing tasks.
 pub(super) fn status(args: &StatusArgs, console: &Console) -> Result<(), Failure> {
-    let tasks = plan::read(&args.plan)?;
-    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
+    let tasks = plan::read(&args.from.plan)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.from.store)?)?;
     let broken = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
     console.note(&format!("{} of {} tasks done, {broken} with failures", outcomes.len(), tasks.len()));
     print(missing.iter().map(|task| format!("{}\n", task.key)).collect::<String>())?;
     if missing.is_empty() { Ok(()) } else { Err(Failure::Negative) }
 }
 
-/// Writes the table.
 pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> {
     let is_csv = match args.output.extension().and_then(|ending| ending.to_str()) {
         Some("csv") => true,
@@ -30,8 +29,8 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
             return Err(Failure::Message(message));
         }
     };
-    let tasks = plan::read(&args.plan)?;
-    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
+    let tasks = plan::read(&args.from.plan)?;
+    let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.from.store)?)?;
     if !missing.is_empty() {
         let keys: Vec<&str> = missing.iter().map(|task| task.key.as_str()).collect();
         let what = format!("{} of {} results are missing:\n{}", missing.len(), tasks.len(), keys.join("\n"));

@@ -60,6 +60,17 @@ pub(crate) struct PlanArgs {
     pub seconds: Option<f64>,
 }
 
+/// A plan and its results.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PlanAndStore {
+    /// The plan
+    #[arg(value_name = "PLAN")]
+    pub plan: PathBuf,
+    /// Where results are kept
+    #[arg(long, value_name = "DIR")]
+    pub store: PathBuf,
+}
+
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Ctrl-C loses only the tasks in progress; run it again to continue. Shards may run anywhere that sees the store,\n\
@@ -67,12 +78,8 @@ at any time: microsim sweep run plan.jsonl --store results --shard $SLURM_ARRAY_
 The exit code is 1 if a check fails in any task of this shard."
 )]
 pub(crate) struct SweepRunArgs {
-    /// The plan
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
-    /// Where results are kept
-    #[arg(long, value_name = "DIR")]
-    pub store: PathBuf,
+    #[command(flatten)]
+    pub from: PlanAndStore,
     /// Tasks at once; without it, one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -84,12 +91,8 @@ pub(crate) struct SweepRunArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Keys of missing tasks are printed one a line. The exit code is 1 if there are any.")]
 pub(crate) struct StatusArgs {
-    /// The plan
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
-    /// Where results are kept
-    #[arg(long, value_name = "DIR")]
-    pub store: PathBuf,
+    #[command(flatten)]
+    pub from: PlanAndStore,
 }
 
 #[derive(Debug, clap::Args)]
@@ -98,12 +101,8 @@ pub(crate) struct StatusArgs {
 is written, and the exit code is 1; with --partial the table has the others."
 )]
 pub(crate) struct MergeArgs {
-    /// The plan
-    #[arg(value_name = "PLAN")]
-    pub plan: PathBuf,
-    /// Where results are kept
-    #[arg(long, value_name = "DIR")]
-    pub store: PathBuf,
+    #[command(flatten)]
+    pub from: PlanAndStore,
     /// The table to write
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
@@ -112,7 +111,6 @@ pub(crate) struct MergeArgs {
     pub partial: bool,
 }
 
-/// Performs a verb of `sweep`.
 pub(crate) fn sweep(verb: &SweepVerb, console: &Console) -> Result<(), Failure> {
     match verb {
         SweepVerb::Plan(args) => plan::plan(args, console),

@@ -29,13 +29,12 @@ impl FromStr for Shard {
     }
 }
 
-/// Runs the tasks of a plan.
 pub(super) fn run(args: &SweepRunArgs, console: &Console) -> Result<(), Failure> {
-    let tasks = plan::read(&args.plan)?;
+    let tasks = plan::read(&args.from.plan)?;
     let Shard { index, count } = args.shard.unwrap_or(Shard { index: 0, count: 1 });
     let tasks: Vec<Task> = tasks.into_iter().skip(index).step_by(count).collect();
     let jobs = args.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-    run_all(&tasks, &ResultStore::open(&args.store)?, jobs, console)
+    run_all(&tasks, &ResultStore::open(&args.from.store)?, jobs, console)
 }
 
 /// Runs the tasks of a file, one after the other.
