@@ -25,10 +25,6 @@ pub struct Anchor {
 }
 
 impl Constrain for Anchor {
-    fn links(&self) -> Vec<[u32; 2]> {
-        vec![[self.node, self.anchor]]
-    }
-
     fn validate(&self, nodes: usize) -> Result<(), Error> {
         check_nodes("node", &[self.node, self.anchor], nodes)?;
         in_range("rest_length", self.rest_length, 0.0, MAX_LENGTH)?;

@@ -24,11 +24,6 @@ pub struct Area {
 }
 
 impl Constrain for Area {
-    fn links(&self) -> Vec<[u32; 2]> {
-        let next = self.ring.iter().cycle().skip(1);
-        self.ring.iter().zip(next).map(|(&a, &b)| [a, b]).collect()
-    }
-
     fn validate(&self, nodes: usize) -> Result<(), Error> {
         check_ring("ring", &self.ring, nodes)?;
         in_range("rest_area", self.rest_area, 1e-6, MAX_LENGTH)?;

@@ -29,10 +29,6 @@ pub struct Distance {
 }
 
 impl Constrain for Distance {
-    fn links(&self) -> Vec<[u32; 2]> {
-        vec![[self.a, self.b]]
-    }
-
     fn validate(&self, nodes: usize) -> Result<(), Error> {
         check_nodes("a", &[self.a, self.b], nodes)?;
         in_range("rest_length", self.rest_length, 0.0, MAX_LENGTH)?;

@@ -35,30 +35,39 @@ pub enum Constraint {
     Rope(Rope),
 }
 
-/// What every kind of constraint says of itself.
+/// What every kind of constraint does in its own way.
 pub(crate) trait Constrain {
-    /// Pairs of nodes that it acts between, for drawing.
-    fn links(&self) -> Vec<[u32; 2]>;
-
     /// Checks its nodes, of which there are so many, and the range of each number. Errors name the field.
     fn validate(&self, nodes: usize) -> Result<(), Error>;
 
     /// Projects it once in each lane of a span, in a substep of `h` seconds.
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32)
-    where
-        Self: Sized;
+    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32);
 }
 
 impl Constraint {
     /// Pairs of nodes that it acts between: the two of a distance, the neighbours in a ring.
     #[must_use]
     pub fn links(&self) -> Vec<[u32; 2]> {
-        self.inner().links()
+        match self {
+            Self::Distance(Distance { a, b, .. })
+            | Self::MinDistance(MinDistance { a, b, .. })
+            | Self::Rope(Rope { a, b, .. })
+            | Self::Anchor(Anchor { node: a, anchor: b, .. }) => vec![[*a, *b]],
+            Self::Area(Area { ring, .. }) => {
+                ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]).collect()
+            }
+        }
     }
 
     /// Checks its nodes and numbers; errors name the field.
     pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
-        self.inner().validate(nodes)
+        match self {
+            Self::Distance(c) => c.validate(nodes),
+            Self::MinDistance(c) => c.validate(nodes),
+            Self::Area(c) => c.validate(nodes),
+            Self::Anchor(c) => c.validate(nodes),
+            Self::Rope(c) => c.validate(nodes),
+        }
     }
 
     /// Place of its kind in the order of projection. Kinds that limit something come last, because the last projection wins.
@@ -69,17 +78,6 @@ impl Constraint {
             Self::Anchor(_) => 2,
             Self::MinDistance(_) => 3,
             Self::Rope(_) => 4,
-        }
-    }
-
-    /// What is inside, for uses in which speed does not matter.
-    fn inner(&self) -> &dyn Constrain {
-        match self {
-            Self::Distance(c) => c,
-            Self::MinDistance(c) => c,
-            Self::Area(c) => c,
-            Self::Anchor(c) => c,
-            Self::Rope(c) => c,
         }
     }
 }

@@ -21,10 +21,6 @@ pub struct Rope {
 }
 
 impl Constrain for Rope {
-    fn links(&self) -> Vec<[u32; 2]> {
-        vec![[self.a, self.b]]
-    }
-
     fn validate(&self, nodes: usize) -> Result<(), Error> {
         check_nodes("a", &[self.a, self.b], nodes)?;
         in_range("max_length", self.max_length, 0.0, MAX_LENGTH)
