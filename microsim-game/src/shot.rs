@@ -36,14 +36,8 @@ impl Shot {
     }
 
     fn target_of(&mut self, size: (u32, u32)) -> RenderTarget {
-        match &self.target {
-            Some((known, target)) if *known == size => target.clone(),
-            _ => {
-                let target = render_target(size.0, size.1);
-                self.target = Some((size, target.clone()));
-                target
-            }
-        }
+        self.target.take_if(|(known, _)| *known != size);
+        self.target.get_or_insert_with(|| (size, render_target(size.0, size.1))).1.clone()
     }
 }
 

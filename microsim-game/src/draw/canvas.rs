@@ -91,8 +91,7 @@ impl Canvas {
         let corner = |[low, high]: [Vec2; 2], right: f32, down: f32| low + (high - low) * Vec2::new(right, down);
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
         let [a, b, c, d] = corners.map(|(x, y)| self.vertex(corner(at, x, y), corner(part, x, y), colour));
-        self.triangle(a, b, c);
-        self.triangle(a, c, d);
+        self.mesh.indices.extend([a, b, c, a, c, d]);
     }
 
     /// A plain rectangle.
@@ -103,13 +102,8 @@ impl Canvas {
     /// A plain quadrangle.
     pub(crate) fn quad(&mut self, corners: [Vec2; 4], colours: [Color; 4]) {
         self.reserve(4, 6);
-        let at = |k: usize| self.mesh.vertices.len() as u16 + k as u16;
-        let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
-        corners.iter().zip(colours).for_each(|(&corner, colour)| {
-            self.vertex(corner, atlas::plain(), colour);
-        });
-        self.triangle(a, b, c);
-        self.triangle(a, c, d);
+        let [a, b, c, d] = std::array::from_fn(|k| self.vertex(corners[k], atlas::plain(), colours[k]));
+        self.mesh.indices.extend([a, b, c, a, c, d]);
     }
 
     /// A plain triangle.
@@ -145,7 +139,7 @@ impl Canvas {
         }
     }
 
-    /// DrawnPart of a ring, clockwise from its top; `share` of it.
+    /// A share of a ring, clockwise from its top.
     pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
         let steps = (ARC_STEPS * share).ceil().max(1.0);
         let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;

@@ -6,8 +6,7 @@ use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
-use crate::ui::font::TITLE;
-use crate::ui::font::TextSize;
+use crate::ui::font::{TITLE, TextSize};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, title_lines};
 use crate::ui::pen::Align;
 use crate::viewer::{Viewer, first_view};
@@ -34,29 +33,21 @@ struct Backdrop {
     viewer: Viewer,
 }
 
-const PLAY: usize = 0;
-const SIMULATION: usize = 1;
-const REPLAY: usize = 2;
-const SCORES: usize = 3;
-const SETTINGS: usize = 4;
+/// The items of the menu and where they lead.
+const ITEMS: [(&str, fn() -> Next); 6] = [
+    ("Play", || Next::Show(MainScreen::Round)),
+    ("Simulation", || Next::Open(Overlay::Pick)),
+    ("Watch the last game", || Next::Show(MainScreen::Replay)),
+    ("High scores", || Next::Open(Overlay::Scores)),
+    ("Settings", || Next::Open(Overlay::Settings)),
+    ("Quit", || Next::Quit),
+];
 
 impl Title {
     /// The title, with its backdrop at the beginning.
     pub(super) fn new(context: &AppContext) -> Self {
-        let labels = ["Play", "Simulation", "Watch the last game", "High scores", "Settings", "Quit"];
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(labels.map(MenuItem::new).into()) }
-    }
-
-    fn choose(choice: MenuChoice) -> Next {
-        let MenuChoice::Pick(item) = choice else { return Next::Stay };
-        match item {
-            PLAY => Next::Show(MainScreen::Round),
-            SIMULATION => Next::Open(Overlay::Pick),
-            REPLAY => Next::Show(MainScreen::Replay),
-            SCORES => Next::Open(Overlay::Scores),
-            SETTINGS => Next::Open(Overlay::Settings),
-            _ => Next::Quit,
-        }
+        let items = ITEMS.map(|(label, _)| MenuItem::new(label));
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items.into()) }
     }
 }
 
@@ -97,9 +88,10 @@ impl Screen for Title {
         if input.step == Some(Move::Back) {
             return Next::Quit;
         }
-        let place = MenuLayout::title(&context.pen);
-        let choice = self.menu.update(input, &place);
-        choice.map_or(Next::Stay, Self::choose)
+        match self.menu.update(input, &MenuLayout::title(&context.pen)) {
+            Some(MenuChoice::Pick(item)) => ITEMS[item].1(),
+            _ => Next::Stay,
+        }
     }
 
     fn draw(&mut self, context: &mut AppContext) {

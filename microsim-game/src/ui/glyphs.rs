@@ -18,7 +18,7 @@ pub(super) struct Glyphs {
     /// Pixels per drawing unit.
     density: f32,
     all: BTreeMap<(TextSize, char), Glyph>,
-    /// TextSize of the texture, pixels.
+    /// Size of the texture, pixels.
     sheet: Vec2,
     canvas: Canvas,
 }

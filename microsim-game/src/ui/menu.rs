@@ -57,7 +57,7 @@ pub struct MenuLayout {
     pub item: Vec2,
     /// As many items are seen at once.
     pub visible: usize,
-    /// TextSize of the text.
+    /// Size of the text.
     pub size: TextSize,
 }
 

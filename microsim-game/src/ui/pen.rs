@@ -63,7 +63,7 @@ impl Pen {
         }
     }
 
-    /// TextSize of the picture, drawing units.
+    /// Size of the picture, drawing units.
     #[must_use]
     pub fn screen(&self) -> Vec2 {
         self.screen
@@ -162,7 +162,7 @@ fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     lines
 }
 
-/// TextSize of text for a picture: few different ones, for every one needs glyphs of its own.
+/// Size of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
     let steps = [0.8, 1.0, 1.25, 1.5, 2.0];

@@ -91,11 +91,7 @@ impl Sandbox {
     /// One step, while time stands still.
     fn step(&mut self) {
         let tools = &self.tools;
-        self.viewer.step(&mut self.stage, |stage| {
-            tools.before_step(stage);
-            stage.step();
-            stage.world()
-        });
+        self.viewer.step(&mut self.stage, |stage| tools.step(stage));
         self.measure();
     }
 
@@ -103,13 +99,8 @@ impl Sandbox {
         if self.is_paused {
             return;
         }
-        let speed = SPEEDS[self.speed];
         let tools = &self.tools;
-        self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
-            tools.before_step(stage);
-            stage.step();
-            stage.world()
-        });
+        self.viewer.run(context.pace, SPEEDS[self.speed], &mut self.stage, |stage| tools.step(stage));
         self.measure();
     }
 
@@ -121,13 +112,8 @@ impl Sandbox {
 
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let (world, census) = (self.stage.world(), self.stage.census());
-        let mut text = format!(
-            "{}   {:.2} s   {} bodies   {} particles",
-            self.stage.name(),
-            world.time(),
-            census.bodies,
-            census.particles
-        );
+        let (name, time) = (self.stage.name(), world.time());
+        let mut text = format!("{name}   {time:.2} s   {} bodies   {} particles", census.bodies, census.particles);
         if !is_exact {
             text += &format!("   step {:.2} ms", self.viewer.step_ms());
         }
@@ -160,8 +146,7 @@ impl Screen for Sandbox {
                 return next;
             }
         }
-        let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel);
-        if let Some(problem) = problem {
+        if let Some(problem) = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel) {
             context.tell(problem);
         }
         self.run(context);
