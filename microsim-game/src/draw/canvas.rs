@@ -76,11 +76,6 @@ impl Canvas {
 
     /// A square with a picture of the atlas on it.
     pub(crate) fn sprite(&mut self, centre: Vec2, half: f32, tile: Tile, colour: Color) {
-        self.stamp(centre, Vec2::splat(half), tile, colour);
-    }
-
-    /// A rectangle with a picture of the atlas on it.
-    pub(crate) fn stamp(&mut self, centre: Vec2, half: Vec2, tile: Tile, colour: Color) {
         let corners = [Vec2::NEG_ONE, Vec2::ONE];
         self.image(corners.map(|corner| centre + corner * half), corners.map(|corner| tile.at(corner)), colour);
     }
@@ -158,16 +153,9 @@ impl Canvas {
                 for &point in points {
                     self.vertex(point, atlas::plain(), colour);
                 }
-                for triangle in part {
-                    let [a, b, c] = triangle.map(|index| (base + index) as u16);
-                    self.triangle(a, b, c);
-                }
+                self.mesh.indices.extend(part.as_flattened().iter().map(|index| (base + index) as u16));
             } else {
-                for triangle in part {
-                    self.reserve(3, 3);
-                    let [a, b, c] = triangle.map(|index| self.vertex(points[index as usize], atlas::plain(), colour));
-                    self.triangle(a, b, c);
-                }
+                part.iter().for_each(|triangle| self.corner(triangle.map(|index| points[index as usize]), colour));
             }
         }
     }

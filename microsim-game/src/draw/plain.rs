@@ -40,13 +40,11 @@ pub(super) fn paint(canvas: &mut Canvas, camera: &Camera, item: &Item) {
     match &item.geometry {
         Geometry::Discs(discs) => discs.iter().for_each(|&disc| paint_disc(canvas, camera, item, disc)),
         Geometry::Outline(points) => paint_outline(canvas, camera, item, &placed(points, camera)),
-        Geometry::Polygons(polygons) => {
-            polygons.iter().for_each(|points| paint_outline(canvas, camera, item, &placed(points, camera)));
-        }
         Geometry::Curve(points) => paint_line(canvas, camera, item, &placed(points, camera)),
-        Geometry::Lines(lines) => {
-            lines.iter().for_each(|points| paint_line(canvas, camera, item, &placed(points, camera)));
+        Geometry::Polygons(all) => {
+            all.iter().for_each(|points| paint_outline(canvas, camera, item, &placed(points, camera)));
         }
+        Geometry::Lines(all) => all.iter().for_each(|points| paint_line(canvas, camera, item, &placed(points, camera))),
     }
 }
 

@@ -20,7 +20,6 @@ const MENU_TOP: f32 = 0.62;
 /// Time for which the menu does not answer, s: the player may still be holding keys.
 const DELAY: f32 = 0.7;
 
-/// The end of a round.
 #[derive(Debug)]
 pub(super) struct End {
     heading: String,

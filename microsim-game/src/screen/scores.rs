@@ -18,7 +18,6 @@ pub(super) struct ScoreList {
 }
 
 impl ScoreList {
-    /// The present list.
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         Self {

@@ -19,7 +19,6 @@ const BESIDE: Vec2 = Vec2::new(0.36 * VIEW, 0.0);
 /// The backdrop starts over after this time, s: by then most of the prey is eaten.
 const SCENE_TIME: f64 = 90.0;
 
-/// The title.
 #[derive(Debug)]
 pub(super) struct Title {
     backdrop: Option<Backdrop>,

@@ -6,7 +6,7 @@ use std::io;
 
 /// File that they are kept in.
 const FILE: &str = "scores.toml";
-/// As many are kept for each game.
+/// Scores that are kept for each game.
 pub const KEPT: usize = 10;
 
 /// One score.
@@ -48,10 +48,14 @@ impl Scores {
         if place >= KEPT || score.points == 0 {
             return (None, Ok(()));
         }
-        let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
-        self.score.insert(at, score);
+        self.insert(score);
         self.trim();
         (Some(place), store.save(FILE, self))
+    }
+
+    fn insert(&mut self, score: Score) {
+        let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
+        self.score.insert(at, score);
     }
 
     /// Leaves the best ones of each game.
@@ -69,8 +73,7 @@ impl Scores {
         let count = |scores: &[Score], wanted: &Score| scores.iter().filter(|score| *score == wanted).count();
         for score in kept.score.iter().filter(|score| score.points > 0) {
             if count(&self.score, score) < count(&kept.score, score) {
-                let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
-                self.score.insert(at, score.clone());
+                self.insert(score.clone());
             }
         }
         self.trim();

@@ -37,20 +37,16 @@ pub(super) enum Tool {
 }
 
 impl Tool {
-    pub(super) const ALL: [Self; 7] =
-        [Self::Steer, Self::Drag, Self::Push, Self::Spawn, Self::Remove, Self::Follow, Self::Look];
-
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Steer => "Steer",
-            Self::Drag => "Drag",
-            Self::Push => "Push away",
-            Self::Spawn => "Put in",
-            Self::Remove => "Remove",
-            Self::Follow => "Follow",
-            Self::Look => "Look around",
-        }
-    }
+    /// All of them, with their labels in the panel.
+    pub(super) const ALL: [(Self, &str); 7] = [
+        (Self::Steer, "Steer"),
+        (Self::Drag, "Drag"),
+        (Self::Push, "Push away"),
+        (Self::Spawn, "Put in"),
+        (Self::Remove, "Remove"),
+        (Self::Follow, "Follow"),
+        (Self::Look, "Look around"),
+    ];
 }
 
 /// Makes what a tool puts into the world.
@@ -77,7 +73,7 @@ pub(super) struct Tools {
     grasped: Option<OrganismId>,
     /// Where the cursor is in the room while the button is down.
     hand: Option<Vec2>,
-    /// What point of the room it took hold of, to look around.
+    /// The point of the room that follows the cursor while looking around.
     grip: Option<Vec2>,
 }
 
