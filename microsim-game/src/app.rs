@@ -120,17 +120,16 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
-        // Less detail does not help where steps are what takes long.
+        // Time of the steps does not count: less detail would not shorten it.
         let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };
-        let news = context.scenery.pass(drawing, context.effort(), context.sight());
-        if let Some(news) = news {
+        if let Some(news) = context.scenery.pass(drawing, context.effort(), context.sight()) {
             context.tell(news);
         }
         let screen = view_size(&self.options);
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
         }
-        // Read in any case: what nobody reads piles up.
+        // Read even with a script: unread events pile up.
         let input = self.device.read(&context.settings.keys);
         match &mut self.options.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
@@ -181,7 +180,7 @@ impl App {
         let is_at_stake = self.screens.is_at_stake();
         let shown = opened.pop_if(|_| !is_at_stake).map(|(_, stage)| stage);
         match opened.as_slice() {
-            // What is wrong with one of them, which was said already, matters more.
+            // The message about a bad file stays.
             _ if !are_good => {}
             [] => {}
             [(source, _)] => self.context.tell(format!("{source} is in the list of simulations now.")),
@@ -206,7 +205,7 @@ impl App {
                 Err(error) => format!("cannot write {}: {error}", path.display()),
             });
         } else if self.options.screenshot.is_none() {
-            // Of a planned picture nobody sees what comes before it.
+            // Frames before a planned picture are not shown.
             self.draw();
         }
         Ok(())

@@ -46,10 +46,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub script: Option<PathBuf>,
     /// How the world is seen, in place of the settings; drawn suits slow graphics
-    #[arg(long = "optics", value_name = "NAME", value_parser = PossibleValuesParser::new(Sight::all().map(Sight::name)).map(|name| Sight::named(&name)))]
+    #[arg(long = "optics", value_name = "NAME", value_parser = sights())]
     pub sight: Option<Sight>,
     /// How much of the machine pictures may take, in place of the settings
-    #[arg(long = "quality", value_name = "NAME", value_parser = PossibleValuesParser::new(Effort::ALL.map(Effort::name)).map(Effort::from))]
+    #[arg(long = "quality", value_name = "NAME", value_parser = efforts())]
     pub effort: Option<Effort>,
     /// Say at the end how long steps and frames took
     #[arg(long)]
@@ -75,6 +75,14 @@ fn size(text: &str) -> Result<(u32, u32), String> {
         ((160..=7680).contains(&width) && (90..=4320).contains(&height)).then_some((width, height))
     });
     sides.ok_or_else(|| "not a size from 160x90 to 7680x4320".to_owned())
+}
+
+fn sights() -> impl TypedValueParser<Value = Sight> {
+    PossibleValuesParser::new(Sight::all().map(Sight::name)).map(|name| Sight::named(&name))
+}
+
+fn efforts() -> impl TypedValueParser<Value = Effort> {
+    PossibleValuesParser::new(Effort::ALL.map(Effort::name)).map(Effort::from)
 }
 
 #[cfg(test)]
@@ -109,9 +117,9 @@ mod tests {
 
     #[test]
     fn mistakes_are_refused_with_exit_code_2() {
-        let sizes = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1"];
-        let names = ["--wrong", "--set x", "--set =1", "--optics x", "--quality x"];
-        for line in sizes.into_iter().chain(names) {
+        let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1"];
+        let words = ["--wrong", "--set x", "--set =1", "--optics x", "--quality x"];
+        for line in numbers.into_iter().chain(words) {
             assert_eq!(parsed(line).map_err(|error| error.exit_code()), Err(2), "{line}");
         }
     }

@@ -217,7 +217,9 @@ impl Canvas {
         let is_full = self.mesh.vertices.len() + vertices > MAX_VERTICES;
         if is_full || self.mesh.indices.len() + indices > MAX_INDICES {
             self.flush();
-            submit();
+            // When a camera comes back macroquad draws what it holds, so its buffers need not hold a whole frame.
+            push_camera_state();
+            pop_camera_state();
         }
     }
 
@@ -229,12 +231,6 @@ impl Canvas {
     fn triangle(&mut self, a: u16, b: u16, c: u16) {
         self.mesh.indices.extend([a, b, c]);
     }
-}
-
-/// Has macroquad draw what it holds, so that its buffers need not hold all of a frame: it does when a camera comes back.
-fn submit() {
-    push_camera_state();
-    pop_camera_state();
 }
 
 /// Unit normal at a point of a line, out of a counter-clockwise outline, in picture pixels.

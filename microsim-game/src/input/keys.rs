@@ -62,8 +62,7 @@ impl Keys {
     #[must_use]
     pub fn label(&self, action: Action) -> String {
         let name = name(self.of(action));
-        let digit = name.strip_prefix("Key").filter(|rest| !rest.is_empty());
-        digit.map_or(name.clone(), str::to_owned)
+        name.strip_prefix("Key").unwrap_or(&name).to_owned()
     }
 
     /// Gives a key to an action; the action that had it gets the old key of this one. Returns whether the key can be used.
@@ -106,15 +105,14 @@ fn name(key: KeyCode) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn t73_the_seeds_keys_are_the_usual_ones_and_no_key_has_two_meanings() {
         let keys = Keys::default();
         assert_eq!(keys.of(Action::Consume), KeyCode::Q);
         assert_eq!((keys.of(Action::ZoomOut), keys.of(Action::ZoomIn)), (KeyCode::A, KeyCode::D));
-        let mut all: Vec<_> = Action::ALL.iter().map(|&action| name(keys.of(action))).collect();
-        all.sort();
-        all.dedup();
+        let all: BTreeSet<_> = Action::ALL.iter().map(|&action| name(keys.of(action))).collect();
         assert_eq!(all.len(), Action::ALL.len());
     }
 

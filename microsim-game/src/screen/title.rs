@@ -32,8 +32,10 @@ struct Backdrop {
     viewer: Viewer,
 }
 
-/// The items of the menu and where they lead.
-const ITEMS: [(&str, fn() -> Next); 6] = [
+/// Where an item of the menu leads.
+type Target = fn() -> Next;
+
+const ITEMS: [(&str, Target); 6] = [
     ("Play", || Next::Show(MainScreen::Round)),
     ("Simulation", || Next::Open(Overlay::Pick)),
     ("Watch the last game", || Next::Show(MainScreen::Replay)),

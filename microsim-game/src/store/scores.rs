@@ -96,8 +96,7 @@ mod tests {
 
     #[test]
     fn the_best_ten_of_each_game_are_kept_over_a_restart() {
-        let folder = Folder::new("scores");
-        let store = PlayerFolder::at(&folder.0);
+        let (_folder, store) = Folder::new("scores");
         let mut scores = Scores::load(&store).0;
         assert_eq!(scores.add(score(5, 10.0), &store).0, Some(0));
         for points in 1..=14 {
@@ -117,8 +116,7 @@ mod tests {
 
     #[test]
     fn two_windows_lose_no_score_of_each_other() {
-        let folder = Folder::new("windows");
-        let store = PlayerFolder::at(&folder.0);
+        let (_folder, store) = Folder::new("windows");
         let mut windows = [Scores::default(), Scores::default()];
         for (points, window) in [(30, 0), (50, 1), (40, 0), (50, 1)] {
             windows[window].add(score(points, 90.0), &store).1.unwrap();
