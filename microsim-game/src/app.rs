@@ -70,17 +70,8 @@ impl App {
         context.pace.is_exact = options.is_exact();
         context.asked = options.asked;
         let screens = Stack::new(first, &mut context);
-        Self {
-            screens,
-            context,
-            device: Device::new(),
-            options,
-            shot: Shot::default(),
-            frame: 0,
-            is_full: false,
-            updating: 0.0,
-            timings: Timings::default(),
-        }
+        let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
+        Self { screens, context, device, options, shot, frame: 0, is_full: false, updating: 0.0, timings }
     }
 
     /// Runs until the player leaves or all frames have been shown.
@@ -174,8 +165,7 @@ impl App {
     /// come into the list of simulations.
     fn open_dropped(&mut self, input: &Input) -> Option<Stage> {
         let sources: Vec<SceneSource> = input.dropped.iter().rev().cloned().map(SceneSource::File).collect();
-        let opened = sources.iter().filter_map(|source| Some((source, self.context.open(source)?)));
-        let mut opened: Vec<_> = opened.collect();
+        let mut opened: Vec<_> = sources.iter().filter_map(|file| Some((file, self.context.open(file)?))).collect();
         let are_good = opened.len() == sources.len();
         let is_at_stake = self.screens.is_at_stake();
         let shown = opened.pop_if(|_| !is_at_stake).map(|(_, stage)| stage);
@@ -196,8 +186,7 @@ impl App {
             return taken.map_err(|error| format!("cannot write {}: {error}", path.display()));
         }
         if std::mem::take(&mut self.context.wants_picture) {
-            let name = self.screens.name();
-            let path = free_path(&format!("microsim-{name}"));
+            let path = free_path(&format!("microsim-{}", self.screens.name()));
             let size = if self.options.is_exact() { self.options.size } else { physical_size() };
             let taken = self.take(&path, size);
             self.context.tell(match taken {

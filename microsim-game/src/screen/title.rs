@@ -106,19 +106,19 @@ impl Screen for Title {
         }
         let pen = &mut context.pen;
         let (screen, line) = (pen.screen(), pen.line(TextSize::Huge));
-        let place = MenuLayout::title(pen);
-        let left = place.corner.x;
+        let layout = MenuLayout::title(pen);
+        let left = layout.corner.x;
         let shade = [fade(INK, 0.82), fade(INK, 0.0), fade(INK, 0.0), fade(INK, 0.82)];
-        let wide = (left + 1.6 * place.item.x).min(screen.x);
-        pen.canvas()
-            .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
+        let wide = (left + 1.6 * layout.item.x).min(screen.x);
+        let (right, below) = (Vec2::new(wide, 0.0), Vec2::new(0.0, screen.y));
+        pen.canvas().quad([Vec2::ZERO, right, right + below, below], shade);
         let [title, below, end] = title_lines(pen);
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
-        if place.corner.y >= end {
+        if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
             pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
         }
-        self.menu.draw(pen, &place);
+        self.menu.draw(pen, &layout);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
         let corner = screen - 0.8 * pen.line(TextSize::Small);
         pen.label(corner, TextSize::Small, Align::Right, HALO, version);

@@ -51,16 +51,9 @@ impl Sandbox {
     pub(super) fn new(stage: Stage, context: &AppContext) -> Self {
         let camera = first_view(stage.world(), stage.player(), VIEW, context.pen.screen());
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
-        let mut sandbox = Self {
-            viewer: Viewer::new(stage.world(), camera),
-            tools: Tools::default(),
-            panel: Menu::default(),
-            plots: Plots::default(),
-            speed: USUAL_SPEED,
-            shows,
-            is_paused: false,
-            stage,
-        };
+        let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
+        let (tools, plots) = (Tools::default(), Plots::default());
+        let mut sandbox = Self { stage, viewer, tools, panel, plots, speed: USUAL_SPEED, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
         sandbox
     }
