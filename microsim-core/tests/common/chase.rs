@@ -1,6 +1,6 @@
 //! Cells that are steered towards prey until something happens.
 
-use super::{tell, toward};
+use super::{happens, tell, toward};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId, OrganismSpec, PhagocytosisParams,
@@ -57,11 +57,11 @@ pub(crate) fn chase(
 }
 
 pub(crate) fn begins(world: &World) -> bool {
-    world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }))
+    happens(world, |event| matches!(event, Event::IngestionBegan { .. }))
 }
 
 pub(crate) fn ingests(world: &World) -> bool {
-    world.events().iter().any(is_ingested)
+    happens(world, is_ingested)
 }
 
 pub(crate) fn is_ingested(event: &Event) -> bool {

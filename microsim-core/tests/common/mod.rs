@@ -2,7 +2,9 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use microsim_core::glam::Vec2;
-use microsim_core::{Controller, Inputs, Intent, OrganismId, OrganismSpec, Placement, ProbeSpec, World, WorldConfig};
+use microsim_core::{
+    Controller, Event, Inputs, Intent, OrganismId, OrganismSpec, Placement, ProbeSpec, World, WorldConfig,
+};
 
 pub(crate) mod chase;
 
@@ -23,6 +25,11 @@ pub(crate) fn tell(organism: OrganismId, intent: Intent) -> Inputs {
 /// Inputs that steer one organism towards a point.
 pub(crate) fn toward(organism: OrganismId, goal: Vec2) -> Inputs {
     tell(organism, Intent::toward(goal).unwrap())
+}
+
+/// Whether an event of the last step matches.
+pub(crate) fn happens(world: &World, is_it: fn(&Event) -> bool) -> bool {
+    world.events().iter().any(is_it)
 }
 
 /// Takes `steps` steps.
