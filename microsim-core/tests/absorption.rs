@@ -3,23 +3,17 @@
 
 mod common;
 
-use common::chase::{WAYS, agar, begins, by, chase, is_ingested, phase, small_rigid};
+use common::chase::{Scene, WAYS, agar, begins, by, chase, ends, phase, small_rigid};
 use common::outline;
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Event, IngestionWay, MealPhase, OrganismId, OrganismSpec, Placement, PlateletSpec, Rng, World,
-    WorldConfig,
+    AmoeboidCellSpec, IngestionWay, MealPhase, OrganismSpec, Placement, PlateletSpec, Rng, World, WorldConfig,
 };
 
 /// A cell that takes prey in by one way, prey in a random direction, and platelets around.
-fn among_platelets(
-    seed: u64,
-    way: IngestionWay,
-    prey: &OrganismSpec,
-    distance: f32,
-) -> (World, OrganismId, OrganismId) {
+fn among_platelets(seed: u64, way: IngestionWay, prey: &OrganismSpec, distance: f32) -> Scene {
     let mut rng = Rng::new(seed, 9);
     let mut world = World::new(WorldConfig { size: Vec2::new(110.0, 90.0), ..WorldConfig::default() }).unwrap();
     let spec = AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() };
@@ -38,13 +32,11 @@ fn among_platelets(
 fn absorb(seed: u64, way: IngestionWay, prey: &OrganismSpec, distance: f32) -> Option<(u32, bool)> {
     let (mut world, cell, prey) = among_platelets(seed, way, prey, distance);
     chase(&mut world, cell, prey, 900, begins)?;
-    let ends = |world: &World| world.events().iter().any(|e| is_ingested(e) || matches!(e, Event::Released { .. }));
     let took = chase(&mut world, cell, prey, 600, ends).expect("inside or released");
     let outline = outline(&world, cell);
-    let discs = world.view().organism(prey).unwrap().particles().map(|p| contains_point(&outline, p.position));
-    let inside: Vec<bool> = discs.collect();
+    let mut discs = world.view().organism(prey).unwrap().particles().map(|p| contains_point(&outline, p.position));
     let is_inside = phase(&world, cell, prey) == Some(MealPhase::Ingested);
-    assert!(inside.iter().all(|&part| part == is_inside), "seed {seed}: {way:?}, partly inside");
+    assert!(discs.all(|part| part == is_inside), "seed {seed}: {way:?}, partly inside");
     assert!(world.quality().edge_stretch_max < 0.5, "seed {seed}: {:?}", world.quality());
     Some((took, is_inside))
 }

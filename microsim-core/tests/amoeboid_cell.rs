@@ -1,5 +1,4 @@
-//! Amoeboid cells (seed, 3.1.2): movement, growth and what keeps the cytoplasm in. The structure's tests are beside
-//! `organism/amoeboid_cell`, those of the drive beside `crawl.rs`.
+//! Amoeboid cells (seed, 3.1.2): movement, growth and containment of the cytoplasm.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

@@ -1,5 +1,4 @@
-//! Division and fusion of amoeboid cells (conformance T84) in whole worlds. Ring surgery's properties are beside
-//! `ring_surgery.rs`.
+//! Division and fusion of amoeboid cells (conformance T84) in whole worlds.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

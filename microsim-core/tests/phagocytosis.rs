@@ -1,11 +1,12 @@
-//! Phagocytosis, digestion and growth (seed, 3.1.3 and 3.3.1) in whole worlds. The conditions' tests are beside
-//! `phagocytosis.rs`.
+//! Phagocytosis, digestion and growth (seed, 3.1.3 and 3.3.1) in whole worlds.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 
-use common::chase::{agar, agar_of, begins, by, chase, digesting, ingests, is_ingested, phase, small_rigid};
-use common::{assert_sound, outline, room_with, run, tell, toward};
+use common::chase::{
+    Scene, agar, agar_of, begins, by, chase, digesting, ends, ingests, is_released, phase, small_rigid,
+};
+use common::{assert_sound, happens, outline, room_with, run, tell, toward};
 use microsim_core::geometry::polygon::{contains_point, is_simple, signed_area};
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
@@ -24,17 +25,12 @@ fn cell_at(centre: Vec2, phagocytosis: PhagocytosisParams) -> (World, OrganismId
 }
 
 /// A cell near the wall and one prey at some distance to its right.
-fn scene(prey: &OrganismSpec, distance: f32) -> (World, OrganismId, OrganismId) {
+fn scene(prey: &OrganismSpec, distance: f32) -> Scene {
     scene_with(PhagocytosisParams::default(), CENTRE, prey, distance)
 }
 
 /// As [`scene`], for a cell with these parameters at `centre`.
-fn scene_with(
-    params: PhagocytosisParams,
-    centre: Vec2,
-    prey: &OrganismSpec,
-    distance: f32,
-) -> (World, OrganismId, OrganismId) {
+fn scene_with(params: PhagocytosisParams, centre: Vec2, prey: &OrganismSpec, distance: f32) -> Scene {
     let (mut world, cell) = cell_at(centre, params);
     let prey = world.spawn(prey, Placement::at(centre.x + distance, centre.y)).unwrap();
     (world, cell, prey)
@@ -94,8 +90,7 @@ fn t29_t30_touching_without_heading_for_it_takes_nothing_in() {
 fn t31_only_the_gate_lets_the_prey_through_and_never_cytoplasm() {
     let (mut world, cell, prey) = scene_with(by(IngestionWay::Gate), CENTRE, &agar(), 14.0);
     chase(&mut world, cell, prey, 300, ingests).unwrap();
-    let outline = outline(&world, cell);
-    let view = world.view().organism(cell).unwrap();
+    let (outline, view) = (outline(&world, cell), world.view().organism(cell).unwrap());
     assert!(view.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&outline, p.position)));
 }
 
@@ -241,8 +236,12 @@ fn removing_the_prey_or_the_engulfer_in_the_middle_leaves_a_sound_world() {
     }
 }
 
-fn is_released(event: &Event) -> bool {
-    matches!(event, Event::Released { .. })
+/// Whether prey is released within `steps` steps.
+fn is_released_within(steps: u32, world: &mut World, inputs: &Inputs) -> bool {
+    (0..steps).any(|_| {
+        world.step(inputs);
+        happens(world, is_released)
+    })
 }
 
 #[test]
@@ -258,11 +257,7 @@ fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
         run(&mut world, &Inputs::new(), 20);
         let shrunk = size(&world, prey);
         assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(cell));
-        let steps = (0..30).find(|_| {
-            run(&mut world, &Inputs::new(), 1);
-            world.events().iter().any(is_released)
-        });
-        assert!(steps.is_some(), "{params:?}: released");
+        assert!(is_released_within(30, &mut world, &Inputs::new()), "{params:?}: released");
         assert_eq!((phase(&world, cell, prey), world.view().organism(prey).unwrap().held_by()), (None, None));
         for step in 0..240 {
             run(&mut world, &Inputs::new(), 1);
@@ -289,36 +284,31 @@ fn t44_retreat_and_another_try_take_it_in() {
     run(&mut world, &away, 20);
     assert_eq!(phase(&world, cell, prey), None);
     chase(&mut world, cell, prey, 240, begins).unwrap();
-    let released = (0..60).any(|_| {
-        run(&mut world, &away, 1);
-        world.events().iter().any(is_released)
-    });
-    assert!(released && world.view().organism(prey).unwrap().held_by().is_none());
+    assert!(is_released_within(60, &mut world, &away) && world.view().organism(prey).unwrap().held_by().is_none());
     run(&mut world, &away, 30);
     assert!(chase(&mut world, cell, prey, 600, ingests).is_some(), "the next try");
 }
 
 #[test]
 fn t34_t36_prey_that_is_half_inside_at_the_time_limit_is_put_on_one_side_in_bounded_time() {
-    let mut ends = [0, 0];
+    let mut counts = [0, 0];
     for k in 1..12 {
         let params = PhagocytosisParams { time_limit: 0.1 * k as f32, ..by(IngestionWay::Gate) };
         let (mut world, cell, prey) = scene_with(params, MIDDLE, &small_rigid(), 18.0);
         chase(&mut world, cell, prey, 300, begins).unwrap();
-        let ends_now = |w: &World| w.events().iter().any(|event| is_ingested(event) || is_released(event));
-        let took = chase(&mut world, cell, prey, 300, ends_now).expect("an end");
+        let took = chase(&mut world, cell, prey, 300, ends).expect("an end");
         assert!(took as f32 <= 60.0 * 2.0 * params.time_limit + 1.0, "{took} steps at {}", params.time_limit);
         let outline = outline(&world, cell);
         let is_inside = phase(&world, cell, prey) == Some(MealPhase::Ingested);
         let discs = world.view().organism(prey).unwrap();
         assert!(discs.particles().all(|p| contains_point(&outline, p.position) == is_inside), "{}", params.time_limit);
-        ends[usize::from(is_inside)] += 1;
+        counts[usize::from(is_inside)] += 1;
         for step in 0..120 {
             run(&mut world, &Inputs::new(), 1);
             assert_sound(&world, &format!("step {step}"));
         }
     }
-    assert!(ends[0] > 0 && ends[1] > 0, "both ends: {ends:?}");
+    assert!(counts[0] > 0 && counts[1] > 0, "both ends: {counts:?}");
 }
 
 #[test]

@@ -7,6 +7,9 @@ use microsim_core::{
     RigidCellSpec, World,
 };
 
+/// A world, a cell in it and its prey.
+pub(crate) type Scene = (World, OrganismId, OrganismId);
+
 pub(crate) const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
 
 /// The default parameters but for the way in.
@@ -66,4 +69,13 @@ pub(crate) fn ingests(world: &World) -> bool {
 
 pub(crate) fn is_ingested(event: &Event) -> bool {
     matches!(event, Event::Ingested { .. })
+}
+
+pub(crate) fn is_released(event: &Event) -> bool {
+    matches!(event, Event::Released { .. })
+}
+
+/// Whether an ingestion has ended in the last step.
+pub(crate) fn ends(world: &World) -> bool {
+    happens(world, |event| is_ingested(event) || is_released(event))
 }

@@ -17,14 +17,13 @@ use microsim_core::{
 /// Most calls and steps of a sequence.
 const CALLS: usize = 60;
 const STEPS: u32 = 120;
+type Outcome = Result<(), Error>;
+
 /// What a sequence did.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
-    /// Calls that were done.
     pub calls: u32,
-    /// Calls that were refused.
     pub refusals: u32,
-    /// Steps.
     pub steps: u32,
     /// Most organisms at a time.
     pub organisms: usize,
@@ -87,16 +86,16 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
 
 impl Sequence<'_> {
     /// One call, and its name.
-    fn call(&mut self) -> (&'static str, Result<(), Error>) {
+    fn call(&mut self) -> (&'static str, Outcome) {
         match self.choices.below(28) {
             0..=6 => ("spawn", self.spawn()),
             7..=12 => ("step", self.step()),
             13..=15 => ("input", self.with_handle(Self::input)),
             16 => ("divide", self.with_handle(Self::divide)),
-            17 => ("fuse", self.fuse()),
+            17 => ("fuse", self.with_two_handles(|sequence, a, b| sequence.world.fuse(a, b))),
             18 => ("grow", self.with_handle(Self::grow)),
             19 => ("remove", self.with_handle(|sequence, id| sequence.world.remove(id))),
-            20 => ("set_exempt", self.set_exempt()),
+            20 => ("set_exempt", self.with_two_handles(Self::set_exempt)),
             21 => ("add_obstacle", self.add_obstacle()),
             22 => ("spawn_template", self.spawn_template()),
             23 => ("clone", self.save_or_restore()),
@@ -117,20 +116,24 @@ impl Sequence<'_> {
     }
 
     /// A call for one of the handles, if there is any.
-    fn with_handle(&mut self, call: fn(&mut Self, OrganismId) -> Result<(), Error>) -> Result<(), Error> {
+    fn with_handle(&mut self, call: fn(&mut Self, OrganismId) -> Outcome) -> Outcome {
         self.handle().map_or(Ok(()), |id| call(self, id))
+    }
+
+    fn with_two_handles(&mut self, call: fn(&mut Self, OrganismId, OrganismId) -> Outcome) -> Outcome {
+        self.handle().zip(self.handle()).map_or(Ok(()), |(a, b)| call(self, a, b))
     }
 
     fn place(&mut self) -> Vec2 {
         self.choices.place(self.world.config().size)
     }
 
-    fn spawn(&mut self) -> Result<(), Error> {
+    fn spawn(&mut self) -> Outcome {
         let (spec, placement) = (self.choices.spec(), self.choices.placement(self.world.config().size));
         self.world.spawn(&spec, placement).map(|id| self.handles.push(id))
     }
 
-    fn step(&mut self) -> Result<(), Error> {
+    fn step(&mut self) -> Outcome {
         for _ in 0..1 + self.choices.below(12) {
             if self.tally.steps < STEPS {
                 self.world.step(&self.inputs);
@@ -140,7 +143,7 @@ impl Sequence<'_> {
         Ok(())
     }
 
-    fn input(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn input(&mut self, id: OrganismId) -> Outcome {
         let place = match self.choices.below(4) {
             0 => self.place(),
             // After somebody: that is how meals come about.
@@ -152,7 +155,7 @@ impl Sequence<'_> {
         Ok(())
     }
 
-    fn divide(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn divide(&mut self, id: OrganismId) -> Outcome {
         if self.choices.flag() {
             return self.world.divide(id);
         }
@@ -160,28 +163,22 @@ impl Sequence<'_> {
         self.world.divide_along(id, axis)
     }
 
-    fn fuse(&mut self) -> Result<(), Error> {
-        let Some((a, b)) = self.handle().zip(self.handle()) else { return Ok(()) };
-        self.world.fuse(a, b)
-    }
-
-    fn grow(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn grow(&mut self, id: OrganismId) -> Outcome {
         let (nodes, particles) = (self.choices.below(6) as u32, self.choices.byte() as u32);
         self.world.grow(id, nodes, particles)
     }
 
-    fn set_exempt(&mut self) -> Result<(), Error> {
-        let Some((a, b)) = self.handle().zip(self.handle()) else { return Ok(()) };
+    fn set_exempt(&mut self, a: OrganismId, b: OrganismId) -> Outcome {
         let is_exempt = self.choices.flag();
         self.world.set_exempt(a, b, is_exempt)
     }
 
-    fn push(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn push(&mut self, id: OrganismId) -> Outcome {
         let velocity = Vec2::new(self.choices.number(-50.0, 50.0), self.choices.number(-50.0, 50.0));
         self.world.push(id, velocity)
     }
 
-    fn set_exchange(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn set_exchange(&mut self, id: OrganismId) -> Outcome {
         if self.chemicals.len() < 2 && self.choices.flag() {
             let spec = ChemicalSpec { diffusion: self.choices.number(0.0, 200.0), ..ChemicalSpec::default() };
             // A kept world that is returned to may not have it.
@@ -192,7 +189,7 @@ impl Sequence<'_> {
         self.world.set_exchange(id, Exchange { chemical, secretion, uptake })
     }
 
-    fn add_obstacle(&mut self) -> Result<(), Error> {
+    fn add_obstacle(&mut self) -> Outcome {
         let at = self.place();
         let (a, b) = (self.choices.range(0.5, 6.0), self.choices.range(0.5, 6.0));
         let shape = match self.choices.below(3) {
@@ -203,7 +200,7 @@ impl Sequence<'_> {
         self.world.add_obstacle(Obstacle::new(shape, Pose::translation(at.x, at.y))).map(drop)
     }
 
-    fn spawn_template(&mut self) -> Result<(), Error> {
+    fn spawn_template(&mut self) -> Outcome {
         if self.templates.is_empty() || self.choices.byte() < 80 {
             let template = self.template()?;
             self.templates.push(self.world.add_template(template));
@@ -230,7 +227,7 @@ impl Sequence<'_> {
 
     /// Keeps the world as it is, or returns to the one that was kept: either way what was put in the place of another world
     /// answers as its original does, and goes on as it.
-    fn save_or_restore(&mut self) -> Result<(), Error> {
+    fn save_or_restore(&mut self) -> Outcome {
         let is_saved = self.choices.flag();
         let Self { world, saved, .. } = self;
         let (from, into) = if is_saved { (&*world, saved) } else { (&*saved, world) };
@@ -244,7 +241,7 @@ impl Sequence<'_> {
     }
 
     /// Asks everything, also with handles that are stale and numbers that make no sense.
-    fn ask(&mut self) -> Result<(), Error> {
+    fn ask(&mut self) -> Outcome {
         let (a, b) = (self.place(), self.place());
         let radius = self.choices.number(0.0, 10.0);
         let world = &self.world;
@@ -264,7 +261,7 @@ impl Sequence<'_> {
     }
 
     /// Goes on with what is read of what the world is written as.
-    fn write_and_read(&mut self) -> Result<(), Error> {
+    fn write_and_read(&mut self) -> Outcome {
         let bytes = self.world.to_snapshot().expect("all obstacles have a record");
         let mut read = World::from_snapshot(&bytes).expect("what was written can be read");
         assert_eq!(read.digest(), self.world.digest(), "what was read is not what was written");
@@ -274,12 +271,12 @@ impl Sequence<'_> {
         Ok(())
     }
 
-    fn set_controller(&mut self, id: OrganismId) -> Result<(), Error> {
+    fn set_controller(&mut self, id: OrganismId) -> Outcome {
         let controller = self.choices.controller(self.chemicals.first().copied());
         self.world.set_controller(id, controller)
     }
 
-    fn set_instruction_set(&mut self, best: bool) -> Result<(), Error> {
+    fn set_instruction_set(&mut self, best: bool) -> Outcome {
         let set = if best { InstructionSet::Best } else { InstructionSet::Baseline };
         self.world.set_instruction_set(set);
         Ok(())
