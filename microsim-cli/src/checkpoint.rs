@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Its name in the folder of the run.
 pub(crate) const FILE: &str = "checkpoint";
 
-/// What a checkpoint holds beside the run itself.
+/// The part of a checkpoint beside the run itself.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct CheckpointHeader {
     /// Origin of the scenario.
@@ -21,7 +21,9 @@ pub(crate) struct CheckpointHeader {
     /// Lengths and names of its files.
     pub progress: FileProgress,
     pub tally: Tally,
+    /// Whether the whole state is checked after every step.
     pub validates: bool,
+    /// The first failed check or violation of the state.
     pub broken: Option<String>,
     pub digest_at_start: String,
 }

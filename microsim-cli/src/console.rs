@@ -3,7 +3,7 @@
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
-use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
+use std::io::{self, IsTerminal, Write};
 
 /// How to talk to the user on stderr.
 #[derive(Clone, Copy, Debug)]
@@ -60,15 +60,10 @@ impl Console {
     }
 }
 
-/// Locked and buffered stdout: the only way to it, so that a closed pipe is an error and no panic.
-pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
-    BufWriter::new(io::stdout().lock())
-}
-
-/// Writes bytes to stdout.
-pub(crate) fn print(bytes: &[u8]) -> io::Result<()> {
-    let mut out = stdout();
-    out.write_all(bytes)?;
+/// Writes to stdout: the only way to it, so that a closed pipe is an error and no panic.
+pub(crate) fn print(content: impl AsRef<[u8]>) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(content.as_ref())?;
     out.flush()
 }
 

@@ -44,11 +44,14 @@ impl RecordArgs {
         }
         let out = out.map(whole).transpose()?;
         let is_inside = |path: &&PathBuf| out.as_ref().is_some_and(|out| path.starts_with(out));
-        match [&record, &save].into_iter().flatten().find(is_inside) {
-            Some(path) => Err(Failure::Message(format!("{} is in the folder of --out", path.display()))),
-            // Before the run, not after it.
-            None => self.save.as_deref().map_or(Ok(()), |save| Outputs::beside(save).map(drop)),
+        if let Some(path) = [&record, &save].into_iter().flatten().find(is_inside) {
+            return Err(Failure::Message(format!("{} is in the folder of --out", path.display())));
         }
+        // A bad path is refused before the run.
+        if let Some(save) = &self.save {
+            Outputs::beside(save)?;
+        }
+        Ok(())
     }
 
     /// Begins the record, if one is asked for.

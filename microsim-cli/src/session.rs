@@ -1,11 +1,11 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
 use crate::checkpoint::{self, CheckpointHeader};
-use crate::console::{Console, print_json, stdout};
+use crate::console::{Console, print_json};
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::{Outputs, RunWriter, write_description};
+use crate::output::{FileProgress, Outputs, RunWriter, write_description};
 use crate::prepared::Prepared;
 use crate::record_args::{RecordArgs, ReplayWriter};
 use crate::summary::RunReport;
@@ -21,16 +21,9 @@ use std::time::{Duration, Instant};
 pub(crate) struct Session<'o> {
     /// The scenario and its world at the current step.
     prepared: Prepared,
-    /// Total number of steps.
-    steps: u64,
+    header: CheckpointHeader,
     outputs: Option<&'o Outputs>,
     writer: Option<RunWriter<'o>>,
-    tally: Tally,
-    /// Whether the whole state is checked after every step.
-    validates: bool,
-    /// The first failed check or violation of the state.
-    broken: Option<String>,
-    digest_at_start: String,
     replay: Option<ReplayWriter>,
     record: Option<&'o RecordArgs>,
 }
@@ -46,10 +39,17 @@ impl<'o> Session<'o> {
     ) -> Result<Self, Failure> {
         let start = |outputs| RunWriter::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let writer = outputs.map(start).transpose()?;
-        let digest_at_start = format!("{:016x}", prepared.built.world.digest());
         let replay = record.start(prepared.scenario.origin())?;
-        let (tally, broken, record) = (Tally::default(), None, Some(record));
-        Ok(Self { prepared, steps, outputs, writer, tally, validates, broken, digest_at_start, replay, record })
+        let header = CheckpointHeader {
+            source: prepared.source.origin().to_owned(),
+            steps,
+            progress: FileProgress::default(),
+            tally: Tally::default(),
+            validates,
+            broken: None,
+            digest_at_start: format!("{:016x}", prepared.built.world.digest()),
+        };
+        Ok(Self { prepared, header, outputs, writer, replay, record: Some(record) })
     }
 
     /// Continues the run of a folder from its checkpoint.
@@ -62,18 +62,7 @@ impl<'o> Session<'o> {
         };
         let writer = RunWriter::resume(outputs, scenario.output(), &built, header.steps, &header.progress)?;
         let prepared = Prepared { source, scenario, built, overrides: origin.overrides };
-        Ok(Self {
-            prepared,
-            steps: header.steps,
-            outputs: Some(outputs),
-            writer: Some(writer),
-            tally: header.tally,
-            validates: header.validates,
-            broken: header.broken,
-            digest_at_start: header.digest_at_start,
-            replay: None,
-            record: None,
-        })
+        Ok(Self { prepared, header, outputs: Some(outputs), writer: Some(writer), replay: None, record: None })
     }
 
     pub(crate) fn plan(&self) -> &OutputPlan {
@@ -82,23 +71,23 @@ impl<'o> Session<'o> {
 
     /// Takes the remaining steps, finishes the files and prints the summary. Fails if a check of the scenario did.
     pub(crate) fn run(mut self, is_json: bool, console: &Console) -> Result<(), Failure> {
-        let (name, seed, first) = (self.prepared.name(), self.prepared.scenario.seed(), self.tally.steps);
-        console.detail(|| format!("running {name} with seed {seed}: steps {first} to {}", self.steps));
-        let bar = console.progress(self.steps, "step");
+        let (name, seed, first) = (self.prepared.name(), self.prepared.scenario.seed(), self.header.tally.steps);
+        console.detail(|| format!("running {name} with seed {seed}: steps {first} to {}", self.header.steps));
+        let bar = console.progress(self.header.steps, "step");
         let start = Instant::now();
         let every = self.checkpoint_every();
-        while self.tally.steps < self.steps && !interrupt::is_asked() {
+        while self.header.tally.steps < self.header.steps && !interrupt::is_asked() {
             self.step()?;
-            bar.set_position(self.tally.steps);
-            if every.is_some_and(|every| self.tally.steps.is_multiple_of(every)) {
+            bar.set_position(self.header.tally.steps);
+            if every.is_some_and(|every| self.header.tally.steps.is_multiple_of(every)) {
                 self.save()?;
             }
         }
         bar.finish_and_clear();
-        self.tally.wall = start.elapsed();
-        self.tally.is_interrupted = self.tally.steps < self.steps;
+        self.header.tally.wall = start.elapsed();
+        self.header.tally.is_interrupted = self.header.tally.steps < self.header.steps;
         match self.outputs {
-            Some(outputs) if self.tally.is_interrupted && every.is_some() => self.leave(outputs),
+            Some(outputs) if self.header.tally.is_interrupted && every.is_some() => self.leave(outputs),
             _ => self.conclude(is_json, console),
         }
     }
@@ -106,12 +95,17 @@ impl<'o> Session<'o> {
     fn step(&mut self) -> Result<(), Failure> {
         let built = &mut self.prepared.built;
         let took = timed_step(built);
-        self.tally.add(&built.world, took);
+        self.header.tally.add(&built.world, took);
         let broken = built.checks.after_step(&built.world).first().map(ToString::to_string);
-        let violation = || if self.validates { violation(&built.world) } else { None };
-        self.broken = self.broken.take().or(broken).or_else(violation);
-        self.replay.as_mut().map_or(Ok(()), |replay| replay.add(&built.world))?;
-        self.writer.as_mut().map_or(Ok(()), |writer| writer.look_at(&built.world))
+        let violation = || if self.header.validates { violation(&built.world) } else { None };
+        self.header.broken = self.header.broken.take().or(broken).or_else(violation);
+        if let Some(replay) = &mut self.replay {
+            replay.add(&built.world)?;
+        }
+        if let Some(writer) = &mut self.writer {
+            writer.look_at(&built.world)?;
+        }
+        Ok(())
     }
 
     fn checkpoint_every(&self) -> Option<u64> {
@@ -124,41 +118,39 @@ impl<'o> Session<'o> {
         let (Some(outputs), Some(writer)) = (self.outputs, &mut self.writer) else {
             return Ok(());
         };
-        let header = CheckpointHeader {
-            source: self.prepared.source.origin().to_owned(),
-            steps: self.steps,
-            progress: writer.progress()?,
-            tally: self.tally.clone(),
-            validates: self.validates,
-            broken: self.broken.clone(),
-            digest_at_start: self.digest_at_start.clone(),
-        };
+        self.header.progress = writer.progress()?;
         let run = self.prepared.built.clone();
-        checkpoint::write(outputs, &header, &Checkpoint { origin: self.prepared.scenario.origin(), run })
+        checkpoint::write(outputs, &self.header, &Checkpoint { origin: self.prepared.scenario.origin(), run })
     }
 
     /// Stops so that the run can be resumed.
     fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
         self.save()?;
-        self.writer.map_or(Ok(()), RunWriter::leave)?;
-        let (step, folder) = (self.tally.steps, shown(outputs.folder()));
-        Err(Failure::Stopped(format!("stopped after step {step}; to go on: microsim resume {folder}")))
+        if let Some(writer) = self.writer {
+            writer.leave()?;
+        }
+        let (step, folder) = (self.header.tally.steps, shown(outputs.folder()));
+        Err(Failure::Stopped(format!("stopped after step {step}; to continue: microsim resume {folder}")))
     }
 
     fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let built = &self.prepared.built;
-        self.replay.map_or(Ok(()), |replay| replay.finish(&built.world))?;
-        self.record.map_or(Ok(()), |record| record.save(self.prepared.scenario.origin(), built))?;
+        if let Some(replay) = self.replay {
+            replay.finish(&built.world)?;
+        }
+        if let Some(record) = self.record {
+            record.save(self.prepared.scenario.origin(), built)?;
+        }
         let refusals = built.script.refusals().iter().map(ToString::to_string);
-        let failures = self.broken.into_iter().chain(refusals).collect();
-        let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.tally) };
+        let failures = self.header.broken.into_iter().chain(refusals).collect();
+        let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.header.tally) };
         if let (Some(writer), Some(outputs)) = (self.writer, self.outputs) {
             let waiting = writer.finish(&built.world)?;
-            write_description(outputs, &self.prepared, &report, &self.digest_at_start)?;
+            write_description(outputs, &self.prepared, &report, &self.header.digest_at_start)?;
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }
-        if is_json { print_json(&report) } else { report.table().print(stdout()) }?;
+        if is_json { print_json(&report) } else { report.table().print() }?;
         verdict(&report, self.prepared.name())
     }
 }

@@ -34,9 +34,7 @@ impl WorldFile {
             (Err(SnapshotError::Foreign), Err(error), _) | (Err(error), ..) => Err(refuse(&error)),
         }
     }
-}
 
-impl WorldFile {
     /// The step of its world; a replay has many.
     pub(crate) fn step(&self) -> Option<u64> {
         match self {
@@ -103,13 +101,9 @@ pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
 
 /// Where a replay first differs from its record.
 pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> String {
-    format!("{}: {mismatch}{}", path.display(), recorded_by(replay))
-}
-
-/// The version that recorded a replay, if it is another.
-fn recorded_by(replay: &Replay) -> String {
     let (recorder, own) = (replay.made_by(), env!("CARGO_PKG_VERSION"));
-    if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") }
+    let version = if recorder == own { String::new() } else { format!(" by version {recorder}; this is {own}") };
+    format!("{}: {mismatch}{version}", path.display())
 }
 
 /// Reads a replay.

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Folder, microsim, run, stderr};
+use common::{Folder, microsim, run, stderr, success};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -87,7 +87,7 @@ fn prepare() -> Folder {
     fs::create_dir(folder.root().join("broken")).unwrap();
     folder.file("broken/checkpoint", b"{\"half\"");
     let out = folder.path("run");
-    assert!(run(&["run", "empty", "--steps", "2", "--snapshots", "0", "--out", &out]).status.success());
+    success(&["run", "empty", "--steps", "2", "--snapshots", "0", "--out", &out]);
     let mut snapshot = fs::read(folder.root().join("run/snapshots/00000000.snapshot")).unwrap();
     *snapshot.last_mut().unwrap() ^= 1;
     folder.file("damaged.snapshot", &snapshot);

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, json, microsim, run, stderr, stdout};
+use common::{Folder, json, microsim, run, stderr, stdout, success};
 use std::fs;
 use std::io::Write;
 use std::process::Stdio;
@@ -176,9 +176,8 @@ fn colour_is_obeyed() {
 #[test]
 fn check_counts_what_there_would_be() {
     let folder = Folder::new("check");
-    let file = folder.file("crowd.toml", common::crowd().as_bytes());
-    let output = run(&["check", &file]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let file = folder.crowd();
+    let output = success(&["check", &file]);
     assert!(stdout(&output).starts_with("ok: crowd-of-the-test, 4 organisms"), "{}", stdout(&output));
     assert_eq!(fs::read_dir(folder.root()).unwrap().count(), 1);
 }

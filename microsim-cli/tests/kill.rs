@@ -142,7 +142,7 @@ impl Trial {
         let output = run(&["resume", self.out.to_str().unwrap(), "--quiet"]);
         assert!(output.status.success(), "round {}: {}", self.round, stderr(&output));
         check_outputs(&self.out, self.round);
-        let described: Value = serde_json::from_slice(&fs::read(self.out.join("run.json")).unwrap()).unwrap();
+        let described = common::read_json(self.out.join("run.json"));
         let named = described["files"].as_object().unwrap().keys();
         assert!(named.clone().count() > LEFT.len() && named.clone().all(|name| self.out.join(name).exists()));
         true

@@ -11,7 +11,7 @@ use std::process::Stdio;
 const DATA: [&str; 5] = ["frame.svg", "frame.png", "frames.png", "measures.csv", "events.jsonl"];
 
 fn write(folder: &Folder, out: &str, more: &[&str]) -> std::process::Output {
-    let file = folder.file("crowd.toml", common::crowd().as_bytes());
+    let file = folder.crowd();
     let out = folder.path(out);
     run(&[&["run", &file, "--steps", "30", "--out", &out], more].concat())
 }
@@ -68,7 +68,7 @@ fn the_files_hold_what_they_say() {
         assert!(event["step"].is_u64() && event["kind"].is_string(), "{line}");
         assert!(event["organisms"][0].as_str().unwrap().contains(':'), "{line}");
     }
-    let description: serde_json::Value = serde_json::from_slice(&fs::read(out.join("run.json")).unwrap()).unwrap();
+    let description = common::read_json(out.join("run.json"));
     assert_eq!(description["steps"], 30);
     assert_eq!(description["scenario_text"], common::crowd());
 }
@@ -103,7 +103,7 @@ fn force_keeps_the_files_of_others() {
 fn an_interrupt_still_leaves_complete_files() {
     let folder = Folder::new("interrupt");
     let out = folder.path("out");
-    let file = folder.file("crowd.toml", common::crowd().as_bytes());
+    let file = folder.crowd();
     let arguments = ["run", &file, "--steps", "1000000000", "--out", &out];
     let mut child = common::microsim(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     // Once the folder is there, the program listens.
@@ -113,8 +113,7 @@ fn an_interrupt_still_leaves_complete_files() {
     let id = child.id().to_string();
     assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    let description: serde_json::Value =
-        serde_json::from_slice(&fs::read(folder.root().join("out/run.json")).unwrap()).unwrap();
+    let description = common::read_json(folder.root().join("out/run.json"));
     assert_eq!(description["interrupted"], true);
     size_of_png(&folder.root().join("out/frame.png"));
 }

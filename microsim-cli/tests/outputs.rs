@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, run, stderr};
+use common::{Folder, read_json, run, stderr, success};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -23,10 +23,6 @@ fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     all
 }
 
-fn json(path: &Path) -> serde_json::Value {
-    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
-}
-
 const CHOSEN: &str = "[output]\nsnapshots = [0.25]\nevents = false\npictures = false\n\
 [output.measures]\nformats = ['csv', 'jsonl']\nevery = 0.0\nof = ['leaks', 'bodies']\n\
 [output.trajectories]\nformats = ['csv', 'jsonl']\n[output.frames]\nat = [0.1]\nwidth = 200\n";
@@ -35,8 +31,7 @@ const CHOSEN: &str = "[output]\nsnapshots = [0.25]\nevents = false\npictures = f
 fn a_scenario_chooses_its_outputs() {
     let folder = Folder::new("chosen");
     let file = folder.file("s.toml", (common::crowd() + CHOSEN).as_bytes());
-    let output = run(&["run", &file, "--steps", "30", "--out", &folder.path("out")]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    success(&["run", &file, "--steps", "30", "--out", &folder.path("out")]);
     let files = content(&folder.root().join("out"));
     let names: Vec<&str> = files.keys().map(String::as_str).collect();
     let expected = [
@@ -55,7 +50,7 @@ fn a_scenario_chooses_its_outputs() {
         serde_json::from_slice(files["trajectories.jsonl"].split(|b| *b == b'\n').next().unwrap()).unwrap();
     assert_eq!((&line["step"], &line["kind"], &line["x"]), (&0.into(), &"amoeboid_cell".into(), &25.0.into()));
     // Every file is in the description, with its digest.
-    let described = json(&folder.root().join("out/run.json"));
+    let described = read_json(folder.root().join("out/run.json"));
     assert_eq!(described["files"].as_object().unwrap().keys().collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
     assert_eq!(described["files"]["measures.csv"].as_str().unwrap().len(), 64);
 }
@@ -65,11 +60,11 @@ fn the_effective_scenario_makes_the_same_run() {
     let folder = Folder::new("effective");
     let out = |name: &str| folder.path(name);
     let arguments = ["run", "platelets", "--set", "count=7", "--seed", "4", "--steps", "20", "--no-pictures", "--out"];
-    assert!(run(&[&arguments[..], &[&out("a")]].concat()).status.success());
-    let first = json(&folder.root().join("a/run.json"));
+    success(&[&arguments[..], &[&out("a")]].concat());
+    let first = read_json(folder.root().join("a/run.json"));
     let file = folder.file("effective.toml", first["effective_scenario"].as_str().unwrap().as_bytes());
-    assert!(run(&["run", &file, "--steps", "20", "--out", &out("b")]).status.success());
-    let second = json(&folder.root().join("b/run.json"));
+    success(&["run", &file, "--steps", "20", "--out", &out("b")]);
+    let second = read_json(folder.root().join("b/run.json"));
     assert_eq!(first["digest"], second["digest"]);
     assert_eq!(first["files"], second["files"]);
     assert_eq!(first["effective_scenario"], second["effective_scenario"]);
@@ -127,7 +122,7 @@ impl Trial {
         for (file, bytes) in &files {
             assert_eq!(bytes, &self.reference[file], "{name}: {file}");
         }
-        let [whole, resumed] = [self.folder.root().join("whole"), out].map(|folder| json(&folder.join("run.json")));
+        let [whole, resumed] = [self.folder.root().join("whole"), out].map(|folder| read_json(folder.join("run.json")));
         for field in
             ["digest", "digest_at_start", "steps", "events", "failures", "leaks", "files", "effective_scenario"]
         {
@@ -178,7 +173,7 @@ fn inspect_says_what_is_in_a_file() {
     let folder = Folder::new("inspect");
     let out = folder.path("out");
     let arguments = ["run", "empty", "--steps", "30", "--snapshots", "0.25", "--out", &out];
-    assert!(run(&arguments).status.success());
+    success(&arguments);
     let output = run(&["inspect", &format!("{out}/snapshots/00000015.snapshot")]);
     let text = common::stdout(&output);
     assert!(text.contains("snapshot of a world") && text.contains("15 (0.25 s)"), "{text}{}", stderr(&output));
@@ -192,7 +187,7 @@ fn inspect_says_what_is_in_a_file() {
 fn a_finished_run_has_nothing_to_resume() {
     let folder = Folder::new("finished");
     let out = folder.path("out");
-    assert!(run(&["run", "empty", "--steps", "5", "--checkpoint-every", "2", "--out", &out]).status.success());
+    success(&["run", "empty", "--steps", "5", "--checkpoint-every", "2", "--out", &out]);
     let output = run(&["resume", &out]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("its run is finished"), "{}", stderr(&output));
@@ -208,8 +203,7 @@ fn a_parquet_file_has_the_rows_of_the_other_formats() {
     for out in ["a", "b"] {
         let arguments =
             ["run", &file, "--steps", "30", "--measures", "csv,parquet", "--trajectories", "parquet", "--out"];
-        let output = run(&[&arguments[..], &[&folder.path(out)]].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
+        success(&[&arguments[..], &[&folder.path(out)]].concat());
     }
     let [a, b] = ["a", "b"].map(|out| content(&folder.root().join(out)));
     assert!(a == b && a.contains_key("trajectories.parquet") && !a.keys().any(|name| name.ends_with("-rows")));

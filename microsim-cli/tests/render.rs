@@ -2,17 +2,16 @@
 
 mod common;
 
-use common::{Folder, crowd, microsim, run, stderr};
+use common::{Folder, microsim, run, stderr, success};
 use std::fs::File;
 
 const SMALL: [&str; 4] = ["--size", "64x36", "--view", "25,30,30"];
 
 /// Renders the test's scenario with further options into a file; returns the file.
 fn render(folder: &Folder, name: &str, options: &[&str]) -> String {
-    let (scenario, output) = (folder.file("crowd.toml", crowd().as_bytes()), folder.path(name));
+    let (scenario, output) = (folder.crowd(), folder.path(name));
     let arguments = [&["render", &scenario, "-o", &output][..], &SMALL, options].concat();
-    let result = run(&arguments);
-    assert!(result.status.success(), "{arguments:?}: {}", stderr(&result));
+    let result = success(&arguments);
     assert!(result.stdout.is_empty() && stderr(&result).contains("wrote"));
     output
 }
@@ -44,8 +43,7 @@ fn commands_of_the_scenario_are_carried_out() {
                     [[spawn]]\nof = 'c'\nname = 'cell'\nat = [25, 30]\n";
     let picture = |name: &str, more: &str| {
         let (file, output) = (folder.file(name, format!("{scenario}{more}").as_bytes()), folder.path("a.png"));
-        let result = run(&[&["render", &file, "-o", &output, "--at", "1"][..], &SMALL].concat());
-        assert!(result.status.success(), "{}", stderr(&result));
+        success(&[&["render", &file, "-o", &output, "--at", "1"][..], &SMALL].concat());
         std::fs::read(output).unwrap()
     };
     let told = "[[command]]\nof = 'cell'\ngoal = [1000, 30]\n";
@@ -83,7 +81,7 @@ fn movies_have_all_their_frames() {
 fn an_mp4_is_made_by_ffmpeg_or_refused_without_it() {
     use std::os::unix::fs::PermissionsExt;
     let folder = Folder::new("mp4");
-    let (scenario, output) = (folder.file("crowd.toml", crowd().as_bytes()), folder.path("a.mp4"));
+    let (scenario, output) = (folder.crowd(), folder.path("a.mp4"));
     let options = ["--from", "0", "--to", "0.2", "--fps", "10"];
     let arguments = [&["render", &scenario, "-o", &output][..], &SMALL, &options].concat();
     let without = microsim(&arguments).env("PATH", folder.root()).output().unwrap();
@@ -106,8 +104,7 @@ fn a_view_follows_an_organism_by_name_or_index() {
     let folder = Folder::new("follow");
     let output = folder.path("a.png");
     for target in ["follow:hunter", "follow:player,20", "follow:0"] {
-        let result = run(&["render", "hunt", "--at", "0", "--size", "48x27", "--view", target, "-o", &output]);
-        assert!(result.status.success(), "{target}: {}", stderr(&result));
+        success(&["render", "hunt", "--at", "0", "--size", "48x27", "--view", target, "-o", &output]);
     }
 }
 
@@ -138,9 +135,9 @@ fn what_cannot_be_rendered_is_refused_and_nothing_is_written() {
 #[test]
 fn a_replay_is_rendered_as_the_run_that_it_records() {
     let folder = Folder::new("render-replay");
-    let scenario = folder.file("crowd.toml", crowd().as_bytes());
+    let scenario = folder.crowd();
     let record = folder.path("crowd.replay");
-    assert!(run(&["run", &scenario, "--steps", "30", "--record", &record]).status.success());
+    success(&["run", &scenario, "--steps", "30", "--record", &record]);
     let shoot = |from: &str, name: &str, more: &[&str]| {
         let path = folder.path(name);
         let output = run(&[&["render", from, "--size", "64x36", "-o", &path], more].concat());

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, crowd, json, run, stderr, stdout};
+use common::{Folder, crowd, json, run, stderr, stdout, success};
 use microsim_core::Inputs;
 use microsim_core::replay::Recorder;
 use microsim_core::scenario::Scenario;
@@ -11,13 +11,12 @@ use std::num::NonZeroU32;
 
 /// A run of the crowd: its record and its checkpoint.
 fn keep(folder: &Folder, name: &str, more: &[&str]) -> (String, String) {
-    let scenario = folder.file("crowd.toml", crowd().as_bytes());
+    let scenario = folder.crowd();
     let (record, saved) = (folder.path(&format!("{name}.replay")), folder.path(&format!("{name}.run")));
     let mut arguments =
         vec!["run", &scenario, "--steps", "30", "--record", &record, "--save", &saved, "--digest-every", "10"];
     arguments.extend(more);
-    let output = run(&arguments);
-    assert!(output.status.success(), "{}", stderr(&output));
+    success(&arguments);
     (record, saved)
 }
 
@@ -106,8 +105,7 @@ fn saved_with(folder: &Folder, name: &str, more: &str) -> String {
     let text = crowd() + "[[spawn]]\nof = \"swimmer\"\nat = [12.0, 8.0]\n" + more;
     let scenario = folder.file(&format!("{name}.toml"), text.as_bytes());
     let saved = folder.path(&format!("{name}.run"));
-    let output = run(&["run", &scenario, "--steps", "30", "--save", &saved]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    success(&["run", &scenario, "--steps", "30", "--save", &saved]);
     saved
 }
 
@@ -186,8 +184,7 @@ fn a_record_that_is_cut_off_is_played_as_far_as_it_goes() {
     let (record, saved) = keep(&folder, "a", &[]);
     let bytes = fs::read(&record).unwrap();
     let cut = folder.file("cut.replay", &bytes[..bytes.len() - 15]);
-    let output = run(&["replay", &cut]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = success(&["replay", &cut]);
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
     assert!(stderr(&output).contains("cut off"), "{}", stderr(&output));
     let output = run(&["diff", &record, &cut]);

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, run, stderr};
+use common::{Folder, stderr, success};
 use std::fs;
 use std::process::{Command, Stdio};
 
@@ -49,7 +49,7 @@ fn open(folder: &Folder, page: &str) {
     let said = stderr(&output);
     assert!(!said.contains("CONSOLE"), "{said}");
     assert!(fs::metadata(folder.root().join("page.png")).unwrap().len() > 10_000, "{said}");
-    let log: serde_json::Value = serde_json::from_slice(&fs::read(log).unwrap()).unwrap();
+    let log = common::read_json(log);
     // What the browser asks for by itself has no page that it is asked for by.
     let asked = log["events"].as_array().unwrap().iter().map(|event| &event["params"]);
     let asked = asked.filter(|params| params["initiator"].as_str().is_some_and(|page| page != "not an origin"));
@@ -62,9 +62,8 @@ fn open(folder: &Folder, page: &str) {
 fn the_report_of_a_run_is_complete_in_itself() {
     let folder = Folder::new("report-run");
     let (out, page) = (folder.path("out"), folder.path("page.html"));
-    assert!(run(&["run", "hunt", "--seconds", "1", "--out", &out, "--trajectories", "csv"]).status.success());
-    let output = run(&["report", &out, "-o", &page]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    success(&["run", "hunt", "--seconds", "1", "--out", &out, "--trajectories", "csv"]);
+    success(&["report", &out, "-o", &page]);
     let html = fs::read_to_string(&page).unwrap();
     check(&html);
     for part in
@@ -79,14 +78,12 @@ fn the_report_of_a_run_is_complete_in_itself() {
 fn the_report_of_a_sweep_has_a_heat_map_for_all_that_differs() {
     let folder = Folder::new("report-sweep");
     let grid = ["--grid", "count=3,5,8", "--grid", "probe.needle.speed=5..20/4", "--seeds", "0,1", "--steps", "20"];
-    let plan = run(&[&["sweep", "plan", "platelets"], &grid[..]].concat());
-    assert!(plan.status.success(), "{}", stderr(&plan));
+    let plan = success(&[&["sweep", "plan", "platelets"], &grid[..]].concat());
     let plan = folder.file("plan.jsonl", &plan.stdout);
     let (store, merged, page) = (folder.path("store"), folder.path("merged.jsonl"), folder.path("page.html"));
-    assert!(run(&["sweep", "run", &plan, "--store", &store]).status.success());
-    assert!(run(&["sweep", "merge", &plan, "--store", &store, "-o", &merged]).status.success());
-    let output = run(&["report", &merged, "-o", &page]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    success(&["sweep", "run", &plan, "--store", &store]);
+    success(&["sweep", "merge", &plan, "--store", &store, "-o", &merged]);
+    success(&["report", &merged, "-o", &page]);
     let html = fs::read_to_string(&page).unwrap();
     check(&html);
     assert!(html.contains("bodies at the end") && html.contains("count 8, probe.needle.speed 20: "), "{}", html.len());

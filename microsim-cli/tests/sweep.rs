@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, microsim, run, stderr, stdout};
+use common::{Folder, microsim, run, stderr, stdout, success};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -21,11 +21,10 @@ struct Trial {
 impl Trial {
     fn new(name: &str) -> Self {
         let folder = Folder::new(name);
-        let scenario = folder.file("crowd.toml", common::crowd().as_bytes());
+        let scenario = folder.crowd();
         let grid =
             ["--grid", "agar.food.radius=0.8..1.2/5", "--grid", "amoeboid_cell.cell.speed=4,8", "--seeds", "0..19"];
-        let output = run(&[&["sweep", "plan", &scenario, "--steps", "24"], &grid[..]].concat());
-        assert!(output.status.success(), "{}", stderr(&output));
+        let output = success(&[&["sweep", "plan", &scenario, "--steps", "24"], &grid[..]].concat());
         assert_eq!(stdout(&output).lines().count(), TASKS);
         let plan = folder.file("plan.jsonl", &output.stdout);
         let mut trial = Self { folder, plan, reference: Vec::new() };
@@ -42,8 +41,7 @@ impl Trial {
 
     fn merge(&self, store: &str) -> Vec<u8> {
         let (store, file) = (self.folder.path(store), self.folder.path(&format!("{store}.jsonl")));
-        let output = run(&["sweep", "merge", &self.plan, "--store", &store, "-o", &file]);
-        assert!(output.status.success(), "{}", stderr(&output));
+        success(&["sweep", "merge", &self.plan, "--store", &store, "-o", &file]);
         fs::read(file).unwrap()
     }
 

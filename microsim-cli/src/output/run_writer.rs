@@ -167,17 +167,26 @@ impl<'o> RunWriter<'o> {
 
     /// Leaves all files so that another process can continue them.
     pub(crate) fn leave(self) -> Result<(), Failure> {
-        self.measures.map_or(Ok(()), |measures| measures.table.leave())?;
-        self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.leave())?;
-        self.events.map_or(Ok(()), |events| events.0.leave())
+        let (measures, trajectories) = (self.measures.map(|m| m.table), self.trajectories.map(|t| t.table));
+        for table in [measures, trajectories].into_iter().flatten() {
+            table.leave()?;
+        }
+        if let Some(events) = self.events {
+            events.0.leave()?;
+        }
+        Ok(())
     }
 
     /// Gives all files their names. Returns those that only an unfinished run needs, for [`crate::checkpoint::remove`].
     pub(crate) fn finish(self, world: &World) -> Result<Vec<PathBuf>, Failure> {
         let outputs = self.outputs;
-        self.measures.map_or(Ok(()), |measures| measures.table.finish(outputs))?;
-        self.trajectories.map_or(Ok(()), |trajectories| trajectories.table.finish(outputs))?;
-        self.events.map_or(Ok(()), |events| outputs.finish(events.0))?;
+        let (measures, trajectories) = (self.measures.map(|m| m.table), self.trajectories.map(|t| t.table));
+        for table in [measures, trajectories].into_iter().flatten() {
+            table.finish(outputs)?;
+        }
+        if let Some(events) = self.events {
+            outputs.finish(events.0)?;
+        }
         let Some(moments) = self.moments else {
             return Ok(Vec::new());
         };

@@ -1,6 +1,7 @@
 //! Aligned rows of a name and a value.
 
-use std::io::{self, Write};
+use crate::console;
+use std::io;
 
 /// Rows to be printed under each other.
 #[derive(Debug, Default)]
@@ -13,14 +14,14 @@ impl Table {
         self.rows.push((name.to_owned(), value.to_string()));
     }
 
-    /// Prints the rows with their values in one column.
-    pub(crate) fn print(&self, mut out: impl Write) -> io::Result<()> {
-        let longest = self.rows.iter().map(|(name, _)| name.len()).max();
-        let width = longest.unwrap_or_default();
-        for (name, value) in &self.rows {
-            writeln!(out, "{name:width$}  {value}")?;
-        }
-        out.flush()
+    pub(crate) fn print(&self) -> io::Result<()> {
+        console::print(self.text())
+    }
+
+    /// The rows with their values in one column.
+    fn text(&self) -> String {
+        let width = self.rows.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
+        self.rows.iter().map(|(name, value)| format!("{name:width$}  {value}\n")).collect()
     }
 }
 
@@ -33,8 +34,6 @@ mod tests {
         let mut table = Table::default();
         table.row("a", 1);
         table.row("long", "x");
-        let mut text = Vec::new();
-        table.print(&mut text).unwrap();
-        assert_eq!(text, b"a     1\nlong  x\n");
+        assert_eq!(table.text(), "a     1\nlong  x\n");
     }
 }

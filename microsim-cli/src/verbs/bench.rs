@@ -1,6 +1,6 @@
 //! `bench`: the time of steps and their phases, and the errors of the constraints.
 
-use crate::console::{Console, print_json, stdout};
+use crate::console::{Console, print_json};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::prepared::prepare;
@@ -15,7 +15,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-/// `bench`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Times, events and quality are those of the measured steps. Leaks and improper absorptions are the\n\
@@ -91,11 +90,8 @@ pub(crate) fn bench(args: &BenchArgs, console: &Console) -> Result<(), Failure> 
         phases: stopwatch.medians(),
         quality: QualityReport::of(&qualities),
     };
-    report.print(args.json)?;
-    if report.run.interrupted {
-        return Err(Failure::Interrupted);
-    }
-    Ok(())
+    if args.json { print_json(&report) } else { report.table().print() }?;
+    if report.run.interrupted { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
 /// Takes so many steps and shows `see` the world after each.
@@ -175,10 +171,6 @@ impl QualityReport {
 }
 
 impl BenchReport {
-    fn print(&self, is_json: bool) -> Result<(), Failure> {
-        Ok(if is_json { print_json(self) } else { self.table().print(stdout()) }?)
-    }
-
     fn table(&self) -> Table {
         let mut table = self.run.table();
         table.row("substeps", self.substeps);

@@ -1,6 +1,6 @@
 //! `check`: whether a scenario can be run.
 
-use crate::console::stdout;
+use crate::console::print;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::prepared::{Prepared, prepare};
@@ -8,9 +8,7 @@ use crate::scenario_args::ScenarioArgs;
 use microsim_core::Census;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use serde::Serialize;
-use std::io::Write;
 
-/// `check`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "All problems are shown at once, each with its line and what would be accepted.")]
 pub(crate) struct CheckArgs {
@@ -44,19 +42,13 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
-    let mut out = stdout();
-    writeln!(
-        out,
-        "ok: {name}, {organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints"
-    )?;
-    Ok(out.flush()?)
+    let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
+    Ok(print(format!("ok: {name}, {size}\n"))?)
 }
 
 fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
-    let mut out = stdout();
-    serde_json::to_writer_pretty(&mut out, answer).map_err(std::io::Error::from)?;
-    writeln!(out)?;
-    Ok(out.flush()?)
+    let text = serde_json::to_string_pretty(answer).map_err(std::io::Error::from)?;
+    Ok(print(text + "\n")?)
 }
 
 /// The JSON of `--format json`.

@@ -1,15 +1,13 @@
 //! `diff`: the first step and the first field in which two worlds differ.
 
-use crate::console::{Console, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::world_file::{Playback, WorldFile, lost};
 use microsim_core::World;
 use microsim_core::replay::Ending;
 use microsim_core::snapshot::Checkpoint;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// `diff`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Two replays are played side by side up to the first step after which their worlds differ; a replay and a snapshot or\n\
@@ -57,7 +55,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
         (one, other) => compare_worlds((one, args.one.as_path()), (other, args.other.as_path()))?,
     };
     comparison.tell()?;
-    damage.map_or(Ok(()), |text| Err(Failure::Message(text)))
+    if let Some(text) = damage { Err(Failure::Message(text)) } else { Ok(()) }
 }
 
 impl Comparison {
@@ -66,9 +64,7 @@ impl Comparison {
         let Self { difference, compared, mismatches } = self;
         let is_equal = difference.is_none() && mismatches.is_empty();
         let as_played = if mismatches.is_empty() { "" } else { ", as played now" };
-        let mut out = stdout();
-        writeln!(out, "{}", difference.unwrap_or_else(|| format!("no difference{compared}{as_played}")))?;
-        out.flush()?;
+        print(difference.unwrap_or_else(|| format!("no difference{compared}{as_played}")) + "\n")?;
         if is_equal { Ok(()) } else { Err(Failure::Broken(mismatches)) }
     }
 }

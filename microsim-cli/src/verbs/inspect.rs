@@ -1,6 +1,5 @@
 //! `inspect`: a snapshot, a checkpoint or a replay in words.
 
-use crate::console::stdout;
 use crate::failure::Failure;
 use crate::summary::{Table, rounded};
 use crate::world_file::WorldFile;
@@ -10,7 +9,6 @@ use microsim_core::scenario::Origin;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// `inspect`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Snapshots are written at the times of output.snapshots, checkpoints by run --checkpoint-every and --save, replays by\n\
@@ -49,7 +47,7 @@ pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
             table.row("end", ending);
         }
     }
-    Ok(table.print(stdout())?)
+    Ok(table.print()?)
 }
 
 fn origin(origin: &Origin, table: &mut Table) {

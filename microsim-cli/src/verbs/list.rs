@@ -1,17 +1,14 @@
 //! `list`: the built-in scenarios.
 
-use crate::console::stdout;
 use crate::failure::Failure;
+use crate::summary::Table;
 use microsim_core::scenario::builtins;
-use std::io::Write;
 
 /// Prints the built-in scenarios.
 pub(crate) fn list() -> Result<(), Failure> {
-    let width = builtins().iter().map(|known| known.name.len()).max();
-    let mut out = stdout();
+    let mut table = Table::default();
     for known in builtins() {
-        let (name, width) = (known.name, width.unwrap_or_default());
-        writeln!(out, "{name:width$}  {}", known.summary)?;
+        table.row(known.name, known.summary);
     }
-    Ok(out.flush()?)
+    Ok(table.print()?)
 }

@@ -8,7 +8,6 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// `completions`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "For bash: microsim completions bash > ~/.local/share/bash-completion/completions/microsim\n\
 For zsh: microsim completions zsh > \"${fpath[1]}/_microsim\"\n\
@@ -19,7 +18,6 @@ pub(crate) struct CompletionsArgs {
     pub shell: Shell,
 }
 
-/// `man`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "To read a page: microsim man run | man -l -")]
 pub(crate) struct ManArgs {

@@ -12,7 +12,6 @@ const STARTER: &str = include_str!("starter.toml");
 /// File name of the schema.
 const SCHEMA: &str = "scenario.schema.json";
 
-/// `new`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Also writes scenario.schema.json beside it, with which editors check the file.")]
 pub(crate) struct NewArgs {
@@ -34,7 +33,7 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<(), Failure> {
         Some(name) => format!("#:schema ./{SCHEMA}\n{}", text_of(name)?),
     };
     if args.file == Path::new("-") {
-        return Ok(print(text.as_bytes())?);
+        return Ok(print(text)?);
     }
     if args.file.exists() && !args.force {
         let message = format!("{} exists, accepted: a new file, or any with --force", args.file.display());

@@ -1,15 +1,13 @@
 //! `replay`: repeats a recorded run and compares it with the record.
 
-use crate::console::{Console, print_json, stdout};
+use crate::console::{self, Console, print_json};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::world_file::{in_words, lost, play, read_replay};
 use microsim_core::replay::{Ending, Player, Replay};
 use serde::Serialize;
-use std::io::Write;
 use std::path::PathBuf;
 
-/// `replay`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The exit code is 1 if the run is not the one that was recorded: the first digest that differs is named on stderr.\n\
@@ -80,8 +78,6 @@ fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure>
     }
     let ReplayReport { steps, simulated_seconds, seed, digest, .. } = &report;
     let every = replay.interval();
-    let mut out = stdout();
-    writeln!(out, "{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded")?;
-    writeln!(out, "digest {digest}, compared every {every} steps")?;
-    Ok(out.flush()?)
+    let played = format!("{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded");
+    Ok(console::print(format!("{played}\ndigest {digest}, compared every {every} steps\n"))?)
 }

@@ -7,10 +7,9 @@ use crate::output::{Outputs, check_formats};
 use crate::session::Session;
 use std::path::PathBuf;
 
-/// `resume`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The run goes on from its last checkpoint, bit for bit: digests and data files are those of a run that was never\n\
+    after_help = "The run continues from its last checkpoint, bit for bit: digests and data files are those of a run that was never\n\
 stopped. Checkpoints are written by microsim run --out DIR --checkpoint-every N."
 )]
 pub(crate) struct ResumeArgs {

@@ -10,7 +10,7 @@ const NAME: &str = "^[A-Za-z0-9_-]{1,64}$";
 
 /// Prints the schema.
 pub(crate) fn schema() -> Result<(), Failure> {
-    Ok(print(text().as_bytes())?)
+    Ok(print(text())?)
 }
 
 /// The schema as a file.

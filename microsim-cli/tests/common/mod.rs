@@ -16,6 +16,13 @@ pub(crate) fn run(arguments: &[&str]) -> Output {
     microsim(arguments).output().unwrap()
 }
 
+/// The output of a program that must succeed.
+pub(crate) fn success(arguments: &[&str]) -> Output {
+    let output = run(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", stderr(&output));
+    output
+}
+
 pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
@@ -26,9 +33,7 @@ pub(crate) fn stderr(output: &Output) -> String {
 
 /// The one JSON object that the program prints.
 pub(crate) fn json(arguments: &[&str]) -> serde_json::Value {
-    let output = run(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", stderr(&output));
-    serde_json::from_slice(&output.stdout).unwrap()
+    serde_json::from_slice(&success(arguments).stdout).unwrap()
 }
 
 /// A small scenario with several kinds of organisms that move.
@@ -86,11 +91,21 @@ impl Folder {
         self.0.join(name).to_str().unwrap().to_owned()
     }
 
+    /// Writes the scenario of [`crowd`] and returns its path.
+    pub(crate) fn crowd(&self) -> String {
+        self.file("crowd.toml", crowd().as_bytes())
+    }
+
     /// Writes a file and returns its path.
     pub(crate) fn file(&self, name: &str, content: &[u8]) -> String {
         fs::write(self.0.join(name), content).unwrap();
         self.path(name)
     }
+}
+
+/// The JSON object in a file.
+pub(crate) fn read_json(path: impl AsRef<Path>) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
 impl Drop for Folder {

@@ -33,7 +33,10 @@ impl PictureFormat {
     }
 }
 
-/// A movie's measures.
+/// Frames that are computed as they are written.
+type Frames<'f> = &'f mut dyn Iterator<Item = Result<Picture, Failure>>;
+
+/// Size and timing of a movie.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Movie {
     pub size: Size,
@@ -44,12 +47,7 @@ pub(crate) struct Movie {
 
 impl Movie {
     /// Writes the frames as they come. The file appears when it is complete.
-    pub(crate) fn write(
-        &self,
-        format: PictureFormat,
-        path: &Path,
-        frames: impl Iterator<Item = Result<Picture, Failure>>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn write(&self, format: PictureFormat, path: &Path, frames: Frames<'_>) -> Result<(), Failure> {
         let (outputs, name) = Outputs::beside(path)?;
         let mut file = outputs.file(&name)?;
         match format {
@@ -60,11 +58,7 @@ impl Movie {
         file.finish()
     }
 
-    fn write_gif(
-        &self,
-        file: &mut PendingFile,
-        frames: impl Iterator<Item = Result<Picture, Failure>>,
-    ) -> Result<(), Failure> {
+    fn write_gif(&self, file: &mut PendingFile, frames: Frames<'_>) -> Result<(), Failure> {
         let fail = |error: gif::EncodingError| encoding("GIF", &error);
         let Size([width, height]) = self.size;
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -83,11 +77,7 @@ impl Movie {
         Ok(())
     }
 
-    fn write_apng(
-        &self,
-        file: &mut PendingFile,
-        frames: impl Iterator<Item = Result<Picture, Failure>>,
-    ) -> Result<(), Failure> {
+    fn write_apng(&self, file: &mut PendingFile, frames: Frames<'_>) -> Result<(), Failure> {
         let fail = |error: png::EncodingError| encoding("APNG", &error);
         let Size([width, height]) = self.size;
         let mut encoder = png::Encoder::new(file, width, height);
@@ -104,20 +94,18 @@ impl Movie {
     }
 
     /// Hands the frames to `ffmpeg`, which writes the file that `file` has reserved.
-    fn write_mp4(
-        &self,
-        file: &mut PendingFile,
-        frames: impl Iterator<Item = Result<Picture, Failure>>,
-    ) -> Result<(), Failure> {
+    fn write_mp4(&self, file: &mut PendingFile, frames: Frames<'_>) -> Result<(), Failure> {
         let mut child = self.ffmpeg(file.temporary())?;
         let mut input = child.stdin.take();
-        let written = frames.into_iter().try_for_each(|picture| {
-            let picture = picture?;
-            let sent = input.as_mut().map_or(Ok(()), |input| input.write_all(picture.bytes()));
-            // When it has closed the pipe, its exit status and its own words say why.
-            sent.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
-                .map_err(|error| Failure::Message(format!("cannot send frames to ffmpeg: {error}")))
-        });
+        let written: Result<(), Failure> = frames
+            .map(|picture| {
+                let picture = picture?;
+                let sent = input.as_mut().map_or(Ok(()), |input| input.write_all(picture.bytes()));
+                // When it has closed the pipe, its exit status and its own words say why.
+                sent.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
+                    .map_err(|error| Failure::Message(format!("cannot send frames to ffmpeg: {error}")))
+            })
+            .collect();
         drop(input);
         let status = child.wait().map_err(|error| Failure::Message(format!("cannot wait for ffmpeg: {error}")))?;
         written?;

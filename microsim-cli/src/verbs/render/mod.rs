@@ -31,7 +31,6 @@ const MOST_FRAMES: f64 = 100_000.0;
 /// Most pixels of the pictures of one contact sheet, which is made in memory.
 const MOST_SHEET: u64 = 1 << 28;
 
-/// `render`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "NAME|FILE may also be a replay that `run --record` has written, with a name that ends in .replay.\n\

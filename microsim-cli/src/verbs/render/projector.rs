@@ -21,7 +21,7 @@ pub(super) fn open(args: &ScenarioArgs) -> Result<(Prepared, Option<Replay>), Fa
         return Ok((prepare(args)?, None));
     }
     if args.changes.seed.is_some() || !args.changes.set.is_empty() {
-        let text = format!("{}: --seed and --set: a replay is what it was, accepted: a scenario", args.scenario);
+        let text = format!("{}: --seed and --set cannot change a replay, accepted: a scenario", args.scenario);
         return Err(Failure::Message(text));
     }
     let replay = read_replay(Path::new(&args.scenario))?;

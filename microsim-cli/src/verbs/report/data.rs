@@ -8,14 +8,14 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Columns of a table by name, in their order.
+/// Cells of a table as text, and the names of its columns.
 #[derive(Debug, Default)]
-pub(super) struct Columns {
+pub(super) struct TextTable {
     pub names: Vec<String>,
     rows: Vec<Vec<String>>,
 }
 
-impl Columns {
+impl TextTable {
     /// Reads `NAME.csv` or `NAME.jsonl`; empty where there is neither.
     pub(super) fn read(folder: &Path, name: &str) -> Result<Self, Failure> {
         if let Some(text) = text(&folder.join(format!("{name}.csv")))? {

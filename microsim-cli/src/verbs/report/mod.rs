@@ -13,7 +13,6 @@ use crate::failure::Failure;
 use crate::output::Outputs;
 use std::path::{Path, PathBuf};
 
-/// `report`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The page needs no network: plots are SVG, pictures lie in it. Of a run it shows what the folder has, so the more\n\
@@ -34,7 +33,7 @@ pub(crate) struct ReportArgs {
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<(), Failure> {
     let page = if args.input.is_dir() { run_page::make(&args.input)? } else { sweep_page::make(&args.input)? };
     if args.output == Path::new("-") {
-        return Ok(print(page.as_bytes())?);
+        return Ok(print(page)?);
     }
     let (outputs, name) = Outputs::beside(&args.output)?;
     outputs.write(&name, page.as_bytes())?;

@@ -1,7 +1,7 @@
 //! The page of a run.
 
 use super::chart::{self, COLOURS};
-use super::data::{self, Columns};
+use super::data::{self, TextTable};
 use super::page::{Page, escape, figure, figures, folded, table};
 use super::scale::short;
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Columns of the measures that are no measures.
+/// Columns of the table of measures that are not measures.
 const FIXED: [&str; 2] = ["step", "time"];
 /// Most organisms that are drawn one by one.
 const MOST: usize = 60;
@@ -31,9 +31,9 @@ pub(super) fn make(folder: &Path) -> Result<String, Failure> {
     let mut page = Page::new(&title, &lead);
     page.warning(&list(&run["failures"]));
     page.section("Pictures", &pictures(folder)?);
-    let measures = Columns::read(folder, "measures")?;
+    let measures = TextTable::read(folder, "measures")?;
     let (varying, constant) = over_time(&measures);
-    page.section("Organisms", &organisms(&Columns::read(folder, "trajectories")?));
+    page.section("Organisms", &organisms(&TextTable::read(folder, "trajectories")?));
     page.section("Measures", &(figures(&varying) + &table(&constant)));
     page.section("Events", &events(folder, seconds)?);
     page.section("Speed of the simulation", &step_times(&run));
@@ -56,7 +56,7 @@ fn pictures(folder: &Path) -> Result<String, Failure> {
 }
 
 /// A figure for each measure that changes, and a row for each that does not.
-fn over_time(measures: &Columns) -> (Vec<String>, Vec<(String, String)>) {
+fn over_time(measures: &TextTable) -> (Vec<String>, Vec<(String, String)>) {
     let times = measures.numbers("time");
     let (mut varying, mut constant) = (Vec::new(), Vec::new());
     for name in measures.names.iter().filter(|name| !FIXED.contains(&name.as_str())) {
@@ -81,7 +81,7 @@ struct Track<'a> {
     area: Vec<(f64, f64)>,
 }
 
-fn organisms(trajectories: &Columns) -> String {
+fn organisms(trajectories: &TextTable) -> String {
     let [organism, kind] = ["organism", "kind"].map(|name| trajectories.texts(name));
     let [time, x, y, speed, area] = ["time", "x", "y", "speed", "area"].map(|name| trajectories.numbers(name));
     let mut tracks: BTreeMap<&str, Track<'_>> = BTreeMap::new();

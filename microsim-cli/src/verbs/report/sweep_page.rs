@@ -10,7 +10,7 @@ use crate::verbs::sweep::TaskOutcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Something that a task results in, by name.
+/// A name and its value in each task.
 type Quantity = (String, Vec<f64>);
 
 /// The page of merged results.
@@ -29,10 +29,8 @@ pub(super) fn make(path: &Path) -> Result<String, Failure> {
     page.warning(&broken(&outcomes));
     let quantities = quantities(&outcomes);
     let all: Vec<String> = quantities.iter().map(|quantity| picture(quantity, &outcomes, &axes)).collect();
-    page.section("What came of it", &figures(&all));
-    if all.is_empty() {
-        page.section("What came of it", "<p>All tasks ended alike.</p>");
-    }
+    let results = if all.is_empty() { "<p>All tasks have equal results.</p>".to_owned() } else { figures(&all) };
+    page.section("Results", &results);
     page.section("All tasks", &folded(&format!("{} tasks", outcomes.len()), &tasks(&outcomes, &axes, &quantities)));
     Ok(page.finish(&title))
 }
@@ -56,7 +54,7 @@ fn broken(outcomes: &[TaskOutcome]) -> Vec<String> {
     }
     let first = outcomes.iter().find_map(|outcome| Some((outcome, outcome.failures.first()?)));
     let example = first.map(|(outcome, failure)| format!("for example with seed {}: {failure}", outcome.seed));
-    [format!("{count} of {} tasks broke what must hold", outcomes.len())].into_iter().chain(example).collect()
+    [format!("{count} of {} tasks failed a check", outcomes.len())].into_iter().chain(example).collect()
 }
 
 /// All results that differ between tasks; NaN where a task has none.

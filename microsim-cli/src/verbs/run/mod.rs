@@ -2,7 +2,7 @@
 
 mod output_args;
 
-use crate::console::{Console, stdout};
+use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{Outputs, check_formats};
@@ -19,10 +19,9 @@ use std::path::PathBuf;
 /// Steps that are timed to estimate the time of a run.
 const TRIED: u64 = 20;
 
-/// `run`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Invariants and expectations are checked after every step; the first that fails is named on stderr, the run goes on,\n\
+    after_help = "Invariants and expectations are checked after every step; the first that fails is named on stderr, the run continues,\n\
 and the exit code is 1. Equal scenario, seed and steps give equal bytes in all files but run.json."
 )]
 pub(crate) struct RunArgs {
@@ -96,7 +95,7 @@ fn estimate(prepared: &Prepared, steps: u64) -> Result<(), Failure> {
     table.row("organisms", census.organisms);
     table.row("particles", census.particles);
     table.row("would take", format!("about {} on this machine", rough(seconds)));
-    Ok(table.print(stdout())?)
+    Ok(table.print()?)
 }
 
 /// A time in words, to one digit or so.

@@ -3,11 +3,10 @@
 use super::store::ResultStore;
 use super::task::{Task, TaskOutcome};
 use super::{MergeArgs, StatusArgs, plan};
-use crate::console::{Console, print, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use std::collections::BTreeSet;
-use std::io::Write;
 use std::path::Path;
 
 /// Prints the keys of missing tasks.
@@ -16,9 +15,7 @@ pub(super) fn status(args: &StatusArgs, console: &Console) -> Result<(), Failure
     let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.store)?)?;
     let broken = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
     console.note(&format!("{} of {} tasks done, {broken} with failures", outcomes.len(), tasks.len()));
-    let mut out = stdout();
-    missing.iter().try_for_each(|task| writeln!(out, "{}", task.key))?;
-    out.flush()?;
+    print(missing.iter().map(|task| format!("{}\n", task.key)).collect::<String>())?;
     if missing.is_empty() { Ok(()) } else { Err(Failure::Negative) }
 }
 

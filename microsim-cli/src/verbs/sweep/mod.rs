@@ -21,7 +21,6 @@ use crate::failure::Failure;
 use crate::value_parser::{duration, key_value, whole};
 use std::path::PathBuf;
 
-/// `sweep`.
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum SweepVerb {
     /// Print one task a line for every combination of parameters and seeds
@@ -34,7 +33,6 @@ pub(crate) enum SweepVerb {
     Merge(MergeArgs),
 }
 
-/// `sweep plan`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Each --grid is one axis: whole numbers a..b, so many evenly spaced numbers a..b/n, or values with commas.\n\
@@ -62,7 +60,6 @@ pub(crate) struct PlanArgs {
     pub seconds: Option<f64>,
 }
 
-/// `sweep run`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Ctrl-C loses only the tasks in progress; run it again to continue. Shards may run anywhere that sees the store,\n\
@@ -84,7 +81,6 @@ pub(crate) struct SweepRunArgs {
     pub shard: Option<Shard>,
 }
 
-/// `sweep status`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Keys of missing tasks are printed one a line. The exit code is 1 if there are any.")]
 pub(crate) struct StatusArgs {
@@ -96,7 +92,6 @@ pub(crate) struct StatusArgs {
     pub store: PathBuf,
 }
 
-/// `sweep merge`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The file name ends in .csv or .jsonl; `-` is JSON lines on stdout. Where results are missing, they are listed, nothing\n\

@@ -2,13 +2,13 @@
 
 use super::task::Task;
 use super::{Axis, PlanArgs};
-use crate::console::{Console, stdout};
+use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::prepared::{Prepared, load};
 use crate::scenario_args::Changes;
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Most tasks of one plan.
@@ -24,21 +24,20 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<(), Failure> {
         return Err(Failure::Message(format!("{count} tasks, accepted: at most {MOST}; take fewer values or seeds")));
     }
     let bar = console.progress(count as u64, "task");
-    let mut lines = Vec::new();
+    let mut lines = String::new();
     for combination in &combinations {
         for &seed in &seeds {
             let set = args.set.iter().chain(combination).cloned().collect();
             let prepared = Prepared::new(source.clone(), &Changes { seed, set })?;
             let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
             let varied: BTreeMap<_, _> = combination.iter().cloned().collect();
-            lines.push(serde_json::to_string(&Task::new(&prepared, varied, steps)).map_err(io::Error::from)?);
+            lines += &serde_json::to_string(&Task::new(&prepared, varied, steps)).map_err(io::Error::from)?;
+            lines.push('\n');
             bar.inc(1);
         }
     }
     bar.finish_and_clear();
-    let mut out = stdout();
-    lines.iter().try_for_each(|line| writeln!(out, "{line}"))?;
-    out.flush()?;
+    print(lines)?;
     console.note(&format!("{count} tasks"));
     Ok(())
 }
