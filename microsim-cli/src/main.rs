@@ -1,36 +1,7 @@
-//! `microsim`: runs, measures and pictures scenarios without a window.
-//!
-//! Results go to stdout, everything else to stderr. Exit codes: 0 success, 1 a check that failed, a difference or a
-//! missing result, 2 wrong usage, a refused scenario or an output that cannot be written, 130 interrupted.
+//! `microsim`: everything is in the library, so that it compiles beside the core.
 
-mod args;
-mod checkpoint;
-mod console;
-mod diagnostics;
-mod draw;
-mod failure;
-mod interrupt;
-mod output;
-mod prepared;
-mod record_args;
-mod scenario_args;
-mod session;
-mod summary;
-mod tally;
-mod value_parser;
-mod verbs;
-mod world_file;
-
-use args::Args;
-use clap::CommandFactory;
-use console::Console;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let args = Args::from_command_line();
-    let console = Console::new(args.color, args.quiet, args.verbose);
-    match verbs::perform(&args.verb, Args::command(), &console) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(&console),
-    }
+    microsim_cli::main()
 }

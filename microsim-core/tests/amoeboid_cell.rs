@@ -1,36 +1,35 @@
-//! Amoeboid cells (seed, 3.1.2): movement, growth and what keeps the cytoplasm in. The structure's tests are beside
-//! `organism/amoeboid_cell`, those of the drive beside `crawl.rs`.
+//! Amoeboid cells (seed, 3.1.2): movement, growth and containment of the cytoplasm.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 
-use common::run;
+use common::{outline, room_with, run};
 use microsim_core::geometry::polygon::{contains_point, signed_area};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Controller, ErrorKind, Inputs, Intent, MembraneRegion, OrganismId, Placement, PlateletSpec,
-    ProbeSpec, Rng, Role, World, WorldConfig,
+    AmoeboidCellSpec, Controller, ErrorKind, Inputs, MembraneRegion, OrganismId, Placement, PlateletSpec, ProbeSpec,
+    Rng, Role, World, WorldConfig,
 };
 
-fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&spec.into(), Placement::at(80.0, 45.0)).unwrap();
-    (world, cell)
+fn a_cell() -> (World, OrganismId) {
+    room_with(AmoeboidCellSpec::default(), 80.0, 45.0)
 }
 
 fn toward(cell: OrganismId, x: f32, y: f32) -> Inputs {
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(x, y)).unwrap());
-    inputs
-}
-
-fn outline(world: &World, cell: OrganismId) -> Vec<Vec2> {
-    world.view().organism(cell).unwrap().outline().collect()
+    common::toward(cell, Vec2::new(x, y))
 }
 
 fn links(world: &World, cell: OrganismId) -> Vec<f32> {
     let ring = outline(world, cell);
     (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).length()).collect()
+}
+
+/// Mean length of the links, which are of about the same length.
+fn mean_of_even_links(world: &World, cell: OrganismId) -> f32 {
+    let lengths = links(world, cell);
+    let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
+    assert!(lengths.iter().all(|l| (l / mean - 1.0).abs() < 0.05), "{lengths:?}");
+    mean
 }
 
 fn fastest(world: &World, cell: OrganismId) -> f32 {
@@ -40,18 +39,16 @@ fn fastest(world: &World, cell: OrganismId) -> f32 {
 
 #[test]
 fn t15_neighbours_stay_joined_at_their_distance() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &Inputs::new(), 120);
-    let lengths = links(&world, cell);
-    assert_eq!(world.census().constraints, lengths.len(), "one link for each node, ring closed");
-    let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
-    assert!(lengths.iter().all(|l| (l / mean - 1.0).abs() < 0.05), "{lengths:?}");
+    assert_eq!(world.census().constraints, links(&world, cell).len(), "one link for each node, ring closed");
+    let mean = mean_of_even_links(&world, cell);
     assert!(mean > 0.9 * 1.56 && mean < 1.1 * 1.56, "mean {mean}");
 }
 
 #[test]
 fn t16_no_gap_opens_that_a_node_radius_would_not_cover() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     for x in [150.0, 10.0, 150.0] {
         for _ in 0..90 {
             run(&mut world, &toward(cell, x, 45.0), 1);
@@ -63,7 +60,7 @@ fn t16_no_gap_opens_that_a_node_radius_would_not_cover() {
 
 #[test]
 fn t17_cytoplasm_stays_at_rest_density() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &Inputs::new(), 360);
     assert!(world.quality().fluid_compression_mean < 0.02, "{:?}", world.quality());
     assert!(fastest(&world, cell) < 0.3, "at rest, fastest {}", fastest(&world, cell));
@@ -71,7 +68,7 @@ fn t17_cytoplasm_stays_at_rest_density() {
 
 #[test]
 fn t18_regions_are_assigned_anew_on_every_step() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     let regions = |world: &World| world.view().organism(cell).unwrap().membrane_regions();
     assert_eq!(regions(&world), None, "no regions without a goal");
     run(&mut world, &toward(cell, 150.0, 45.0), 1);
@@ -89,7 +86,7 @@ fn t18_regions_are_assigned_anew_on_every_step() {
 
 #[test]
 fn t19_the_node_nearest_to_the_goal_is_the_centre_of_the_front() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     let mut rng = Rng::new(4, 4);
     for _ in 0..60 {
         let goal = Vec2::new(rng.range(0.0, 160.0), rng.range(0.0, 90.0));
@@ -103,7 +100,7 @@ fn t19_the_node_nearest_to_the_goal_is_the_centre_of_the_front() {
 
 #[test]
 fn t21_movement_is_smooth_unidirectional_and_reacts_at_once() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &toward(cell, 150.0, 45.0), 120);
     let view = world.view().organism(cell).unwrap();
     let forwards = view.particles().filter(|p| p.velocity.x > 0.0).count();
@@ -120,7 +117,7 @@ fn t21_movement_is_smooth_unidirectional_and_reacts_at_once() {
 
 #[test]
 fn t22_growth_of_the_chain_adds_a_body_and_a_link_of_the_same_length() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &Inputs::new(), 60);
     let (before, ring) = (world.census(), outline(&world, cell));
     world.grow(cell, 1, 0).unwrap();
@@ -131,20 +128,16 @@ fn t22_growth_of_the_chain_adds_a_body_and_a_link_of_the_same_length() {
     let (left, right) = (grown[new[0] - 1], grown[(new[0] + 1) % grown.len()]);
     assert!(ring.contains(&left) && ring.contains(&right), "between two neighbours");
     assert!((grown[new[0]] - (left + right) / 2.0).length() < 1e-4);
-    let radii: Vec<f32> = {
-        let nodes = world.view().organism(cell).unwrap();
-        nodes.particles().filter(|p| p.role == Role::Membrane).map(|p| p.radius).collect()
-    };
+    let view = world.view().organism(cell).unwrap();
+    let radii: Vec<f32> = view.particles().filter(|p| p.role == Role::Membrane).map(|p| p.radius).collect();
     assert!(radii.iter().all(|r| *r == radii[0]), "identical bodies");
     run(&mut world, &Inputs::new(), 120);
-    let lengths = links(&world, cell);
-    let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
-    assert!(lengths.iter().all(|l| (l / mean - 1.0).abs() < 0.05), "the new links are like the others");
+    mean_of_even_links(&world, cell);
 }
 
 #[test]
 fn t23_growth_of_the_interior_inflates_the_cell_from_its_centroid_without_an_explosion() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &Inputs::new(), 60);
     let (before, area) = (world.census(), signed_area(&outline(&world, cell)));
     let centroid = world.centroid(cell).unwrap();
@@ -185,8 +178,7 @@ fn t24_t25_no_body_or_particle_exceeds_the_speed_limit_and_no_link_its_length() 
 
 #[test]
 fn cytoplasm_stays_inside_while_the_cell_pushes_through_platelets_and_grows() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+    let (mut world, cell) = room_with(AmoeboidCellSpec::default(), 30.0, 45.0);
     for k in 0..60 {
         let at = Placement::at(60.0 + 6.0 * (k / 10) as f32, 12.0 + 7.0 * (k % 10) as f32);
         world.spawn(&PlateletSpec::default().into(), at).unwrap();
@@ -220,8 +212,7 @@ fn growth_refuses_what_cannot_grow_and_what_would_not_fit() {
 
 #[test]
 fn t25_links_keep_their_limit_when_a_heavy_probe_rams_the_membrane() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(148.0, 45.0)).unwrap();
+    let (mut world, cell) = room_with(AmoeboidCellSpec::default(), 148.0, 45.0);
     let rest = links(&world, cell)[0];
     let ram = Controller::patrol(vec![Vec2::new(200.0, 45.0)], false);
     let spec = ProbeSpec { radius: 1.5, mass: 120.0, speed: 18.0, max_acceleration: 1200.0 };
@@ -237,7 +228,7 @@ fn t25_links_keep_their_limit_when_a_heavy_probe_rams_the_membrane() {
 
 #[test]
 fn a_crawling_cell_has_no_voids_and_no_wrinkles_and_keeps_its_speed() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
+    let (mut world, cell) = a_cell();
     run(&mut world, &toward(cell, 1e4, 45.0), 120);
     let mut crawl = Vec::new();
     for _ in 0..120 {

@@ -3,14 +3,13 @@
 
 mod common;
 
-use common::run;
+use common::{outline, room_with, run, toward};
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, CollisionGroups, Controller, ErrorKind, Event, FluidBlockSpec, Inputs, Intent, Kind,
-    Material, Node, Obstacle, OrganismId, Placement, PlateletSpec, ProbeSpec, RigidCellSpec, Role, Template, World,
-    WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Controller, ErrorKind, Event, FluidBlockSpec, Inputs, Kind, Material, Node, Obstacle,
+    OrganismId, Placement, PlateletSpec, ProbeSpec, RigidCellSpec, Role, Template, World, WorldConfig,
 };
 
 fn room() -> World {
@@ -88,9 +87,7 @@ fn stale_handles_name_nothing() {
     assert!(world.view().organism(first).is_none());
     assert_eq!(world.remove(first).unwrap_err().kind(), &ErrorKind::Stale);
     assert_eq!(world.set_exempt(first, second, true).unwrap_err().field(), "a");
-    let mut inputs = Inputs::new();
-    inputs.set(first, Intent::toward(Vec2::ONE).unwrap());
-    run(&mut world, &inputs, 3);
+    run(&mut world, &toward(first, Vec2::ONE), 3);
     assert_eq!(world.organisms().collect::<Vec<_>>(), [second]);
 }
 
@@ -122,16 +119,14 @@ fn removal_frees_the_particles_of_every_kind() {
 
 #[test]
 fn contacts_begin_once_and_end_once_even_by_removal() {
-    let mut world = room();
-    let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+    let (mut world, a) = room_with(PlateletSpec::default(), 60.0, 45.0);
     let way = Controller::patrol(vec![Vec2::new(54.0, 45.0), Vec2::new(30.0, 45.0)], false);
-    let probe = world.spawn(&ProbeSpec::default().into(), Placement::at(40.0, 45.0).steered_by(way)).unwrap();
+    let b = world.spawn(&ProbeSpec::default().into(), Placement::at(40.0, 45.0).steered_by(way)).unwrap();
     let mut seen = Vec::new();
     for _ in 0..600 {
         run(&mut world, &Inputs::new(), 1);
         seen.extend_from_slice(world.events());
     }
-    let (a, b) = (platelet, probe);
     assert_eq!(seen, [Event::ContactBegan { a, b }, Event::ContactEnded { a, b }]);
 
     let mut world = room();
@@ -177,9 +172,7 @@ fn obstacles_of_any_shape_hold_organisms_back() {
         let mut world = room();
         world.add_obstacle(Obstacle::new(shape, Pose::translation(70.0, 45.0))).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
-        let mut inputs = Inputs::new();
-        inputs.set(cell, Intent::toward(Vec2::new(150.0, 45.0)).unwrap());
-        run(&mut world, &inputs, 300);
+        run(&mut world, &toward(cell, Vec2::new(150.0, 45.0)), 300);
         let view = world.view().organism(cell).unwrap();
         assert!(view.particles().all(|p| p.position.x < 70.0), "behind the obstacle");
         assert_eq!(world.obstacles().count(), 1);
@@ -203,8 +196,7 @@ fn bad_obstacles_are_refused_by_name() {
 
 #[test]
 fn queries_find_what_is_there() {
-    let mut world = room();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+    let (mut world, cell) = room_with(AmoeboidCellSpec::default(), 40.0, 45.0);
     let pellet = agar(&mut world, 60.0, 45.0);
     let at = |x, y| world.organisms_at(Vec2::new(x, y)).collect::<Vec<_>>();
     assert_eq!(at(40.0, 45.0), [cell]);
@@ -239,7 +231,7 @@ fn templates_of_equal_shape_are_shared_and_scaled() {
     let large = world.spawn_template(id, Placement::at(40.0, 20.0).scaled(3.0)).unwrap();
     run(&mut world, &Inputs::new(), 60);
     let side = |world: &World, organism| {
-        let outline: Vec<Vec2> = world.view().organism(organism).unwrap().outline().collect();
+        let outline = outline(world, organism);
         (outline[1] - outline[0]).length()
     };
     assert!((side(&world, large) / side(&world, small) - 3.0).abs() < 1e-3);
@@ -248,16 +240,20 @@ fn templates_of_equal_shape_are_shared_and_scaled() {
     assert_eq!(other.unwrap_err().kind(), &ErrorKind::Stale);
 }
 
+/// A disc of radius 1 and this material.
+fn spawn_ball(world: &mut World, material: Material, placement: Placement) -> OrganismId {
+    let mut builder = Template::builder();
+    builder.node(Node { material, ..Node::disc(Vec2::ZERO, 1.0, 1.0) });
+    let ball = world.add_template(builder.build().unwrap());
+    world.spawn_template(ball, placement).unwrap()
+}
+
 #[test]
 fn restitution_and_friction_are_material_parameters() {
     let bounce = |restitution: f32| {
         let config = WorldConfig { gravity: Vec2::new(0.0, -20.0), damping: 0.0, ..WorldConfig::default() };
         let mut world = World::new(config).unwrap();
-        let mut builder = Template::builder();
-        let material = Material { friction: 0.0, restitution };
-        builder.node(Node { material, ..Node::disc(Vec2::ZERO, 1.0, 1.0) });
-        let ball = world.add_template(builder.build().unwrap());
-        let ball = world.spawn_template(ball, Placement::at(80.0, 6.0)).unwrap();
+        let ball = spawn_ball(&mut world, Material { friction: 0.0, restitution }, Placement::at(80.0, 6.0));
         let mut heights = Vec::new();
         for _ in 0..120 {
             run(&mut world, &Inputs::new(), 1);
@@ -277,13 +273,10 @@ fn a_slope_holds_what_is_rough_and_lets_slide_what_is_smooth() {
         let config = WorldConfig { gravity: Vec2::new(3.0, -10.0), damping: 0.0, ..WorldConfig::default() };
         let mut world = World::new(config).unwrap();
         let mut floor = Obstacle::new(SharedShape::cuboid(80.0, 2.0), Pose::translation(80.0, 2.0));
-        floor.material = Material { friction, restitution: 0.0 };
-        world.add_obstacle(floor).unwrap();
-        let mut builder = Template::builder();
         let material = Material { friction, restitution: 0.0 };
-        builder.node(Node { material, groups: CollisionGroups::ALL, ..Node::disc(Vec2::ZERO, 1.0, 1.0) });
-        let ball = world.add_template(builder.build().unwrap());
-        let ball = world.spawn_template(ball, Placement::at(30.0, 5.0)).unwrap();
+        floor.material = material;
+        world.add_obstacle(floor).unwrap();
+        let ball = spawn_ball(&mut world, material, Placement::at(30.0, 5.0));
         run(&mut world, &Inputs::new(), 120);
         world.centroid(ball).unwrap().x - 30.0
     };

@@ -1,29 +1,24 @@
-//! Division and fusion of amoeboid cells (conformance T84) in whole worlds. Ring surgery's properties are beside
-//! `ring_surgery.rs`.
+//! Division and fusion of amoeboid cells (conformance T84) in whole worlds.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 
-use common::run;
+use common::chase::{WAYS, agar_of, begins, by, chase, digesting, ingests, small_rigid};
+use common::{assert_sound, distances_from_centre, happens, outline, room_with, run, toward};
 use microsim_core::geometry::polygon::{contains_point, is_simple, signed_area};
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
-    OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, Refusal, RigidCellSpec, Rng, Role, World, WorldConfig,
+    OrganismSpec, Placement, PlateletSpec, Refusal, Rng, Role, World, WorldConfig,
 };
 
 const CENTRE: Vec2 = Vec2::new(80.0, 45.0);
 
 fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    let (mut world, cell) = room_with(spec, CENTRE.x, CENTRE.y);
     run(&mut world, &Inputs::new(), 30);
     (world, cell)
-}
-
-fn outline(world: &World, cell: OrganismId) -> Vec<Vec2> {
-    world.view().organism(cell).unwrap().outline().collect()
 }
 
 fn count(world: &World, cell: OrganismId, role: Role) -> usize {
@@ -32,12 +27,19 @@ fn count(world: &World, cell: OrganismId, role: Role) -> usize {
 
 /// What must hold in every step: every membrane simple and counter-clockwise, nothing lost, no link too long.
 fn check(world: &World, what: &str) {
-    let census = world.census();
-    assert_eq!((census.leaks, census.improper_absorptions, census.quarantined), (0, 0, 0), "{what}");
+    assert_sound(world, what);
     assert!(world.quality().edge_stretch_max < 0.5, "{what}: {:?}", world.quality());
     for organism in world.view().organisms().filter(|organism| organism.kind() == microsim_core::Kind::AmoeboidCell) {
         let ring: Vec<Vec2> = organism.outline().collect();
         assert!(is_simple(&ring) && signed_area(&ring) > 0.0, "{what}: {ring:?}");
+    }
+}
+
+/// Takes `steps` steps and checks the world after each.
+fn run_checked(world: &mut World, inputs: &Inputs, steps: u32, what: &str) {
+    for step in 0..steps {
+        run(world, inputs, 1);
+        check(world, &format!("{what}, step {step}"));
     }
 }
 
@@ -64,6 +66,7 @@ fn divide(world: &mut World, cell: OrganismId, what: &str) -> OrganismId {
     }
 }
 
+/// Why a cell refuses to divide; the refusal leaves the counts as they are.
 fn refusal(world: &mut World, cell: OrganismId) -> Refusal {
     let before = world.census();
     let reason = reason_not_to_divide(world, cell);
@@ -81,19 +84,18 @@ fn reason_not_to_divide(world: &mut World, cell: OrganismId) -> Refusal {
     reason.expect("refused")
 }
 
-/// Lets two cells crawl towards each other until they are one.
-fn fuse(world: &mut World, a: OrganismId, b: OrganismId, what: &str) {
+/// Lets two cells crawl towards each other until they are one, which it returns.
+fn fuse(world: &mut World, a: OrganismId, b: OrganismId, what: &str) -> OrganismId {
     for step in 0..900 {
-        let mut inputs = Inputs::new();
-        let (at_a, at_b) = (world.centroid(a).unwrap(), world.centroid(b).unwrap());
-        inputs.set(a, Intent::toward(at_b).unwrap());
-        inputs.set(b, Intent::toward(at_a).unwrap());
+        let mut inputs = toward(a, world.centroid(b).unwrap());
+        inputs.set(b, Intent::toward(world.centroid(a).unwrap()).unwrap());
         world.fuse(a, b).unwrap();
         world.step(&inputs);
         check(world, &format!("{what}, fusing, step {step}"));
-        if world.events().iter().any(|event| matches!(event, Event::Fused { .. })) {
-            assert!(world.kind(a).is_some() != world.kind(b).is_some(), "one handle is stale");
-            return;
+        if happens(world, |event| matches!(event, Event::Fused { .. })) {
+            let (has_a, has_b) = (world.kind(a).is_some(), world.kind(b).is_some());
+            assert!(has_a != has_b, "one handle is stale");
+            return if has_a { a } else { b };
         }
     }
     panic!("{what}: not fused");
@@ -110,9 +112,8 @@ fn divide_and_fuse(seed: u64) {
         let _ =
             world.spawn(&PlateletSpec::default().into(), Placement::at(rng.range(40.0, 120.0), rng.range(5.0, 85.0)));
     }
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(CENTRE + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 60.0).unwrap());
-    run(&mut world, &inputs, seed as u32 % 40);
+    let goal = CENTRE + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 60.0;
+    run(&mut world, &toward(cell, goal), seed as u32 % 40);
     let (nodes, fluid) = (count(&world, cell, Role::Membrane), count(&world, cell, Role::Cytoplasm));
     let others = world.census().particles - nodes - fluid;
 
@@ -120,10 +121,7 @@ fn divide_and_fuse(seed: u64) {
     let halves = [cell, daughter].map(|id| count(&world, id, Role::Cytoplasm));
     assert_eq!(halves.iter().sum::<usize>(), fluid, "{what}");
     assert!(*halves.iter().min().unwrap() * 3 > fluid, "{what}: {halves:?} is not about even");
-    for step in 0..120 {
-        run(&mut world, &Inputs::new(), 1);
-        check(&world, &format!("{what}, divided, step {step}"));
-    }
+    run_checked(&mut world, &Inputs::new(), 120, &format!("{what}, divided"));
     for id in [cell, daughter] {
         let ring = outline(&world, id);
         let held = world.view().organism(id).unwrap();
@@ -133,12 +131,8 @@ fn divide_and_fuse(seed: u64) {
         assert!((ring.len() as f32 - share * nodes as f32).abs() <= 1.0, "{what}: {} of {nodes}", ring.len());
     }
 
-    fuse(&mut world, cell, daughter, &what);
-    for step in 0..300 {
-        run(&mut world, &Inputs::new(), 1);
-        check(&world, &format!("{what}, fused, step {step}"));
-    }
-    let left = if world.kind(cell).is_some() { cell } else { daughter };
+    let left = fuse(&mut world, cell, daughter, &what);
+    run_checked(&mut world, &Inputs::new(), 300, &format!("{what}, fused"));
     assert_eq!((count(&world, left, Role::Membrane), count(&world, left, Role::Cytoplasm)), (nodes, fluid), "{what}");
     assert_eq!(world.census().particles, others + nodes + fluid, "{what}: nothing left over");
 }
@@ -160,8 +154,7 @@ fn dividing_before_a_fusion_has_rounded_off_leaves_no_nodes_behind() {
     let nodes = outline(&world, cell).len();
     for turn in 0..3 {
         let daughter = divide(&mut world, cell, &format!("turn {turn}"));
-        fuse(&mut world, cell, daughter, &format!("turn {turn}"));
-        cell = if world.kind(cell).is_some() { cell } else { daughter };
+        cell = fuse(&mut world, cell, daughter, &format!("turn {turn}"));
         assert!(outline(&world, cell).len() > nodes + 5, "the next turn begins while the membrane is too long");
     }
     run(&mut world, &Inputs::new(), 600);
@@ -174,20 +167,16 @@ fn both_lobes_live_on_with_random_numbers_of_their_own() {
     let daughter = divide(&mut world, cell, "live on");
     assert_eq!(world.kind(daughter), world.kind(cell));
     let start = [cell, daughter].map(|id| world.centroid(id).unwrap());
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(20.0, 45.0)).unwrap());
+    let mut inputs = toward(cell, Vec2::new(20.0, 45.0));
     inputs.set(daughter, Intent::toward(Vec2::new(140.0, 45.0)).unwrap());
-    for step in 0..180 {
-        run(&mut world, &inputs, 1);
-        check(&world, &format!("apart, step {step}"));
-    }
+    run_checked(&mut world, &inputs, 180, "apart");
     let moved = |k: usize, id| world.centroid(id).unwrap().x - start[k].x;
     assert!(moved(0, cell) < -10.0 && moved(1, daughter) > 10.0, "{} {}", moved(0, cell), moved(1, daughter));
     let again = divide(&mut world, daughter, "again");
     assert_eq!(world.census().organisms, 3);
-    world.remove(again).unwrap();
-    world.remove(daughter).unwrap();
-    world.remove(cell).unwrap();
+    for id in [again, daughter, cell] {
+        world.remove(id).unwrap();
+    }
     assert_eq!(world.census().particles, 0);
 }
 
@@ -267,44 +256,29 @@ fn a_furrow_that_cannot_close_in_time_is_abandoned() {
     world.divide(cell).unwrap();
     let event = finish(&mut world, "abandon");
     assert_eq!(event, Some(Event::DivisionAbandoned { organism: cell, reason: Refusal::FurrowOpen }));
-    for step in 0..300 {
-        run(&mut world, &Inputs::new(), 1);
-        check(&world, &format!("abandoned, step {step}"));
-    }
+    run_checked(&mut world, &Inputs::new(), 300, "abandoned");
     assert_eq!(world.census().particles, before, "the slack nodes are gone again");
-    let ring = outline(&world, cell);
-    let distances: Vec<f32> = ring.iter().map(|at| (*at - world.centroid(cell).unwrap()).length()).collect();
-    let (near, far) =
-        (distances.iter().copied().fold(f32::MAX, f32::min), distances.iter().copied().fold(0.0, f32::max));
+    let distances = distances_from_centre(&world, cell).into_iter();
+    let (near, far) = distances.fold((f32::MAX, 0.0f32), |(near, far), d| (near.min(d), far.max(d)));
     assert!(far / near < 1.15, "round again, {near} to {far}");
 }
 
 /// A cell of this radius with prey inside, taken in by one way.
 fn fed(way: IngestionWay, radius: f32, prey: &[OrganismSpec]) -> (World, OrganismId, Vec<OrganismId>) {
-    let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
-    let (mut world, cell) =
-        cell_in_room(AmoeboidCellSpec { phagocytosis, radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() });
+    let (phagocytosis, radii) = (by(way), Vec2::splat(radius));
+    let (mut world, cell) = cell_in_room(AmoeboidCellSpec { phagocytosis, radii, ..AmoeboidCellSpec::default() });
     let mut all = Vec::new();
     for (k, spec) in prey.iter().enumerate() {
         let way = unit_vector(0.9 * k as f32);
         let at = world.centroid(cell).unwrap() + way * (radius + 6.5);
         let id = world.spawn(spec, Placement::at(at.x, at.y)).unwrap();
         all.push(id);
-        for _ in 0..600 {
-            let mut inputs = Inputs::new();
-            inputs.set(cell, Intent::toward(world.centroid(id).unwrap()).unwrap());
-            world.step(&inputs);
-            if world.events().iter().any(|event| matches!(event, Event::Ingested { .. })) {
-                break;
-            }
-        }
+        chase(&mut world, cell, id, 600, ingests);
         assert_eq!(world.view().organism(id).unwrap().held_by(), Some(cell), "prey {k} inside");
     }
     run(&mut world, &Inputs::new(), 60);
     (world, cell, all)
 }
-
-const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
 
 /// Every prey is held by one of these cells, and inside it.
 fn check_held(world: &World, cells: &[OrganismId], prey: &[OrganismId], way: IngestionWay) {
@@ -326,17 +300,13 @@ fn check_held(world: &World, cells: &[OrganismId], prey: &[OrganismId], way: Ing
 
 #[test]
 fn prey_goes_to_the_lobe_that_holds_it() {
-    let agar: OrganismSpec = AgarSpec { radius: 0.8, ..AgarSpec::default() }.into();
     for way in WAYS {
-        let (mut world, cell, prey) = fed(way, 11.0, &[agar.clone(), agar.clone(), agar.clone()]);
+        let (mut world, cell, prey) = fed(way, 11.0, &[agar_of(0.8), agar_of(0.8), agar_of(0.8)]);
         let daughter = divide(&mut world, cell, "fed");
         check_held(&world, &[cell, daughter], &prey, way);
-        fuse(&mut world, cell, daughter, "fed");
-        let left = if world.kind(cell).is_some() { cell } else { daughter };
+        let left = fuse(&mut world, cell, daughter, "fed");
         check_held(&world, &[left], &prey, way);
-        let mut digest = Inputs::new();
-        digest.set(left, Intent::REST.digesting(true));
-        run(&mut world, &digest, 300);
+        run(&mut world, &digesting(left), 300);
         assert_eq!(world.census().organisms, 1, "all digested");
         world.remove(left).unwrap();
         assert_eq!(world.census().particles, 0);
@@ -345,9 +315,8 @@ fn prey_goes_to_the_lobe_that_holds_it() {
 
 #[test]
 fn soft_prey_in_the_furrow_forbids_division_and_beside_it_goes_along() {
-    let rigid: OrganismSpec = RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() }.into();
     for way in WAYS {
-        let (mut world, cell, prey) = fed(way, 16.0, std::slice::from_ref(&rigid));
+        let (mut world, cell, prey) = fed(way, 16.0, &[small_rigid()]);
         let at = (world.centroid(prey[0]).unwrap() - world.centroid(cell).unwrap()).normalize();
         world.divide_along(cell, at.perp()).unwrap();
         run(&mut world, &Inputs::new(), 1);
@@ -365,26 +334,14 @@ fn soft_prey_in_the_furrow_forbids_division_and_beside_it_goes_along() {
 #[test]
 fn cells_do_not_divide_or_fuse_while_they_take_in() {
     for way in WAYS {
-        let phagocytosis = PhagocytosisParams { way, ..PhagocytosisParams::default() };
-        let (mut world, cell) = cell_in_room(AmoeboidCellSpec { phagocytosis, ..AmoeboidCellSpec::default() });
-        take_in(&mut world, cell);
+        let (mut world, cell) = cell_in_room(AmoeboidCellSpec { phagocytosis: by(way), ..AmoeboidCellSpec::default() });
+        let prey = world.spawn(&agar_of(1.8), Placement::at(95.0, 45.0)).unwrap();
+        assert!(chase(&mut world, cell, prey, 300, begins).is_some());
+        assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(cell));
         // A cup's fold may get a node in the same step.
         let reason = if way == IngestionWay::Gate { refusal } else { reason_not_to_divide };
         assert_eq!(reason(&mut world, cell), Refusal::Ingesting);
     }
-}
-
-/// Lets a cell begin to take in agar.
-fn take_in(world: &mut World, cell: OrganismId) {
-    let prey = world.spawn(&AgarSpec { radius: 1.8, ..AgarSpec::default() }.into(), Placement::at(95.0, 45.0)).unwrap();
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(150.0, 45.0)).unwrap());
-    let begins = |world: &World| world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }));
-    (0..300).find(|_| {
-        world.step(&inputs);
-        begins(world)
-    });
-    assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(cell));
 }
 
 #[test]
@@ -394,22 +351,19 @@ fn who_cannot_fuse_says_why() {
     let other = AmoeboidCellSpec { node_radius: 0.6, ..AmoeboidCellSpec::default() };
     let other = world.spawn(&other.into(), Placement::at(30.0, 45.0)).unwrap();
     let agar = world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
-    let mut reason = |with| {
+    let reason = |world: &mut World, with| {
         world.fuse(cell, with).unwrap();
-        run(&mut world, &Inputs::new(), 1);
+        run(world, &Inputs::new(), 1);
         world.events().iter().find_map(|event| match event {
             Event::FusionRefused { organism, with: w, reason } if (*organism, *w) == (cell, with) => Some(*reason),
             _ => None,
         })
     };
-    assert_eq!(reason(far), Some(Refusal::NotTouching));
-    assert_eq!(reason(other), Some(Refusal::NoPartner));
-    assert_eq!(reason(agar), Some(Refusal::NoPartner));
-    assert_eq!(reason(cell), Some(Refusal::NoPartner));
+    assert_eq!(reason(&mut world, far), Some(Refusal::NotTouching));
+    for with in [other, agar, cell] {
+        assert_eq!(reason(&mut world, with), Some(Refusal::NoPartner));
+    }
     world.divide(far).unwrap();
     run(&mut world, &Inputs::new(), 1);
-    world.fuse(cell, far).unwrap();
-    run(&mut world, &Inputs::new(), 1);
-    let dividing = Event::FusionRefused { organism: cell, with: far, reason: Refusal::Dividing };
-    assert!(world.events().contains(&dividing));
+    assert_eq!(reason(&mut world, far), Some(Refusal::Dividing));
 }

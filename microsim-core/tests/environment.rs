@@ -3,12 +3,12 @@
 
 mod common;
 
-use common::{everything_is_inside, run};
+use common::{everything_is_inside, outline, room_with, run, toward};
 use microsim_core::geometry::is_simple;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Controller, FluidBlockSpec, Inputs, Intent, OrganismId, Placement, PlateletSpec,
-    ProbeSpec, RigidCellSpec, Role, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Controller, FluidBlockSpec, Inputs, OrganismId, Placement, PlateletSpec, ProbeSpec,
+    RigidCellSpec, Role, World, WorldConfig,
 };
 use proptest::prelude::*;
 
@@ -30,26 +30,23 @@ fn probe_through(world: &mut World, start: Vec2, way: &[Vec2]) -> OrganismId {
 
 #[test]
 fn t45_interlayer_stays_at_the_nucleus_and_holds_the_ring_out() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
     let spec = PlateletSpec::default();
-    let platelet = world.spawn(&spec.clone().into(), Placement::at(80.0, 45.0)).unwrap();
+    let (mut world, platelet) = room_with(spec.clone(), 80.0, 45.0);
     probe_through(&mut world, Vec2::new(70.0, 45.0), &[Vec2::new(100.0, 45.0)]);
     for _ in 0..240 {
         run(&mut world, &Inputs::new(), 1);
-        let (nucleus, interlayer) =
-            (with_role(&world, platelet, Role::Nucleus), with_role(&world, platelet, Role::Interlayer));
-        assert!((nucleus - interlayer).length() < 0.1 * spec.radius, "concentric");
-        let outline: Vec<Vec2> = world.view().organism(platelet).unwrap().outline().collect();
-        let nearest = outline.iter().map(|at| (*at - interlayer).length()).fold(f32::INFINITY, f32::min);
+        let interlayer = with_role(&world, platelet, Role::Interlayer);
+        assert!((with_role(&world, platelet, Role::Nucleus) - interlayer).length() < 0.1 * spec.radius, "concentric");
+        let ring = outline(&world, platelet).into_iter();
+        let nearest = ring.map(|at| (at - interlayer).length()).fold(f32::INFINITY, f32::min);
         assert!(nearest > 0.75 * spec.radius, "ring comes within {nearest}");
     }
 }
 
 #[test]
 fn t46_rope_bounds_the_distance_and_contracts() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
     let spec = PlateletSpec { rope_length: 2.0, ..PlateletSpec::default() };
-    let platelet = world.spawn(&spec.clone().into(), Placement::at(60.0, 45.0)).unwrap();
+    let (mut world, platelet) = room_with(spec.clone(), 60.0, 45.0);
     let probe = probe_through(&mut world, Vec2::new(50.0, 45.0), &[Vec2::new(120.0, 45.0)]);
     let mut farthest: f32 = 0.0;
     for _ in 0..300 {
@@ -65,13 +62,11 @@ fn t46_rope_bounds_the_distance_and_contracts() {
 
 #[test]
 fn t47_cells_push_through_platelets_which_return_to_their_places() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+    let (mut world, cell) = room_with(AmoeboidCellSpec::default(), 30.0, 45.0);
     let column = |k: u32| Placement::at(65.0, 6.0 + 7.0 * k as f32);
     let platelets: Vec<OrganismId> =
         (0..12).map(|k| world.spawn(&PlateletSpec::default().into(), column(k)).unwrap()).collect();
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(200.0, 45.0)).unwrap());
+    let inputs = toward(cell, Vec2::new(200.0, 45.0));
     let mut pushed: f32 = 0.0;
     for _ in 0..900 {
         run(&mut world, &inputs, 1);
@@ -154,8 +149,7 @@ fn worst_link_under(mass: f32, max_acceleration: f32) -> f32 {
         run(&mut world, &Inputs::new(), 1);
         worst = worst.max(world.quality().ring_error_max);
         for &id in platelets.iter().filter(|_| step % 10 == 0) {
-            let outline: Vec<Vec2> = world.view().organism(id).unwrap().outline().collect();
-            assert!(is_simple(&outline), "step {step}: folded");
+            assert!(is_simple(&outline(&world, id)), "step {step}: folded");
         }
     }
     worst

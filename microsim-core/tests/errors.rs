@@ -8,7 +8,7 @@ use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance,
     Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle,
     OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template,
-    TemplateBuilder, World, WorldConfig,
+    TemplateBuilder, TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -57,11 +57,18 @@ impl Room {
         self.world.add_chemical(ChemicalSpec::default()).unwrap()
     }
 
-    fn single(&mut self) -> microsim_core::TemplateId {
-        let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
-        self.world.add_template(builder.build().unwrap())
+    /// The error of spawning a template of one disc.
+    fn spawn_single(&mut self, placement: Placement) -> Error {
+        let id = single(&mut self.world);
+        self.world.spawn_template(id, placement).unwrap_err()
     }
+}
+
+/// A template of one disc.
+fn single(world: &mut World) -> TemplateId {
+    let mut builder = Template::builder();
+    builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
+    world.add_template(builder.build().unwrap())
 }
 
 fn obstacle(shape: SharedShape, x: f32) -> Obstacle {
@@ -136,26 +143,18 @@ const CASES: &[Case] = &[
     ("World::spawn", "Overlap", "at", |r| r.spawn_at(120.0, 45.0)),
     ("World::spawn", "TooMany", "particles", |r| r.spawn(FluidBlockSpec { size: Vec2::splat(60.0), ..FluidBlockSpec::default() }, AT(40.0, 40.0))),
     ("World::spawn_template", "Stale", "template", |r| {
-        let id = r.single();
+        let id = single(&mut r.world);
         World::new(WorldConfig::default()).unwrap().spawn_template(id, AT(9.0, 9.0)).unwrap_err()
     }),
-    ("World::spawn_template", "OutOfRange", "scale", |r| { let id = r.single(); r.world.spawn_template(id, AT(9.0, 9.0).scaled(0.0)).unwrap_err() }),
-    ("World::spawn_template", "BadReference", "controller.through", |r| {
-        let id = r.single();
-        r.world.spawn_template(id, AT(9.0, 9.0).steered_by(Controller::patrol(vec![], true))).unwrap_err()
-    }),
-    ("World::spawn_template", "Unsupported", "controller", |r| {
-        let id = r.single();
-        r.world.spawn_template(id, AT(9.0, 9.0).steered_by(Controller::thrash(1.0, 0.5))).unwrap_err()
-    }),
+    ("World::spawn_template", "OutOfRange", "scale", |r| r.spawn_single(AT(9.0, 9.0).scaled(0.0))),
+    ("World::spawn_template", "BadReference", "controller.through", |r| r.spawn_single(AT(9.0, 9.0).steered_by(Controller::patrol(vec![], true)))),
+    ("World::spawn_template", "Unsupported", "controller", |r| r.spawn_single(AT(9.0, 9.0).steered_by(Controller::thrash(1.0, 0.5)))),
     ("World::spawn_template", "OutsideWorld", "at", Room::spawn_wide),
-    ("World::spawn_template", "Overlap", "at", |r| { let id = r.single(); r.world.spawn_template(id, AT(30.0, 30.0)).unwrap_err() }),
+    ("World::spawn_template", "Overlap", "at", |r| r.spawn_single(AT(30.0, 30.0))),
     ("World::spawn_template", "TooMany", "particles", |_| {
         let mut full = World::new(WorldConfig { max_particles: 1, ..WorldConfig::default() }).unwrap();
         full.spawn(&AgarSpec::default().into(), AT(9.0, 9.0)).unwrap();
-        let mut builder = Template::builder();
-        builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
-        let id = full.add_template(builder.build().unwrap());
+        let id = single(&mut full);
         full.spawn_template(id, AT(20.0, 9.0)).unwrap_err()
     }),
     ("World::remove", "Stale", "organism", |r| r.world.remove(r.stale).unwrap_err()),

@@ -42,13 +42,15 @@ fn checkpoint() -> Checkpoint {
     Checkpoint { origin: scenario.origin(), run: scenario.build().unwrap() }
 }
 
+fn with_flipped_bit(file: &[u8], at: usize) -> Vec<u8> {
+    let mut bytes = file.to_vec();
+    bytes[at] ^= 1;
+    bytes
+}
+
 /// Each damage to a whole file, and the kind of error that it gives.
 fn damaged(file: &[u8]) -> [(&'static str, Vec<u8>); 6] {
-    let change = |at: usize| {
-        let mut bytes = file.to_vec();
-        bytes[at] ^= 1;
-        bytes
-    };
+    let change = |at| with_flipped_bit(file, at);
     let magic = file[..VERSION_AT].try_into().unwrap();
     let content = &file[CONTENT_AT..file.len() - CHECKSUM];
     [
@@ -88,16 +90,8 @@ fn replay(origin: Origin) -> Vec<u8> {
 #[test]
 fn replays() {
     let file = replay(checkpoint().origin);
-    let change = |at: usize| {
-        let mut bytes = file.clone();
-        bytes[at] ^= 1;
-        kind(Replay::read(&bytes).unwrap_err())
-    };
-    let kinds = [change(0), change(VERSION_AT), change(VERSION_AT + 4)];
-    assert_eq!(
-        kinds.into_iter().collect::<BTreeSet<_>>(),
-        variants(include_str!("../src/replay/mod.rs"), "ReplayError")
-    );
+    let kinds = [0, VERSION_AT, VERSION_AT + 4].map(|at| kind(Replay::read(&with_flipped_bit(&file, at)).unwrap_err()));
+    assert_eq!(BTreeSet::from(kinds), variants(include_str!("../src/replay/mod.rs"), "ReplayError"));
     let unknown = Origin { text: "schema = 7".to_owned(), ..checkpoint().origin };
     let replay = Replay::read(&replay(unknown)).unwrap();
     assert!(Player::new(&replay).unwrap_err().to_string().contains("schema"));

@@ -3,24 +3,21 @@
 
 mod common;
 
-use common::{distances_from_centre, largest_change, run, squeeze};
+use common::{distances_from_centre, largest_change, outline, room_with, run, squeeze, toward};
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Controller, Event, Inputs, Intent, OrganismId, OrganismSpec, Placement, ProbeSpec, RigidCellSpec,
-    Rng, World, WorldConfig,
+    AmoeboidCellSpec, Controller, Event, Inputs, OrganismId, OrganismSpec, Placement, ProbeSpec, RigidCellSpec, Rng,
+    World,
 };
 use proptest::prelude::*;
 
 fn cell_in_room(spec: RigidCellSpec) -> (World, OrganismId) {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let cell = world.spawn(&spec.into(), Placement::at(80.0, 45.0)).unwrap();
-    (world, cell)
+    room_with(spec, 80.0, 45.0)
 }
 
 fn nucleus_is_inside(world: &World, cell: OrganismId) -> bool {
-    let view = world.view().organism(cell).unwrap();
-    contains_point(&view.outline().collect::<Vec<_>>(), view.nucleus().unwrap().position)
+    contains_point(&outline(world, cell), world.view().organism(cell).unwrap().nucleus().unwrap().position)
 }
 
 /// Direction from the nucleus to the first body of the outline.
@@ -90,9 +87,7 @@ fn t12_a_body_of_the_outermost_layer_is_the_front_and_the_cell_moves_the_way_it_
     assert_eq!(view.front(), view.outline().next());
     let facing = axis(&world, cell);
     let start = world.centroid(cell).unwrap();
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(150.0, 45.0)).unwrap());
-    run(&mut world, &inputs, 120);
+    run(&mut world, &toward(cell, Vec2::new(150.0, 45.0)), 120);
     let moved = world.centroid(cell).unwrap() - start;
     assert!(moved.normalize().dot(facing) > 0.99 && moved.length() > 3.0, "moved {moved}");
 }
@@ -101,8 +96,7 @@ fn t12_a_body_of_the_outermost_layer_is_the_front_and_the_cell_moves_the_way_it_
 fn t13_cell_rotates_until_it_faces_the_goal_and_reaches_it() {
     let (mut world, cell) = cell_in_room(RigidCellSpec::default());
     let goal = Vec2::new(95.0, 80.0);
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(goal).unwrap());
+    let inputs = toward(cell, goal);
     let mut nearest = f32::INFINITY;
     for step in 0..600 {
         run(&mut world, &inputs, 1);
@@ -120,8 +114,7 @@ fn t13_cell_rotates_until_it_faces_the_goal_and_reaches_it() {
 fn t14_a_goal_behind_makes_the_opposite_body_the_front_without_a_turn() {
     let (mut world, cell) = cell_in_room(RigidCellSpec::default());
     let before = axis(&world, cell);
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(10.0, 40.0)).unwrap());
+    let inputs = toward(cell, Vec2::new(10.0, 40.0));
     world.step(&inputs);
     assert_eq!(world.events(), [Event::FrontSwitched { organism: cell }]);
     assert_eq!(world.view().organism(cell).unwrap().front_index(), Some(14), "opposite of body 0 of 28");
@@ -136,9 +129,7 @@ fn t14_a_goal_behind_makes_the_opposite_body_the_front_without_a_turn() {
 fn t13_speed_does_not_depend_on_the_distance_of_the_goal() {
     let travelled = |goal_x: f32| {
         let (mut world, cell) = cell_in_room(RigidCellSpec::default());
-        let mut inputs = Inputs::new();
-        inputs.set(cell, Intent::toward(Vec2::new(goal_x, 45.0)).unwrap());
-        run(&mut world, &inputs, 60);
+        run(&mut world, &toward(cell, Vec2::new(goal_x, 45.0)), 60);
         world.centroid(cell).unwrap().x
     };
     assert!((travelled(110.0) - travelled(1000.0)).abs() < 0.05);

@@ -62,8 +62,7 @@ fn the_probe_sweeps_through_the_platelets_and_parks_beside_them() {
 #[test]
 fn the_demonstration_has_everything() {
     for seed in 0..10 {
-        let text = builtin("demo").unwrap().text;
-        let mut scenario = Scenario::parse(text, &[]).unwrap();
+        let mut scenario = Scenario::parse(builtin("demo").unwrap().text, &[]).unwrap();
         scenario.set_seed(seed);
         let built = scenario.build().unwrap_or_else(|errors| panic!("seed {seed}: {errors}"));
         assert!(built.player.is_some() && built.world.obstacles().count() >= 2);
@@ -79,6 +78,13 @@ fn the_demonstration_has_everything() {
 const FILE: &str =
     "schema = 1\n[world]\nsize = [60.0, 40.0]\n[agar.pellet]\nradius = 1.0\n[probe.needle]\nradius = 2.0\n# 8\n{}\n";
 
+/// Short names in [`WRONG`] for what many of its cases begin with.
+const BEGINNINGS: [(&str, &str); 3] = [
+    ("{pellet}", "[[spawn]]\nof = 'pellet'\n"),
+    ("{needle}", "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\n"),
+    ("{cell}", "[amoeboid_cell.c]\nradii = [5, 5]\n[[spawn]]\nof = 'c'\nname = 'it'\n[[command]]\nof = 'it'\n"),
+];
+
 /// Lines from line 9 on; line, field and part of the accepted values that the first diagnostic must name.
 const WRONG: &[(&str, usize, &str, &str)] = &[
     // Syntax.
@@ -89,19 +95,14 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
     // Types.
     ("[agar.b]\nradius = 'big'", 10, "agar.b.radius", "a number"),
     ("[agar.b]\nradius = 1979-05-27", 10, "agar.b.radius", "a number"),
-    ("[[spawn]]\nof = 'pellet'\ncount = 1.5", 11, "spawn.0.count", "a whole number, 0 to 4294967295"),
-    ("[[spawn]]\nof = 'pellet'\ncount = -3", 11, "spawn.0.count", "a whole number, 0 to 4294967295"),
-    ("[[spawn]]\nof = 'pellet'\ncount = 99999999999999999999", 11, "spawn.0.count", "a whole number"),
-    ("[[spawn]]\nof = 'pellet'\nat = [1.0]", 11, "spawn.0.at", "[x, y], two numbers"),
-    ("[[spawn]]\nof = 'pellet'\nat = [1.0,\n'a']", 12, "spawn.0.at.1", "a number"),
+    ("{pellet}count = 1.5", 11, "spawn.0.count", "a whole number, 0 to 4294967295"),
+    ("{pellet}count = -3", 11, "spawn.0.count", "a whole number, 0 to 4294967295"),
+    ("{pellet}count = 99999999999999999999", 11, "spawn.0.count", "a whole number"),
+    ("{pellet}at = [1.0]", 11, "spawn.0.at", "[x, y], two numbers"),
+    ("{pellet}at = [1.0,\n'a']", 12, "spawn.0.at.1", "a number"),
     ("[[spawn]]\nof = 'needle'\nplayer = 1", 11, "spawn.0.player", "true or false"),
-    ("[[spawn]]\nof = 'pellet'\nangle = 'north'", 11, "spawn.0.angle", "degrees from -36000 to 36000, or \"random\""),
-    (
-        "[[spawn]]\nof = 'pellet'\nscale = [2.0, 1.0]",
-        11,
-        "spawn.0.scale",
-        "a number 0.01 to 100, or [smallest, largest]",
-    ),
+    ("{pellet}angle = 'north'", 11, "spawn.0.angle", "degrees from -36000 to 36000, or \"random\""),
+    ("{pellet}scale = [2.0, 1.0]", 11, "spawn.0.scale", "a number 0.01 to 100, or [smallest, largest]"),
     ("[spawn]\nof = 'pellet'", 9, "spawn", "[[spawn]] tables"),
     ("[agar]\nb = 3", 10, "agar.b", "a table"),
     ("[fluid.f]\nsize = [9, 9]\nmode = 'liquid'", 11, "fluid.f.mode", "\"density\" or \"granular\""),
@@ -119,13 +120,13 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
     ("[bacterium.b]\nradius = 1.0", 9, "bacterium", "agar"),
     ("[[spawn]]\nof = 'pelet'", 10, "spawn.0.of", "needle, pellet"),
     ("[[spawn]]\nof = 'needle'\ncontroller = 'wander'", 11, "spawn.0.controller", "none: there is none"),
-    ("[[spawn]]\nof = 'pellet'\ncount = '$many'", 11, "spawn.0.count", "none: there is none"),
+    ("{pellet}count = '$many'", 11, "spawn.0.count", "none: there is none"),
     ("[invariants]\nleeks = 0", 10, "invariants.leeks", "leaks, improper_absorptions"),
     ("[[expect]]\nby = 1\nmin = 1\nmeasure = 'ingestd'", 12, "expect.0.measure", "ingested"),
     ("[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'its'\nrest = true", 13, "command.0.of", "it"),
-    ("[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\nfollow = 'me'", 14, "command.0.follow", "it"),
+    ("{needle}follow = 'me'", 14, "command.0.follow", "it"),
     (
-        "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\nrest = true\ngole = [1, 1]",
+        "{needle}rest = true\ngole = [1, 1]",
         15,
         "command.0.gole",
         "at, of, every, until, goal, follow, rest, digest, grow, divide, fuse",
@@ -136,32 +137,12 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
     ("[[expect]]\nby = 1\nmeasure = 'leaks'", 9, "expect.0.min", "a number"),
     ("[[expect]]\nby = -1\nmin = 1\nmeasure = 'leaks'", 10, "expect.0.by", "0 to 1000000"),
     ("[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'", 12, "command.0", "at least one of goal, follow"),
-    ("[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\nrest = false", 14, "command.0.rest", "true"),
-    (
-        "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\ndigest = true",
-        14,
-        "command.0.digest",
-        "an amoeboid_cell",
-    ),
-    (
-        "[[spawn]]\nof = 'needle'\nname = 'it'\n[[command]]\nof = 'it'\ndivide = 'two'",
-        14,
-        "command.0.divide",
-        "an amoeboid_cell",
-    ),
-    (
-        "[amoeboid_cell.c]\nradii = [5, 5]\n[[spawn]]\nof = 'c'\nname = 'it'\n[[command]]\nof = 'it'\ndivide = 'it'",
-        16,
-        "command.0.divide",
-        "a name for the daughter",
-    ),
-    (
-        "[amoeboid_cell.c]\nradii = [5, 5]\n[[spawn]]\nof = 'c'\nname = 'it'\n[[command]]\nof = 'it'\nfuse = 'two'",
-        16,
-        "command.0.fuse",
-        "it",
-    ),
-    ("[[spawn]]\nof = 'pellet'\nname = 'it'\n[[command]]\nof = 'it'\ngoal = [1, 1]", 14, "command.0.goal", "a probe"),
+    ("{needle}rest = false", 14, "command.0.rest", "true"),
+    ("{needle}digest = true", 14, "command.0.digest", "an amoeboid_cell"),
+    ("{needle}divide = 'two'", 14, "command.0.divide", "an amoeboid_cell"),
+    ("{cell}divide = 'it'", 16, "command.0.divide", "a name for the daughter"),
+    ("{cell}fuse = 'two'", 16, "command.0.fuse", "it"),
+    ("{pellet}name = 'it'\n[[command]]\nof = 'it'\ngoal = [1, 1]", 14, "command.0.goal", "a probe"),
     // Ranges.
     ("[agar.b]\nradius = -1.0", 10, "agar.b.radius", "0.1 to 20"),
     ("[agar.b]\nradius = nan", 10, "agar.b.radius", "0.1 to 20"),
@@ -177,38 +158,23 @@ const WRONG: &[(&str, usize, &str, &str)] = &[
     ("[[block]]\nat = [1, 1]\nsize = [0, 3]", 11, "block.0.size.0", "0.01 to 20000"),
     ("[[polygon]]\npoints = [[0, 0], [9, 9], [9, 0], [0, 9]]", 10, "polygon.0.points", "edges that do not cross"),
     ("[[polygon]]\npoints = [[0, 0], [9, 9]]", 10, "polygon.0.points", "3 to 200 corners"),
-    ("[[spawn]]\nof = 'pellet'\nscale = 90", 11, "spawn.0.scale", "a box of at least 180 by 180"),
+    ("{pellet}scale = 90", 11, "spawn.0.scale", "a box of at least 180 by 180"),
     // Too many.
-    ("[[spawn]]\nof = 'pellet'\ncount = 1000000000", 11, "spawn.0.count", "at most 500000"),
+    ("{pellet}count = 1000000000", 11, "spawn.0.count", "at most 500000"),
     ("[[field]]\nof = 'pellet'\ncount = 4000000000\npitch = 2", 11, "field.0.count", "a room of about"),
-    ("[[spawn]]\nof = 'pellet'\ncount = 3000", 11, "spawn.0.count", "at most here"),
+    ("{pellet}count = 3000", 11, "spawn.0.count", "at most here"),
     // Places.
     ("[[spawn]]\nof = 'needle'\nat = [59, 20]", 11, "spawn.0.at", "within 0 to 60 by 0 to 40"),
     ("[[spawn]]\nof = 'needle'\nat = [nan, 20]", 11, "spawn.0.at.0", "-100000 to 100000"),
-    (
-        "[[spawn]]\nof = 'pellet'\nat = [9, 9]\n[[spawn]]\nof = 'needle'\nat = [10, 10]",
-        14,
-        "spawn.1.at",
-        "nothing overlaps",
-    ),
-    ("[[spawn]]\nof = 'pellet'\nat = [9, 9]\ncount = 3", 12, "spawn.0.count", "either `at`, or"),
-    ("[[spawn]]\nof = 'pellet'\nwithin = [[9, 9], [5, 70]]", 11, "spawn.0.within", "within 0 to 60 by 0 to 40"),
+    ("{pellet}at = [9, 9]\n[[spawn]]\nof = 'needle'\nat = [10, 10]", 14, "spawn.1.at", "nothing overlaps"),
+    ("{pellet}at = [9, 9]\ncount = 3", 12, "spawn.0.count", "either `at`, or"),
+    ("{pellet}within = [[9, 9], [5, 70]]", 11, "spawn.0.within", "within 0 to 60 by 0 to 40"),
     ("[[field]]\nof = 'pellet'\ncount = 9\npitch = 1", 12, "field.0.pitch", "2 to 20000"),
     // Names.
     ("[probe.pellet]\nradius = 1", 9, "probe.pellet", "a name that no other prototype has"),
     ("[agar.'a b']\nradius = 1", 9, "agar.a b", "letters, digits, _ or -"),
-    (
-        "[[spawn]]\nof = 'pellet'\nname = 'a'\n[[spawn]]\nof = 'pellet'\nname = 'a'",
-        14,
-        "spawn.1.name",
-        "a name that no other organism has",
-    ),
-    (
-        "[[spawn]]\nof = 'pellet'\nplayer = true",
-        11,
-        "spawn.0.player",
-        "an amoeboid_cell, a rigid_cell, a bacterium or a probe",
-    ),
+    ("{pellet}name = 'a'\n{pellet}name = 'a'", 14, "spawn.1.name", "a name that no other organism has"),
+    ("{pellet}player = true", 11, "spawn.0.player", "an amoeboid_cell, a rigid_cell, a bacterium or a probe"),
 ];
 
 #[test]
@@ -216,7 +182,8 @@ fn what_is_wrong_is_placed_and_explained() {
     let fails = |text: &str| Scenario::parse(text, &[]).and_then(|scenario| scenario.build()).err();
     assert_eq!(fails(&FILE.replace("{}", "[[spawn]]\nof = 'pellet'")), None, "the file itself is right");
     for &(lines, line, field, accepted) in WRONG {
-        let text = FILE.replace("{}", lines);
+        let lines = BEGINNINGS.iter().fold(lines.to_owned(), |lines, (name, beginning)| lines.replace(name, beginning));
+        let text = FILE.replace("{}", &lines);
         let errors = fails(&text).unwrap_or_else(|| panic!("accepted:\n{lines}"));
         let first = errors.iter().next().unwrap();
         assert_eq!((first.line, first.field.as_str()), (Some(line), field), "{first}\n{lines}");

@@ -3,11 +3,11 @@
 
 mod common;
 
-use common::run;
+use common::{happens, room_with, run, toward};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Controller, Event, Inputs, Intent, OrganismId, Placement, PlateletSpec, ProbeSpec,
-    World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Controller, Event, Inputs, OrganismId, Placement, PlateletSpec, ProbeSpec, World,
+    WorldConfig,
 };
 use proptest::prelude::*;
 
@@ -37,10 +37,10 @@ fn what_lies_still_stays_to_the_bit() {
     let (mut world, platelets) = field(WorldConfig::default());
     run(&mut world, &Inputs::new(), 300);
     assert!(are_at_rest(&world, &platelets));
-    let before: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
+    let positions = |world: &World| platelets.iter().map(|&id| positions(world, id)).collect::<Vec<_>>();
+    let before = positions(&world);
     run(&mut world, &Inputs::new(), 300);
-    let after: Vec<_> = platelets.iter().map(|&id| positions(&world, id)).collect();
-    assert_eq!(before, after);
+    assert_eq!(before, positions(&world));
 }
 
 #[test]
@@ -85,11 +85,10 @@ fn what_leans_on_something_falls_when_that_is_gone() {
     let upper = agar(&mut world, 3.0 * radius);
     run(&mut world, &Inputs::new(), 240);
     assert!(are_at_rest(&world, &[lower, upper]));
-    let began = |world: &World| world.events().iter().any(|event| matches!(event, Event::ContactEnded { .. }));
-    assert!((0..60).all(|_| {
+    for _ in 0..60 {
         world.step(&Inputs::new());
-        !began(&world)
-    }));
+        assert!(!happens(&world, |event| matches!(event, Event::ContactEnded { .. })));
+    }
     world.remove(lower).unwrap();
     run(&mut world, &Inputs::new(), 120);
     let height = world.centroid(upper).unwrap().y;
@@ -109,8 +108,7 @@ fn what_sinks_slowly_does_not_fall_asleep() {
 // One at a time: an agar and a probe share a block.
 #[test]
 fn a_push_wakes() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
+    let (mut world, agar) = room_with(AgarSpec::default(), 50.0, 50.0);
     run(&mut world, &Inputs::new(), 120);
     assert!(are_at_rest(&world, &[agar]));
     world.push(agar, Vec2::new(1.0, 0.0)).unwrap();
@@ -120,26 +118,20 @@ fn a_push_wakes() {
 
 #[test]
 fn a_command_wakes() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let probe = world.spawn(&ProbeSpec::default().into(), Placement::at(90.0, 50.0)).unwrap();
+    let (mut world, probe) = room_with(ProbeSpec::default(), 90.0, 50.0);
     run(&mut world, &Inputs::new(), 120);
     assert!(are_at_rest(&world, &[probe]));
-    let mut inputs = Inputs::new();
-    inputs.set(probe, Intent::toward(Vec2::new(120.0, 50.0)).unwrap());
-    run(&mut world, &inputs, 30);
+    run(&mut world, &toward(probe, Vec2::new(120.0, 50.0)), 30);
     assert!(world.centroid(probe).unwrap().x > 90.5);
 }
 
 #[test]
 fn cells_take_sleeping_prey_in() {
-    let mut world = World::new(WorldConfig::default()).unwrap();
-    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+    let (mut world, agar) = room_with(AgarSpec::default(), 60.0, 45.0);
     let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
     run(&mut world, &Inputs::new(), 120);
     assert!(are_at_rest(&world, &[agar]));
-    let mut inputs = Inputs::new();
-    inputs.set(cell, Intent::toward(Vec2::new(80.0, 45.0)).unwrap());
-    run(&mut world, &inputs, 900);
+    run(&mut world, &toward(cell, Vec2::new(80.0, 45.0)), 900);
     assert!(world.view().organism(cell).unwrap().meals().any(|(prey, _)| prey == agar), "it lies where it was");
     assert_eq!(world.census().leaks, 0);
 }

@@ -2,12 +2,12 @@
 //! differ: `cargo run -p microsim-game --example compare_optics [FOLDER]`. Pictures go to the folder, the card's on the left.
 
 use macroquad::texture::Texture2D;
+use microsim_core::World;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::recipe::Precision;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::scenario::{self, Scenario};
-use microsim_core::{Inputs, World};
 use microsim_game::microscope::{RenderQuality, Renderer};
+use microsim_game::stage::Stage;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -52,27 +52,23 @@ fn main() -> ExitCode {
 }
 
 fn compare_all(folder: Option<&Path>) -> Result<bool, String> {
-    let worlds = SHOTS.iter().map(|sight| world_at(sight.0, sight.1)).collect::<Result<Vec<World>, String>>()?;
+    let stages = SHOTS.iter().map(|shot| stage_at(shot.0, shot.1)).collect::<Result<Vec<Stage>, String>>()?;
     let mut all_agree = true;
     for (precision, tolerance) in [(Precision::Float, FLOAT), (Precision::Bytes, BYTES)] {
         let mut renderer = Renderer::with_precision(precision)?;
-        for (Shot(name, _, centre, width), world) in SHOTS.iter().zip(&worlds) {
+        for (Shot(name, _, centre, width), stage) in SHOTS.iter().zip(&stages) {
             let field = Field { centre: *centre, width: *width, pixels: SIZE };
             let films: &[Film] = if *name == SHOTS[0].0 { &[CLEAN, Film::CINE] } else { &[CLEAN] };
-            for (optics, &film) in
-                Optics::ALL.into_iter().flat_map(|optics| films.iter().map(move |film| (optics, film)))
-            {
-                let microscope = Microscope { optics, film };
-                let (picture, reference) = both(&mut renderer, world, field, microscope)?;
+            let all = Optics::ALL.into_iter();
+            for microscope in all.flat_map(|optics| films.iter().map(move |&film| Microscope { optics, film })) {
+                let [picture, reference] = both(&mut renderer, stage.world(), field, microscope)?;
                 let [mean, most] = difference(&picture, &reference);
                 let agree = mean <= tolerance.mean && most <= tolerance.most;
                 all_agree &= agree;
-                let label =
-                    format!("{name}-{}-{precision:?}-{}", optics.name(), if film == CLEAN { "clean" } else { "cine" });
-                println!(
-                    "{} {label}: {mean:.2} on average, {most:.0} at most",
-                    if agree { "ok    " } else { "FAILED" }
-                );
+                let film = if microscope.film == CLEAN { "clean" } else { "cine" };
+                let label = format!("{name}-{}-{precision:?}-{film}", microscope.optics.name());
+                let verdict = if agree { "ok    " } else { "FAILED" };
+                println!("{verdict} {label}: {mean:.2} on average, {most:.0} at most");
                 if let Some(folder) = folder {
                     write(&folder.join(label + ".png"), &picture, &reference).map_err(|error| error.to_string())?;
                 }
@@ -83,27 +79,18 @@ fn compare_all(folder: Option<&Path>) -> Result<bool, String> {
 }
 
 /// The card's picture and the reference.
-fn both(
-    renderer: &mut Renderer,
-    world: &World,
-    field: Field,
-    microscope: Microscope,
-) -> Result<(Vec<u8>, Vec<u8>), String> {
+fn both(renderer: &mut Renderer, world: &World, field: Field, microscope: Microscope) -> Result<[Vec<u8>; 2], String> {
     let reference = microscope.expose(world, field).map_err(|error| error.to_string())?;
     let recipe = renderer.recipe(world.view(), field, microscope, RenderQuality::High)?;
-    let picture = renderer.draw(&recipe);
-    Ok((pixels(&picture), reference.rows(0..SIZE[1] as usize)))
+    Ok([pixels(&renderer.draw(&recipe)), reference.rows(0..SIZE[1] as usize)])
 }
 
-fn world_at(name: &str, time: f64) -> Result<World, String> {
-    let builtin = scenario::builtin(name).ok_or(name)?;
-    let scenario = Scenario::parse(builtin.text, &[]).map_err(|error| error.to_string())?;
-    let mut built = scenario.build().map_err(|error| error.to_string())?;
-    while built.world.time() < time {
-        let inputs: Inputs = built.script.before_step(&mut built.world).clone();
-        built.world.step(&inputs);
+fn stage_at(name: &str, time: f64) -> Result<Stage, String> {
+    let mut stage = Stage::builtin(name).ok_or(name)?;
+    while stage.world().time() < time {
+        stage.step();
     }
-    Ok(built.world)
+    Ok(stage)
 }
 
 /// Red, green and blue, the upper row first.
@@ -115,8 +102,8 @@ fn pixels(picture: &Texture2D) -> Vec<u8> {
 
 fn difference(a: &[u8], b: &[u8]) -> [f32; 2] {
     let [width, height] = SIZE.map(|side| side as usize);
-    let inner =
-        (BORDER..height - BORDER).flat_map(|y| (BORDER * 3..(width - BORDER) * 3).map(move |k| y * width * 3 + k));
+    let row = |y: usize| (y * width + BORDER) * 3..((y + 1) * width - BORDER) * 3;
+    let inner = (BORDER..height - BORDER).flat_map(row);
     let mut apart: Vec<f32> = inner.map(|k| f32::from(a[k].abs_diff(b[k]))).collect();
     apart.sort_unstable_by(f32::total_cmp);
     [apart.iter().sum::<f32>() / apart.len() as f32, apart[apart.len() - 1 - apart.len() / 1000]]
@@ -125,8 +112,8 @@ fn difference(a: &[u8], b: &[u8]) -> [f32; 2] {
 /// Both side by side.
 fn write(path: &Path, left: &[u8], right: &[u8]) -> std::io::Result<()> {
     let row = SIZE[0] as usize * 3;
-    let both: Vec<u8> =
-        left.chunks_exact(row).zip(right.chunks_exact(row)).flat_map(|(a, b)| [a, b].concat()).collect();
+    let rows = left.chunks_exact(row).zip(right.chunks_exact(row));
+    let both: Vec<u8> = rows.flat_map(|(a, b)| [a, b].concat()).collect();
     let mut encoder = png::Encoder::new(std::io::BufWriter::new(std::fs::File::create(path)?), SIZE[0] * 2, SIZE[1]);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::Fast);

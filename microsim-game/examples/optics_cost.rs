@@ -2,8 +2,8 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::scenario::{self, Scenario};
 use microsim_game::microscope::{RenderQuality, Renderer};
+use microsim_game::stage::Stage;
 use std::time::Instant;
 
 const FRAMES: u32 = 10;
@@ -17,9 +17,7 @@ fn main() {
 }
 
 fn measure() -> Result<(), String> {
-    let builtin = scenario::builtin("hunt").ok_or("no hunt")?;
-    let scenario = Scenario::parse(builtin.text, &[]).map_err(|error| error.to_string())?;
-    let world = scenario.build().map_err(|error| error.to_string())?.world;
+    let stage = Stage::builtin("hunt").ok_or("no hunt")?;
     let mut renderer = Renderer::new()?;
     for pixels in [[640, 360], [1280, 720]] {
         let field = Field { centre: Vec2::new(60.0, 38.0), width: 106.667, pixels };
@@ -27,7 +25,7 @@ fn measure() -> Result<(), String> {
             let microscope = Microscope { optics, film: Film::CINE };
             for quality in [RenderQuality::Low, RenderQuality::Medium, RenderQuality::High] {
                 let mut draw = || {
-                    let recipe = renderer.recipe(world.view(), field, microscope, quality)?;
+                    let recipe = renderer.recipe(stage.world().view(), field, microscope, quality)?;
                     Ok::<_, String>(renderer.draw(&recipe))
                 };
                 draw()?.get_texture_data();

@@ -70,17 +70,8 @@ impl App {
         context.pace.is_exact = options.is_exact();
         context.asked = options.asked;
         let screens = Stack::new(first, &mut context);
-        Self {
-            screens,
-            context,
-            device: Device::new(),
-            options,
-            shot: Shot::default(),
-            frame: 0,
-            is_full: false,
-            updating: 0.0,
-            timings: Timings::default(),
-        }
+        let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
+        Self { screens, context, device, options, shot, frame: 0, is_full: false, updating: 0.0, timings }
     }
 
     /// Runs until the player leaves or all frames have been shown.
@@ -120,17 +111,16 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
-        // Less detail does not help where steps are what takes long.
+        // Time of the steps does not count: less detail would not shorten it.
         let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };
-        let news = context.scenery.pass(drawing, context.effort(), context.sight());
-        if let Some(news) = news {
+        if let Some(news) = context.scenery.pass(drawing, context.effort(), context.sight()) {
             context.tell(news);
         }
         let screen = view_size(&self.options);
         if screen.min_element() >= 1.0 {
             context.pen.fit(screen, context.settings.text_factor());
         }
-        // Read in any case: what nobody reads piles up.
+        // Read even with a script: unread events pile up.
         let input = self.device.read(&context.settings.keys);
         match &mut self.options.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
@@ -175,13 +165,12 @@ impl App {
     /// come into the list of simulations.
     fn open_dropped(&mut self, input: &Input) -> Option<Stage> {
         let sources: Vec<SceneSource> = input.dropped.iter().rev().cloned().map(SceneSource::File).collect();
-        let opened = sources.iter().filter_map(|source| Some((source, self.context.open(source)?)));
-        let mut opened: Vec<_> = opened.collect();
+        let mut opened: Vec<_> = sources.iter().filter_map(|file| Some((file, self.context.open(file)?))).collect();
         let are_good = opened.len() == sources.len();
         let is_at_stake = self.screens.is_at_stake();
         let shown = opened.pop_if(|_| !is_at_stake).map(|(_, stage)| stage);
         match opened.as_slice() {
-            // What is wrong with one of them, which was said already, matters more.
+            // The message about a bad file stays.
             _ if !are_good => {}
             [] => {}
             [(source, _)] => self.context.tell(format!("{source} is in the list of simulations now.")),
@@ -197,8 +186,7 @@ impl App {
             return taken.map_err(|error| format!("cannot write {}: {error}", path.display()));
         }
         if std::mem::take(&mut self.context.wants_picture) {
-            let name = self.screens.name();
-            let path = free_path(&format!("microsim-{name}"));
+            let path = free_path(&format!("microsim-{}", self.screens.name()));
             let size = if self.options.is_exact() { self.options.size } else { physical_size() };
             let taken = self.take(&path, size);
             self.context.tell(match taken {
@@ -206,7 +194,7 @@ impl App {
                 Err(error) => format!("cannot write {}: {error}", path.display()),
             });
         } else if self.options.screenshot.is_none() {
-            // Of a planned picture nobody sees what comes before it.
+            // Frames before a planned picture are not shown.
             self.draw();
         }
         Ok(())

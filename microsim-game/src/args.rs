@@ -117,18 +117,9 @@ mod tests {
 
     #[test]
     fn mistakes_are_refused_with_exit_code_2() {
-        for line in [
-            "--size 10x10",
-            "--size big",
-            "--frames 0",
-            "--frames",
-            "--wrong",
-            "--set x",
-            "--set =1",
-            "--seed -1",
-            "--optics x",
-            "--quality x",
-        ] {
+        let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1"];
+        let words = ["--wrong", "--set x", "--set =1", "--optics x", "--quality x"];
+        for line in numbers.into_iter().chain(words) {
             assert_eq!(parsed(line).map_err(|error| error.exit_code()), Err(2), "{line}");
         }
     }

@@ -1,6 +1,6 @@
 //! A window into microsim: a game, and a microscope to watch and meddle with cells.
 //!
-//! Everything that can be wrong with what the user asked for is found before a window opens.
+//! Errors in arguments, scenarios and scripts are reported before a window opens.
 //!
 //! ```text
 //!   input --> screen --> rules, stage --> core            (what is played; `rules` knows no window)
@@ -48,7 +48,7 @@ use store::files::PlayerFolder;
 
 /// Exit code when there is no display, or a file cannot be written.
 const NO_DISPLAY: u8 = 1;
-/// Exit code when what was asked for makes no sense.
+/// Exit code for bad arguments and scenarios.
 const BAD_REQUEST: u8 = 2;
 /// The scenario of the game.
 const GAME: &str = "game";
@@ -58,7 +58,7 @@ pub fn launch(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let args = match Args::try_parse_from(arguments) {
         Ok(args) => args,
         Err(answer) => {
-            // Nobody is left to tell when standard output is closed.
+            // Ignored: standard output may be closed.
             let _ = answer.print();
             return if answer.use_stderr() { BAD_REQUEST.into() } else { ExitCode::SUCCESS };
         }
@@ -124,7 +124,9 @@ impl Start {
             MainScreen::Simulation(stage) => format!("microsim - {}", stage.name()),
             _ => "microsim".to_owned(),
         };
-        window::open(&title, options.size, move || App::new(first, AppContext::new(folder, game, files), options).run())
+        window::open(&title, options.size, async move || {
+            App::new(first, AppContext::new(folder, game, files), options).run().await
+        })
     }
 }
 
@@ -164,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_named_is_what_is_shown_first() {
+    fn the_named_scene_is_shown_first() {
         let start = |line: &str| Start::prepare(args(line)).map(|start| (start.first, start.game));
         assert!(matches!(start("").unwrap(), (MainScreen::Title, _)));
         assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));

@@ -17,8 +17,15 @@ pub struct Shot {
 impl Shot {
     /// From now on everything is drawn into a picture of `size` pixels that shows `view` drawing units.
     pub fn begin(&mut self, size: (u32, u32), view: Vec2) {
-        let target = self.target_of(size);
-        set_camera(&camera(target, view));
+        self.target.take_if(|(known, _)| *known != size);
+        let (_, target) = self.target.get_or_insert_with(|| (size, render_target(size.0, size.1)));
+        // Drawing units from the upper left corner of the target, y down, like the window's.
+        set_camera(&Camera2D {
+            zoom: convert::pair(Vec2::new(2.0, -2.0) / view),
+            target: convert::pair(view * 0.5),
+            render_target: Some(target.clone()),
+            ..Camera2D::default()
+        });
     }
 
     /// Writes the picture as a PNG, and shows it in the window.
@@ -33,27 +40,6 @@ impl Shot {
         let params = DrawTextureParams { dest_size: Some(convert::pair(view)), flip_y: true, ..Default::default() };
         draw_texture_ex(&target.texture, 0.0, 0.0, WHITE, params);
         write_png(path, *size, &upright(&image.bytes, *size))
-    }
-
-    fn target_of(&mut self, size: (u32, u32)) -> RenderTarget {
-        match &self.target {
-            Some((known, target)) if *known == size => target.clone(),
-            _ => {
-                let target = render_target(size.0, size.1);
-                self.target = Some((size, target.clone()));
-                target
-            }
-        }
-    }
-}
-
-/// Drawing units from the upper left corner of the target, y down, like the window's.
-fn camera(target: RenderTarget, view: Vec2) -> Camera2D {
-    Camera2D {
-        zoom: convert::pair(Vec2::new(2.0, -2.0) / view),
-        target: convert::pair(view * 0.5),
-        render_target: Some(target),
-        ..Camera2D::default()
     }
 }
 

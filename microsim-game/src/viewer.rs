@@ -1,4 +1,4 @@
-//! What it takes to show a running world: a clock of fixed steps, the last two moments, and a camera.
+//! Shows a running world: a clock of fixed steps, the last two moments, and a camera.
 
 use crate::camera::Camera;
 use crate::clock::FixedStep;

@@ -1,7 +1,6 @@
 //! Opening a window, with a plain answer when that is not possible.
 
 use macroquad::miniquad::conf::{Conf, Platform};
-use std::future::Future;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -10,18 +9,15 @@ use std::sync::{Arc, Mutex};
 pub(crate) const CALL_VERTICES: usize = 16_384;
 pub(crate) const CALL_INDICES: usize = 49_152;
 
-/// Opens a window and runs the program that `start` gives, on it. Returns when that ends.
+/// Opens a window, runs `start` on it and returns when that ends.
 ///
 /// # Errors
 /// What the program itself reports, or that there is no window.
-pub(crate) fn open<F>(
+pub(crate) fn open(
     title: &str,
     (width, height): (u32, u32),
-    start: impl FnOnce() -> F + 'static,
-) -> Result<(), String>
-where
-    F: Future<Output = Result<(), String>> + 'static,
-{
+    start: impl AsyncFnOnce() -> Result<(), String> + 'static,
+) -> Result<(), String> {
     let is_open = Arc::new(AtomicBool::new(false));
     let outcome = Arc::new(Mutex::new(Ok(())));
     let conf = macroquad::conf::Conf {
@@ -37,7 +33,7 @@ where
         draw_call_index_capacity: CALL_INDICES,
         ..macroquad::conf::Conf::default()
     };
-    hush_until(Arc::clone(&is_open));
+    silence_panics_until(Arc::clone(&is_open));
     let (opened, ended) = (Arc::clone(&is_open), Arc::clone(&outcome));
     let program = async move {
         opened.store(true, Ordering::Relaxed);
@@ -65,7 +61,7 @@ Without a screen, a virtual one will do:
   xvfb-run -a -s '-screen 0 1280x720x24' microsim-game demo --screenshot demo.png";
 
 /// Keeps panics silent until the window is open: what is missing is said in plain words instead.
-fn hush_until(is_open: Arc<AtomicBool>) {
+fn silence_panics_until(is_open: Arc<AtomicBool>) {
     let usual = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
         if is_open.load(Ordering::Relaxed) {

@@ -92,9 +92,8 @@ impl DiscGrid {
 
     /// Discs that may get into a box, and some more.
     pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
-        self.grid
-            .ranges_in_box(low - self.max_swept_radius, high + self.max_swept_radius)
-            .flat_map(|range| &self.discs[range])
+        let ranges = self.grid.ranges_in_box(low - self.max_swept_radius, high + self.max_swept_radius);
+        ranges.flat_map(|range| &self.discs[range])
     }
 
     /// Discs that may touch one that is not of the grid.

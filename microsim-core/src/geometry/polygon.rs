@@ -103,14 +103,10 @@ fn area_centroid(polygon: &[Vec2], origin: Vec2, doubled_area: f64) -> Vec2 {
 }
 
 fn vertex_mean(polygon: &[Vec2], origin: Vec2) -> Vec2 {
-    let (mut sum_x, mut sum_y) = (0.0, 0.0);
-    for &vertex in polygon {
-        let (x, y) = offset(origin, vertex);
-        sum_x += x;
-        sum_y += y;
-    }
+    let offsets = polygon.iter().map(|&vertex| offset(origin, vertex));
+    let (x, y) = offsets.fold((0.0, 0.0), |sum, (x, y)| (sum.0 + x, sum.1 + y));
     let count = polygon.len() as f64;
-    shifted(origin, sum_x / count, sum_y / count)
+    shifted(origin, x / count, y / count)
 }
 
 /// `origin + (x, y)`, rounded once.

@@ -117,19 +117,19 @@ fn moving_lanes(block: BlockRange, p: &Particles, squared: f32) -> [bool; LANES]
 mod tests {
     use super::*;
 
-    /// A block of two slots, of which lane 3 moves a little.
-    fn block() -> (BlockRange, Particles) {
+    /// A block of two slots, of which lane 3 moves a little, and its sleep times of 0.
+    fn block() -> (BlockRange, Particles, Sleep) {
         let mut particles = Particles::default();
         let block = BlockRange { base: particles.extend(2 * LANES) as usize, slots: 2 };
         particles.vx[block.entry(1, 3)] = 0.1;
-        (block, particles)
+        let mut sleep = Sleep::default();
+        sleep.wake_up(0, 0);
+        (block, particles, sleep)
     }
 
     #[test]
     fn a_block_falls_asleep_when_its_last_body_has_been_slow_for_long_enough() {
-        let (block, mut particles) = block();
-        let mut sleep = Sleep::default();
-        sleep.wake_up(0, 3);
+        let (block, mut particles, mut sleep) = block();
         for step in 0..9 {
             assert_eq!(sleep.fall_asleep(4), step == 8, "step {step}");
             assert_eq!(sleep.is_moving(0, 3), step < 5);
@@ -143,9 +143,7 @@ mod tests {
 
     #[test]
     fn waking_up_resets_the_sleep_time() {
-        let (block, particles) = block();
-        let mut sleep = Sleep::default();
-        sleep.wake_up(0, 0);
+        let (block, particles, mut sleep) = block();
         sleep.fall_asleep(3);
         (0..3).for_each(|_| sleep.update_sleep_times([block].into_iter(), &particles, 0.5, 3));
         assert!(sleep.fall_asleep(3) && sleep.is_at_rest(0, 3));
@@ -155,9 +153,7 @@ mod tests {
 
     #[test]
     fn a_sleeper_has_no_velocity() {
-        let (block, mut particles) = block();
-        let mut sleep = Sleep::default();
-        sleep.wake_up(0, 0);
+        let (block, mut particles, mut sleep) = block();
         sleep.fall_asleep(0);
         particles.x[3] = 2.0;
         sleep.stop_sleepers([block].into_iter(), &mut particles);
@@ -166,7 +162,7 @@ mod tests {
 
     #[test]
     fn sleep_times_read_from_a_file_do_not_overflow() {
-        let (block, particles) = block();
+        let (block, particles, _) = block();
         let mut sleep = Sleep { sleep_time: vec![[u16::MAX; LANES]], asleep: vec![false] };
         sleep.update_sleep_times([block].into_iter(), &particles, 0.5, 30);
         assert!(sleep.is_at_rest(0, 30) && !sleep.is_at_rest(0, 31));

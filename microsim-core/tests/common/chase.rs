@@ -1,10 +1,16 @@
 //! Cells that are steered towards prey until something happens.
 
+use super::{happens, tell, toward};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId, OrganismSpec, PhagocytosisParams,
     RigidCellSpec, World,
 };
+
+/// A world, a cell in it and its prey.
+pub(crate) type Scene = (World, OrganismId, OrganismId);
+
+pub(crate) const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
 
 /// The default parameters but for the way in.
 pub(crate) fn by(way: IngestionWay) -> PhagocytosisParams {
@@ -13,6 +19,15 @@ pub(crate) fn by(way: IngestionWay) -> PhagocytosisParams {
 
 pub(crate) fn agar() -> OrganismSpec {
     AgarSpec::default().into()
+}
+
+pub(crate) fn agar_of(radius: f32) -> OrganismSpec {
+    AgarSpec { radius, ..AgarSpec::default() }.into()
+}
+
+/// Inputs that make a cell rest and digest.
+pub(crate) fn digesting(cell: OrganismId) -> Inputs {
+    tell(cell, Intent::REST.digesting(true))
 }
 
 /// A rigid cell that is small enough.
@@ -33,8 +48,7 @@ pub(crate) fn chase(
     done: impl Fn(&World) -> bool,
 ) -> Option<u32> {
     for step in 0..limit {
-        let mut inputs = Inputs::new();
-        world.centroid(prey).into_iter().for_each(|at| inputs.set(cell, Intent::toward(at).unwrap()));
+        let inputs = world.centroid(prey).map_or_else(Inputs::new, |at| toward(cell, at));
         world.step(&inputs);
         let census = world.census();
         assert_eq!((census.leaks, census.improper_absorptions), (0, 0), "step {step}");
@@ -46,9 +60,22 @@ pub(crate) fn chase(
 }
 
 pub(crate) fn begins(world: &World) -> bool {
-    world.events().iter().any(|event| matches!(event, Event::IngestionBegan { .. }))
+    happens(world, |event| matches!(event, Event::IngestionBegan { .. }))
+}
+
+pub(crate) fn ingests(world: &World) -> bool {
+    happens(world, is_ingested)
 }
 
 pub(crate) fn is_ingested(event: &Event) -> bool {
     matches!(event, Event::Ingested { .. })
+}
+
+pub(crate) fn is_released(event: &Event) -> bool {
+    matches!(event, Event::Released { .. })
+}
+
+/// Whether an ingestion has ended in the last step.
+pub(crate) fn ends(world: &World) -> bool {
+    happens(world, |event| is_ingested(event) || is_released(event))
 }

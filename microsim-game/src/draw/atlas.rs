@@ -106,9 +106,7 @@ fn smooth(from: f32, to: f32, value: f32) -> f32 {
 }
 
 /// Dark and bright spots in a disc of radius 1.
-struct Spots {
-    spots: Vec<(Vec2, f32, f32)>,
-}
+struct Spots(Vec<(Vec2, f32, f32)>);
 
 impl Spots {
     fn scattered(count: usize) -> Self {
@@ -120,11 +118,11 @@ impl Spots {
             let shade = if k < 9 { 0.10 } else { 0.30 * (dice.unit() - 0.62) };
             (Vec2::from_angle(angle) * far, radius, shade)
         };
-        Self { spots: (0..count).map(|k| spot(k, &mut dice)).collect() }
+        Self((0..count).map(|k| spot(k, &mut dice)).collect())
     }
 
     fn shade(&self, point: Vec2) -> f32 {
-        let near = self.spots.iter().filter(|(at, radius, _)| (point - *at).length_squared() < 2.3 * radius * radius);
+        let near = self.0.iter().filter(|(at, radius, _)| (point - *at).length_squared() < 2.3 * radius * radius);
         near.map(|&(at, radius, shade)| {
             let q = (point - at).length() / radius;
             // A dark line around what is bright inside.

@@ -38,9 +38,9 @@ pub(crate) struct Background {
 impl Background {
     pub(crate) fn new() -> Self {
         let mut dice = Rng::new(11, 0);
-        let blobs = (0..BLOBS).map(|_| blob(&mut dice)).collect::<Vec<_>>();
-        let specks = (0..SPECKS).map(|_| speck(&mut dice));
-        Self { motes: blobs.into_iter().chain(specks.collect::<Vec<_>>()).collect() }
+        let mut motes: Vec<Mote> = (0..BLOBS).map(|_| blob(&mut dice)).collect();
+        motes.extend((0..SPECKS).map(|_| speck(&mut dice)));
+        Self { motes }
     }
 
     /// Draws what lies below the scene.
@@ -63,15 +63,22 @@ impl Mote {
         let offset = (place - camera.centre()) * scale;
         let reach = half + radius;
         let first = (offset + reach).rem_euclid(period) - reach;
-        let mut y = first.y;
-        while y < reach.y {
-            let mut x = first.x;
-            while x < reach.x {
-                canvas.sprite(half + Vec2::new(x, -y), radius, self.tile, self.colour);
-                x += period.x;
-            }
-            y += period.y;
+        each_place(first, period, reach, |at| {
+            canvas.sprite(half + Vec2::new(at.x, -at.y), radius, self.tile, self.colour);
+        });
+    }
+}
+
+/// Visits the places from `first` to before `end` on both axes, row by row.
+fn each_place(first: Vec2, step: Vec2, end: Vec2, mut visit: impl FnMut(Vec2)) {
+    let mut at = first;
+    while at.y < end.y {
+        at.x = first.x;
+        while at.x < end.x {
+            visit(at);
+            at.x += step.x;
         }
+        at.y += step.y;
     }
 }
 
@@ -108,19 +115,13 @@ fn speck(dice: &mut Rng) -> Mote {
 pub(crate) fn draw_film(canvas: &mut Canvas, screen: Vec2) {
     // One texel per pixel.
     let half = 0.5 * SIDE as f32 - GUARD;
-    let mut y = half;
-    while y - half < screen.y {
-        let mut x = half;
-        while x - half < screen.x {
-            canvas.sprite(Vec2::new(x, y), half, Tile::Grain, Color::new(1.0, 1.0, 1.0, GRAIN));
-            x += 2.0 * half;
-        }
-        y += 2.0 * half;
-    }
+    each_place(Vec2::splat(half), Vec2::splat(2.0 * half), screen + half, |at| {
+        canvas.sprite(at, half, Tile::Grain, Color::new(1.0, 1.0, 1.0, GRAIN));
+    });
     // Rings from where it starts to beyond the corners.
     let reach = screen.length() * 0.5;
-    let circle: Vec<Vec2> = (0..64).map(|k| Vec2::from_angle(-k as f32 / 64.0 * TAU)).collect();
-    let on_screen: Vec<Vec2> = circle.iter().map(|&along| screen * 0.5 + along * reach * 0.5).collect();
+    let around = |k: usize| Vec2::from_angle(-(k as f32) / 64.0 * TAU);
+    let circle: [Vec2; 64] = std::array::from_fn(|k| screen * 0.5 + around(k) * reach * 0.5);
     let dark = |share: f32| (share * 0.55 * reach, fade(INK, VIGNETTE * share * share));
-    canvas.band(&on_screen, &[dark(0.0), dark(0.25), dark(0.5), dark(0.75), dark(1.0)]);
+    canvas.band(&circle, &[dark(0.0), dark(0.25), dark(0.5), dark(0.75), dark(1.0)]);
 }

@@ -76,11 +76,6 @@ impl Canvas {
 
     /// A square with a picture of the atlas on it.
     pub(crate) fn sprite(&mut self, centre: Vec2, half: f32, tile: Tile, colour: Color) {
-        self.stamp(centre, Vec2::splat(half), tile, colour);
-    }
-
-    /// A rectangle with a picture of the atlas on it.
-    pub(crate) fn stamp(&mut self, centre: Vec2, half: Vec2, tile: Tile, colour: Color) {
         let corners = [Vec2::NEG_ONE, Vec2::ONE];
         self.image(corners.map(|corner| centre + corner * half), corners.map(|corner| tile.at(corner)), colour);
     }
@@ -91,8 +86,7 @@ impl Canvas {
         let corner = |[low, high]: [Vec2; 2], right: f32, down: f32| low + (high - low) * Vec2::new(right, down);
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
         let [a, b, c, d] = corners.map(|(x, y)| self.vertex(corner(at, x, y), corner(part, x, y), colour));
-        self.triangle(a, b, c);
-        self.triangle(a, c, d);
+        self.mesh.indices.extend([a, b, c, a, c, d]);
     }
 
     /// A plain rectangle.
@@ -103,13 +97,8 @@ impl Canvas {
     /// A plain quadrangle.
     pub(crate) fn quad(&mut self, corners: [Vec2; 4], colours: [Color; 4]) {
         self.reserve(4, 6);
-        let at = |k: usize| self.mesh.vertices.len() as u16 + k as u16;
-        let [a, b, c, d] = [at(0), at(1), at(2), at(3)];
-        corners.iter().zip(colours).for_each(|(&corner, colour)| {
-            self.vertex(corner, atlas::plain(), colour);
-        });
-        self.triangle(a, b, c);
-        self.triangle(a, c, d);
+        let [a, b, c, d] = std::array::from_fn(|k| self.vertex(corners[k], atlas::plain(), colours[k]));
+        self.mesh.indices.extend([a, b, c, a, c, d]);
     }
 
     /// A plain triangle.
@@ -145,7 +134,7 @@ impl Canvas {
         }
     }
 
-    /// DrawnPart of a ring, clockwise from its top; `share` of it.
+    /// A share of a ring, clockwise from its top.
     pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
         let steps = (ARC_STEPS * share).ceil().max(1.0);
         let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;
@@ -164,16 +153,9 @@ impl Canvas {
                 for &point in points {
                     self.vertex(point, atlas::plain(), colour);
                 }
-                for triangle in part {
-                    let [a, b, c] = triangle.map(|index| (base + index) as u16);
-                    self.triangle(a, b, c);
-                }
+                self.mesh.indices.extend(part.as_flattened().iter().map(|index| (base + index) as u16));
             } else {
-                for triangle in part {
-                    self.reserve(3, 3);
-                    let [a, b, c] = triangle.map(|index| self.vertex(points[index as usize], atlas::plain(), colour));
-                    self.triangle(a, b, c);
-                }
+                part.iter().for_each(|triangle| self.corner(triangle.map(|index| points[index as usize]), colour));
             }
         }
     }
@@ -235,7 +217,9 @@ impl Canvas {
         let is_full = self.mesh.vertices.len() + vertices > MAX_VERTICES;
         if is_full || self.mesh.indices.len() + indices > MAX_INDICES {
             self.flush();
-            submit();
+            // When a camera comes back macroquad draws what it holds, so its buffers need not hold a whole frame.
+            push_camera_state();
+            pop_camera_state();
         }
     }
 
@@ -247,12 +231,6 @@ impl Canvas {
     fn triangle(&mut self, a: u16, b: u16, c: u16) {
         self.mesh.indices.extend([a, b, c]);
     }
-}
-
-/// Has macroquad draw what it holds, so that its buffers need not hold all of a frame: it does when a camera comes back.
-fn submit() {
-    push_camera_state();
-    pop_camera_state();
 }
 
 /// Unit normal at a point of a line, out of a counter-clockwise outline, in picture pixels.

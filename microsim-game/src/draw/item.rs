@@ -33,13 +33,11 @@ pub(super) fn paint(canvas: &mut Canvas, frame: &SceneFrame<'_>, item: &Item) {
         (DrawnPart::ObstacleRim | DrawnPart::Obstacle, geometry) => {
             outlines(geometry, camera).iter().for_each(|outline| paint_obstacle(canvas, camera, item, outline));
         }
-        (DrawnPart::Border, _) => paint_border(canvas, camera, line(item)),
+        (DrawnPart::Border, _) => {
+            paint_border(canvas, camera, item.stroke.map_or(Color::default(), |stroke| scene(stroke.colour)));
+        }
         _ => plain::paint(canvas, camera, item),
     }
-}
-
-fn line(item: &Item) -> Color {
-    item.stroke.map_or(Color::default(), |stroke| scene(stroke.colour))
 }
 
 /// The closed lines of an obstacle, in picture pixels.
@@ -62,7 +60,7 @@ fn paint_obstacle(canvas: &mut Canvas, camera: &Camera, item: &Item, outline: &[
     if item.part == DrawnPart::ObstacleRim {
         canvas.band(outline, &[(-1.0, fade(HALO, 0.8)), (3.0, fade(HALO, 0.5)), (11.0, fade(HALO, 0.0))]);
     }
-    plain::paint_outline(canvas, camera, item, outline);
+    plain::paint_path(canvas, camera, item, outline, true);
 }
 
 /// A seam that fades outwards.

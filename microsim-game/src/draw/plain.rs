@@ -39,13 +39,11 @@ pub(super) fn sprite(
 pub(super) fn paint(canvas: &mut Canvas, camera: &Camera, item: &Item) {
     match &item.geometry {
         Geometry::Discs(discs) => discs.iter().for_each(|&disc| paint_disc(canvas, camera, item, disc)),
-        Geometry::Outline(points) => paint_outline(canvas, camera, item, &placed(points, camera)),
-        Geometry::Polygons(polygons) => {
-            polygons.iter().for_each(|points| paint_outline(canvas, camera, item, &placed(points, camera)));
-        }
-        Geometry::Curve(points) => paint_line(canvas, camera, item, &placed(points, camera)),
-        Geometry::Lines(lines) => {
-            lines.iter().for_each(|points| paint_line(canvas, camera, item, &placed(points, camera)));
+        Geometry::Outline(points) => paint_path(canvas, camera, item, &placed(points, camera), true),
+        Geometry::Curve(points) => paint_path(canvas, camera, item, &placed(points, camera), false),
+        Geometry::Polygons(paths) | Geometry::Lines(paths) => {
+            let is_closed = matches!(item.geometry, Geometry::Polygons(_));
+            paths.iter().for_each(|points| paint_path(canvas, camera, item, &placed(points, camera), is_closed));
         }
     }
 }
@@ -63,22 +61,15 @@ fn paint_disc(canvas: &mut Canvas, camera: &Camera, item: &Item, disc: (Vec2, f3
     }
 }
 
-/// A closed line in picture pixels, and the area within it.
-pub(super) fn paint_outline(canvas: &mut Canvas, camera: &Camera, item: &Item, points: &[Vec2]) {
+/// A closed or open line in picture pixels, and the area within it.
+pub(super) fn paint_path(canvas: &mut Canvas, camera: &Camera, item: &Item, points: &[Vec2], is_closed: bool) {
     if item.fill.is_some() {
         canvas.fill(points, &triangulate(points), area(item));
     }
-    if let Some(stroke) = item.stroke {
-        canvas.band(points, &rims(stroke, camera));
-    }
-}
-
-fn paint_line(canvas: &mut Canvas, camera: &Camera, item: &Item, points: &[Vec2]) {
-    if item.fill.is_some() {
-        canvas.fill(points, &triangulate(points), area(item));
-    }
-    if let Some(stroke) = item.stroke {
-        canvas.line(points, &rims(stroke, camera));
+    match item.stroke {
+        Some(stroke) if is_closed => canvas.band(points, &rims(stroke, camera)),
+        Some(stroke) => canvas.line(points, &rims(stroke, camera)),
+        None => {}
     }
 }
 

@@ -27,14 +27,14 @@ pub struct Style<'a> {
     pub key: &'a str,
 }
 
-/// Where marks stand already: the middle of each, and half its size.
+/// The marks that are drawn so far: the middle of each, and half its size.
 #[derive(Clone, Debug, Default)]
 pub struct MarkLayout(Vec<[Vec2; 2]>);
 
 impl MarkLayout {
-    /// A place for a mark: where it belongs, or below those that stand there.
+    /// A place for a mark: the wanted one, or below the marks that overlap it.
     fn place(&mut self, mut middle: Vec2, half: Vec2) -> Vec2 {
-        // Less than both need, which rounding may take a little from.
+        // A little less than the sum of both, because of rounding.
         let overlap = |middle: Vec2, [other, size]: [Vec2; 2]| (middle - other).abs().cmplt(0.99 * (half + size)).all();
         while let Some(&[other, size]) = self.0.iter().find(|&&other| overlap(middle, other)) {
             middle.y = other.y + half.y + size.y;
@@ -212,20 +212,26 @@ mod tests {
         world.spawn(&RigidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap()
     }
 
-    fn drawn(draw: impl Fn(&mut Pen, &Style<'_>), is_classic: bool) -> Pen {
+    fn target(y: f32, readiness: Readiness) -> PreyTarget {
+        PreyTarget { prey: prey(), at: Vec2::new(80.0, y), half_extent: 5.0, readiness }
+    }
+
+    fn drawn(draw: impl Fn(&mut Pen, &Style<'_>, &mut MarkLayout), is_classic: bool) -> Pen {
         let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
         let mut pen = Pen::bare();
-        draw(&mut pen, &Style { camera: &camera, time: None, is_classic, key: "Q" });
+        let style = Style { camera: &camera, time: None, is_classic, key: "Q" };
+        draw(&mut pen, &style, &mut MarkLayout::default());
         pen
+    }
+
+    fn drawn_targets(targets: &[PreyTarget], is_classic: bool) -> Pen {
+        drawn(|pen, style, taken| draw_targets(pen, style, taken, targets), is_classic)
     }
 
     #[test]
     fn t69_t75_the_green_arrow_is_for_what_can_be_taken_in() {
         let arrows = |readiness, at, is_classic| {
-            let target = PreyTarget { prey: prey(), at, half_extent: 5.0, readiness };
-            drawn(|pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &[target]), is_classic)
-                .canvas()
-                .count(READY)
+            drawn_targets(&[PreyTarget { at, ..target(0.0, readiness) }], is_classic).canvas().count(READY)
         };
         let (seen, outside) = (Vec2::new(80.0, 45.0), Vec2::new(400.0, 45.0));
         let arrow = arrows(Readiness::Ready, seen, false);
@@ -238,13 +244,8 @@ mod tests {
 
     #[test]
     fn marks_at_one_place_stand_apart() {
-        let target =
-            PreyTarget { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 5.0, readiness: Readiness::Ready };
         let lowest = |count| {
-            let pen = &mut drawn(
-                |pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &vec![target; count]),
-                false,
-            );
+            let mut pen = drawn_targets(&vec![target(45.0, Readiness::Ready); count], false);
             pen.canvas().corners().map(|(at, ..)| at.y).fold(0.0, f32::max)
         };
         assert!(lowest(3) > lowest(1) + 4.0 * Pen::bare().line(TextSize::Body));
@@ -253,9 +254,7 @@ mod tests {
     #[test]
     fn marks_leave_the_status_line_free() {
         for height in 60..90 {
-            let at = Vec2::new(80.0, height as f32);
-            let target = PreyTarget { prey: prey(), at, half_extent: 5.0, readiness: Readiness::TooLarge(0.5) };
-            let pen = &mut drawn(|pen, style| draw_targets(pen, style, &mut MarkLayout::default(), &[target]), false);
+            let mut pen = drawn_targets(&[target(height as f32, Readiness::TooLarge(0.5))], false);
             let free = 2.0 * pen.line(TextSize::Body);
             assert!(pen.canvas().corners().all(|(at, ..)| at.y > free), "{height}");
             assert!(height > 75 || pen.canvas().corners().count() > 0, "{height}");
@@ -266,7 +265,7 @@ mod tests {
     fn t71_the_key_cap_stands_at_what_is_inside_and_lights_up_while_it_is_digested() {
         let held = |state| {
             let held = HeldPrey { prey: prey(), at: Vec2::new(80.0, 45.0), half_extent: 2.0, state };
-            drawn(|pen, style| draw_held(pen, style, &mut MarkLayout::default(), &[held]), false)
+            drawn(|pen, style, taken| draw_held(pen, style, taken, &[held]), false)
         };
         let cap = |state, face| held(state).canvas().count(face);
         assert_eq!(cap(MealState::Entering, INK), 0, "no key yet");
@@ -280,16 +279,11 @@ mod tests {
         let mut gains = Gains::default();
         let gain = Gain { kind: Kind::Agar, points: 10, at: Vec2::new(80.0, 45.0) };
         gains.add(&[gain; 4]);
-        let panels = |gains: &Gains| {
-            drawn(|pen, style| gains.draw(pen, style, &mut MarkLayout::default()), false).canvas().corners().count() / 4
-        };
+        let pen = |gains: &Gains| drawn(|pen, style, taken| gains.draw(pen, style, taken), false);
+        let panels = |gains: &Gains| pen(gains).canvas().corners().count() / 4;
         assert_eq!(panels(&gains), 4);
         let heights: std::collections::BTreeSet<i32> =
-            drawn(|pen, style| gains.draw(pen, style, &mut MarkLayout::default()), false)
-                .canvas()
-                .corners()
-                .map(|(at, ..)| at.y.round() as i32)
-                .collect();
+            pen(&gains).canvas().corners().map(|(at, ..)| at.y.round() as i32).collect();
         assert_eq!(heights.len(), 8, "upper and lower edges of four panels");
         gains.pass(GAIN_TIME + 0.1);
         assert_eq!(panels(&gains), 0);

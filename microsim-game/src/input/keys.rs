@@ -6,136 +6,75 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Keys that may be given to actions; the others move through menus or mean nothing on some keyboards.
-const USABLE: &[KeyCode] = {
+const USABLE: [&[KeyCode]; 2] = {
     use KeyCode::*;
-    &[
-        A,
-        B,
-        C,
-        D,
-        E,
-        F,
-        G,
-        H,
-        I,
-        J,
-        K,
-        L,
-        M,
-        N,
-        O,
-        P,
-        Q,
-        R,
-        S,
-        T,
-        U,
-        V,
-        W,
-        X,
-        Y,
-        Z,
-        Key0,
-        Key1,
-        Key2,
-        Key3,
-        Key4,
-        Key5,
-        Key6,
-        Key7,
-        Key8,
-        Key9,
-        F1,
-        F2,
-        F3,
-        F4,
-        F5,
-        F6,
-        F7,
-        F8,
-        F9,
-        F10,
-        F11,
-        F12,
-        Space,
-        Tab,
-        Comma,
-        Period,
-        Minus,
-        Equal,
-        Slash,
-        Semicolon,
-        LeftBracket,
-        RightBracket,
-        LeftShift,
-        RightShift,
-        LeftControl,
-        RightControl,
-        Backspace,
-        Home,
-        End,
-        PageUp,
-        PageDown,
-        Insert,
-        Delete,
-        KpAdd,
-        KpSubtract,
+    [
+        &[
+            A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z, Key0, Key1, Key2, Key3, Key4,
+            Key5, Key6, Key7, Key8, Key9, F1, F2, F3, F4, F5, F6, F7, F8, F9, F10, F11, F12, Space, Tab, Comma, Period,
+            Minus, Equal, Slash, Semicolon, LeftShift, RightShift, Backspace, Home, End, PageUp, PageDown, Insert,
+            Delete, KpAdd, KpSubtract,
+        ],
+        &[LeftBracket, RightBracket, LeftControl, RightControl],
     ]
 };
 
-/// The keys of all actions, by name; that is how they are kept in the settings.
+/// The keys of all actions; the settings keep them by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "BTreeMap<String, String>")]
-pub struct Keys(BTreeMap<Action, String>);
+#[serde(from = "BTreeMap<String, String>", into = "BTreeMap<Action, String>")]
+pub struct Keys(BTreeMap<Action, KeyCode>);
 
-/// Actions and keys that another version may have are left out, and no key gets two meanings.
+/// Unknown actions and keys, perhaps of another version, are left out, and no key gets two meanings.
 impl From<BTreeMap<String, String>> for Keys {
     fn from(names: BTreeMap<String, String>) -> Self {
         let mut keys = Self::default();
         for action in Action::ALL {
             let wanted = names.get(action.name());
-            let known = USABLE.iter().find(|key| wanted.is_some_and(|wanted| name(**key) == *wanted));
+            let known = USABLE.concat().into_iter().find(|&key| wanted.is_some_and(|wanted| name(key) == *wanted));
             if let Some(key) = known {
-                keys.set(action, *key);
+                keys.set(action, key);
             }
         }
         keys
     }
 }
 
+impl From<Keys> for BTreeMap<Action, String> {
+    fn from(keys: Keys) -> Self {
+        keys.0.into_iter().map(|(action, key)| (action, name(key))).collect()
+    }
+}
+
 impl Default for Keys {
     fn default() -> Self {
-        Self(Action::ALL.into_iter().map(|action| (action, name(usual(action)))).collect())
+        Self(Action::ALL.into_iter().map(|action| (action, usual(action))).collect())
     }
 }
 
 impl Keys {
-    /// The key of an action. One that is missing or unknown has its usual key.
+    /// The key of an action.
     #[must_use]
     pub fn of(&self, action: Action) -> KeyCode {
-        let known = |wanted: &String| USABLE.iter().copied().find(|key| name(*key) == *wanted);
-        self.0.get(&action).and_then(known).unwrap_or(usual(action))
+        self.0.get(&action).copied().unwrap_or_else(|| usual(action))
     }
 
     /// What is written on the key of an action.
     #[must_use]
     pub fn label(&self, action: Action) -> String {
         let name = name(self.of(action));
-        let digit = name.strip_prefix("Key").filter(|rest| !rest.is_empty());
-        digit.map_or(name.clone(), str::to_owned)
+        name.strip_prefix("Key").unwrap_or(&name).to_owned()
     }
 
-    /// Gives a key to an action; what had it before gets the other's. Returns whether the key can be used.
+    /// Gives a key to an action; the action that had it gets the old key of this one. Returns whether the key can be used.
     pub fn set(&mut self, action: Action, key: KeyCode) -> bool {
-        if !USABLE.contains(&key) {
+        if !USABLE.concat().contains(&key) {
             return false;
         }
         let old = self.of(action);
-        let other = Action::ALL.into_iter().find(|&other| other != action && self.of(other) == key);
-        if let Some(other) = other {
-            self.0.insert(other, name(old));
+        if let Some(other) = Action::ALL.into_iter().find(|&other| other != action && self.of(other) == key) {
+            self.0.insert(other, old);
         }
-        self.0.insert(action, name(key));
+        self.0.insert(action, key);
         true
     }
 }
@@ -166,15 +105,14 @@ fn name(key: KeyCode) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn t73_the_seeds_keys_are_the_usual_ones_and_no_key_has_two_meanings() {
         let keys = Keys::default();
         assert_eq!(keys.of(Action::Consume), KeyCode::Q);
         assert_eq!((keys.of(Action::ZoomOut), keys.of(Action::ZoomIn)), (KeyCode::A, KeyCode::D));
-        let mut all: Vec<_> = Action::ALL.iter().map(|&action| name(keys.of(action))).collect();
-        all.sort();
-        all.dedup();
+        let all: BTreeSet<_> = Action::ALL.iter().map(|&action| name(keys.of(action))).collect();
         assert_eq!(all.len(), Action::ALL.len());
     }
 
@@ -189,7 +127,7 @@ mod tests {
 
     #[test]
     fn unknown_names_fall_back_to_the_usual_key() {
-        let keys = Keys(BTreeMap::from([(Action::Consume, "Nonsense".to_owned())]));
+        let keys = Keys::from(BTreeMap::from([("consume".to_owned(), "Nonsense".to_owned())]));
         assert_eq!(keys.of(Action::Consume), KeyCode::Q);
         assert_eq!(keys.of(Action::Pause), KeyCode::Space);
     }

@@ -45,62 +45,43 @@ pub enum Action {
 
 impl Action {
     /// All of them, in the order of the settings.
-    pub const ALL: [Self; 14] = [
-        Self::Consume,
-        Self::ZoomIn,
-        Self::ZoomOut,
-        Self::Pause,
-        Self::Step,
-        Self::Slower,
-        Self::Faster,
-        Self::Restart,
-        Self::Optics,
-        Self::DebugView,
-        Self::Plots,
-        Self::Panel,
-        Self::Screenshot,
-        Self::FullScreen,
-    ];
+    pub const ALL: [Self; 14] = {
+        use Action::*;
+        [
+            Consume, ZoomIn, ZoomOut, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots, Panel,
+            Screenshot, FullScreen,
+        ]
+    };
 
     /// Its name in scripts.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Consume => "consume",
-            Self::ZoomIn => "zoom-in",
-            Self::ZoomOut => "zoom-out",
-            Self::Pause => "pause",
-            Self::Step => "step",
-            Self::Slower => "slower",
-            Self::Faster => "faster",
-            Self::Restart => "restart",
-            Self::Optics => "optics",
-            Self::DebugView => "debug-view",
-            Self::Plots => "plots",
-            Self::Panel => "panel",
-            Self::Screenshot => "screenshot",
-            Self::FullScreen => "full-screen",
-        }
+        self.words()[0]
     }
 
     /// What it says in the settings.
     #[must_use]
     pub fn label(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// Its name in scripts and in the settings.
+    fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Consume => "Consume (hold)",
-            Self::ZoomIn => "Zoom in",
-            Self::ZoomOut => "Zoom out",
-            Self::Pause => "Pause",
-            Self::Step => "Single step",
-            Self::Slower => "Slower",
-            Self::Faster => "Faster",
-            Self::Restart => "Restart",
-            Self::Optics => "Next optics",
-            Self::DebugView => "Debug view",
-            Self::Plots => "Plots",
-            Self::Panel => "Panel",
-            Self::Screenshot => "Picture",
-            Self::FullScreen => "Full screen",
+            Self::Consume => ["consume", "Consume (hold)"],
+            Self::ZoomIn => ["zoom-in", "Zoom in"],
+            Self::ZoomOut => ["zoom-out", "Zoom out"],
+            Self::Pause => ["pause", "Pause"],
+            Self::Step => ["step", "Single step"],
+            Self::Slower => ["slower", "Slower"],
+            Self::Faster => ["faster", "Faster"],
+            Self::Restart => ["restart", "Restart"],
+            Self::Optics => ["optics", "Next optics"],
+            Self::DebugView => ["debug-view", "Debug view"],
+            Self::Plots => ["plots", "Plots"],
+            Self::Panel => ["panel", "Panel"],
+            Self::Screenshot => ["screenshot", "Picture"],
+            Self::FullScreen => ["full-screen", "Full screen"],
         }
     }
 }

@@ -44,7 +44,7 @@ impl InputScript {
     /// Reads a script.
     ///
     /// # Errors
-    /// Names the first line that makes no sense.
+    /// Names the first line that is not a cue.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut script = Self::default();
         for (number, line) in (1..).zip(text.lines()) {

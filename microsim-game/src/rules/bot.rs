@@ -1,4 +1,4 @@
-//! Bots: players without a hand, to tune the game by and to test its rules with.
+//! Bots: programs that play, to tune the game and to test its rules.
 
 use super::hint::{Readiness, readiness};
 use microsim_core::glam::Vec2;
@@ -26,9 +26,9 @@ impl Policy {
 
 /// Small things inside that make it worth while to stop and digest.
 const FULL: usize = 4;
-/// Time after which a target that has not been reached is given up, s, and how long it is left alone then.
-const PATIENCE: f64 = 5.0;
-const GRUDGE: f64 = 6.0;
+/// Time after which a target that has not been reached is given up, s, and time for which it is then left alone, s.
+const PURSUIT_TIME: f64 = 5.0;
+const AVOID_TIME: f64 = 6.0;
 /// Worth of a rigid cell that can be taken in, in small things, and of one unit of way.
 const RIGID_WORTH: f32 = 12.0;
 /// Time between two decisions of the random bot, s.
@@ -87,8 +87,8 @@ impl Bot {
     fn choose(&mut self, world: &World, me: OrganismView<'_>, at: Vec2) {
         let now = world.time();
         self.given_up.retain(|(_, until)| *until > now);
-        if let Some(target) = self.target.filter(|_| now > self.since + PATIENCE) {
-            self.given_up.push((target, now + GRUDGE));
+        if let Some(target) = self.target.filter(|_| now > self.since + PURSUIT_TIME) {
+            self.given_up.push((target, now + AVOID_TIME));
             self.target = None;
         }
         let worth = |id| world.view().organism(id).and_then(|prey| self.worth(world, me, at, prey));

@@ -72,12 +72,8 @@ impl Hints {
         });
         let held = engulfer.meals().filter_map(|(prey, phase)| {
             let organism = view.organism(prey)?;
-            Some(HeldPrey {
-                prey,
-                at: organism.centroid(),
-                half_extent: half_extent(organism),
-                state: state(engulfer, phase),
-            })
+            let (at, half_extent) = (organism.centroid(), half_extent(organism));
+            Some(HeldPrey { prey, at, half_extent, state: state(engulfer, phase) })
         });
         Self { targets: targets.collect(), held: held.collect() }
     }

@@ -1,4 +1,4 @@
-//! Who keeps score and time.
+//! Score and time of a round.
 
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Game;

@@ -1,5 +1,4 @@
-//! One round: a world, its player and the referee. Mouse and bots play it by intents, which are recorded; a replay has its
-//! own.
+//! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
 use super::referee::{KindScore, Referee};
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
@@ -30,16 +29,16 @@ pub struct RoundResult {
     pub kinds: Vec<(Kind, KindScore)>,
     /// The round as a [`Replay`]; `None` if it was a replay itself.
     pub record: Option<Vec<u8>>,
-    /// Whether a replay came out otherwise than it was recorded.
+    /// Whether a replay differed from what was recorded.
     pub is_mismatch: bool,
 }
 
-/// What makes a round go on.
+/// Where the intents of a round come from.
 #[derive(Clone, Debug)]
 enum Course {
     /// Intents as they come, and what is recorded of them.
     Live { run: Box<Built>, recorder: Recorder, record: Vec<u8> },
-    /// What was recorded, and where it first came out otherwise.
+    /// What was recorded, and where the replay first differed from it.
     Replay { run: Box<Player>, is_over: bool, mismatch: Option<Mismatch> },
 }
 
@@ -108,24 +107,17 @@ impl Round {
         matches!(self.course, Course::Replay { .. })
     }
 
-    /// Where a replay first came out otherwise than it was recorded: another version of the library may have recorded it.
+    /// Where a replay first differed from what was recorded, perhaps by another version of the library.
     #[must_use]
     pub fn mismatch(&self) -> Option<Mismatch> {
-        match &self.course {
-            Course::Live { .. } => None,
-            Course::Replay { mismatch, .. } => *mismatch,
-        }
+        if let Course::Replay { mismatch, .. } = &self.course { *mismatch } else { None }
     }
 
-    /// All of it so far, as a [`Replay`]; `None` of what is one.
+    /// The round so far, as a [`Replay`]; `None` if it is a replay itself.
     #[must_use]
     pub fn record(&self) -> Option<Vec<u8>> {
-        match &self.course {
-            Course::Live { run, recorder, record } => {
-                Some([&record[..], &recorder.clone().finish(&run.world)].concat())
-            }
-            Course::Replay { .. } => None,
-        }
+        let Course::Live { run, recorder, record } = &self.course else { return None };
+        Some([&record[..], &recorder.clone().finish(&run.world)].concat())
     }
 
     /// How it stands, to be kept when it is over.

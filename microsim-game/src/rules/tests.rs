@@ -6,7 +6,7 @@ use super::round::Round;
 use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::{Scenario, builtin};
-use microsim_core::{Event, Inputs, Intent, Kind, Role};
+use microsim_core::{Event, Inputs, Intent, Kind, OrganismView, Role};
 
 fn scenario(seed: u64, time: f32) -> Scenario {
     let text = builtin("game").unwrap().text;
@@ -51,12 +51,19 @@ fn hunt(round: &mut Round, digests: bool, done: impl Fn(&Round) -> bool) {
         let goal = prey.and_then(|id| round.world().centroid(id)).and_then(|at| Intent::toward(at).ok());
         round.step(goal.unwrap_or(Intent::REST).digesting(digests));
     }
-    panic!("it never came to that");
+    panic!("the condition never held");
+}
+
+fn cell(round: &Round) -> OrganismView<'_> {
+    round.world().view().organism(round.player()).unwrap()
+}
+
+fn hints(round: &Round) -> Hints {
+    Hints::of(round.world().view(), round.player())
 }
 
 fn inside(round: &Round) -> usize {
-    let hints = Hints::of(round.world().view(), round.player());
-    hints.held.iter().filter(|held| matches!(held.state, MealState::Inside(_))).count()
+    hints(round).held.iter().filter(|held| matches!(held.state, MealState::Inside(_))).count()
 }
 
 #[test]
@@ -76,25 +83,26 @@ fn t64_a_round_starts_at_zero_and_ends_with_its_time() {
 fn t61_t62_t65_only_what_is_digested_counts() {
     let mut round = table(PELLET);
     hunt(&mut round, false, |round| inside(round) == 1);
-    let area = |round: &Round| round.world().view().organism(round.player()).unwrap().cytoplasm_area();
-    let before = area(&round);
+    let before = cell(&round).cytoplasm_area();
     (0..120).for_each(|_| round.step(Intent::REST));
-    assert_eq!((round.referee().score(), area(&round)), (0, before), "taking in alone earns and changes nothing");
+    assert_eq!(
+        (round.referee().score(), cell(&round).cytoplasm_area()),
+        (0, before),
+        "taking in alone earns and changes nothing"
+    );
     while inside(&round) == 1 {
         round.step(Intent::REST.digesting(true));
     }
     assert_eq!(round.referee().score(), 10);
     (0..30).for_each(|_| round.step(Intent::REST));
-    assert!(area(&round) > before);
+    assert!(cell(&round).cytoplasm_area() > before);
 }
 
 #[test]
 fn t72_what_a_meal_adds_is_told_apart_from_what_was_there() {
     let mut round = table(PELLET);
-    let grown = |round: &Round| {
-        let cell = round.world().view().organism(round.player()).unwrap();
-        cell.particles().filter(|particle| particle.role == Role::GrownCytoplasm).count()
-    };
+    let grown =
+        |round: &Round| cell(round).particles().filter(|particle| particle.role == Role::GrownCytoplasm).count();
     assert_eq!(grown(&round), 0);
     hunt(&mut round, true, |round| round.referee().score() > 0);
     (0..120).for_each(|_| round.step(Intent::REST));
@@ -118,7 +126,7 @@ fn t65_t70_rigid_cells_earn_more_and_every_gain_is_shown_once() {
 #[test]
 fn t67_t69_growth_enables_larger_prey() {
     let mut round = table("[[spawn]]\nof = \"giant\"\nat = [66.0, 25.0]\n");
-    let readiness = |round: &Round| Hints::of(round.world().view(), round.player()).targets[0].readiness;
+    let readiness = |round: &Round| hints(round).targets[0].readiness;
     let Readiness::TooLarge(share) = readiness(&round) else { panic!("{:?}", readiness(&round)) };
     assert!(share > 0.1 && share < 1.0);
     let player = round.player();
@@ -135,13 +143,12 @@ fn t67_t69_growth_enables_larger_prey() {
 #[test]
 fn t75_one_rigid_cell_inside_leaves_no_room_for_another() {
     let mut round = table(&format!("{PREY}[[spawn]]\nof = \"prey\"\nat = [60.0, 40.0]\n"));
-    let targets = |round: &Round| Hints::of(round.world().view(), round.player()).targets;
-    assert!(targets(&round).iter().all(|target| target.readiness == Readiness::Ready));
+    assert!(hints(&round).targets.iter().all(|target| target.readiness == Readiness::Ready));
     hunt(&mut round, false, |round| inside(round) == 1);
-    let left = targets(&round);
+    let left = hints(&round).targets;
     assert_eq!((left.len(), left[0].readiness), (1, Readiness::NoRoom));
     hunt(&mut round, true, |round| round.referee().score() > 0);
-    assert_eq!(targets(&round)[0].readiness, Readiness::Ready);
+    assert_eq!(hints(&round).targets[0].readiness, Readiness::Ready);
 }
 
 #[test]
@@ -149,7 +156,7 @@ fn t29_t71_hints_follow_a_meal_from_touch_to_digestion() {
     let mut round = table(PELLET);
     let mut seen = [false; 4];
     for _ in 0..1200 {
-        let hints = Hints::of(round.world().view(), round.player());
+        let hints = hints(&round);
         match hints.held.first().map(|held| held.state) {
             Some(MealState::Touching(share)) => seen[0] |= share > 0.3 && !hints.can_digest(),
             Some(MealState::Entering) => seen[1] |= !hints.can_digest(),
@@ -267,8 +274,8 @@ fn left(round: &Round) -> u32 {
 
 /// Mean velocity of a cell.
 fn velocity(round: &Round) -> Vec2 {
-    let cell = round.world().view().organism(round.player()).unwrap();
-    let (sum, count) = cell.particles().fold((Vec2::ZERO, 0.0), |(sum, count), p| (sum + p.velocity, count + 1.0));
+    let (sum, count) =
+        cell(round).particles().fold((Vec2::ZERO, 0.0), |(sum, count), p| (sum + p.velocity, count + 1.0));
     sum / count
 }
 

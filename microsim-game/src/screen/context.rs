@@ -26,7 +26,7 @@ const LONGEST_TIME: f32 = 20.0;
 const MESSAGE_LINES: usize = 10;
 const MESSAGE_LETTERS: usize = 700;
 
-/// How pictures shall be as long as the player chooses nothing else.
+/// The optics and quality that the command line asks for, in place of the settings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Asked {
     /// The way of looking.
@@ -46,7 +46,7 @@ pub struct AppContext {
     pub store: PlayerFolder,
     /// What the player has chosen.
     pub settings: Settings,
-    /// The same when it was last read or kept.
+    /// The settings when they were last read or kept.
     kept_settings: Settings,
     /// High scores.
     pub scores: Scores,
@@ -113,8 +113,7 @@ impl AppContext {
 
     /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.
     pub fn save_settings(&mut self) {
-        let kept = self.store.read(kept::FILE).and_then(|bytes| toml::from_slice::<Settings>(&bytes).ok());
-        if let Some(kept) = kept {
+        if let Some(kept) = self.store.read(kept::FILE).and_then(|bytes| toml::from_slice(&bytes).ok()) {
             self.settings = self.settings.clone().over(&self.kept_settings, kept);
         }
         self.kept_settings = self.settings.clone();
@@ -161,19 +160,12 @@ impl AppContext {
 
     /// Opens a simulation, or tells what is wrong with it. A file moves to the front of the list of simulations.
     pub fn open(&mut self, source: &SceneSource) -> Option<Stage> {
-        match Stage::open(source, &[]) {
-            Ok(stage) => {
-                if matches!(source, SceneSource::File(_)) {
-                    self.files.retain(|known| known != source);
-                    self.files.insert(0, source.clone());
-                }
-                Some(stage)
-            }
-            Err(problem) => {
-                self.tell(problem);
-                None
-            }
+        let stage = Stage::open(source, &[]).map_err(|problem| self.tell(problem)).ok()?;
+        if matches!(source, SceneSource::File(_)) {
+            self.files.retain(|known| known != source);
+            self.files.insert(0, source.clone());
         }
+        Some(stage)
     }
 
     /// Time for what moves of itself in marks and background; `None` if the player wants less motion.

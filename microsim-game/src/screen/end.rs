@@ -20,7 +20,6 @@ const MENU_TOP: f32 = 0.62;
 /// Time for which the menu does not answer, s: the player may still be holding keys.
 const DELAY: f32 = 0.7;
 
-/// The end of a round.
 #[derive(Debug)]
 pub(super) struct End {
     heading: String,
@@ -53,17 +52,10 @@ impl End {
             }
             context.last_game = Some(record);
         }
-        let items = ["Play again", "Watch it again", "Title"].map(MenuItem::new);
+        let menu = Menu::new(["Play again", "Watch it again", "Title"].map(MenuItem::new).into());
         let doubt = if is_mismatch { ", not as it was played" } else { "" };
-        Self {
-            heading: format!("{points} points{doubt}"),
-            points,
-            kinds,
-            best,
-            place,
-            menu: Menu::new(items.into()),
-            since: 0.0,
-        }
+        let heading = format!("{points} points{doubt}");
+        Self { heading, points, kinds, best, place, menu, since: 0.0 }
     }
 
     fn draw_kinds(&self, pen: &mut Pen, top: f32) {

@@ -16,7 +16,6 @@ pub(super) struct KeysMenu {
 }
 
 impl KeysMenu {
-    /// The present keys.
     pub(super) fn new(context: &AppContext) -> Self {
         Self { page: MenuPage::new("Keys", items(&context.settings.keys, None)), waiting: None }
     }

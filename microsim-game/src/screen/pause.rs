@@ -6,7 +6,6 @@ use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{MenuChoice, MenuItem};
 
-/// The menu that stops a scene.
 #[derive(Debug)]
 pub(super) struct Pause {
     page: MenuPage,
@@ -14,7 +13,6 @@ pub(super) struct Pause {
 }
 
 impl Pause {
-    /// Over a scene.
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
             Paused::Round | Paused::Replay => ["Go on", "Restart", "Settings", "Title"].as_slice(),

@@ -8,7 +8,6 @@ use crate::scene_source::SceneSource;
 use crate::ui::menu::{MenuChoice, MenuItem};
 use microsim_core::scenario;
 
-/// The list of scenarios.
 #[derive(Debug)]
 pub(super) struct Pick {
     page: MenuPage,

@@ -108,8 +108,7 @@ impl Play {
 
 impl Screen for Play {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let pauses = input.has_lost_focus || input.presses(Action::Pause) || input.step == Some(Move::Back);
-        if pauses {
+        if input.has_lost_focus || input.presses(Action::Pause) || input.step == Some(Move::Back) {
             return Next::Open(Overlay::Pause(self.paused()));
         }
         if input.presses(Action::Restart) {

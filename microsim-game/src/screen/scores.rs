@@ -13,18 +13,15 @@ use microsim_core::glam::Vec2;
 /// The list of high scores of the game.
 #[derive(Debug)]
 pub(super) struct ScoreList {
-    game: String,
+    heading: String,
     scores: Vec<Score>,
 }
 
 impl ScoreList {
-    /// The present list.
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
-        Self {
-            game: format!("High scores: {}, {time:.0} s", context.game.source),
-            scores: context.scores.of(&game, time).cloned().collect(),
-        }
+        let heading = format!("High scores: {}, {time:.0} s", context.game.source);
+        Self { heading, scores: context.scores.of(&game, time).cloned().collect() }
     }
 }
 
@@ -36,7 +33,7 @@ impl Screen for ScoreList {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_heading(pen, &self.game);
+        draw_heading(pen, &self.heading);
         let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
         if self.scores.is_empty() {
             pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, "None yet. Play!");

@@ -6,7 +6,6 @@ use super::{Next, Overlay, Screen};
 use crate::input::{Input, Move};
 use crate::ui::menu::{MenuChoice, MenuItem};
 
-/// The menu of settings.
 #[derive(Debug)]
 pub(super) struct SettingsMenu {
     page: MenuPage,
@@ -21,7 +20,6 @@ const FULL_SCREEN: usize = 5;
 const KEYS: usize = 6;
 
 impl SettingsMenu {
-    /// The present settings.
     pub(super) fn new(context: &AppContext) -> Self {
         Self { page: MenuPage::new("Settings", items(context)) }
     }

@@ -6,8 +6,7 @@ use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
-use crate::ui::font::TITLE;
-use crate::ui::font::TextSize;
+use crate::ui::font::{TITLE, TextSize};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, title_lines};
 use crate::ui::pen::Align;
 use crate::viewer::{Viewer, first_view};
@@ -20,7 +19,6 @@ const BESIDE: Vec2 = Vec2::new(0.36 * VIEW, 0.0);
 /// The backdrop starts over after this time, s: by then most of the prey is eaten.
 const SCENE_TIME: f64 = 90.0;
 
-/// The title.
 #[derive(Debug)]
 pub(super) struct Title {
     backdrop: Option<Backdrop>,
@@ -34,29 +32,23 @@ struct Backdrop {
     viewer: Viewer,
 }
 
-const PLAY: usize = 0;
-const SIMULATION: usize = 1;
-const REPLAY: usize = 2;
-const SCORES: usize = 3;
-const SETTINGS: usize = 4;
+/// Where an item of the menu leads.
+type Target = fn() -> Next;
+
+const ITEMS: [(&str, Target); 6] = [
+    ("Play", || Next::Show(MainScreen::Round)),
+    ("Simulation", || Next::Open(Overlay::Pick)),
+    ("Watch the last game", || Next::Show(MainScreen::Replay)),
+    ("High scores", || Next::Open(Overlay::Scores)),
+    ("Settings", || Next::Open(Overlay::Settings)),
+    ("Quit", || Next::Quit),
+];
 
 impl Title {
     /// The title, with its backdrop at the beginning.
     pub(super) fn new(context: &AppContext) -> Self {
-        let labels = ["Play", "Simulation", "Watch the last game", "High scores", "Settings", "Quit"];
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(labels.map(MenuItem::new).into()) }
-    }
-
-    fn choose(choice: MenuChoice) -> Next {
-        let MenuChoice::Pick(item) = choice else { return Next::Stay };
-        match item {
-            PLAY => Next::Show(MainScreen::Round),
-            SIMULATION => Next::Open(Overlay::Pick),
-            REPLAY => Next::Show(MainScreen::Replay),
-            SCORES => Next::Open(Overlay::Scores),
-            SETTINGS => Next::Open(Overlay::Settings),
-            _ => Next::Quit,
-        }
+        let items = ITEMS.map(|(label, _)| MenuItem::new(label));
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items.into()) }
     }
 }
 
@@ -97,9 +89,10 @@ impl Screen for Title {
         if input.step == Some(Move::Back) {
             return Next::Quit;
         }
-        let place = MenuLayout::title(&context.pen);
-        let choice = self.menu.update(input, &place);
-        choice.map_or(Next::Stay, Self::choose)
+        match self.menu.update(input, &MenuLayout::title(&context.pen)) {
+            Some(MenuChoice::Pick(item)) => ITEMS[item].1(),
+            _ => Next::Stay,
+        }
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -113,19 +106,19 @@ impl Screen for Title {
         }
         let pen = &mut context.pen;
         let (screen, line) = (pen.screen(), pen.line(TextSize::Huge));
-        let place = MenuLayout::title(pen);
-        let left = place.corner.x;
+        let layout = MenuLayout::title(pen);
+        let left = layout.corner.x;
         let shade = [fade(INK, 0.82), fade(INK, 0.0), fade(INK, 0.0), fade(INK, 0.82)];
-        let wide = (left + 1.6 * place.item.x).min(screen.x);
-        pen.canvas()
-            .quad([Vec2::ZERO, Vec2::new(wide, 0.0), Vec2::new(wide, screen.y), Vec2::new(0.0, screen.y)], shade);
+        let wide = (left + 1.6 * layout.item.x).min(screen.x);
+        let (right, below) = (Vec2::new(wide, 0.0), Vec2::new(0.0, screen.y));
+        pen.canvas().quad([Vec2::ZERO, right, right + below, below], shade);
         let [title, below, end] = title_lines(pen);
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
-        if place.corner.y >= end {
+        if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
             pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
         }
-        self.menu.draw(pen, &place);
+        self.menu.draw(pen, &layout);
         let version = concat!("version ", env!("CARGO_PKG_VERSION"));
         let corner = screen - 0.8 * pen.line(TextSize::Small);
         pen.label(corner, TextSize::Small, Align::Right, HALO, version);

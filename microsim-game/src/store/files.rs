@@ -9,33 +9,30 @@ use std::{fs, process};
 
 /// A folder with files.
 #[derive(Clone, Debug)]
-pub struct PlayerFolder {
-    folder: Option<PathBuf>,
-}
+pub struct PlayerFolder(Option<PathBuf>);
 
 impl PlayerFolder {
     /// The player's own folder; without one, nothing is kept.
     #[must_use]
     pub fn of_the_platform() -> Self {
-        let folder = ProjectDirs::from("", "", "microsim").map(|dirs| dirs.config_dir().to_owned());
-        Self { folder }
+        Self(ProjectDirs::from("", "", "microsim").map(|dirs| dirs.config_dir().to_owned()))
     }
 
     /// A folder of choice; it is made when something is first kept in it.
     #[must_use]
     pub fn at(folder: &Path) -> Self {
-        Self { folder: Some(folder.to_owned()) }
+        Self(Some(folder.to_owned()))
     }
 
     /// Keeps nothing, for pictures that must come out the same everywhere.
     #[must_use]
     pub fn nowhere() -> Self {
-        Self { folder: None }
+        Self(None)
     }
 
-    /// Reads a file. One that makes no sense is put aside, and said so, and the default is used.
+    /// Reads a file. An unreadable one is renamed and reported, and the default is used.
     pub fn load<T: DeserializeOwned + Default>(&self, name: &str) -> (T, Option<String>) {
-        let Some(path) = self.folder.as_ref().map(|folder| folder.join(name)) else { return (T::default(), None) };
+        let Some(path) = self.0.as_ref().map(|folder| folder.join(name)) else { return (T::default(), None) };
         let text = match fs::read_to_string(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return (T::default(), None),
             text => text.map_err(|error| error.to_string()),
@@ -53,7 +50,7 @@ impl PlayerFolder {
     /// What is in a file, if it can be read.
     #[must_use]
     pub fn read(&self, name: &str) -> Option<Vec<u8>> {
-        fs::read(self.folder.as_ref()?.join(name)).ok()
+        fs::read(self.0.as_ref()?.join(name)).ok()
     }
 
     /// Writes a value for [`PlayerFolder::load`].
@@ -69,7 +66,7 @@ impl PlayerFolder {
     /// # Errors
     /// When the folder or the file cannot be written; the old file is as it was then.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let Some(folder) = &self.folder else { return Ok(()) };
+        let Some(folder) = &self.0 else { return Ok(()) };
         fs::create_dir_all(folder)?;
         let fresh = folder.join(format!("{name}.{}.new", process::id()));
         let written = fs::File::create(&fresh).and_then(|mut file| {
@@ -78,14 +75,13 @@ impl PlayerFolder {
         });
         let result = written.and_then(|()| fs::rename(&fresh, folder.join(name)));
         if result.is_err() {
-            // Nothing is lost with it.
             let _ = fs::remove_file(&fresh);
         }
         result
     }
 }
 
-/// Gives a file another name, one that no file has yet: what it was would be overwritten otherwise.
+/// Gives a file a name that no file has yet, so that it is not overwritten.
 fn put_aside(path: &Path) -> io::Result<PathBuf> {
     let numbered = (2..).map(|number| path.with_extension(format!("broken-{number}")));
     let mut names = [path.with_extension("broken")].into_iter().chain(numbered);
@@ -100,12 +96,14 @@ pub(crate) mod tests {
 
     type Table = BTreeMap<String, u32>;
 
-    /// A folder that is removed afterwards.
+    /// A folder of a test, which is removed after it.
     pub(crate) struct Folder(pub(crate) PathBuf);
 
     impl Folder {
-        pub(crate) fn new(name: &str) -> Self {
-            Self(std::env::temp_dir().join(format!("microsim-{name}-{}", process::id())))
+        pub(crate) fn new(name: &str) -> (Self, PlayerFolder) {
+            let path = std::env::temp_dir().join(format!("microsim-{name}-{}", process::id()));
+            let store = PlayerFolder::at(&path);
+            (Self(path), store)
         }
     }
 
@@ -117,8 +115,7 @@ pub(crate) mod tests {
 
     #[test]
     fn what_is_kept_is_there_again_and_nothing_else() {
-        let folder = Folder::new("store");
-        let store = PlayerFolder::at(&folder.0);
+        let (folder, store) = Folder::new("store");
         assert_eq!(store.load::<Table>("a.toml"), (Table::new(), None));
         let table = Table::from([("x".to_owned(), 7)]);
         store.save("a.toml", &table).unwrap();
@@ -130,11 +127,11 @@ pub(crate) mod tests {
 
     #[test]
     fn a_broken_file_is_put_aside() {
-        let folder = Folder::new("broken");
+        let (folder, store) = Folder::new("broken");
         fs::create_dir_all(&folder.0).unwrap();
         for (bytes, aside) in [(&b"x = ["[..], "a.broken"), (b"x = 1 # \xff", "a.broken-2")] {
             fs::write(folder.0.join("a.toml"), bytes).unwrap();
-            let (table, problem) = PlayerFolder::at(&folder.0).load::<Table>("a.toml");
+            let (table, problem) = store.load::<Table>("a.toml");
             assert!(table.is_empty() && problem.unwrap().ends_with(aside));
             assert_eq!(fs::read(folder.0.join(aside)).unwrap(), bytes);
         }
@@ -142,8 +139,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_file_that_cannot_be_written_leaves_the_old_one() {
-        let folder = Folder::new("blocked");
-        let store = PlayerFolder::at(&folder.0);
+        let (folder, store) = Folder::new("blocked");
         fs::create_dir_all(folder.0.join("a.toml/in the way")).unwrap();
         assert!(store.save("a.toml", &Table::new()).is_err());
         assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);

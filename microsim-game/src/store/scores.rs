@@ -6,7 +6,7 @@ use std::io;
 
 /// File that they are kept in.
 const FILE: &str = "scores.toml";
-/// As many are kept for each game.
+/// Scores that are kept for each game.
 pub const KEPT: usize = 10;
 
 /// One score.
@@ -48,10 +48,14 @@ impl Scores {
         if place >= KEPT || score.points == 0 {
             return (None, Ok(()));
         }
-        let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
-        self.score.insert(at, score);
+        self.insert(score);
         self.trim();
         (Some(place), store.save(FILE, self))
+    }
+
+    fn insert(&mut self, score: Score) {
+        let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
+        self.score.insert(at, score);
     }
 
     /// Leaves the best ones of each game.
@@ -69,8 +73,7 @@ impl Scores {
         let count = |scores: &[Score], wanted: &Score| scores.iter().filter(|score| *score == wanted).count();
         for score in kept.score.iter().filter(|score| score.points > 0) {
             if count(&self.score, score) < count(&kept.score, score) {
-                let at = self.score.iter().position(|other| other.points < score.points).unwrap_or(self.score.len());
-                self.score.insert(at, score.clone());
+                self.insert(score.clone());
             }
         }
         self.trim();
@@ -93,8 +96,7 @@ mod tests {
 
     #[test]
     fn the_best_ten_of_each_game_are_kept_over_a_restart() {
-        let folder = Folder::new("scores");
-        let store = PlayerFolder::at(&folder.0);
+        let (_folder, store) = Folder::new("scores");
         let mut scores = Scores::load(&store).0;
         assert_eq!(scores.add(score(5, 10.0), &store).0, Some(0));
         for points in 1..=14 {
@@ -114,8 +116,7 @@ mod tests {
 
     #[test]
     fn two_windows_lose_no_score_of_each_other() {
-        let folder = Folder::new("windows");
-        let store = PlayerFolder::at(&folder.0);
+        let (_folder, store) = Folder::new("windows");
         let mut windows = [Scores::default(), Scores::default()];
         for (points, window) in [(30, 0), (50, 1), (40, 0), (50, 1)] {
             windows[window].add(score(points, 90.0), &store).1.unwrap();

@@ -78,14 +78,12 @@ impl Settings {
 mod tests {
     use super::*;
     use crate::input::Action;
-    use crate::store::files::PlayerFolder;
     use crate::store::files::tests::Folder;
     use macroquad::input::KeyCode;
 
     #[test]
     fn settings_come_back_as_they_were() {
-        let folder = Folder::new("settings");
-        let store = PlayerFolder::at(&folder.0);
+        let (_folder, store) = Folder::new("settings");
         let mut settings = Settings { reduced_motion: true, text_size: 3, ..Settings::default() };
         assert!(settings.keys.set(Action::Consume, KeyCode::E));
         store.save(FILE, &settings).unwrap();

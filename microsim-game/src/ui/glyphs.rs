@@ -6,7 +6,6 @@ use macroquad::color::Color;
 use macroquad::texture::Texture2D;
 use microsim_core::glam::Vec2;
 use std::collections::BTreeMap;
-use std::fmt;
 
 /// What is written in place of what is not there.
 const MISSING: char = '?';
@@ -14,19 +13,14 @@ const MISSING: char = '?';
 const GAP: usize = 1;
 
 /// Letters of one scale.
+#[derive(Debug)]
 pub(super) struct Glyphs {
     /// Pixels per drawing unit.
     density: f32,
-    all: BTreeMap<(TextSize, char), Glyph>,
-    /// TextSize of the texture, pixels.
+    all: GlyphMap,
+    /// Size of the texture, pixels.
     sheet: Vec2,
     canvas: Canvas,
-}
-
-impl fmt::Debug for Glyphs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Glyphs").field("density", &self.density).field("count", &self.all.len()).finish()
-    }
 }
 
 /// One letter, in pixels.
@@ -59,14 +53,13 @@ impl Glyphs {
 
     /// Width of text, drawing units.
     pub(super) fn width(&self, size: TextSize, text: &str) -> f32 {
-        self.letters(size, text).map(|glyph| glyph.advance).sum::<f32>() / self.density
+        letters(&self.all, size, text).map(|glyph| glyph.advance).sum::<f32>() / self.density
     }
 
     /// Writes text from a point on its base line on.
     pub(super) fn write(&mut self, at: Vec2, size: TextSize, colour: Color, text: &str) {
-        let letters: Vec<Glyph> = self.letters(size, text).collect();
         let mut pen = (at * self.density).round();
-        for Glyph { corner, side, offset, advance } in letters {
+        for &Glyph { corner, side, offset, advance } in letters(&self.all, size, text) {
             let low = (pen + offset).round();
             let on_sheet = [corner, [corner[0] + side[0], corner[1] + side[1]]].map(|place| point(place) / self.sheet);
             let on_screen = [low, low + point(side)].map(|place| place / self.density);
@@ -79,11 +72,14 @@ impl Glyphs {
     pub(super) fn flush(&mut self) {
         self.canvas.flush();
     }
+}
 
-    fn letters(&self, size: TextSize, text: &str) -> impl Iterator<Item = Glyph> {
-        let of = move |letter| self.all.get(&(size, letter));
-        text.chars().filter_map(move |letter| of(letter).or_else(|| of(MISSING)).copied())
-    }
+type GlyphMap = BTreeMap<(TextSize, char), Glyph>;
+
+/// The glyphs of a text.
+fn letters<'a>(all: &'a GlyphMap, size: TextSize, text: &'a str) -> impl Iterator<Item = &'a Glyph> {
+    let of = move |letter| all.get(&(size, letter));
+    text.chars().filter_map(move |letter| of(letter).or_else(|| of(MISSING)))
 }
 
 fn point([x, y]: [usize; 2]) -> Vec2 {
@@ -98,10 +94,10 @@ fn characters(size: TextSize) -> Vec<char> {
 }
 
 /// All letters in rows, one below the other.
-fn sheet(font: &fontdue::Font, pixels: impl Fn(TextSize) -> f32) -> (Sheet, BTreeMap<(TextSize, char), Glyph>) {
-    let letters =
+fn sheet(font: &fontdue::Font, pixels: impl Fn(TextSize) -> f32) -> (Sheet, GlyphMap) {
+    let keys =
         TextSize::ALL.into_iter().flat_map(|size| characters(size).into_iter().map(move |letter| (size, letter)));
-    let drawn: BTreeMap<_, _> = letters.map(|key| (key, font.rasterize(key.1, pixels(key.0)))).collect();
+    let drawn: BTreeMap<_, _> = keys.map(|key| (key, font.rasterize(key.1, pixels(key.0)))).collect();
     let area: usize = drawn.values().map(|(metrics, _)| (metrics.width + GAP) * (metrics.height + GAP)).sum();
     let columns = ((1.2 * area as f32).sqrt() as usize).next_power_of_two().max(256);
     let (mut all, mut next, mut below) = (BTreeMap::new(), [GAP, GAP], 0);

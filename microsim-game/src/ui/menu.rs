@@ -57,7 +57,7 @@ pub struct MenuLayout {
     pub item: Vec2,
     /// As many items are seen at once.
     pub visible: usize,
-    /// TextSize of the text.
+    /// Size of the text.
     pub size: TextSize,
 }
 
@@ -167,22 +167,16 @@ impl Menu {
 
     fn walk(&mut self, input: &Input) -> Option<MenuChoice> {
         let count = self.items.len();
-        let has_value = |item: usize| self.items.get(item).is_some_and(|item| item.value.is_some());
+        let has_value = self.items.get(self.focus)?.value.is_some();
         match input.step? {
-            _ if count == 0 => None,
-            Move::Up => {
-                self.focus = (self.focus + count - 1) % count;
-                None
-            }
-            Move::Down => {
-                self.focus = (self.focus + 1) % count;
-                None
-            }
-            Move::Left => has_value(self.focus).then_some(MenuChoice::Less(self.focus)),
-            Move::Right => has_value(self.focus).then_some(MenuChoice::Pick(self.focus)),
-            Move::Confirm => Some(MenuChoice::Pick(self.focus)),
-            Move::Back => None,
+            Move::Up => self.focus = (self.focus + count - 1) % count,
+            Move::Down => self.focus = (self.focus + 1) % count,
+            Move::Left if has_value => return Some(MenuChoice::Less(self.focus)),
+            Move::Right if has_value => return Some(MenuChoice::Pick(self.focus)),
+            Move::Confirm => return Some(MenuChoice::Pick(self.focus)),
+            Move::Left | Move::Right | Move::Back => {}
         }
+        None
     }
 
     /// Draws it.
@@ -230,13 +224,9 @@ mod tests {
         MenuLayout { corner: Vec2::new(100.0, 50.0), item: Vec2::new(200.0, 20.0), visible: 3, size: TextSize::Body };
 
     fn menu() -> Menu {
-        Menu::new(vec![
-            MenuItem::new("a"),
-            MenuItem::with("b", "1"),
-            MenuItem::new("c"),
-            MenuItem::new("d"),
-            MenuItem::new("e"),
-        ])
+        let mut items = ["a", "b", "c", "d", "e"].map(MenuItem::new);
+        items[1].value = Some("1".to_owned());
+        Menu::new(items.into())
     }
 
     fn step(step: Move) -> Input {
@@ -264,18 +254,15 @@ mod tests {
     #[test]
     fn the_mouse_picks_what_is_under_it() {
         let mut menu = menu();
-        assert_eq!(menu.update(&click(150.0, 95.0), &LAYOUT), Some(MenuChoice::Pick(2)));
-        assert_eq!(menu.update(&click(150.0, 75.0), &LAYOUT), Some(MenuChoice::Pick(1)));
-        assert_eq!(menu.update(&click(210.0, 75.0), &LAYOUT), Some(MenuChoice::Less(1)));
-        assert_eq!(menu.update(&click(290.0, 75.0), &LAYOUT), Some(MenuChoice::Pick(1)));
+        let mut clicked = |x, y| menu.update(&click(x, y), &LAYOUT);
+        assert_eq!(clicked(150.0, 95.0), Some(MenuChoice::Pick(2)));
+        assert_eq!(clicked(150.0, 75.0), Some(MenuChoice::Pick(1)));
+        assert_eq!(clicked(210.0, 75.0), Some(MenuChoice::Less(1)));
+        assert_eq!(clicked(290.0, 75.0), Some(MenuChoice::Pick(1)));
         for (x, y) in [(99.0, 75.0), (301.0, 75.0), (150.0, 49.0), (150.0, 111.0)] {
-            assert_eq!(menu.update(&click(x, y), &LAYOUT), None);
+            assert_eq!(clicked(x, y), None);
         }
-        assert_eq!(
-            menu.update(&click(100.0 + BACK * 200.0, 75.0), &LAYOUT),
-            Some(MenuChoice::Less(1)),
-            "where the arrow is"
-        );
+        assert_eq!(clicked(100.0 + BACK * 200.0, 75.0), Some(MenuChoice::Less(1)), "where the arrow is");
         assert!(Menu::default().update(&click(150.0, 75.0), &LAYOUT).is_none());
     }
 }

@@ -22,6 +22,17 @@ pub enum Align {
     Right,
 }
 
+impl Align {
+    /// Share of the text to the left of its place.
+    fn share_on_left(self) -> f32 {
+        match self {
+            Self::Left => 0.0,
+            Self::Centre => 0.5,
+            Self::Right => 1.0,
+        }
+    }
+}
+
 /// Draws above the scene. Shapes come below text until [`Pen::flush`].
 #[derive(Debug)]
 pub struct Pen {
@@ -63,7 +74,7 @@ impl Pen {
         }
     }
 
-    /// TextSize of the picture, drawing units.
+    /// Size of the picture, drawing units.
     #[must_use]
     pub fn screen(&self) -> Vec2 {
         self.screen
@@ -82,12 +93,7 @@ impl Pen {
 
     /// Writes text of which the middle is as high as `at`.
     pub fn write(&mut self, at: Vec2, size: TextSize, align: Align, colour: Color, text: &str) {
-        let shift = match align {
-            Align::Left => 0.0,
-            Align::Centre => 0.5,
-            Align::Right => 1.0,
-        };
-        let left = if shift > 0.0 { at.x - shift * self.width(size, text) } else { at.x };
+        let left = at.x - align.share_on_left() * self.width(size, text);
         let at = Vec2::new(left, at.y + 0.34 * self.pixels(size));
         if let Some((_, glyphs)) = &mut self.font {
             glyphs.write(at, size, colour, text);
@@ -97,13 +103,8 @@ impl Pen {
     /// The same on a dark panel, to be read above anything, and wholly in the picture.
     pub fn label(&mut self, at: Vec2, size: TextSize, align: Align, colour: Color, text: &str) {
         let half = Vec2::new(0.5 * self.width(size, text) + 0.35 * self.line(size), 0.56 * self.line(size));
-        let middle = match align {
-            Align::Left => at.x + half.x,
-            Align::Centre => at.x,
-            Align::Right => at.x - half.x,
-        };
-        let (low, high) = (half, (self.screen - half).max(half));
-        let middle = Vec2::new(middle, at.y).clamp(low, high);
+        let middle = Vec2::new(at.x + (1.0 - 2.0 * align.share_on_left()) * half.x, at.y);
+        let middle = middle.clamp(half, (self.screen - half).max(half));
         self.panel(middle - half, middle + half);
         self.write(middle, size, Align::Centre, colour, text);
     }
@@ -162,7 +163,7 @@ fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     lines
 }
 
-/// TextSize of text for a picture: few different ones, for every one needs glyphs of its own.
+/// Size of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
     let steps = [0.8, 1.0, 1.25, 1.5, 2.0];

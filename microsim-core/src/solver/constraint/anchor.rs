@@ -3,7 +3,7 @@
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
 
-use super::{Constrain, Constraint, MAX_LENGTH, check_nodes};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, each};
@@ -25,6 +25,10 @@ pub struct Anchor {
 }
 
 impl Constrain for Anchor {
+    fn order(&self) -> u8 {
+        PULL + 2
+    }
+
     fn links(&self) -> Vec<[u32; 2]> {
         vec![[self.node, self.anchor]]
     }

@@ -3,7 +3,7 @@
 //! `C = 1/2 sum_i (x_i y_{i+1} - x_{i+1} y_i) - A`, gradient of node `i` = `1/2 (y_{i+1} - y_{i-1}, x_{i-1} - x_{i+1})`
 //! (Mueller et al. 2007, section 4.3, volume conservation, in two dimensions).
 
-use super::{Constrain, Constraint, MAX_LENGTH, check_ring};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_ring};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Span, ratio};
@@ -24,6 +24,10 @@ pub struct Area {
 }
 
 impl Constrain for Area {
+    fn order(&self) -> u8 {
+        PULL + 1
+    }
+
     fn links(&self) -> Vec<[u32; 2]> {
         let next = self.ring.iter().cycle().skip(1);
         self.ring.iter().zip(next).map(|(&a, &b)| [a, b]).collect()
@@ -85,7 +89,7 @@ pub(crate) fn enforce(measured: &MeasuredRing, ring: &[u32], error: f32, alpha: 
     let count = ring.len();
     let offset = |particles: &Columns<'_>, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
     let multiplier = ratio(-error, measured.weight + alpha);
-    // The old places of nodes that have moved are kept; all are relative to the first node's old place.
+    // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
     let mut before = offset(particles, count - 1);
     let mut here = Vec2::ZERO;
     let mut moved_first = Vec2::ZERO;

@@ -7,7 +7,7 @@
 //! where `dx` is the move since the substep began. `n` is the vector between the nodes over its length: with
 //! numerator and denominator multiplied by that length as needed, one square root and one division do.
 
-use super::{Constrain, Constraint, MAX_LENGTH, check_nodes};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, each, ratio};
@@ -29,6 +29,10 @@ pub struct Distance {
 }
 
 impl Constrain for Distance {
+    fn order(&self) -> u8 {
+        PULL
+    }
+
     fn links(&self) -> Vec<[u32; 2]> {
         vec![[self.a, self.b]]
     }

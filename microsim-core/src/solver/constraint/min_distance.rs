@@ -3,7 +3,7 @@
 //! `C = l_min - |x_b - x_a| <= 0`, projected rigidly when violated. Keeps a ring off its interlayer and a membrane from
 //! folding (nodes `i` and `i + 2`).
 
-use super::{Constrain, Constraint, MAX_LENGTH, check_nodes};
+use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, each, ratio};
@@ -21,6 +21,10 @@ pub struct MinDistance {
 }
 
 impl Constrain for MinDistance {
+    fn order(&self) -> u8 {
+        LIMIT
+    }
+
     fn links(&self) -> Vec<[u32; 2]> {
         vec![[self.a, self.b]]
     }

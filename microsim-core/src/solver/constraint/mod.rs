@@ -20,6 +20,10 @@ use serde::{Deserialize, Serialize};
 
 /// Largest length or area that a constraint may ask for.
 const MAX_LENGTH: f32 = 1e6;
+/// The first place in the order of projection for kinds that pull towards something.
+const PULL: u8 = 0;
+/// The first place for kinds that limit something. They come last, because the last projection wins.
+const LIMIT: u8 = 128;
 
 /// A rule for the places of some nodes of a body. Nodes are slots of a template.
 ///
@@ -37,6 +41,9 @@ pub enum Constraint {
 
 /// What every kind of constraint says of itself.
 pub(crate) trait Constrain {
+    /// Place in the order of projection, counted from [`PULL`] or [`LIMIT`]; a different one for each kind.
+    fn order(&self) -> u8;
+
     /// Pairs of nodes that it acts between, for drawing.
     fn links(&self) -> Vec<[u32; 2]>;
 
@@ -49,37 +56,62 @@ pub(crate) trait Constrain {
         Self: Sized;
 }
 
+/// Something that is done to a constraint of any kind. Like a generic closure, so that kernels are inlined.
+trait Task<'a> {
+    type Output;
+    fn run(self, constraint: &'a impl Constrain) -> Self::Output;
+}
+
 impl Constraint {
+    /// Runs a task on what is inside: the one place that tells the kinds apart.
+    #[inline(always)]
+    fn run<'a, T: Task<'a>>(&'a self, task: T) -> T::Output {
+        match self {
+            Self::Distance(c) => task.run(c),
+            Self::MinDistance(c) => task.run(c),
+            Self::Area(c) => task.run(c),
+            Self::Anchor(c) => task.run(c),
+            Self::Rope(c) => task.run(c),
+        }
+    }
+
     /// Pairs of nodes that it acts between: the two of a distance, the neighbours in a ring.
     #[must_use]
     pub fn links(&self) -> Vec<[u32; 2]> {
-        self.inner().links()
+        self.run(Borrow).links()
     }
 
     /// Checks its nodes and numbers; errors name the field.
     pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
-        self.inner().validate(nodes)
+        self.run(Borrow).validate(nodes)
     }
+}
 
-    /// Place of its kind in the order of projection. Kinds that limit something come last, because the last projection wins.
-    fn order(&self) -> u8 {
-        match self {
-            Self::Distance(_) => 0,
-            Self::Area(_) => 1,
-            Self::Anchor(_) => 2,
-            Self::MinDistance(_) => 3,
-            Self::Rope(_) => 4,
-        }
+/// Borrows a constraint where speed does not matter.
+struct Borrow;
+
+impl<'a> Task<'a> for Borrow {
+    type Output = &'a dyn Constrain;
+
+    fn run(self, constraint: &'a impl Constrain) -> Self::Output {
+        constraint
     }
+}
 
-    /// What is inside, for uses in which speed does not matter.
-    fn inner(&self) -> &dyn Constrain {
-        match self {
-            Self::Distance(c) => c,
-            Self::MinDistance(c) => c,
-            Self::Area(c) => c,
-            Self::Anchor(c) => c,
-            Self::Rope(c) => c,
+/// Projects a constraint in some spans.
+struct Project<'s, 'p, const L: usize> {
+    spans: &'s [Span<L>],
+    particles: &'s mut Columns<'p>,
+    h: f32,
+}
+
+impl<const L: usize> Task<'_> for Project<'_, '_, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, constraint: &impl Constrain) {
+        for &span in self.spans {
+            constraint.project(span, self.particles, self.h);
         }
     }
 }
@@ -91,26 +123,13 @@ impl Constraint {
 #[inline(always)]
 pub(crate) fn project<const L: usize>(list: &[Constraint], spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
     for constraint in list {
-        match constraint {
-            Constraint::Distance(c) => project_one(c, spans, particles, h),
-            Constraint::MinDistance(c) => project_one(c, spans, particles, h),
-            Constraint::Area(c) => project_one(c, spans, particles, h),
-            Constraint::Anchor(c) => project_one(c, spans, particles, h),
-            Constraint::Rope(c) => project_one(c, spans, particles, h),
-        }
-    }
-}
-
-#[inline(always)]
-fn project_one<const L: usize>(constraint: &impl Constrain, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
-    for &span in spans {
-        constraint.project(span, particles, h);
+        constraint.run(Project { spans, particles: &mut *particles, h });
     }
 }
 
 /// Sorts constraints by kind, in the order of projection; those of one kind stay in their order.
 pub(crate) fn sort(list: &mut [Constraint]) {
-    list.sort_by_key(Constraint::order);
+    list.sort_by_key(|constraint| constraint.run(Borrow).order());
 }
 
 /// Checks that nodes are different and below a number.
@@ -144,7 +163,7 @@ mod tests {
             Anchor { node: a, anchor: b, rest_length, max_length: 1.0, compliance }.into(),
             Rope { a, b, max_length: 1.0 }.into(),
         ];
-        let orders = std::collections::BTreeSet::from(kinds.each_ref().map(Constraint::order));
+        let orders = std::collections::BTreeSet::from(kinds.each_ref().map(|kind| kind.run(Borrow).order()));
         assert_eq!(orders.len(), kinds.len());
     }
 }

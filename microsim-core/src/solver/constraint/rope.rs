@@ -3,7 +3,7 @@
 //! `C = |x_b - x_a| - l_max <= 0`, projected rigidly when violated (Macklin et al. 2014, section 4: inequality
 //! constraints are projected only while `C > 0`). The seed's rope joint.
 
-use super::{Constrain, Constraint, MAX_LENGTH, check_nodes};
+use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, each};
@@ -21,6 +21,10 @@ pub struct Rope {
 }
 
 impl Constrain for Rope {
+    fn order(&self) -> u8 {
+        LIMIT + 1
+    }
+
     fn links(&self) -> Vec<[u32; 2]> {
         vec![[self.a, self.b]]
     }

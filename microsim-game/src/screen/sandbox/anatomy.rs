@@ -37,8 +37,8 @@ fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colo
     let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
     for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
         let low = cell * Vec2::new((k % columns) as f32, (k / columns) as f32);
-        let (upper_left, lower_right) =
-            (camera.to_screen(low + Vec2::new(0.0, cell.y)), camera.to_screen(low + Vec2::new(cell.x, 0.0)));
+        let corners = [Vec2::new(0.0, cell.y), Vec2::new(cell.x, 0.0)];
+        let [upper_left, lower_right] = corners.map(|corner| camera.to_screen(low + corner));
         let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
         let share = (value / most).max(0.0).sqrt();
         if is_seen && share > 0.02 {

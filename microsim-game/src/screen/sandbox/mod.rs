@@ -51,16 +51,9 @@ impl Sandbox {
     pub(super) fn new(stage: Stage, context: &AppContext) -> Self {
         let camera = first_view(stage.world(), stage.player(), VIEW, context.pen.screen());
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
-        let mut sandbox = Self {
-            viewer: Viewer::new(stage.world(), camera),
-            tools: Tools::default(),
-            panel: Menu::default(),
-            plots: Plots::default(),
-            speed: USUAL_SPEED,
-            shows,
-            is_paused: false,
-            stage,
-        };
+        let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
+        let (tools, plots) = (Tools::default(), Plots::default());
+        let mut sandbox = Self { stage, viewer, tools, panel, plots, speed: USUAL_SPEED, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
         sandbox
     }
@@ -91,11 +84,7 @@ impl Sandbox {
     /// One step, while time stands still.
     fn step(&mut self) {
         let tools = &self.tools;
-        self.viewer.step(&mut self.stage, |stage| {
-            tools.before_step(stage);
-            stage.step();
-            stage.world()
-        });
+        self.viewer.step(&mut self.stage, |stage| tools.step(stage));
         self.measure();
     }
 
@@ -103,13 +92,8 @@ impl Sandbox {
         if self.is_paused {
             return;
         }
-        let speed = SPEEDS[self.speed];
         let tools = &self.tools;
-        self.viewer.run(context.pace, speed, &mut self.stage, |stage| {
-            tools.before_step(stage);
-            stage.step();
-            stage.world()
-        });
+        self.viewer.run(context.pace, SPEEDS[self.speed], &mut self.stage, |stage| tools.step(stage));
         self.measure();
     }
 
@@ -121,13 +105,8 @@ impl Sandbox {
 
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let (world, census) = (self.stage.world(), self.stage.census());
-        let mut text = format!(
-            "{}   {:.2} s   {} bodies   {} particles",
-            self.stage.name(),
-            world.time(),
-            census.bodies,
-            census.particles
-        );
+        let (name, time) = (self.stage.name(), world.time());
+        let mut text = format!("{name}   {time:.2} s   {} bodies   {} particles", census.bodies, census.particles);
         if !is_exact {
             text += &format!("   step {:.2} ms", self.viewer.step_ms());
         }
@@ -160,8 +139,7 @@ impl Screen for Sandbox {
                 return next;
             }
         }
-        let problem = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel);
-        if let Some(problem) = problem {
+        if let Some(problem) = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel) {
             context.tell(problem);
         }
         self.run(context);

@@ -23,9 +23,9 @@ pub(super) fn place(pen: &Pen) -> MenuLayout {
 
 /// What it says.
 pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
-    let tool = |tool: Tool| {
+    let tool = |(tool, label)| {
         let mark = if tool == sandbox.tools.tool { "* " } else { "" };
-        let label = format!("{mark}{}", tool.label());
+        let label = format!("{mark}{label}");
         if tool == Tool::Spawn { MenuItem::with(label, sandbox.tools.spawn_name()) } else { MenuItem::new(label) }
     };
     let others = [
@@ -47,7 +47,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
         MenuChoice::Pick(item) => (item, false),
         MenuChoice::Less(item) => (item, true),
     };
-    if let Some(&tool) = Tool::ALL.get(item) {
+    if let Some(&(tool, _)) = Tool::ALL.get(item) {
         // What is spawned changes once the tool has been chosen.
         if tool == Tool::Spawn && sandbox.tools.tool == tool {
             sandbox.tools.change_spawn(is_back);

@@ -37,20 +37,16 @@ pub(super) enum Tool {
 }
 
 impl Tool {
-    pub(super) const ALL: [Self; 7] =
-        [Self::Steer, Self::Drag, Self::Push, Self::Spawn, Self::Remove, Self::Follow, Self::Look];
-
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Steer => "Steer",
-            Self::Drag => "Drag",
-            Self::Push => "Push away",
-            Self::Spawn => "Put in",
-            Self::Remove => "Remove",
-            Self::Follow => "Follow",
-            Self::Look => "Look around",
-        }
-    }
+    /// All of them, with their labels in the panel.
+    pub(super) const ALL: [(Self, &str); 7] = [
+        (Self::Steer, "Steer"),
+        (Self::Drag, "Drag"),
+        (Self::Push, "Push away"),
+        (Self::Spawn, "Put in"),
+        (Self::Remove, "Remove"),
+        (Self::Follow, "Follow"),
+        (Self::Look, "Look around"),
+    ];
 }
 
 /// Makes what a tool puts into the world.
@@ -77,7 +73,7 @@ pub(super) struct Tools {
     grasped: Option<OrganismId>,
     /// Where the cursor is in the room while the button is down.
     hand: Option<Vec2>,
-    /// What point of the room it took hold of, to look around.
+    /// The point of the room that follows the cursor while looking around.
     grip: Option<Vec2>,
 }
 
@@ -113,20 +109,14 @@ impl Tools {
             return None;
         }
         let found = nearest(stage.world(), at, REACH / camera.scale());
-        let result = match (self.tool, found) {
-            (Tool::Spawn, _) => self.put_in(stage, at),
-            (Tool::Remove, Some(id)) => stage.world_mut().remove(id).map_err(|error| error.to_string()),
-            (Tool::Follow, found) => {
-                stage.set_player(found);
-                Ok(())
-            }
-            (Tool::Drag, found) => {
-                self.grasped = found;
-                Ok(())
-            }
-            _ => Ok(()),
-        };
-        result.err()
+        match (self.tool, found) {
+            (Tool::Spawn, _) => return self.put_in(stage, at).err(),
+            (Tool::Remove, Some(id)) => return stage.world_mut().remove(id).err().map(|error| error.to_string()),
+            (Tool::Follow, _) => stage.set_player(found),
+            (Tool::Drag, _) => self.grasped = found,
+            _ => {}
+        }
+        None
     }
 
     fn put_in(&self, stage: &mut Stage, at: Vec2) -> Result<(), String> {
@@ -149,14 +139,15 @@ impl Tools {
         true
     }
 
-    /// What the tool does to the world before each step.
-    pub(super) fn before_step(&self, stage: &mut Stage) {
-        let Some(hand) = self.hand else { return };
-        match (self.tool, self.grasped) {
-            (Tool::Drag, Some(id)) => drag(stage.world_mut(), id, hand),
-            (Tool::Push, _) => push_away(stage.world_mut(), hand),
+    /// One step of the world, with what the tool does to it before.
+    pub(super) fn step<'a>(&self, stage: &'a mut Stage) -> &'a World {
+        match (self.tool, self.hand, self.grasped) {
+            (Tool::Drag, Some(hand), Some(id)) => drag(stage.world_mut(), id, hand),
+            (Tool::Push, Some(hand), _) => push_away(stage.world_mut(), hand),
             _ => {}
         }
+        stage.step();
+        stage.world()
     }
 
     /// Draws what the tool is about to do.
@@ -254,9 +245,8 @@ mod tests {
         let size = stage.world().config().size;
         let mut camera = Camera::around(0.5 * size, 30.0, size, Vec2::new(640.0, 360.0));
         let grip = camera.to_room(Vec2::new(300.0, 200.0));
-        for (x, is_clicked) in [(300.0, true), (330.0, false), (360.0, false)] {
-            let input = Input { cursor: Vec2::new(x, 190.0), is_clicked, is_held: true, ..Input::default() };
-            let input = if is_clicked { Input { cursor: Vec2::new(x, 200.0), ..input } } else { input };
+        for (x, y, is_clicked) in [(300.0, 200.0, true), (330.0, 190.0, false), (360.0, 190.0, false)] {
+            let input = Input { cursor: Vec2::new(x, y), is_clicked, is_held: true, ..Input::default() };
             assert_eq!(tools.use_on(&mut stage, &camera, &input, false), None);
             assert!(tools.look_around(&mut camera));
             assert!((camera.to_room(input.cursor) - grip).length() < 1e-3, "{x}");
@@ -272,8 +262,7 @@ mod tests {
         assert!(tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap_err().starts_with("agar"));
         (tools.tool, tools.hand) = (Tool::Push, Some(Vec2::new(60.0, 45.0)));
         for _ in 0..60 {
-            tools.before_step(&mut stage);
-            stage.step();
+            tools.step(&mut stage);
         }
         let id = stage.world().organisms().next().unwrap();
         assert!((stage.world().centroid(id).unwrap() - Vec2::new(60.0, 45.0)).length() > PUSH_RADIUS - 1.0);
