@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Everything that is in a folder but for what depends on the clock, by name.
 fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -88,6 +88,8 @@ struct Trial {
     folder: Folder,
     scenario: String,
     reference: BTreeMap<String, Vec<u8>>,
+    /// Time that the whole run takes.
+    length: Duration,
 }
 
 impl Trial {
@@ -96,10 +98,12 @@ impl Trial {
     fn new(name: &str) -> Self {
         let folder = Folder::new(name);
         let scenario = folder.file("s.toml", (common::crowd() + STREAMS).as_bytes());
+        let start = Instant::now();
         let output = run(&["run", &scenario, "--steps", Self::STEPS, "--out", &folder.path("whole")]);
+        let length = start.elapsed();
         assert_eq!(output.status.code(), Some(1), "an invariant breaks at once: {}", stderr(&output));
         let reference = content(&folder.root().join("whole"));
-        Self { folder, scenario, reference }
+        Self { folder, scenario, reference, length }
     }
 
     /// Starts or resumes the run and stops it after a time. Returns whether it finished first.
@@ -143,7 +147,8 @@ fn a_run_that_is_stopped_at_20_moments_is_resumed_to_the_same_bytes() {
         let signal = if k % 2 == 0 { "-KILL" } else { "-INT" };
         let mut first = true;
         for _ in 0..3 {
-            let after = Duration::from_millis(60 + (k * 7919 + stops * 104_729) % 700);
+            let share = 5 + (k * 7919 + stops * 104_729) % 90;
+            let after = trial.length * share as u32 / 100;
             if trial.stop_after(&out, first, after, signal) {
                 break;
             }
