@@ -94,18 +94,16 @@ impl Movie {
     }
 
     /// Hands the frames to `ffmpeg`, which writes the file that `file` has reserved.
-    fn write_mp4(&self, file: &mut PendingFile, frames: Frames<'_>) -> Result<(), Failure> {
+    fn write_mp4(&self, file: &mut PendingFile, mut frames: Frames<'_>) -> Result<(), Failure> {
         let mut child = self.ffmpeg(&file.temporary)?;
         let mut input = child.stdin.take();
-        let written: Result<(), Failure> = frames
-            .map(|picture| {
-                let picture = picture?;
-                let sent = input.as_mut().map_or(Ok(()), |input| input.write_all(picture.bytes()));
-                // When it has closed the pipe, its exit status and its own words say why.
-                sent.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
-                    .map_err(|error| Failure::Message(format!("cannot send frames to ffmpeg: {error}")))
-            })
-            .collect();
+        let written: Result<(), Failure> = Iterator::try_for_each(&mut frames, |picture| {
+            let picture = picture?;
+            let sent = input.as_mut().map_or(Ok(()), |input| input.write_all(picture.bytes()));
+            // When it has closed the pipe, its exit status and its own words say why.
+            sent.or_else(|error| if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
+                .map_err(|error| Failure::Message(format!("cannot send frames to ffmpeg: {error}")))
+        });
         drop(input);
         let status = child.wait().map_err(|error| Failure::Message(format!("cannot wait for ffmpeg: {error}")))?;
         written?;
