@@ -276,5 +276,6 @@ fn conclude(world: &mut World) {
         );
     }
     world.quarantine();
-    world.rebase();
+    let everything = std::iter::once(0..world.particles.len());
+    integrate::for_each_chunk(&mut world.particles, everything, world.dispatch, integrate::move_origins);
 }

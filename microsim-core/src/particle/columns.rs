@@ -7,8 +7,8 @@ use std::ops::Range;
 /// Columns of [`super::Particles`], from some particle on.
 #[derive(Debug)]
 pub(crate) struct Columns<'a> {
-    pub(super) origin_x: &'a [f32],
-    pub(super) origin_y: &'a [f32],
+    pub origin_x: &'a mut [f32],
+    pub origin_y: &'a mut [f32],
     pub x: &'a mut [f32],
     pub y: &'a mut [f32],
     pub prev_x: &'a mut [f32],
@@ -33,26 +33,24 @@ impl<'a> Columns<'a> {
     #[inline(never)]
     pub(crate) fn part(&mut self, range: Range<usize>) -> Columns<'_> {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;
-        let [origin_x, origin_y, inv_mass] = [*origin_x, *origin_y, *inv_mass].map(|column| &column[range.clone()]);
-        let moving = [x, y, prev_x, prev_y, vx, vy];
-        let [x, y, prev_x, prev_y, vx, vy] = moving.map(|column| &mut column[range.clone()]);
+        let inv_mass = &inv_mass[range.clone()];
+        let moving = [origin_x, origin_y, x, y, prev_x, prev_y, vx, vy];
+        let [origin_x, origin_y, x, y, prev_x, prev_y, vx, vy] = moving.map(|column| &mut column[range.clone()]);
         Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
     }
 
     /// Takes out the first `count` entries; the others stay.
     pub(crate) fn take_front(&mut self, count: usize) -> Self {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;
-        let [origin_x, origin_y, inv_mass] = [origin_x, origin_y, inv_mass].map(|column| {
-            let (front, others) = column.split_at(count);
-            *column = others;
-            front
-        });
-        let [x, y, prev_x, prev_y, vx, vy] = [x, y, prev_x, prev_y, vx, vy].map(|column| {
+        let (front_inv_mass, others) = inv_mass.split_at(count);
+        *inv_mass = others;
+        let moving = [origin_x, origin_y, x, y, prev_x, prev_y, vx, vy];
+        let [origin_x, origin_y, x, y, prev_x, prev_y, vx, vy] = moving.map(|column| {
             let (front, others) = std::mem::take(column).split_at_mut(count);
             *column = others;
             front
         });
-        Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
+        Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass: front_inv_mass }
     }
 
     /// Chunks of at most `count` entries that together are these ranges, of which each lies after the one before.

@@ -9,10 +9,10 @@
 //!   slot 0: |0 1 2 3 4 5 6 7|  slot 1: |0 1 2 3 4 5 6 7| ...   | . | . | . |
 //! ```
 //!
-//! Coordinates are relative to an origin that all particles of an organism share: within an organism differences of
-//! small numbers are what counts, so a substep's rounding does not grow with the distance from the room's corner (it
-//! would otherwise shake stiff bodies at rest: half a unit in the last place at 100 units, over a substep of 2 ms, is a
-//! speed of 0.002 units/s, 480 times a second). [`Particles::position`] gives world coordinates.
+//! A position is an origin, a multiple of [`GRID`], and a small offset from it; each step ends with the origins moved so that
+//! no offset is longer than half a grid step. Origins are exact and offsets are fine, so that neither a short substep nor the
+//! distance from the room's corner costs digits: at 100 units a unit in the last place, over a substep of 16 us, is a speed
+//! of 0.5 units/s. [`Particles::position`] gives world coordinates.
 //!
 //! A dead entry (an empty lane, a freed index) has inverse mass 0, owner [`NO_OWNER`] and belongs to no collision group.
 
@@ -30,6 +30,8 @@ use glam::Vec2;
 pub use material::Material;
 use serde::{Deserialize, Serialize};
 
+/// Distance of neighbouring origins, units: a power of two, so that coordinates up to 65 536 units lie on it exactly.
+pub(crate) const GRID: f32 = 1.0 / 256.0;
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
 /// Limits of what is read from a file: radius, and each coordinate of position and velocity.
@@ -41,7 +43,7 @@ const MAX_COORDINATE: f32 = 1e6;
 /// One particle, as it is put into the store.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Particle {
-    /// Origin of its owner, whole units.
+    /// On the grid of origins.
     pub origin: Vec2,
     /// Position relative to the origin.
     pub offset: Vec2,
@@ -68,9 +70,9 @@ impl Particle {
 /// start of a substep mean nothing in them before the next one.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Particles {
-    /// Origin that the owner's particles share, whole length units.
-    pub origin_x: Shared<Vec<f32>>,
-    pub origin_y: Shared<Vec<f32>>,
+    /// The nearest place on the grid of origins when the step began, length units.
+    pub origin_x: Vec<f32>,
+    pub origin_y: Vec<f32>,
     /// Position relative to the origin, length units.
     pub x: Vec<f32>,
     pub y: Vec<f32>,
@@ -170,7 +172,7 @@ impl Particles {
         self.owner[i] != NO_OWNER
     }
 
-    /// Origin of particle `i`'s owner.
+    /// Origin of particle `i`.
     pub(crate) fn origin(&self, i: usize) -> Vec2 {
         Vec2::new(self.origin_x[i], self.origin_y[i])
     }
@@ -201,16 +203,6 @@ impl Particles {
         if i < j { i } else { j }
     }
 
-    /// Moves the origin of particle `i` by whole units; the particle stays where it is.
-    pub(crate) fn shift_origin(&mut self, i: usize, by: Vec2) {
-        self.origin_x[i] += by.x;
-        self.origin_y[i] += by.y;
-        self.x[i] -= by.x;
-        self.y[i] -= by.y;
-        self.prev_x[i] -= by.x;
-        self.prev_y[i] -= by.y;
-    }
-
     pub(crate) fn velocity(&self, i: usize) -> Vec2 {
         Vec2::new(self.vx[i], self.vy[i])
     }
@@ -233,8 +225,8 @@ impl Particles {
         let first = self.len();
         let len = first + count;
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass, radius, .. } = self;
-        let shared: [&mut Vec<f32>; 4] = [origin_x, origin_y, inv_mass, radius];
-        for column in shared.into_iter().chain([x, y, prev_x, prev_y, vx, vy]) {
+        let shared: [&mut Vec<f32>; 2] = [inv_mass, radius];
+        for column in shared.into_iter().chain([origin_x, origin_y, x, y, prev_x, prev_y, vx, vy]) {
             column.resize(len, 0.0);
         }
         self.groups.resize(len, CollisionGroups::NONE);

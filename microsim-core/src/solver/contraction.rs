@@ -3,9 +3,9 @@
 //! `C = |x_b - x_a| - (|x_b - x_a|_prev - h v) <= 0`, projected rigidly like a rope ([`Rope`]) that is reeled in.
 
 use super::constraint::Rope;
+use super::contact::moved;
 use super::lanes::Span;
 use crate::particle::Particles;
-use glam::Vec2;
 
 /// Two nodes of one organism that are drawn together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,8 @@ pub(crate) struct Contraction {
 pub(crate) fn project(contractions: &[Contraction], p: &mut Particles, h: f32) {
     for &Contraction { a, b, speed } in contractions {
         let (i, j) = (a as usize, b as usize);
-        let length = Vec2::new(p.prev_x[j] - p.prev_x[i], p.prev_y[j] - p.prev_y[i]).length() - h * speed;
+        let before = p.between(i, j) - (moved(p, j) - moved(p, i));
+        let length = before.length() - h * speed;
         let max_length = if length > 0.0 { length } else { 0.0 };
         Rope { a, b, max_length }.shorten(Span::LOOSE, &mut p.columns());
     }

@@ -4,9 +4,12 @@ use super::instruction_set::Dispatch;
 use super::lanes::{LANES, each, load, store};
 use super::ratio_limit;
 use crate::parallel::{self, CHUNK};
-use crate::particle::{Columns, Particles};
+use crate::particle::{Columns, GRID, Particles};
 use glam::Vec2;
 use std::ops::Range;
+
+/// Added and taken away, it rounds to whole numbers what is smaller than it: beyond 2^23 `f32` has no fractions.
+const ROUNDS: f32 = 12_582_912.0;
 
 /// Does the same to all particles of some ranges, a chunk at a time.
 pub(crate) fn for_each_chunk(
@@ -38,9 +41,10 @@ pub(crate) fn predict_positions(particles: &mut Columns<'_>, gravity: Vec2, max_
 #[inline(always)]
 fn predict<const L: usize>(p: &mut Columns<'_>, at: usize, gravity: Vec2, max_speed: f32, h: f32) {
     let inv_mass = load::<L>(p.inv_mass, at);
-    let moves = each::<L>(|l| if inv_mass[l] > 0.0 { h } else { 0.0 });
+    let moves = each::<L>(|l| if inv_mass[l] > 0.0 { 1.0 } else { 0.0 });
     let (x, y, vx, vy) = (load::<L>(p.x, at), load::<L>(p.y, at), load::<L>(p.vx, at), load::<L>(p.vy, at));
-    let (vx, vy) = (each::<L>(|l| vx[l] + moves[l] * gravity.x), each::<L>(|l| vy[l] + moves[l] * gravity.y));
+    let (vx, vy) =
+        (each::<L>(|l| moves[l] * (vx[l] + h * gravity.x)), each::<L>(|l| moves[l] * (vy[l] + h * gravity.y)));
     let (vx, vy) = match limits(&vx, &vy, max_speed) {
         Some(limit) => (each::<L>(|l| vx[l] * limit[l]), each::<L>(|l| vy[l] * limit[l])),
         None => (vx, vy),
@@ -49,11 +53,12 @@ fn predict<const L: usize>(p: &mut Columns<'_>, at: usize, gravity: Vec2, max_sp
     store(p.vy, at, vy);
     store(p.prev_x, at, x);
     store(p.prev_y, at, y);
-    store(p.x, at, each::<L>(|l| x[l] + moves[l] * vx[l]));
-    store(p.y, at, each::<L>(|l| y[l] + moves[l] * vy[l]));
+    store(p.x, at, each::<L>(|l| x[l] + h * vx[l]));
+    store(p.y, at, each::<L>(|l| y[l] + h * vy[l]));
 }
 
-/// `v = (x - x_prev) / h`, damped. A particle that the projections moved farther than the speed limit allows is moved
+/// `v += (x - x_predicted) / h`, damped: the same as `(x - x_prev) / h`, but what no constraint has corrected keeps its
+/// velocity to the bit, whatever the substep and the rounding of positions. A particle that the projections moved farther than the speed limit allows is moved
 /// back along its way, so that nothing travels farther in a step than pairs were searched for.
 #[inline(always)]
 pub(crate) fn update_velocities(particles: &mut Columns<'_>, damping: f32, max_speed: f32, h: f32) {
@@ -72,14 +77,36 @@ fn update<const L: usize>(p: &mut Columns<'_>, at: usize, max_speed: f32, keep: 
     let inverse = 1.0 / h;
     let (x, y, from_x, from_y) =
         (load::<L>(p.x, at), load::<L>(p.y, at), load::<L>(p.prev_x, at), load::<L>(p.prev_y, at));
-    let (mut dx, mut dy) = (each::<L>(|l| x[l] - from_x[l]), each::<L>(|l| y[l] - from_y[l]));
+    let (vx, vy) = (load::<L>(p.vx, at), load::<L>(p.vy, at));
+    let corrected = |x: f32, from: f32, v: f32| v + (x - (from + h * v)) * inverse;
+    let (mut vx, mut vy) =
+        (each::<L>(|l| corrected(x[l], from_x[l], vx[l])), each::<L>(|l| corrected(y[l], from_y[l], vy[l])));
+    let (dx, dy) = (each::<L>(|l| x[l] - from_x[l]), each::<L>(|l| y[l] - from_y[l]));
     if let Some(limit) = limits(&dx, &dy, max_speed * h) {
-        (dx, dy) = (each::<L>(|l| dx[l] * limit[l]), each::<L>(|l| dy[l] * limit[l]));
-        store(p.x, at, each::<L>(|l| if limit[l] < 1.0 { from_x[l] + dx[l] } else { x[l] }));
-        store(p.y, at, each::<L>(|l| if limit[l] < 1.0 { from_y[l] + dy[l] } else { y[l] }));
+        (vx, vy) = (each::<L>(|l| vx[l] * limit[l]), each::<L>(|l| vy[l] * limit[l]));
+        store(p.x, at, each::<L>(|l| if limit[l] < 1.0 { from_x[l] + dx[l] * limit[l] } else { x[l] }));
+        store(p.y, at, each::<L>(|l| if limit[l] < 1.0 { from_y[l] + dy[l] * limit[l] } else { y[l] }));
     }
-    store(p.vx, at, each::<L>(|l| dx[l] * inverse * keep));
-    store(p.vy, at, each::<L>(|l| dy[l] * inverse * keep));
+    store(p.vx, at, each::<L>(|l| vx[l] * keep));
+    store(p.vy, at, each::<L>(|l| vy[l] * keep));
+}
+
+/// Moves origins to the places on their grid that are nearest to the particles, which stay where they are: all differences are
+/// exact.
+#[inline(always)]
+pub(crate) fn move_origins(particles: &mut Columns<'_>) {
+    move_origins_along(particles.origin_x, particles.x, particles.prev_x);
+    move_origins_along(particles.origin_y, particles.y, particles.prev_y);
+}
+
+#[inline(always)]
+fn move_origins_along(origin: &mut [f32], offset: &mut [f32], previous: &mut [f32]) {
+    for ((origin, offset), previous) in origin.iter_mut().zip(offset).zip(previous) {
+        let by = (*offset * (1.0 / GRID) + ROUNDS - ROUNDS) * GRID;
+        *origin += by;
+        *offset -= by;
+        *previous -= by;
+    }
 }
 
 /// Factors that bring vectors down to `longest`, if one of them is longer: few are, and a root and a division are most of the

@@ -50,6 +50,13 @@ pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
     lanes
 }
 
+/// From slot `a` to slot `b` in one coordinate.
+#[inline(always)]
+fn part<const L: usize>(column: &[f32], a: usize, b: usize) -> [f32; L] {
+    let (a, b) = (load::<L>(column, a), load::<L>(column, b));
+    each(|l| b[l] - a[l])
+}
+
 /// Sets the `L` entries of a column from `at` on.
 #[inline(always)]
 pub(crate) fn store<const L: usize>(column: &mut [f32], at: usize, values: [f32; L]) {
@@ -82,7 +89,9 @@ impl<const L: usize> Pair<L> {
     pub(crate) fn load(particles: &Columns<'_>, a: usize, b: usize) -> Self {
         let (ax, ay) = (load::<L>(particles.x, a), load::<L>(particles.y, a));
         let (bx, by) = (load::<L>(particles.x, b), load::<L>(particles.y, b));
-        let (across_x, across_y): ([f32; L], [f32; L]) = (each(|l| bx[l] - ax[l]), each(|l| by[l] - ay[l]));
+        let (ox, oy) = (part::<L>(particles.origin_x, a, b), part::<L>(particles.origin_y, a, b));
+        let (across_x, across_y): ([f32; L], [f32; L]) =
+            (each(|l| ox[l] + (bx[l] - ax[l])), each(|l| oy[l] + (by[l] - ay[l])));
         let squared = each(|l| across_x[l] * across_x[l] + across_y[l] * across_y[l]);
         let (inv_mass_a, inv_mass_b) = (load(particles.inv_mass, a), load(particles.inv_mass, b));
         Self { a, b, across_x, across_y, inv_mass_a, inv_mass_b, squared }

@@ -34,8 +34,8 @@ const TENSION_COMPLIANCE: f32 = 1e-5;
 const SLACK_SHARE: f32 = 0.05;
 /// ... and the share of its present length below which it is rigid.
 const SHORTEST: f32 = 0.5;
-/// Bending: stride and share corrected per substep.
-const BENDING: [(usize, f32); 2] = [(2, 0.05), (1, 0.1)];
+/// Bending: stride, and inverse stiffness over inverse mass, s2.
+const BENDING: [(usize, f32); 2] = [(2, 1.24e-4), (1, 5.9e-5)];
 /// Inverse stiffness of the area limit.
 const AREA_COMPLIANCE: f32 = 1e-4;
 /// Resting perimeter relative to the circle around the content, and what is added while driven.
@@ -136,9 +136,9 @@ impl Membrane {
         let around = ring.len() as f32 / self.lobes;
         let step = unit_vector(PI / around);
         let radius = 0.5 * length / step.y;
-        for (stride, share) in BENDING {
+        for (stride, compliance) in BENDING {
             let cosine = unit_vector(TAU * stride as f32 / around).x;
-            bend(ring, stride, radius * (1.0 - cosine), share, particles);
+            bend(ring, stride, radius * (1.0 - cosine), compliance / (h * h), particles);
         }
         let particles = &mut particles.columns();
         let measured = MeasuredRing::measure(ring, particles);
@@ -204,8 +204,9 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
     }
 }
 
-/// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it.
-fn bend(ring: &[u32], stride: usize, rise: f32, share: f32, p: &mut Particles) {
+/// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it. All nodes weigh the same, so
+/// `alpha` is relative to their inverse mass.
+fn bend(ring: &[u32], stride: usize, rise: f32, alpha: f32, p: &mut Particles) {
     let count = ring.len();
     for k in 0..count {
         let node = ring[k] as usize;
@@ -215,7 +216,7 @@ fn bend(ring: &[u32], stride: usize, rise: f32, share: f32, p: &mut Particles) {
         let outwards = -chord.perp().normalize_or_zero();
         let error = p.between(before, node) - chord * 0.5 - outwards * rise;
         // Gradient 1 for the node and -1/2 for each neighbour: the squares add up to 1.5.
-        let correction = error * (share / 1.5);
+        let correction = error / (1.5 + alpha);
         super::contact::shift(p, node, -correction);
         super::contact::shift(p, before, correction * 0.5);
         super::contact::shift(p, after, correction * 0.5);

@@ -12,7 +12,6 @@ mod phagocytosis;
 mod push;
 mod quarantine;
 pub(crate) mod query;
-mod rebase;
 mod scale;
 mod spawn;
 pub(crate) mod state;
@@ -292,7 +291,7 @@ mod tests {
         (0..10).for_each(|_| world.step(&Inputs::new()));
         let (p, q) = (&world.particles, &clone.particles);
         let is_shared = |a: &Shared<Vec<f32>>, b: &Shared<Vec<f32>>| std::ptr::eq(&**a, &**b);
-        assert!(is_shared(&p.origin_x, &q.origin_x) && is_shared(&p.inv_mass, &q.inv_mass));
+        assert!(is_shared(&p.inv_mass, &q.inv_mass));
         assert!(is_shared(&p.radius, &q.radius) && std::ptr::eq(&*p.groups, &*q.groups));
         assert!(std::ptr::eq(&*p.owner, &*q.owner) && std::ptr::eq(&*p.next_in_ring, &*q.next_in_ring));
         assert!(std::ptr::eq(&*world.blocks, &*clone.blocks) && std::ptr::eq(&*world.templates, &*clone.templates));

@@ -104,14 +104,14 @@ impl Sums {
 }
 
 /// Second pass: how far the members are moved, by the constraints (eq. 12), with what is `added` to their push at a distance,
-/// and by viscosity, which takes a share of the difference between the way of a particle in this substep and its neighbours'
-/// mean (XSPH, eq. 17).
+/// and by viscosity, which takes a share of the differences between the displacement of a particle in this substep and those
+/// of its neighbours (XSPH, eq. 17). Weights are relative to the rest density, so that what one gains another loses.
 #[inline(always)]
 pub(super) fn shifts(
     group: &Group,
     neighbours: &[Neighbour],
     sums: &Sums,
-    viscosity: f32,
+    [viscosity, rest_density]: [f32; 2],
     added: impl Fn(f32, f32) -> f32,
 ) -> [Lanes; 2] {
     let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
@@ -130,7 +130,8 @@ pub(super) fn shifts(
         }
     }
     let (moved_x, moved_y) = (group.load(neighbours, |s| s.moved_x), group.load(neighbours, |s| s.moved_y));
-    let toward = |drift: &Lanes, moved: Lanes, l: usize| viscosity * (drift[l] / sums.density[l] - moved[l]);
+    let share = viscosity / rest_density;
+    let toward = |drift: &Lanes, moved: Lanes, l: usize| share * (drift[l] - sums.density[l] * moved[l]);
     [
         each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(&sums.drift_x, moved_x, l)),
         each(|l| shift_y[l] + 2.0 * own[l] * sums.wall_y[l] + toward(&sums.drift_y, moved_y, l)),

@@ -167,9 +167,23 @@ impl Workspace {
                     find_multipliers(sorted, sums, *rest_density, dispatch);
                     // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
                     if fluid.is_enclosed {
-                        find_density_shifts(sorted, sums, shifts, viscosity, density::keep_spacing, dispatch);
+                        find_density_shifts(
+                            sorted,
+                            sums,
+                            shifts,
+                            [viscosity, *rest_density],
+                            density::keep_spacing,
+                            dispatch,
+                        );
                     } else {
-                        find_density_shifts(sorted, sums, shifts, viscosity, density::keep_no_spacing, dispatch);
+                        find_density_shifts(
+                            sorted,
+                            sums,
+                            shifts,
+                            [viscosity, *rest_density],
+                            density::keep_no_spacing,
+                            dispatch,
+                        );
                     }
                 }
                 FluidMode::Granular => for_each_group(
@@ -209,7 +223,7 @@ fn find_density_shifts(
     Sorted { groups, neighbours, .. }: &Sorted,
     sums: &[Sums],
     shifts: &mut [[Lanes; 2]],
-    viscosity: f32,
+    viscosity: [f32; 2],
     added: impl Fn(f32, f32) -> f32 + Copy + Sync + Send,
     dispatch: Dispatch,
 ) {

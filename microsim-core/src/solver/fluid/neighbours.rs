@@ -82,8 +82,9 @@ impl Sorted {
         self.found.clear();
         self.found.extend(indices.iter().map(|&i| particles.position(i as usize)));
         let (low, high) = bounds(&self.found);
-        self.low = low;
-        self.walls = Walls { low: -low * inverse, high: (size - low) * inverse };
+        // On the grid of origins, so that differences from origins are exact.
+        self.low = low.floor();
+        self.walls = Walls { low: -self.low * inverse, high: (size - self.low) * inverse };
         let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * support_radius;
         self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
         self.particles.clear();
@@ -166,7 +167,7 @@ fn bounds(positions: &[Vec2]) -> (Vec2, Vec2) {
 }
 
 fn neighbour(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Neighbour {
-    let at = (particles.position(i) - low) * inverse;
+    let at = ((particles.origin(i) - low) + particles.offset(i)) * inverse;
     let is_somewhere = at.x.abs() < -NOWHERE.x && at.y.abs() < -NOWHERE.y;
     let at = if is_somewhere { at } else { NOWHERE };
     let moved_x = (particles.x[i] - particles.prev_x[i]) * inverse;

@@ -10,7 +10,6 @@ use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, set_outline};
 use crate::organism::{Organism, Storage};
 use crate::world::World;
-use glam::Vec2;
 
 impl World {
     /// Tells an amoeboid cell to fuse with another that it touches. In the next step the larger one, by cytoplasm, takes over
@@ -90,11 +89,7 @@ impl World {
 
     /// Gives a cell all particles and prey of another one, within a common outline.
     fn take_over(&mut self, id: OrganismId, other: Organism, outline: Vec<u32>) {
-        let Some(by) = self.organisms.get(id).map(|cell| self.origin_of(cell) - self.origin_of(&other)) else { return };
-        for i in other.particles() {
-            self.particles.owner[i as usize] = id.index;
-            self.particles.shift_origin(i as usize, by);
-        }
+        other.particles().for_each(|i| self.particles.owner[i as usize] = id.index);
         self.move_cytoplasm(&other.fluid_particles, other.fluid, id);
         let Self { organisms, particles, .. } = self;
         let Some(cell) = organisms.get_mut(id) else { return };
@@ -112,11 +107,6 @@ impl World {
             engulfer.pending_growth += other.pending_growth;
         }
         set_outline(cell, outline, particles);
-    }
-
-    /// Origin of the coordinates of an organism.
-    fn origin_of(&self, organism: &Organism) -> Vec2 {
-        organism.first_node().map_or(Vec2::ZERO, |i| self.particles.origin(i as usize))
     }
 
     /// Membrane nodes over the square root of the content.

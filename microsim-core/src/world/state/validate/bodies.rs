@@ -26,13 +26,11 @@ pub(super) fn check(world: &World) -> Check {
     check_links(world)
 }
 
-/// All its particles have one origin; frozen ones are at rest.
+/// Frozen particles are at rest.
 fn check_particles(world: &World, organism: &Organism, cell: Subject) -> Check {
     let p = &world.particles;
-    let origin = organism.particles().next().map(|i| p.origin(i as usize));
     for i in organism.particles() {
         let (disc, i) = (Subject { particle: Some(i), ..cell }, i as usize);
-        disc.must(Some(p.origin(i)) == origin, || "its origin is not that of the others".to_owned())?;
         let is_frozen = p.inv_mass[i] == 0.0 && p.velocity(i) == Vec2::ZERO && p.groups[i] == CollisionGroups::NONE;
         disc.must(is_frozen || !organism.is_quarantined, || "it is in quarantine and not frozen".to_owned())?;
     }

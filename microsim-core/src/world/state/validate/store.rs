@@ -2,7 +2,7 @@
 
 use super::{Check, Subject};
 use crate::config::WorldConfig;
-use crate::particle::{CollisionGroups, NO_OWNER, Particles};
+use crate::particle::{CollisionGroups, GRID, NO_OWNER, Particles};
 use crate::solver::block::Block;
 use crate::template::Role;
 use crate::world::World;
@@ -62,7 +62,9 @@ fn check_numbers(world: &World, i: usize, disc: Subject) -> Check {
     let p = &world.particles;
     for (name, column) in [("origin x", &p.origin_x), ("origin y", &p.origin_y)] {
         disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
-        disc.must(column[i].fract() == 0.0, || format!("{name} is {}, must be whole", column[i]))?;
+        disc.must((column[i] / GRID).fract() == 0.0, || {
+            format!("{name} is {}, must be a multiple of {GRID}", column[i])
+        })?;
     }
     for (name, column) in [("x", &p.x), ("y", &p.y), ("previous x", &p.prev_x), ("previous y", &p.prev_y)] {
         disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
