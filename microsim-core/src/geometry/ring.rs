@@ -10,6 +10,10 @@ use glam::Vec2;
 /// Steps of the arc length table of a quarter ellipse, before those for the number of points.
 const MIN_ARC_STEPS: usize = 256;
 
+/// Angle between successive points in turns of the golden ratio, radians: they never fall on one line (Vogel 1979, "A better way
+/// to construct the sunflower head").
+pub(crate) const GOLDEN_ANGLE: f32 = 2.399_963_2;
+
 /// The unit vector at `angle` radians, counter-clockwise from +x.
 ///
 /// Any finite angle is allowed; others give NaN coordinates.

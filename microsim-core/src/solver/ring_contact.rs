@@ -44,7 +44,7 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
         let links = &links[contact.range()];
         let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
         let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
-        let is_wrong = is_wrong(contact.side, &relation);
+        let is_wrong = relation.squared < radius_sum * radius_sum && is_wrong(contact.side, &relation);
         contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
             wrong += 1;

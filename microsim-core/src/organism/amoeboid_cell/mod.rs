@@ -10,18 +10,17 @@ mod amoeba;
 mod neutrophil;
 
 use super::blueprint::{Blueprint, FluidPlan};
-use super::fluid_block::hexagonal_fill;
 use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, out_of_range};
-use crate::geometry::polygon::{contains_point, perimeter};
-use crate::geometry::ring::ellipse;
+use crate::geometry::polygon::perimeter;
+use crate::geometry::ring::{GOLDEN_ANGLE, ellipse, unit_vector};
 use crate::kind::Kind;
 use crate::look::Look;
 use crate::particle::Material;
-use crate::solver::fluid::{FluidMode, FluidParams};
+use crate::solver::fluid::{FluidMode, FluidParams, rest_area, settle};
 use crate::spec_field::FieldValue::{Number, Table, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
@@ -108,7 +107,7 @@ impl Spec for AmoeboidCellSpec {
     fn blueprint(&self) -> Result<Blueprint, Error> {
         check(self.clone(), Self::fields)?;
         let chain = self.chain()?;
-        let cytoplasm = self.cytoplasm(&chain);
+        let cytoplasm = self.cytoplasm();
         if cytoplasm.points.len() < LEAST_CYTOPLASM {
             let accepted = format!("large enough for {LEAST_CYTOPLASM} cytoplasm particles at this spacing");
             return Err(out_of_range("radii", cytoplasm.points.len() as f64, accepted));
@@ -157,15 +156,26 @@ impl AmoeboidCellSpec {
         builder.build()
     }
 
-    fn cytoplasm(&self, chain: &[Vec2]) -> FluidPlan {
+    fn cytoplasm(&self) -> FluidPlan {
         let spacing = self.cytoplasm_spacing * self.node_radius;
-        let inset = Vec2::splat(self.node_radius + 0.5 * spacing);
-        let radii = self.radii - Vec2::splat(self.node_radius) - inset;
-        let room = ellipse(radii, chain.len());
-        let points = hexagonal_fill(self.radii * 2.0, spacing).into_iter().filter(|&p| contains_point(&room, p));
+        let radii = self.radii - Vec2::splat(self.node_radius);
         let params = FluidParams { spacing, particle_mass: 1.0, viscosity: self.viscosity, mode: FluidMode::Density };
-        FluidPlan { params, points: points.collect(), is_enclosed: true }
+        // The middle of a link is nearer to the centre than its ends.
+        let sagitta = self.node_radius * self.node_radius / (2.0 * radii.min_element());
+        let inside = radii - Vec2::splat(self.node_radius + sagitta);
+        let count = (std::f32::consts::PI * inside.x * inside.y / rest_area(1, spacing)) as usize;
+        let room = inside - Vec2::splat(0.5 * spacing);
+        let mut points = even_fill(count, room);
+        settle(&mut points, params, |at| at / (at / room).length().max(1.0));
+        FluidPlan { params, points, is_enclosed: true }
     }
+}
+
+/// Points of even density in an ellipse around the origin, as the florets of a sunflower (Vogel 1979, "A better way to construct
+/// the sunflower head").
+fn even_fill(count: usize, radii: Vec2) -> Vec<Vec2> {
+    let place = |k: usize| ((k as f32 + 0.5) / count as f32).sqrt() * unit_vector(k as f32 * GOLDEN_ANGLE);
+    (0..count).map(|k| radii * place(k)).collect()
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 mod density;
 mod granular;
 mod neighbours;
+mod settle;
 
 use super::instruction_set::Dispatch;
 use crate::error::Error;
@@ -20,6 +21,7 @@ use crate::spec_field::FieldValue::{Number, Word};
 use crate::spec_field::{FieldVisitor, check, field};
 use density::{SUPPORT, Sums};
 use glam::Vec2;
+pub(crate) use settle::settle;
 use neighbours::{Group, Lanes, Sorted};
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, ErrorKind, out_of_range};
 use crate::geometry::polygon::{contains_point, signed_area};
-use crate::geometry::ring::unit_vector;
+use crate::geometry::ring::{GOLDEN_ANGLE, unit_vector};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::organism::ring_surgery::{insert_node, remove_node};
@@ -13,8 +13,6 @@ use crate::template::Role;
 use crate::world::World;
 use glam::Vec2;
 
-/// Angle between new particles in turns of the golden ratio, radians (Vogel 1979): they never fall on one line.
-const GOLDEN_ANGLE: f32 = 2.399_963_2;
 /// Largest amount of cytoplasm in a membrane that has not stretched yet, over its content at rest. With more the pressure
 /// rises faster than the substeps of a step can spread it.
 const MOST_CROWDED: f32 = 1.5;
