@@ -8,7 +8,9 @@
 use microsim_core::geometry::polygon::signed_area;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Scenario, builtin};
-use microsim_core::{AgarSpec, AmoeboidCellSpec, Error, Event, Inputs, Intent, Measure, OrganismId, Placement, World, WorldConfig};
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, Error, Event, Inputs, Intent, Measure, OrganismId, Placement, World, WorldConfig,
+};
 
 const STEPS: [f32; 4] = [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0, 0.001];
 const SUBSTEPS: [u32; 6] = [1, 4, 8, 16, 32, 64];
@@ -134,6 +136,11 @@ fn row(dt: f32, substeps: u32, seeds: u64) -> String {
 }
 
 fn main() {
+    if let Ok(only) = std::env::var("ONLY") {
+        let a: Vec<&str> = only.split(' ').collect();
+        println!("{}", absorb(a[0], a[1].parse().unwrap(), a[2].parse().unwrap(), a[3].parse().unwrap()));
+        return;
+    }
     let mut args = std::env::args().skip(1);
     let seeds: u64 = args.next().and_then(|seeds| seeds.parse().ok()).unwrap_or(5);
     let only: Option<f32> = args.next().and_then(|dt| dt.parse().ok());

@@ -282,7 +282,7 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
             inv_mass: 1.0 / plan.params.particle_mass,
             radius: 0.5 * plan.params.spacing,
             groups: CollisionGroups::ALL,
-            material: Material { friction: 0.0, restitution: 0.0 },
+            material: Material { friction: plan.params.surface_friction(), restitution: 0.0 },
             role: if plan.is_enclosed { Role::Cytoplasm } else { Role::Fluid } as u8,
             owner,
             fluid: 0,

@@ -20,7 +20,7 @@ use crate::geometry::ring::{GOLDEN_ANGLE, ellipse, unit_vector};
 use crate::kind::Kind;
 use crate::look::Look;
 use crate::particle::Material;
-use crate::solver::fluid::{FluidMode, FluidParams, rest_area, settle};
+use crate::solver::fluid::{FluidParams, rest_area, settle};
 use crate::spec_field::FieldValue::{Number, Table, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
@@ -159,7 +159,7 @@ impl AmoeboidCellSpec {
     fn cytoplasm(&self) -> FluidPlan {
         let spacing = self.cytoplasm_spacing * self.node_radius;
         let radii = self.radii - Vec2::splat(self.node_radius);
-        let params = FluidParams { spacing, particle_mass: 1.0, viscosity: self.viscosity, mode: FluidMode::Density };
+        let params = FluidParams { spacing, particle_mass: 1.0, viscosity: self.viscosity, ..FluidParams::default() };
         // The middle of a link is nearer to the centre than its ends.
         let sagitta = self.node_radius * self.node_radius / (2.0 * radii.min_element());
         let inside = radii - Vec2::splat(self.node_radius + sagitta);

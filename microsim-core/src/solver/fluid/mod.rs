@@ -21,9 +21,9 @@ use crate::spec_field::FieldValue::{Number, Word};
 use crate::spec_field::{FieldVisitor, check, field};
 use density::{SUPPORT, Sums};
 use glam::Vec2;
-pub(crate) use settle::settle;
 use neighbours::{Group, Lanes, Sorted};
 use serde::{Deserialize, Serialize};
+pub(crate) use settle::settle;
 
 /// Groups that are worked on at a time, a fixed number whatever the number of threads.
 const PORTION: usize = 64;
@@ -33,7 +33,7 @@ const PORTION: usize = 64;
 pub enum FluidMode {
     /// Incompressible: a density constraint on each particle.
     Density,
-    /// Grains: particles only keep from overlapping. Several times cheaper, piles up like sand.
+    /// Grains: particles keep from overlapping, with friction. Several times cheaper, piles up like sand.
     Granular,
 }
 
@@ -49,11 +49,13 @@ pub struct FluidParams {
     pub viscosity: f32,
     /// How particles keep apart.
     pub mode: FluidMode,
+    /// Coulomb friction coefficient of grains, on each other and on surfaces, 0 to 10. A fluid of constant density has none.
+    pub friction: f32,
 }
 
 impl Default for FluidParams {
     fn default() -> Self {
-        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 10.0, mode: FluidMode::Density }
+        Self { spacing: 1.0, particle_mass: 1.0, viscosity: 10.0, mode: FluidMode::Density, friction: 0.5 }
     }
 }
 
@@ -64,6 +66,11 @@ impl FluidParams {
     /// Names the first field out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         check(*self, Self::fields)
+    }
+
+    /// Friction of its particles on surfaces.
+    pub(crate) fn surface_friction(&self) -> f32 {
+        if self.mode == FluidMode::Granular { self.friction } else { 0.0 }
     }
 
     pub(crate) fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
@@ -77,6 +84,8 @@ impl FluidParams {
         let mut mode = self.mode as usize;
         visit(field("mode", words), Word(&mut mode, &["density", "granular"]));
         self.mode = MODES[mode];
+        let words = "Coulomb friction coefficient of grains, on each other and on surfaces.";
+        visit(field("friction", words), Number(&mut self.friction, [0.0, 10.0]));
     }
 }
 
@@ -193,7 +202,9 @@ impl Workspace {
                     shifts,
                     dispatch,
                     #[inline(always)]
-                    |_, group, shifts| *shifts = granular::shifts(group, &sorted.neighbours, viscosity),
+                    |_, group, shifts| {
+                        *shifts = granular::shifts(group, &sorted.neighbours, [viscosity, fluid.params.friction])
+                    },
                 ),
             }
             sorted.shift(shifts, support_radius, particles);

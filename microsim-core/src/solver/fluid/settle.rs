@@ -19,7 +19,8 @@ pub(crate) fn settle(points: &mut [Vec2], params: FluidParams, confine: impl Fn(
     // Far from the walls at 0.
     let far = points.iter().fold(Vec2::ZERO, |far, point| far.max(point.abs())) + Vec2::splat(4.0 * params.spacing);
     let mut particles = Particles::default();
-    let grains = FluidParams { spacing: LEAST_SPACING * params.spacing, mode: FluidMode::Granular, ..params };
+    let spacing = LEAST_SPACING * params.spacing;
+    let grains = FluidParams { spacing, mode: FluidMode::Granular, friction: 0.0, ..params };
     let mut fluids = [Fluid::new(params, true), Fluid::new(grains, true)];
     for &point in &*points {
         let index = particles.insert(&disc(far + point));

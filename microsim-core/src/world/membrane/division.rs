@@ -83,15 +83,22 @@ impl World {
         let Some(divider) = organism.divider.as_mut() else { return };
         divider.furrow = divider.furrow.map(|furrow| Furrow { elapsed, ..furrow });
         let time_limit = divider.params.time_limit;
-        let room = u64::from(self.config.max_particles).saturating_sub(self.particles.live_count() as u64);
-        if room > 0 && (organism.missing_nodes() > 0 || longest_link(organism, &self.particles) > LONGEST) {
-            insert_node_in(organism, shorter_arc(organism), &mut self.particles);
-        }
+        (0..self.membrane_changes()).for_each(|_| self.lengthen_furrow(id));
         let Some(organism) = self.organisms.get(id) else { return };
         match self.division_swap(organism) {
             Ok(swap) => self.split(id, &swap),
             Err(reason) if elapsed >= time_limit => self.abandon_division(id, reason),
             Err(_) => {}
+        }
+    }
+
+    /// Puts a node into the membrane of the furrow, if it needs one.
+    fn lengthen_furrow(&mut self, id: OrganismId) {
+        let has_room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
+        let Self { organisms, particles, .. } = self;
+        let Some(organism) = organisms.get_mut(id).filter(|_| has_room) else { return };
+        if organism.missing_nodes() > 0 || longest_link(organism, particles) > LONGEST {
+            insert_node_in(organism, shorter_arc(organism), particles);
         }
     }
 

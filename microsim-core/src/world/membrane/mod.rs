@@ -17,7 +17,16 @@ use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
 
+/// Rate of changes that a membrane can follow, 1/s: nodes put in or taken out, particles of cytoplasm added.
+const CHANGE_RATE: f64 = 60.0;
+
 impl World {
+    /// Number of such changes of each membrane in this step: their rate does not depend on its length.
+    pub(in crate::world) fn membrane_changes(&self) -> u32 {
+        let by = |step: u64| (step as f64 * f64::from(self.config.dt) * CHANGE_RATE) as u64;
+        (by(self.step_index + 1) - by(self.step_index)) as u32
+    }
+
     /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content.
     pub(crate) fn divide_and_fuse(&mut self) {
         let dt = self.config.dt;
@@ -32,7 +41,7 @@ impl World {
                 divider.relax(dt);
             }
             self.advance_furrow(id);
-            self.adapt_membrane(id);
+            (0..self.membrane_changes()).for_each(|_| self.adapt_membrane(id));
         }
     }
 

@@ -17,20 +17,25 @@ const SEARCHED_NODES: usize = 4;
 impl World {
     /// Advances a cup by a step; returns whether it has closed.
     pub(super) fn advance_cup(&mut self, id: OrganismId, prey: OrganismId, params: &PhagocytosisParams) -> bool {
-        let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let (Some(organism), Some(eaten)) = (self.organisms.get(id), self.organisms.get(prey)) else { return false };
         let Some(fold) = Fold::find(organism, eaten, &self.particles) else { return false };
         if let Some(swap) = self.cup_swap(organism, prey, &fold, params) {
             self.form_phagosome(id, prey, &swap);
             return true;
         }
+        (0..self.membrane_changes()).for_each(|_| self.lengthen_fold(id, &fold));
+        false
+    }
+
+    /// Puts a node into the fold of a membrane that needs one.
+    fn lengthen_fold(&mut self, id: OrganismId, fold: &Fold) {
+        let has_room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let Self { organisms, particles, .. } = self;
-        if let Some(organism) = organisms.get_mut(id).filter(|organism| room && organism.missing_nodes() > 0) {
+        if let Some(organism) = organisms.get_mut(id).filter(|organism| has_room && organism.missing_nodes() > 0) {
             let count = organism.outline.len();
             let first = fold.bottom + count - fold.before - 1;
             insert_node_in(organism, first..first + fold.before + fold.after + 2, particles);
         }
-        false
     }
 
     /// The links to swap, if the lips are close enough and enclose all of the prey and nothing else.

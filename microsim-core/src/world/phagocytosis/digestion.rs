@@ -48,7 +48,7 @@ impl World {
         if is_removed { area } else { 0.0 }
     }
 
-    /// Turns digested area into cytoplasm, at most one particle per step so that the membrane can follow, and adds the nodes
+    /// Turns digested area into cytoplasm, one particle, and adds the nodes
     /// that the membrane then needs.
     pub(super) fn grow_from_digestion(&mut self, id: OrganismId) {
         let Some(organism) = self.organisms.get_mut(id) else { return };

@@ -45,7 +45,7 @@ impl World {
                     organism.update_wanted_nodes(&self.fluids);
                 }
             }
-            self.grow_from_digestion(id);
+            (0..self.membrane_changes()).for_each(|_| self.grow_from_digestion(id));
         }
     }
 

@@ -16,6 +16,7 @@ const AREA_RATIO: f32 = 1.1;
 impl World {
     /// Fits phagosomes to the size of their prey and removes those whose prey is gone; returns whether any was removed.
     pub(in crate::world) fn advance_phagosomes(&mut self, id: OrganismId, engulfer: &Engulfer) -> bool {
+        let changes = self.membrane_changes();
         let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
         for phagosome in &mut phagosomes {
             phagosome.area = AREA_RATIO * self.area_of(phagosome.prey);
@@ -25,11 +26,14 @@ impl World {
         let count = phagosomes.len();
         phagosomes.retain_mut(|phagosome| {
             let has_prey = engulfer.meals.iter().any(|meal| meal.prey == phagosome.prey);
-            let wanted = phagosome.membrane.rest_perimeter() / phagosome.membrane.rest_length;
             if !has_prey {
                 free_nodes(organism, &phagosome.ring, particles);
-            } else if wanted < phagosome.ring.len() as f32 - 0.5 && phagosome.ring.len() > LEAST_NODES {
-                free_nodes(organism, take_out(&mut phagosome.ring, particles).as_slice(), particles);
+            }
+            let wanted = phagosome.membrane.rest_perimeter() / phagosome.membrane.rest_length;
+            for _ in (0..changes).filter(|_| has_prey) {
+                if wanted < phagosome.ring.len() as f32 - 0.5 && phagosome.ring.len() > LEAST_NODES {
+                    free_nodes(organism, take_out(&mut phagosome.ring, particles).as_slice(), particles);
+                }
             }
             has_prey
         });
