@@ -24,7 +24,7 @@ const ROUNDING_TIME: f32 = 2.0;
 pub struct DivisionParams {
     /// Speed at which each side of the furrow moves towards the other, units/s, 0.1 to 20.
     pub furrow_speed: f32,
-    /// Longest link that may close a ring when two links are swapped, in rest lengths, 1 to 1.5. Two cells fuse when their
+    /// Longest link that may close a ring when two links are swapped, in rest lengths, 1 to 1.25. Two cells fuse when their
     /// membranes are that near.
     pub closing_length: f32,
     /// Time after which a furrow that has not closed is abandoned, s, 0.1 to 600.
@@ -37,7 +37,7 @@ pub struct DivisionParams {
 
 impl Default for DivisionParams {
     fn default() -> Self {
-        Self { furrow_speed: 3.0, closing_length: 1.4, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
+        Self { furrow_speed: 3.0, closing_length: 1.2, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
     }
 }
 
@@ -50,7 +50,7 @@ impl DivisionParams {
         let words = "Speed of each side of the furrow, micrometres/s.";
         visit(field("furrow_speed", words), Number(&mut self.furrow_speed, [0.1, 20.0]));
         let words = "Longest link that may close a ring, in rest lengths.";
-        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.5]));
+        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.25]));
         let words = "Time after which a furrow that has not closed is abandoned, s.";
         visit(field("time_limit", words), Number(&mut self.time_limit, [0.1, 600.0]));
         let words = "Fewest particles of cytoplasm of each half.";

@@ -55,7 +55,7 @@ pub struct PhagocytosisParams {
     pub pull_acceleration: f32,
     /// Speed of each lip of a cup, units/s, 0.1 to 20.
     pub lip_speed: f32,
-    /// Longest link that may close the ring behind prey in a cup, in rest lengths, 1 to 1.5.
+    /// Longest link that may close the ring behind prey in a cup, in rest lengths, 1 to 1.25.
     pub closing_length: f32,
     /// Size to which soft prey shrinks while it goes in, relative to its own, 0.05 to 1.
     pub soft_prey_scale: f32,
@@ -79,7 +79,7 @@ impl Default for PhagocytosisParams {
             pull_speed: 6.0,
             pull_acceleration: 4000.0,
             lip_speed: 6.0,
-            closing_length: 1.35,
+            closing_length: 1.2,
             soft_prey_scale: 0.5,
             digestion_time: [0.6, 1.2, 2.0],
             digestion_speed: 0.35,
@@ -116,7 +116,7 @@ impl PhagocytosisParams {
         let words = "Speed of each lip of a cup, micrometres/s.";
         visit(field("lip_speed", words), Number(&mut self.lip_speed, [0.1, 20.0]));
         let words = "Longest link that may close the ring behind prey in a cup, in rest lengths.";
-        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.5]));
+        visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.25]));
         let words = "Size to which soft prey shrinks while it goes in, relative to its own.";
         visit(field("soft_prey_scale", words), Number(&mut self.soft_prey_scale, [0.05, 1.0]));
         let words = "Time of digestion of simple and of soft prey, s.";
