@@ -7,8 +7,10 @@ use crate::solver::lanes::{LANES, each};
 
 /// Kernel radius in units of the rest spacing.
 pub(super) const SUPPORT: f32 = 2.0;
-/// Softens the multiplier where a particle has few neighbours.
+/// Softens the multiplier where a particle has few neighbours, at a substep of [`SUBSTEP`] or longer.
 const RELAXATION: f32 = 0.5;
+/// In shorter substeps, s, the softness is that of a compliance: it grows with `1 / h^2`.
+const SUBSTEP: f32 = 1.0 / 480.0;
 /// Share of the correction that is applied: neighbours correct the same error at once.
 const UNDER_RELAXATION: f32 = 0.7;
 /// Enclosed particles are kept from getting nearer than this share of the rest spacing.
@@ -92,15 +94,20 @@ impl Sums {
 
     /// Finds the multipliers from the sums.
     #[inline(always)]
-    pub(super) fn find_multipliers(&mut self, rest_density: f32) {
+    pub(super) fn find_multipliers(&mut self, rest_density: f32, relaxation: f32) {
         let compression = self.compression(rest_density);
         let slope = 3.0 / rest_density;
         self.multiplier = each(|l| {
             let own = self.gradient_x[l] * self.gradient_x[l] + self.gradient_y[l] * self.gradient_y[l];
-            let weight = (self.squared[l] + own) * (slope * slope) + RELAXATION;
+            let weight = (self.squared[l] + own) * (slope * slope) + relaxation;
             compression[l] / weight * (UNDER_RELAXATION * slope)
         });
     }
+}
+
+/// What is added to the weight of a density constraint in a substep of `h`.
+pub(super) fn relaxation(h: f32) -> f32 {
+    if h < SUBSTEP { RELAXATION * (SUBSTEP * SUBSTEP) / (h * h) } else { RELAXATION }
 }
 
 /// Second pass: how far the members are moved, by the constraints (eq. 12), with what is `added` to their push at a distance,

@@ -175,7 +175,7 @@ impl Workspace {
             let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
             match fluid.params.mode {
                 FluidMode::Density => {
-                    find_multipliers(sorted, sums, *rest_density, dispatch);
+                    find_multipliers(sorted, sums, [*rest_density, density::relaxation(h)], dispatch);
                     // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
                     if fluid.is_enclosed {
                         find_density_shifts(
@@ -212,7 +212,12 @@ impl Workspace {
     }
 }
 
-fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, dispatch: Dispatch) {
+fn find_multipliers(
+    sorted: &mut Sorted,
+    sums: &mut [Sums],
+    [rest_density, relaxation]: [f32; 2],
+    dispatch: Dispatch,
+) {
     let Sorted { groups, neighbours, walls, .. } = sorted;
     for_each_group(
         groups,
@@ -222,7 +227,7 @@ fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], rest_density: f32, d
         |_, group, sums| {
             *sums = density::sum(group, neighbours);
             sums.add_walls(group, neighbours, walls);
-            sums.find_multipliers(rest_density);
+            sums.find_multipliers(rest_density, relaxation);
         },
     );
     for (group, sums) in groups.iter().zip(sums) {
