@@ -30,10 +30,12 @@ const TAUT: f32 = 1.2;
 const STRAIN_SWEEPS: usize = 8;
 /// Inverse stiffness of a stretched link (length/force).
 const TENSION_COMPLIANCE: f32 = 1e-5;
-/// Share of the tension correction that a slack link gets ...
+/// Share of the tension correction that a slack link gets in a substep of [`SUBSTEP`], in shorter ones less ...
 const SLACK_SHARE: f32 = 0.05;
 /// ... and the share of its present length below which it is rigid.
 const SHORTEST: f32 = 0.5;
+/// Substep up to which a slack link is soft by a compliance, s.
+const SUBSTEP: f32 = 1.0 / 480.0;
 /// Bending: stride, and inverse stiffness over inverse mass, s2.
 const BENDING: [(usize, f32); 2] = [(2, 1.24e-4), (1, 5.9e-5)];
 /// Inverse stiffness of the area limit.
@@ -189,6 +191,8 @@ fn share(dt: f32, time: f32) -> f32 {
 fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
     let particles = &mut particles.columns();
     let alpha = TENSION_COMPLIANCE / (h * h);
+    let shorter = if h < SUBSTEP { (h * h) / (SUBSTEP * SUBSTEP) } else { 1.0 };
+    let slack_share = shorter / (shorter + (1.0 - SLACK_SHARE) / SLACK_SHARE);
     for (a, b) in links(ring) {
         let pair = Pair::<1>::load(particles, a as usize, b as usize);
         let (present, weight) = (pair.length(0), pair.weight(0));
@@ -198,7 +202,7 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
         } else if present < SHORTEST * length {
             ratio(SHORTEST * length - present, present * weight)
         } else {
-            SLACK_SHARE * ratio(lack, present * (weight + alpha))
+            slack_share * ratio(lack, present * (weight + alpha))
         };
         pair.push(particles, [share]);
     }
