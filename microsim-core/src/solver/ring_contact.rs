@@ -44,7 +44,7 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
         let links = &links[contact.range()];
         let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
         let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
-        let is_wrong = relation.squared < radius_sum * radius_sum && is_wrong(contact.side, &relation);
+        let is_wrong = is_through(contact, nearest, &relation, links, p);
         contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
             wrong += 1;
@@ -79,10 +79,11 @@ pub(crate) fn gaps<'a>(
 pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
-        let Some((link, relation)) = nearest_link(contact.particle, rings.links_of(contact), p) else { continue };
+        let links = rings.links_of(contact);
+        let Some((link, relation)) = nearest_link(contact.particle, links, p) else { continue };
         let i = contact.particle as usize;
         let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
-        let is_wrong = is_wrong(contact.side, &relation);
+        let is_wrong = is_through(contact, link, &relation, links, p);
         wrong += u32::from(is_wrong);
         if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
             let length = relation.squared.sqrt();
@@ -124,6 +125,18 @@ fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let i = contact.particle as usize;
     let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
     shift(p, i, -relation.away + to_own_side(contact.side, &relation) * standoff);
+}
+
+/// Whether a disc is on the wrong side of the link nearest to it, of those that were found: farther than the contact distance,
+/// or at an end where the next link was not found, another one may be nearer.
+fn is_through(contact: &RingContact, nearest: Link, relation: &Relation, links: &[Link], p: &Particles) -> bool {
+    let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+    let is_known = || match relation.t {
+        0.0 => links.iter().any(|link| link.b == nearest.a),
+        1.0 => links.iter().any(|link| link.a == nearest.b),
+        _ => true,
+    };
+    is_wrong(contact.side, relation) && relation.squared < radius_sum * radius_sum && is_known()
 }
 
 fn is_wrong(side: Side, relation: &Relation) -> bool {
