@@ -96,7 +96,9 @@ fn absorb(name: &str, seed: u64, dt: f32, substeps: u32) -> String {
                 _ => {}
             }
         }
-        if std::env::var("TRACE").is_ok() && stretch_of(&built.world) > 0.22 { println!("{:.4} stretch {:.3} {:?}", built.world.time(), stretch_of(&built.world), built.world.events()); }
+        if std::env::var("TRACE").is_ok() && stretch_of(&built.world) > 0.22 {
+            println!("{:.4} stretch {:.3} {:?}", built.world.time(), stretch_of(&built.world), built.world.events());
+        }
         stretch = stretch.max(stretch_of(&built.world));
         if built.world.step_index() % 10 == 0 {
             let census = built.world.census();

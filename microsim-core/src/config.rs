@@ -1,11 +1,15 @@
 //! Everything about a world that is fixed when it is made.
 
-use crate::error::{Error, count_in_range, in_range};
+use crate::error::{Error, count_in_range, in_range, out_of_range};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// Without protection of its membranes a world lets things move so many times faster than its speed limit.
 const UNPROTECTED: f32 = 15.0;
+
+/// Shortest substep, s: in shorter ones the corrections of a membrane that changes exceed the speed limit, and discs get through
+/// it.
+const SHORTEST_SUBSTEP: f32 = 0.0002;
 
 /// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
 const SLEEP_SPEED: f32 = 0.02;
@@ -19,8 +23,8 @@ pub struct WorldConfig {
     pub size: Vec2,
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
-    /// Substeps per step, 1 to 64. More are stiffer and cost proportionally; below 6 jams stretch visibly, and with 1 a
-    /// membrane under an absurd load may leak.
+    /// Substeps per step, 1 to 64, each at least 0.0002 s long. More are stiffer and cost proportionally; below 6 jams stretch
+    /// visibly, and with 1 a membrane under an absurd load may leak.
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
@@ -71,6 +75,12 @@ impl WorldConfig {
         in_range("size.y", self.size.y, 1.0, Self::MAX_SIZE)?;
         in_range("dt", self.dt, 0.001, 0.1)?;
         count_in_range("substeps", self.substeps, 1, 64)?;
+        let most = (self.dt / SHORTEST_SUBSTEP) as u32;
+        if self.substeps > most {
+            let accepted =
+                format!("at most {most} of a step of {} s: a substep of {SHORTEST_SUBSTEP} s or longer", self.dt);
+            return Err(out_of_range("substeps", f64::from(self.substeps), accepted));
+        }
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
         in_range("damping", self.damping, 0.0, 100.0)?;

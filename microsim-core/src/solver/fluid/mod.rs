@@ -212,12 +212,7 @@ impl Workspace {
     }
 }
 
-fn find_multipliers(
-    sorted: &mut Sorted,
-    sums: &mut [Sums],
-    [rest_density, relaxation]: [f32; 2],
-    dispatch: Dispatch,
-) {
+fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], [rest_density, relaxation]: [f32; 2], dispatch: Dispatch) {
     let Sorted { groups, neighbours, walls, .. } = sorted;
     for_each_group(
         groups,
