@@ -1,8 +1,8 @@
 //! Scenario files: the built-in ones run, and whatever is wrong with a file is found, placed and explained.
 #![cfg(feature = "scenario")]
 
-use microsim_core::Inputs;
 use microsim_core::scenario::{Scenario, builtin, builtins};
+use microsim_core::{Inputs, Kind};
 use proptest::prelude::*;
 
 fn build(name: &str, overrides: &[(&str, &str)]) -> microsim_core::World {
@@ -39,9 +39,24 @@ fn platelets_come_in_any_number() {
 }
 
 #[test]
+fn a_crowd_has_as_many_cells_as_asked_for_in_a_room_that_grows_with_it() {
+    let area_of_each = |count: u32| {
+        let world = build("crowd", &[("count", &count.to_string())]);
+        let of_kind = |kind| world.view().organisms().filter(|organism| organism.kind() == kind).count() as u32;
+        assert_eq!((of_kind(Kind::AmoeboidCell), of_kind(Kind::Platelet)), (count, count));
+        assert_eq!(world.census().particles as u32, count * 135, "104 of a cell, 31 of a platelet");
+        world.config().size.element_product() / count as f32
+    };
+    let [few, more] = [20, 320].map(area_of_each);
+    assert!([1, 2, 5, 1000].map(area_of_each).into_iter().all(|area| area > more * 0.9));
+    assert!((1.0..2.0).contains(&(few / more)), "only the margin is shared: {few} {more}");
+}
+
+#[test]
 fn a_crowd_finds_room_with_every_seed() {
     for seed in 1..=20 {
         assert_eq!(build("hunt", &[("seed", &seed.to_string())]).organisms().count(), 112, "seed {seed}");
+        assert_eq!(build("crowd", &[("seed", &seed.to_string())]).organisms().count(), 40, "seed {seed}");
     }
 }
 
