@@ -104,6 +104,13 @@ impl RingContacts {
         &self.links[contact.range()]
     }
 
+    /// The contacts of the ring in this place, which lie side by side.
+    pub(crate) fn of_ring(&self, place: usize) -> &[RingContact] {
+        let first = self.contacts.partition_point(|contact| contact.ring < place);
+        let count = self.contacts[first..].partition_point(|contact| contact.ring == place);
+        &self.contacts[first..first + count]
+    }
+
     /// The contacts, to be worked on, and all links.
     pub(crate) fn parts(&mut self) -> (&mut [RingContact], &[Link]) {
         (&mut self.contacts, &self.links)

@@ -61,17 +61,11 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     wrong
 }
 
-/// The nearer node of each link that a disc may touch, and how far their surfaces are apart.
-pub(crate) fn gaps<'a>(
-    contact: &'a RingContact,
-    rings: &'a RingContacts,
-    p: &'a Particles,
-) -> impl Iterator<Item = (u32, f32)> + 'a {
-    rings.links_of(contact).iter().map(|&link| {
-        let relation = relate(contact.particle, link, p);
-        let radius_sum = p.radius[contact.particle as usize] + p.radius[link.a as usize];
-        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radius_sum)
-    })
+/// The nearer node of a link, and how far the surfaces of disc and link are apart.
+pub(crate) fn gap(particle: u32, link: Link, p: &Particles) -> (u32, f32) {
+    let relation = relate(particle, link, p);
+    let radius_sum = p.radius[particle as usize] + p.radius[link.a as usize];
+    (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radius_sum)
 }
 
 /// Last in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away; the link stays. Discs
@@ -102,7 +96,7 @@ pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p
         return 0;
     }
     let mut count = 0;
-    for contact in rings.contacts.iter().filter(|contact| contact.ring == place) {
+    for contact in rings.of_ring(place) {
         let position = p.position(contact.particle as usize);
         let is_on_wrong_side = match contact.side {
             Side::Inside => !contains_point(&outline, position),
