@@ -6,6 +6,7 @@ use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
 use crate::geometry::segment::nearest_on_segment;
 use crate::particle::{NO_OWNER, Particles};
+use glam::Vec2;
 use std::ops::Range;
 
 /// A closed ring of linked particles, counter-clockwise: what is to the left of its links is inside.
@@ -70,6 +71,9 @@ pub(crate) struct RingContact {
     pub ring: usize,
     /// Where it has to stay.
     pub side: Side,
+    /// From the origin of the ring's nodes, which they share, to that of the disc; origins stay during a step.
+    pub between_origins: Vec2,
+    pub radius_sum: f32,
     pub friction: f32,
     /// The nearer node of the link that it touched last in any substep since it was found.
     pub touched: Option<u32>,
@@ -136,10 +140,18 @@ impl RingContacts {
         for group in self.found.chunk_by(|a, b| a.0 == b.0) {
             let (particle, first) = (group[0].0, self.links.len() as u32);
             self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
-            let friction = combine(p.material[particle as usize], p.material[ring.nodes[0] as usize]).0;
-            let side = side_of(p.owner[particle as usize], ring, near.containments);
-            let (links, touched, is_close) = (first..self.links.len() as u32, None, true);
-            self.contacts.push(RingContact { particle, ring: place, side, friction, touched, is_close, links });
+            let (i, node) = (particle as usize, ring.nodes[0] as usize);
+            self.contacts.push(RingContact {
+                particle,
+                ring: place,
+                side: side_of(p.owner[i], ring, near.containments),
+                between_origins: p.origin(i) - p.origin(node),
+                radius_sum: p.radius[i] + p.radius[node],
+                friction: combine(p.material[i], p.material[node]).0,
+                touched: None,
+                is_close: true,
+                links: first..self.links.len() as u32,
+            });
         }
     }
 }

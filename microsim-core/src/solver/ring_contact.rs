@@ -30,10 +30,22 @@ struct Relation {
     /// From the nearest point to the disc.
     away: Vec2,
     squared: f32,
-    /// Sine of the angle between link and way, positive inside, times the way's length.
-    height: f32,
+    /// From the link's first node to its second.
+    along: Vec2,
+}
+
+impl Relation {
     /// Unit vector across the link, to the inside.
-    inwards: Vec2,
+    #[inline(always)]
+    fn inwards(&self) -> Vec2 {
+        self.along.perp() * ratio(1.0, self.along.length())
+    }
+
+    /// Sine of the angle between link and way, positive inside, times the way's length.
+    #[inline(always)]
+    fn height(&self) -> f32 {
+        self.inwards().dot(self.away)
+    }
 }
 
 /// Pushes discs and links apart; returns how many discs were on the wrong side.
@@ -42,8 +54,8 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in contacts {
         let links = &links[contact.range()];
-        let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
-        let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+        let Some((nearest, relation)) = nearest_link(contact, links, p) else { continue };
+        let radius_sum = contact.radius_sum;
         let is_wrong = is_wrong(contact.side, &relation);
         contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
@@ -51,7 +63,7 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
             separate(contact, nearest, &relation, radius_sum + relation.squared.sqrt(), p);
         } else if contact.is_close {
             for &link in links {
-                let relation = relate(contact.particle, link, p);
+                let relation = relate(contact.particle, contact.between_origins, link, p);
                 if relation.squared < radius_sum * radius_sum {
                     separate(contact, link, &relation, radius_sum - relation.squared.sqrt(), p);
                 }
@@ -63,9 +75,9 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
 
 /// The nearer node of a link, and how far the surfaces of disc and link are apart.
 pub(crate) fn gap(particle: u32, link: Link, p: &Particles) -> (u32, f32) {
-    let relation = relate(particle, link, p);
-    let radius_sum = p.radius[particle as usize] + p.radius[link.a as usize];
-    (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radius_sum)
+    let (i, a) = (particle as usize, link.a as usize);
+    let relation = relate(particle, p.origin(i) - p.origin(a), link, p);
+    (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - (p.radius[i] + p.radius[a]))
 }
 
 /// Last in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away; the link stays. Discs
@@ -73,9 +85,9 @@ pub(crate) fn gap(particle: u32, link: Link, p: &Particles) -> (u32, f32) {
 pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
-        let Some((link, relation)) = nearest_link(contact.particle, rings.links_of(contact), p) else { continue };
+        let Some((_, relation)) = nearest_link(contact, rings.links_of(contact), p) else { continue };
         let i = contact.particle as usize;
-        let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
+        let standoff = STANDOFF * contact.radius_sum;
         let is_wrong = is_wrong(contact.side, &relation);
         wrong += u32::from(is_wrong);
         if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
@@ -114,16 +126,15 @@ pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p
 /// Moves a disc to its own side of the link of a whole ring that is nearest to it.
 fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
-    let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
-    let i = contact.particle as usize;
-    let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
-    shift(p, i, -relation.away + to_own_side(contact.side, &relation) * standoff);
+    let Some((_, relation)) = nearest_link(contact, &links, p) else { return };
+    let standoff = STANDOFF * contact.radius_sum;
+    shift(p, contact.particle as usize, -relation.away + to_own_side(contact.side, &relation) * standoff);
 }
 
 fn is_wrong(side: Side, relation: &Relation) -> bool {
     match side {
-        Side::Inside => relation.height < 0.0,
-        Side::Outside => relation.height > 0.0,
+        Side::Inside => relation.height() < 0.0,
+        Side::Outside => relation.height() > 0.0,
         Side::Either => false,
     }
 }
@@ -135,20 +146,21 @@ fn to_own_side(side: Side, relation: &Relation) -> Vec2 {
         let away = relation.away / length;
         if is_wrong(side, relation) { -away } else { away }
     } else if side == Side::Inside {
-        relation.inwards
+        relation.inwards()
     } else {
-        -relation.inwards
+        -relation.inwards()
     }
 }
 
 /// The link nearest to a disc. Ends of two links in the same node are equally far; then the more orthogonal link wins.
-fn nearest_link(particle: u32, links: &[Link], p: &Particles) -> Option<(Link, Relation)> {
+#[inline(always)]
+fn nearest_link(contact: &RingContact, links: &[Link], p: &Particles) -> Option<(Link, Relation)> {
     let mut best: Option<(Link, Relation)> = None;
     for &link in links {
-        let relation = relate(particle, link, p);
+        let relation = relate(contact.particle, contact.between_origins, link, p);
         let is_better = best.is_none_or(|(_, best)| {
             relation.squared < best.squared
-                || (relation.squared == best.squared && relation.height.abs() > best.height.abs())
+                || (relation.squared == best.squared && relation.height().abs() > best.height().abs())
         });
         if is_better {
             best = Some((link, relation));
@@ -157,21 +169,22 @@ fn nearest_link(particle: u32, links: &[Link], p: &Particles) -> Option<(Link, R
     best
 }
 
-fn relate(particle: u32, link: Link, p: &Particles) -> Relation {
-    let (i, a, b) = (particle as usize, link.a as usize, link.b as usize);
-    let (along, from_a) = (p.between(a, b), p.between(a, i));
-    let squared_length = along.length_squared();
-    let place = ratio(from_a.dot(along), squared_length);
+/// `between_origins` is from the origin of the link's nodes to that of the disc.
+#[inline(always)]
+fn relate(particle: u32, between_origins: Vec2, link: Link, p: &Particles) -> Relation {
+    let [disc, a, b] = [particle, link.a, link.b].map(|i| p.offset(i as usize));
+    let (along, from_a) = (b - a, between_origins + (disc - a));
+    let (place, squared_length) = (from_a.dot(along), along.length_squared());
     // At an end, relative to that end exactly, so that both links of a node find the same distance.
-    let (t, away) = if place <= 0.0 {
-        (0.0, from_a)
-    } else if place >= 1.0 {
-        (1.0, p.between(b, i))
+    let (t, away) = if place > 0.0 && place < squared_length {
+        let t = place / squared_length;
+        (t, from_a - along * t)
+    } else if place > 0.0 {
+        (1.0, between_origins + (disc - b))
     } else {
-        (place, from_a - along * place)
+        (0.0, from_a)
     };
-    let inwards = along.perp() * ratio(1.0, squared_length.sqrt());
-    Relation { t, away, squared: away.length_squared(), height: inwards.dot(away), inwards }
+    Relation { t, away, squared: away.length_squared(), along }
 }
 
 /// Moves disc and link `depth` apart, the disc to its own side.
@@ -310,9 +323,9 @@ mod tests {
             let at = Vec2::new(x, y);
             let (p, contacts, nodes) = scene(&outline, at, 0);
             prop_assume!(distance(&nodes, &p, at) > 1e-3 && !contacts.contacts.is_empty());
-            let i = contacts.contacts[0].particle;
-            let (_, relation) = nearest_link(i, contacts.links_of(&contacts.contacts[0]), &p).unwrap();
-            prop_assert_eq!(relation.height > 0.0, contains_point(&outline, at));
+            let contact = &contacts.contacts[0];
+            let (_, relation) = nearest_link(contact, contacts.links_of(contact), &p).unwrap();
+            prop_assert_eq!(relation.height() > 0.0, contains_point(&outline, at));
         }
 
         #[test]
