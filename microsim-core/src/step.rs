@@ -90,6 +90,7 @@ impl World {
 
 fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
+    world.scratch.occupancy.clear();
     serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
     world.find_pairs();

@@ -1,0 +1,110 @@
+//! Where organisms are while none of them moves: their boxes in cells of the room, so that filling a world takes as long as
+//! there are organisms to put into it.
+
+use super::World;
+use crate::organism::Organism;
+use glam::Vec2;
+use parry2d::bounding_volume::{Aabb, BoundingVolume};
+
+/// Boxes for each cell on average, at which there get to be more cells.
+const CROWDED: usize = 4;
+
+/// Boxes of organisms, made for the first one that is spawned after a step and forgotten in the next step.
+#[derive(Debug, Default)]
+pub(crate) struct Occupancy {
+    /// Slots of organisms with the boxes around them. One of an organism that was removed does no harm.
+    boxes: Vec<(u32, Aabb)>,
+    /// Boxes in each cell, row by row.
+    cells: Vec<Vec<u32>>,
+    columns: usize,
+    rows: usize,
+    /// Size of a cell, units.
+    cell: Vec2,
+}
+
+impl Occupancy {
+    /// Forgets everything, because organisms move or change.
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    fn add(&mut self, slot: u32, aabb: Aabb, room: Vec2) {
+        self.boxes.push((slot, aabb));
+        if self.boxes.len() > CROWDED * self.cells.len() {
+            self.divide(room);
+        } else {
+            self.enter(self.boxes.len() - 1);
+        }
+    }
+
+    /// Divides the room into about as many cells as there are boxes.
+    fn divide(&mut self, room: Vec2) {
+        let side = (room.x * room.y / self.boxes.len() as f32).sqrt();
+        [self.columns, self.rows] = [room.x, room.y].map(|length| (length / side) as usize + 1);
+        self.cell = room / Vec2::new(self.columns as f32, self.rows as f32);
+        self.cells.clear();
+        self.cells.resize(self.columns * self.rows, Vec::new());
+        (0..self.boxes.len()).for_each(|k| self.enter(k));
+    }
+
+    fn enter(&mut self, k: usize) {
+        for cell in self.cells_in(&self.boxes[k].1) {
+            self.cells[cell].push(k as u32);
+        }
+    }
+
+    /// The cells that a box reaches into; the cells at the border also hold what lies beyond.
+    fn cells_in(&self, aabb: &Aabb) -> impl Iterator<Item = usize> + use<> {
+        let (columns, rows) = (self.columns, self.rows);
+        let within = |low: f32, high: f32, cell: f32, count: usize| {
+            let place = |at: f32| ((at / cell) as usize).min(count.saturating_sub(1));
+            place(low)..(place(high) + 1).min(count)
+        };
+        let columns_in = within(aabb.mins.x, aabb.maxs.x, self.cell.x, columns);
+        let rows_in = within(aabb.mins.y, aabb.maxs.y, self.cell.y, rows);
+        rows_in.flat_map(move |row| columns_in.clone().map(move |column| row * columns + column))
+    }
+
+    /// Slots of organisms whose boxes overlap this one, some of them several times.
+    fn near<'a>(&'a self, aabb: &'a Aabb) -> impl Iterator<Item = u32> + 'a {
+        let boxes = self.cells_in(aabb).flat_map(|cell| &self.cells[cell]).map(|&k| &self.boxes[k as usize]);
+        boxes.filter(|(_, other)| other.intersects(aabb)).map(|(slot, _)| *slot)
+    }
+}
+
+impl World {
+    /// The first organism of those near a box that `meets`.
+    pub(super) fn first_near(&mut self, aabb: &Aabb, meets: impl Fn(&Self, &Organism) -> bool) -> Option<u32> {
+        if self.scratch.occupancy.boxes.is_empty() {
+            self.note_all();
+        }
+        let meets = |slot: &u32| {
+            let organism = self.organisms.id_at(*slot).and_then(|id| self.organisms.get(id));
+            organism.is_some_and(|organism| meets(self, organism))
+        };
+        self.scratch.occupancy.near(aabb).filter(meets).min()
+    }
+
+    /// Notes where a new organism is.
+    pub(super) fn note_place(&mut self, slot: u32, aabb: Aabb) {
+        self.scratch.occupancy.add(slot, aabb, self.config.size);
+    }
+
+    fn note_all(&mut self) {
+        let Self { organisms, particles, scratch, config, .. } = self;
+        for (id, organism) in organisms.iter() {
+            let discs = organism.particles().map(|i| (particles.position(i as usize), particles.radius[i as usize]));
+            scratch.occupancy.add(id.index, bounds_of(discs), config.size);
+        }
+    }
+}
+
+/// Axis-aligned box around discs.
+pub(super) fn bounds_of(discs: impl Iterator<Item = (Vec2, f32)>) -> Aabb {
+    let mut bounds = Aabb::new_invalid();
+    for (at, radius) in discs {
+        bounds.take_point(at - radius);
+        bounds.take_point(at + radius);
+    }
+    bounds
+}
