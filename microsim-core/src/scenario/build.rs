@@ -74,7 +74,7 @@ impl Scenario {
         let mut spawners = Vec::new();
         for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
             let mut there = Vec::new();
-            for Placed { spec, placement } in placed {
+            for Placed { spec, placement, .. } in placed {
                 if context.found.borrow().len() >= MAX_ERRORS {
                     return spawners;
                 }

@@ -108,3 +108,75 @@ pub(super) fn bounds_of(discs: impl Iterator<Item = (Vec2, f32)>) -> Aabb {
     }
     bounds
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+    use crate::{AgarSpec, Inputs, OrganismSpec, Placement, RigidCellSpec, WorldConfig};
+
+    const ROOM: Vec2 = Vec2::new(300.0, 40.0);
+
+    fn filled(count: u32, half: impl Fn(&mut Rng) -> f32) -> Occupancy {
+        let (mut rng, mut occupancy) = (Rng::new(1, 1), Occupancy::default());
+        for slot in 0..count {
+            let at = Vec2::new(rng.range(-20.0, 320.0), rng.range(-5.0, 45.0));
+            let half = Vec2::splat(half(&mut rng));
+            occupancy.add(slot, Aabb::new(at - half, at + half), ROOM);
+        }
+        occupancy
+    }
+
+    #[test]
+    fn finds_what_brute_force_finds() {
+        let occupancy = filled(500, |rng| rng.range(0.1, 9.0));
+        for (_, aabb) in &occupancy.boxes {
+            let mut found: Vec<u32> = occupancy.near(aabb).collect();
+            found.sort_unstable();
+            found.dedup();
+            let all = occupancy.boxes.iter().filter(|(_, other)| other.intersects(aabb)).map(|(slot, _)| *slot);
+            assert_eq!(found, all.collect::<Vec<_>>());
+        }
+        for broken in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let aabb = Aabb { mins: Vec2::splat(broken), maxs: Vec2::splat(broken) };
+            let mut occupancy = filled(10, |_| 1.0);
+            occupancy.add(10, aabb, ROOM);
+            assert!(occupancy.near(&aabb).all(|slot| slot <= 10));
+        }
+    }
+
+    #[test]
+    fn looks_at_as_many_boxes_for_each_organism_however_many_there_are() {
+        let looks = |count: u32| {
+            let occupancy = filled(count, |_| 3.0 / (count as f32).sqrt());
+            let all = |aabb| occupancy.cells_in(aabb).map(|cell| occupancy.cells[cell].len()).sum::<usize>();
+            occupancy.boxes.iter().map(|(_, aabb)| all(aabb)).sum::<usize>() / count as usize
+        };
+        assert!([100, 1_000, 10_000, 100_000].map(looks).into_iter().all(|each| (1..40).contains(&each)));
+    }
+
+    #[test]
+    fn a_place_is_taken_where_something_is_now() {
+        let config = WorldConfig { damping: 0.0, ..WorldConfig::default() };
+        let mut world = World::new(config.clone()).unwrap();
+        let pellet: OrganismSpec = AgarSpec::default().into();
+        let at = |x: f32| Placement::at(x, 45.0);
+        let first = world.spawn(&pellet, at(30.0)).unwrap();
+        assert!(world.spawn(&pellet, at(30.5)).is_err());
+        world.push(first, Vec2::new(15.0, 0.0)).unwrap();
+        (0..60).for_each(|_| world.step(&Inputs::new()));
+        let there = world.centroid(first).unwrap().x;
+        assert!(there > 40.0 && world.spawn(&pellet, at(there)).is_err());
+        let second = world.spawn(&pellet, at(30.0)).unwrap();
+        assert!(world.spawn(&RigidCellSpec::default().into(), at(30.0)).is_err());
+        world.remove(second).unwrap();
+        world.spawn(&pellet, at(30.0)).unwrap();
+        // Another world in its place.
+        let mut other = World::new(config).unwrap();
+        other.spawn(&pellet, at(80.0)).unwrap();
+        (0..60).for_each(|_| other.step(&Inputs::new()));
+        assert!(world.spawn(&pellet, at(80.0)).is_ok());
+        world.clone_from(&other);
+        assert!(world.spawn(&pellet, at(80.0)).is_err() && world.spawn(&pellet, at(30.0)).is_ok());
+    }
+}

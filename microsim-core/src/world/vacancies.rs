@@ -45,3 +45,50 @@ impl Vacancies {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::{LANES, NO_OWNER, Particles};
+    use crate::rng::Rng;
+
+    /// The same without notes.
+    fn first(kind: Vacancy, blocks: &[Block]) -> Option<usize> {
+        Vacancies::default().find(kind, blocks)
+    }
+
+    #[test]
+    fn notes_find_the_block_that_a_search_from_the_first_one_finds() {
+        let (mut rng, mut particles) = (Rng::new(2, 2), Particles::default());
+        let (mut blocks, mut vacancies) = (Vec::<Block>::new(), Vacancies::default());
+        let mut served = 0;
+        for turn in 0..6000 {
+            if rng.range(0.0, 1.0) < if turn / 1000 % 2 == 0 { 0.7 } else { 0.3 } {
+                // Templates 0 and 1 have blocks of equal size.
+                let (template, slots) = [(0, 1), (1, 1), (2, 3)][rng.range(0.0, 2.999) as usize];
+                let found = vacancies.find(Vacancy::Lane(template), &blocks);
+                assert_eq!(found, first(Vacancy::Lane(template), &blocks));
+                let found = found.or_else(|| {
+                    let empty = vacancies.find(Vacancy::Block(slots), &blocks);
+                    assert_eq!(empty, first(Vacancy::Block(slots), &blocks));
+                    empty
+                });
+                let index = found.unwrap_or_else(|| {
+                    blocks.push(Block::new(template, slots as usize, &mut particles));
+                    blocks.len() - 1
+                });
+                served += u32::from(blocks[index].template != template);
+                blocks[index].template = template;
+                vacancies.add(&blocks[index], index);
+                let lane = blocks[index].free_lane().unwrap();
+                blocks[index].owner[lane] = turn;
+            } else if !blocks.is_empty() {
+                let index = rng.range(0.0, blocks.len() as f32 - 0.01) as usize;
+                let lanes = if turn % 4 == 0 { 0..LANES } else { 0..1 };
+                blocks[index].owner[lanes].fill(NO_OWNER);
+                vacancies.add(&blocks[index], index);
+            }
+        }
+        assert!(served > 10, "{served}");
+    }
+}
