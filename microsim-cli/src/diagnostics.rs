@@ -25,7 +25,10 @@ pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured:
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let shown = problems.iter().map(|problem| renderer.render(&[group(source, problem)]));
     let mut text = shown.collect::<Vec<_>>().join("\n\n");
-    let count = problems.iter().count();
+    for more in problems.left_out() {
+        text.push_str(&format!("\n\n{more}"));
+    }
+    let count = problems.len() + problems.left_out().iter().map(|more| more.count).sum::<usize>();
     let plural = if count == 1 { "" } else { "s" };
     text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", &source.origin));
     text

@@ -277,3 +277,31 @@ proptest! {
         }
     }
 }
+
+/// A scenario that is right but for what is added.
+fn with(added: &str) -> String {
+    format!("schema = 1\n{added}\n[world]\nsize = [100.0, 100.0]\n[agar.pellet]\nradius = 1.0\n")
+}
+
+#[test]
+fn of_many_problems_of_a_kind_twenty_are_listed_and_the_others_counted() {
+    let keys: String = (0..200_000).map(|k| format!("key{k} = {k}\n")).collect();
+    let names: String = (0..5000).map(|k| format!("[agar.pellet{k}]\nradius = 1.0\n")).collect();
+    let typos: String = (0..5000).map(|k| format!("[[spawn]]\nof = \"pelet{k}\"\n")).collect();
+    let large: String = (0..5000).map(|k| format!("[agar.a{k}]\nradius = 5{k}000\n")).collect();
+    let unset: String = (0..5000).map(|k| format!("[[spawn]]\nof = \"$p{k}\"\n")).collect();
+    let broken: String = (0..5000).map(|k| format!("a{k} = = 1\n")).collect();
+    for (text, count, kind, first_line) in [
+        (with(&keys), 200_000, "unknown field", 2),
+        (with("") + &names + &typos, 5_000, "unknown prototype", 10_008),
+        (with("") + &large, 5_000, "… is out of range", 8),
+        (with("") + &unset, 5_000, "unknown parameter", 8),
+        (with("") + &broken, 5_000, "", 7),
+    ] {
+        let found = Scenario::parse(&text, &[]).unwrap_err();
+        assert_eq!(found.left_out().iter().map(|more| more.count).sum::<usize>() + found.len(), count, "{kind}");
+        assert!(found.len() <= 60 && found.to_string().len() < 100_000, "{kind}: {}", found.to_string().len());
+        assert!(kind.is_empty() || found.left_out()[0].kind == kind, "{:?}", found.left_out());
+        assert_eq!(found.iter().next().unwrap().line, Some(first_line), "{kind}");
+    }
+}

@@ -10,7 +10,9 @@ use microsim_core::scenario::{Diagnostic, Diagnostics};
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "All problems are shown at once, each with its line and what would be accepted.")]
+#[command(
+    after_help = "All problems are shown at once, at most twenty of a kind, each with its line and what would be accepted."
+)]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
@@ -59,6 +61,8 @@ struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario: Option<ScenarioSummary<'a>>,
     problems: Vec<Problem<'a>>,
+    /// Of kinds of which enough are listed.
+    left_out: Vec<More<'a>>,
 }
 
 #[derive(Serialize)]
@@ -85,12 +89,24 @@ struct Problem<'a> {
     accepted: Option<&'a str>,
 }
 
+#[derive(Serialize)]
+struct More<'a> {
+    kind: &'a str,
+    count: usize,
+}
+
 impl<'a> Answer<'a> {
     fn sound(prepared: &'a Prepared) -> Self {
         let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
         let (name, seed, duration) = (prepared.scenario.name(), prepared.scenario.seed(), prepared.scenario.duration());
         let scenario = ScenarioSummary { name, seed, duration, organisms, bodies, particles, constraints };
-        Self { ok: true, file: &prepared.source.origin, scenario: Some(scenario), problems: Vec::new() }
+        Self {
+            ok: true,
+            file: &prepared.source.origin,
+            scenario: Some(scenario),
+            problems: Vec::new(),
+            left_out: Vec::new(),
+        }
     }
 
     fn refused(source: &'a ScenarioText, problems: &'a Diagnostics) -> Self {
@@ -102,6 +118,8 @@ impl<'a> Answer<'a> {
             message: &problem.message,
             accepted: problem.accepted.as_deref(),
         };
-        Self { ok: false, file: &source.origin, scenario: None, problems: problems.iter().map(problem).collect() }
+        let left_out = problems.left_out().iter().map(|more| More { kind: &more.kind, count: more.count });
+        let (problems, left_out) = (problems.iter().map(problem).collect(), left_out.collect());
+        Self { ok: false, file: &source.origin, scenario: None, problems, left_out }
     }
 }
