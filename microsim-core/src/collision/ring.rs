@@ -238,3 +238,27 @@ pub(crate) fn may_touch(p: &Particles, disc: u32, Link { a, b }: Link, exemption
         && !exemptions.contains(owners[0], owners[1])
         && ![a, b].iter().any(|&node| exemptions.gate_is_open([disc, node], owners))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_contacts_of_a_ring_lie_side_by_side() {
+        let contact = |(particle, ring)| RingContact {
+            particle,
+            ring,
+            side: Side::Either,
+            between_origins: Vec2::ZERO,
+            radius_sum: 1.0,
+            friction: 0.0,
+            touched: None,
+            is_close: true,
+            links: 0..0,
+        };
+        let contacts = [(7, 0), (8, 0), (5, 2), (6, 3), (7, 3), (9, 3)].map(contact).to_vec();
+        let rings = RingContacts { contacts, ..RingContacts::default() };
+        let particles = |ring| rings.of_ring(ring).iter().map(|contact| contact.particle).collect::<Vec<_>>();
+        assert_eq!([0, 1, 2, 3, 4].map(particles), [vec![7, 8], vec![], vec![5], vec![6, 7, 9], vec![]]);
+    }
+}

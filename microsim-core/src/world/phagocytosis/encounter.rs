@@ -104,3 +104,29 @@ pub(in crate::world) fn front_nodes(organism: &Organism) -> Vec<u32> {
     nodes.sort_unstable();
     nodes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, WorldConfig};
+
+    #[test]
+    fn an_engulfer_looks_at_nothing_but_the_prey_near_it() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cells = [30.0, 53.0, 76.0].map(|x| {
+            world.spawn(&PlateletSpec::default().into(), Placement::at(x, 59.5)).unwrap();
+            world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(x, 45.0)).unwrap()
+        });
+        let pellets = [30.0, 76.0].map(|x| world.spawn(&AgarSpec::default().into(), Placement::at(x, 32.5)).unwrap());
+        world.step(&Inputs::new());
+        let near_prey = world.near_prey();
+        let owners = |cell| near_prey.of(cell).map(|near| near.owners(&world.particles)).collect::<Vec<_>>();
+        for (cell, pellet) in [(cells[0], pellets[0]), (cells[2], pellets[1])] {
+            assert!(!owners(cell).is_empty());
+            assert!(owners(cell).iter().all(|pair| pair.contains(&cell.index) && pair.contains(&pellet.index)));
+        }
+        assert!(owners(cells[1]).is_empty());
+        let (looked_at, all) = (near_prey.0.len(), world.near().count());
+        assert!(looked_at < 20 && all > 200, "{looked_at} of {all}");
+    }
+}
