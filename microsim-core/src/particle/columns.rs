@@ -39,6 +39,24 @@ impl<'a> Columns<'a> {
         Columns { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass }
     }
 
+    /// All of them, with lengths that the compiler sees to be equal: an index that is checked in one column is not checked
+    /// again in the others.
+    #[inline(always)]
+    pub(crate) fn even(&mut self) -> Columns<'_> {
+        let count = self.x.len();
+        Columns {
+            origin_x: &self.origin_x[..count],
+            origin_y: &self.origin_y[..count],
+            x: &mut self.x[..count],
+            y: &mut self.y[..count],
+            prev_x: &mut self.prev_x[..count],
+            prev_y: &mut self.prev_y[..count],
+            vx: &mut self.vx[..count],
+            vy: &mut self.vy[..count],
+            inv_mass: &self.inv_mass[..count],
+        }
+    }
+
     /// Takes out the first `count` entries; the others stay.
     pub(crate) fn take_front(&mut self, count: usize) -> Self {
         let Self { origin_x, origin_y, x, y, prev_x, prev_y, vx, vy, inv_mass } = self;

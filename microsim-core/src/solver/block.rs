@@ -50,7 +50,7 @@ impl Block {
 
     /// Where it lies in a chunk of the store that begins at `start`.
     fn span(&self, start: usize) -> Span<LANES> {
-        Span { base: self.base as usize - start, scale: self.scale }
+        Span { base: self.base - start as u32, scale: self.scale }
     }
 }
 

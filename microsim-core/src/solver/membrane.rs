@@ -158,7 +158,7 @@ impl Membrane {
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
             let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
             if is_long {
-                Rope { a, b, max_length }.shorten(Span::LOOSE, particles);
+                Rope { a, b, max_length }.shorten(&[Span::LOOSE], particles);
             }
             is_long
         };
