@@ -103,7 +103,8 @@ impl<T> Batch<'_, T> {
 
 /// Subtracts from the remaining margin of each body of a block the largest displacement of its particles in the last substep.
 #[inline(always)]
-pub(crate) fn subtract_displacement(block: &Columns<'_>, margins: &mut [f32; LANES]) {
+pub(crate) fn subtract_displacement(block: &mut Columns<'_>, margins: &mut [f32; LANES]) {
+    let block = block.even();
     let mut farthest = [0.0; LANES];
     for at in (0..block.x.len()).step_by(LANES) {
         let (x, y) = (load::<LANES>(block.x, at), load::<LANES>(block.y, at));
@@ -164,7 +165,7 @@ mod tests {
         particles.y[block.particle(1, 4) as usize] = -4.0;
         particles.x[block.particle(2, 4) as usize] = 1.0;
         let mut left = [6.0; LANES];
-        subtract_displacement(&particles.columns(), &mut left);
+        subtract_displacement(&mut particles.columns(), &mut left);
         assert_eq!(left, [6.0, 6.0, 6.0, 6.0, 1.0, 6.0, 6.0, 6.0]);
     }
 
