@@ -5,8 +5,8 @@ use super::lanes::{LANES, Span, each, load};
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
-/// Blocks that are projected side by side.
-const BATCH: usize = 4;
+/// Blocks that are projected side by side: enough for the processor to go on while the spokes of one wait for each other.
+const BATCH: usize = 8;
 
 /// Eight instances of a template; empty lanes hold dead particles.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -118,7 +118,7 @@ pub(crate) fn subtract_displacement(block: &mut Columns<'_>, margins: &mut [f32;
 
 #[cfg(test)]
 mod tests {
-    use super::super::constraint::Distance;
+    use super::super::constraint::{Anchor, Area, Distance, MinDistance, Rope};
     use super::super::testing::disc;
     use super::*;
     use glam::Vec2;
@@ -128,13 +128,24 @@ mod tests {
         (0..nodes - 1).map(|a| link(a).into()).collect()
     }
 
+    /// Constraints of every kind on five nodes, each of them violated in some lanes only or in all.
+    fn every_kind() -> Vec<Constraint> {
+        let mut list = spring_chain(5);
+        list.push(Distance { a: 0, b: 2, rest_length: 2.0, compliance: 1e-5, damping: 0.0 }.into());
+        list.push(MinDistance { a: 1, b: 3, min_length: 3.0 }.into());
+        list.push(Rope { a: 2, b: 4, max_length: 2.9 }.into());
+        list.push(Anchor { node: 3, anchor: 0, rest_length: 1.0, max_length: 4.4, compliance: 1e-4 }.into());
+        list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound: false }.into());
+        list
+    }
+
     fn wobbly(slot: u32, lane: usize) -> Vec2 {
         Vec2::new(slot as f32 * 1.3 + lane as f32 * 0.01, (slot as f32 * 0.7 + lane as f32) * 0.1)
     }
 
     #[test]
     fn lanes_give_the_same_bits_as_the_generic_path() {
-        let constraints = spring_chain(5);
+        let constraints = every_kind();
         let mut in_lanes = Particles::default();
         let mut block = Block::new(0, 5, &mut in_lanes);
         block.owner = [0; LANES];
