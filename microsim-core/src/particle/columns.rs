@@ -28,6 +28,19 @@ impl<'a> Columns<'a> {
         )
     }
 
+    /// From `L` entries to `L` others, along x and along y.
+    #[inline(always)]
+    pub(crate) fn between_lanes<const L: usize>(&self, i: usize, j: usize) -> [[f32; L]; 2] {
+        let way = |origin: &[f32], column: &[f32]| {
+            let mut way = [0.0; L];
+            for (l, way) in way.iter_mut().enumerate() {
+                *way = (origin[j..j + L][l] - origin[i..i + L][l]) + (column[j..j + L][l] - column[i..i + L][l]);
+            }
+            way
+        };
+        [way(self.origin_x, self.x), way(self.origin_y, self.y)]
+    }
+
     /// Some of them. Never inlined: a kernel that sees where its columns come from is vectorised across blocks' nodes
     /// instead of across lanes, and takes a quarter longer.
     #[inline(never)]

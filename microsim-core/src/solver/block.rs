@@ -128,14 +128,16 @@ mod tests {
         (0..nodes - 1).map(|a| link(a).into()).collect()
     }
 
-    /// Constraints of every kind on five nodes, each of them violated in some lanes only or in all.
+    /// Constraints of every kind on five nodes; those that limit something act on some sizes only.
     fn every_kind() -> Vec<Constraint> {
         let mut list = spring_chain(5);
         list.push(Distance { a: 0, b: 2, rest_length: 2.0, compliance: 1e-5, damping: 0.0 }.into());
         list.push(MinDistance { a: 1, b: 3, min_length: 3.0 }.into());
         list.push(Rope { a: 2, b: 4, max_length: 2.9 }.into());
         list.push(Anchor { node: 3, anchor: 0, rest_length: 1.0, max_length: 4.4, compliance: 1e-4 }.into());
-        list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound: false }.into());
+        for is_upper_bound in [false, true] {
+            list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound }.into());
+        }
         list
     }
 
@@ -149,6 +151,7 @@ mod tests {
         let mut in_lanes = Particles::default();
         let mut block = Block::new(0, 5, &mut in_lanes);
         block.owner = [0; LANES];
+        block.scale = [0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3];
         let mut loose = vec![Particles::default(); LANES];
         for (lane, loose) in loose.iter_mut().enumerate() {
             for slot in 0..5 {
@@ -158,7 +161,9 @@ mod tests {
         }
         for _ in 0..10 {
             batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, 0.01);
-            loose.iter_mut().for_each(|p| constraint::project(&constraints, &[Span::LOOSE], &mut p.columns(), 0.01));
+            for (p, scale) in loose.iter_mut().zip(block.scale) {
+                constraint::project(&constraints, &[Span { base: 0, scale: [scale] }], &mut p.columns(), 0.01);
+            }
         }
         for (lane, loose) in loose.iter().enumerate() {
             for slot in 0..5 {

@@ -8,7 +8,7 @@ mod rope;
 
 pub use anchor::Anchor;
 pub use area::Area;
-pub(super) use area::{MeasuredRing, enforce};
+pub(super) use area::MeasuredRing;
 pub use distance::Distance;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
