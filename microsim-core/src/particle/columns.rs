@@ -31,14 +31,15 @@ impl<'a> Columns<'a> {
     /// From `L` entries to `L` others, along x and along y.
     #[inline(always)]
     pub(crate) fn between_lanes<const L: usize>(&self, i: usize, j: usize) -> [[f32; L]; 2] {
-        let way = |origin: &[f32], column: &[f32]| {
-            let mut way = [0.0; L];
+        let mut way = [[0.0; L]; 2];
+        for (way, (origin, column)) in way.iter_mut().zip([(self.origin_x, &*self.x), (self.origin_y, &*self.y)]) {
+            let [origin_i, i] = [&origin[i..i + L], &column[i..i + L]];
+            let [origin_j, j] = [&origin[j..j + L], &column[j..j + L]];
             for (l, way) in way.iter_mut().enumerate() {
-                *way = (origin[j..j + L][l] - origin[i..i + L][l]) + (column[j..j + L][l] - column[i..i + L][l]);
+                *way = (origin_j[l] - origin_i[l]) + (j[l] - i[l]);
             }
-            way
-        };
-        [way(self.origin_x, self.x), way(self.origin_y, self.y)]
+        }
+        way
     }
 
     /// Some of them. Never inlined: a kernel that sees where its columns come from is vectorised across blocks' nodes

@@ -44,7 +44,10 @@ impl Constrain for Area {
         for span in spans {
             let measured = MeasuredRing::measure(&self.ring, span, particles);
             let error = each::<L>(|l| measured.area[l] - self.rest_area * span.scale[l] * span.scale[l]);
-            let acts = error.map(|error| !self.is_upper_bound || error > 0.0);
+            let mut acts = [true; L];
+            if self.is_upper_bound {
+                acts.iter_mut().zip(error).for_each(|(acts, error)| *acts = error > 0.0);
+            }
             measured.enforce(error, acts, alpha, particles);
         }
     }
