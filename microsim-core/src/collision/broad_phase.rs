@@ -297,7 +297,7 @@ mod tests {
                     p.x[i] += way;
                 }
             }
-            subtract_displacement(&p.columns().part(block.base..block.end()), left);
+            subtract_displacement(&mut p.columns().part(block.base..block.end()), left);
         }
     }
 

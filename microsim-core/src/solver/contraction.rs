@@ -22,7 +22,7 @@ pub(crate) fn project(contractions: &[Contraction], p: &mut Particles, h: f32) {
         let (i, j) = (a as usize, b as usize);
         let length = Vec2::new(p.prev_x[j] - p.prev_x[i], p.prev_y[j] - p.prev_y[i]).length() - h * speed;
         let max_length = if length > 0.0 { length } else { 0.0 };
-        Rope { a, b, max_length }.shorten(Span::LOOSE, &mut p.columns());
+        Rope { a, b, max_length }.shorten(&[Span::LOOSE], &mut p.columns());
     }
 }
 
