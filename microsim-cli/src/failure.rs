@@ -2,6 +2,7 @@
 
 use crate::console::Console;
 use crate::diagnostics::{self, ScenarioText};
+use crate::interrupt;
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -22,9 +23,9 @@ pub(crate) enum Failure {
     PipeClosed,
     /// Checks that failed, one a line; all outputs have been written.
     Broken(Vec<String>),
-    /// Ctrl-C; all outputs so far have been written.
+    /// Ctrl-C or a signal like it; all outputs so far have been written.
     Interrupted,
-    /// Ctrl-C, with the command that resumes the run.
+    /// The same, with the command that resumes the run.
     Stopped(String),
 }
 
@@ -40,7 +41,7 @@ impl Failure {
             Self::PipeClosed => ExitCode::SUCCESS,
             Self::Broken(_) | Self::Negative => ExitCode::from(1),
             Self::Message(_) | Self::Scenario(..) | Self::Reported => ExitCode::from(2),
-            Self::Interrupted | Self::Stopped(_) => ExitCode::from(130),
+            Self::Interrupted | Self::Stopped(_) => ExitCode::from(interrupt::exit_code()),
         };
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),

@@ -9,9 +9,12 @@ mod console;
 mod diagnostics;
 mod draw;
 mod failure;
+#[cfg(test)]
+mod fault_tests;
 mod interrupt;
 mod output;
 mod prepared;
+mod read;
 mod record_args;
 mod scenario_args;
 mod session;
