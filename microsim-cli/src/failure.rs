@@ -1,5 +1,6 @@
 //! Reasons why the program fails, and their exit codes.
 
+use crate::clean;
 use crate::console::Console;
 use crate::diagnostics::{self, ScenarioText};
 use crate::interrupt;
@@ -32,7 +33,8 @@ pub(crate) enum Failure {
 impl Failure {
     /// A file or folder that cannot be read or written.
     pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
-        Self::Message(format!("cannot {verb} {}: {error}{}", path.display(), remedy(error.kind())))
+        let path = path.display().to_string();
+        Self::Message(format!("cannot {verb} {}: {error}{}", clean::line(&path), remedy(error.kind())))
     }
 
     /// Tells the user, and says which code to exit with.
@@ -46,7 +48,7 @@ impl Failure {
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),
             Self::Scenario(source, problems) => {
-                console.complain(&diagnostics::render(&source, &problems, console.is_coloured));
+                console.complain_styled(&diagnostics::render(&source, &problems, console.is_coloured));
             }
             Self::Broken(lines) => lines.iter().for_each(|line| console.complain(line)),
             Self::Stopped(text) => console.note(&text),

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::output::{Outputs, Written};
+use crate::value_parser::positive;
 use microsim_core::replay::Recorder;
 use microsim_core::scenario::{Built, Origin};
 use microsim_core::snapshot::Checkpoint;
@@ -17,7 +18,7 @@ pub(crate) struct RecordArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "checkpoint_every")]
     pub record: Option<PathBuf>,
     /// Steps from one digest of a record to the next
-    #[arg(long, value_name = "N", default_value = "60", requires = "record")]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive, requires = "record")]
     pub digest_every: NonZeroU32,
     /// Save a checkpoint of the end of the run into this file
     #[arg(long, value_name = "FILE")]

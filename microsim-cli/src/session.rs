@@ -1,6 +1,7 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
 use crate::checkpoint::{self, CheckpointHeader};
+use crate::clean;
 use crate::console::{Console, print_json};
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -187,6 +188,7 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     if report.failures.is_empty() {
         return Ok(());
     }
+    let name = clean::line(name);
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
 }

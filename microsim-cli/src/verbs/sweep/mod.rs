@@ -36,7 +36,7 @@ pub(crate) enum SweepVerb {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Each --grid is one axis: whole numbers a..b, so many evenly spaced numbers a..b/n, or values with commas.\n\
-  microsim sweep plan hunt --grid platelets=0..20/5 --grid neutrophil.speed=3,5,8 --seeds 0..9 > plan.jsonl\n\
+  microsim sweep plan hunt --grid platelets=0..20/5 --grid amoeboid_cell.neutrophil.speed=3,5,8 --seeds 0..9 > plan.jsonl\n\
 One task alone: sed -n 7p plan.jsonl | microsim run --task - --store results"
 )]
 pub(crate) struct PlanArgs {
