@@ -1,5 +1,6 @@
 //! Every call that changes a file fails once, in each way: afterwards the old state or the new one is whole.
 
+use crate::args::Args;
 use crate::console::Console;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -9,6 +10,8 @@ use crate::prepared::Prepared;
 use crate::record_args::RecordArgs;
 use crate::scenario_args::Changes;
 use crate::session::Session;
+use crate::verbs::{self, Task};
+use clap::{CommandFactory, Parser};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
@@ -191,4 +194,68 @@ fn a_stopped_run_survives_every_fault_of_its_resumption() {
             assert!(results(&folder) == reference, "{what}");
         });
     }
+}
+
+/// Does what a command line says.
+fn perform(line: &str) -> Result<(), Failure> {
+    let args = Args::try_parse_from(line.split_whitespace()).unwrap();
+    verbs::perform(&args.verb, Args::command(), &quiet())
+}
+
+/// A command line that replaces the file `new` in its folder leaves the old one or the new one.
+fn a_file_survives(scratch: &Scratch, line: &str, file: &str) {
+    let file = scratch.0.join(file);
+    perform(line).ok().unwrap();
+    let new = fs::read(&file).unwrap();
+    let work = || {
+        fs::write(&file, "old").unwrap();
+        let done = perform(line);
+        assert!(done.is_err() || fs::read(&file).unwrap() == new);
+        done
+    };
+    try_all(&FAULTS, work, |what| {
+        let left = fs::read(&file).unwrap();
+        assert!(left == b"old" || left == new, "{what}");
+    });
+}
+
+#[test]
+fn pages_and_pictures_survive_every_fault() {
+    let scratch = Scratch::new("files");
+    let folder = scratch.0.display();
+    fs::write(scratch.0.join("a.toml"), SCENARIO).unwrap();
+    run(&scratch.0.join("run"), false, 3).ok().unwrap();
+    a_file_survives(&scratch, &format!("microsim report {folder}/run -o {folder}/page.html"), "page.html");
+    for name in ["still.png", "film.gif", "film.apng"] {
+        let when = if name == "still.png" { "--at 0" } else { "--from 0 --to 0.1" };
+        let line = format!("microsim render {folder}/a.toml {when} --size 16x16 --threads 1 -o {folder}/{name}");
+        a_file_survives(&scratch, &line, name);
+    }
+    a_file_survives(&scratch, &format!("microsim run {folder}/a.toml --steps 1 --save {folder}/end"), "end");
+}
+
+#[test]
+fn a_sweep_survives_every_fault() {
+    let scratch = Scratch::new("sweep");
+    let prepared = |seed| {
+        let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
+        Prepared::new(source, &Changes { seed: Some(seed), set: Vec::new() }).ok().unwrap()
+    };
+    let task = |seed| serde_json::to_string(&Task::new(&prepared(seed), BTreeMap::new(), 2)).unwrap() + "\n";
+    let tasks = [1, 2].map(task).concat();
+    let plan = scratch.0.join("plan.jsonl");
+    fs::write(&plan, tasks).unwrap();
+    let line = |store: &Path| format!("microsim sweep run {} --store {} --jobs 1", plan.display(), store.display());
+    let store = scratch.cleared("reference");
+    perform(&line(&store)).ok().unwrap();
+    let reference = contents(&store);
+    assert_eq!(reference.len(), 2);
+    let work = || perform(&line(&scratch.cleared("store")));
+    try_all(&FAULTS, work, |what| {
+        let store = scratch.0.join("store");
+        perform(&line(&store)).unwrap_or_else(|failure| panic!("{what}: {failure:?}"));
+        let mut results = contents(&store);
+        results.retain(|path, _| !path.to_string_lossy().starts_with('.'));
+        assert!(results == reference, "{what}");
+    });
 }

@@ -54,9 +54,13 @@ fn stopped(name: &str) -> (Folder, String) {
     (folder, out)
 }
 
+/// All files but the lock, which a killed run leaves.
 fn files(folder: impl AsRef<Path>) -> BTreeMap<PathBuf, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.map(|path| (path.file_name().unwrap().into(), fs::read(&path).unwrap())).collect()
+    entries
+        .filter(|path| !path.ends_with(".lock"))
+        .map(|path| (path.file_name().unwrap().into(), fs::read(&path).unwrap()))
+        .collect()
 }
 
 /// Resumes the run and compares all of its files but `run.json`, which holds times.

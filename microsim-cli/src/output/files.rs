@@ -37,10 +37,22 @@ impl Written {
         self.0.metadata().map(|data| data.len())
     }
 
-    /// Takes the file for this process alone, until it is closed; `false` where another has it. The system gives up the
-    /// lock of a process that dies. Where the file system has no locks, the file counts as free.
-    pub(crate) fn try_lock(&self) -> bool {
-        !matches!(self.0.try_lock(), Err(fs::TryLockError::WouldBlock))
+    /// Takes the file at this path for this process alone, until it is closed; `false` where another has it. The system
+    /// gives up the lock of a process that dies. Where the file system has no locks, the file counts as free.
+    pub(crate) fn try_lock(&self, path: &Path) -> bool {
+        !matches!(self.0.try_lock(), Err(fs::TryLockError::WouldBlock)) && self.is_at(path)
+    }
+
+    /// Whether it still has this path: the process that held the lock before removes it.
+    fn is_at(&self, path: &Path) -> bool {
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt;
+            let place = |data: fs::Metadata| (data.dev(), data.ino());
+            self.0.metadata().map(place).ok() == fs::metadata(path).map(place).ok()
+        }
+        #[cfg(not(unix))]
+        path.exists()
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Outputs {
     lock: Option<Written>,
 }
 
-/// The file that is locked while a process writes to its folder. It stays as long as a checkpoint does.
+/// The file that is locked while a process writes to its folder.
 const LOCK: &str = ".lock";
 
 impl Outputs {
@@ -34,7 +34,7 @@ impl Outputs {
         let mut outputs = Self::unlocked(folder, is_forced)?;
         let path = folder.join(LOCK);
         let lock = Written::lockable(&path).map_err(|error| Failure::file("write", &path, &error))?;
-        if !lock.try_lock() {
+        if !lock.try_lock(&path) {
             let why = "another run writes to it, accepted: the folder when that has ended, or another one";
             return Err(Failure::Message(format!("{}: {why}", folder.display())));
         }
@@ -169,8 +169,7 @@ impl Outputs {
 
 impl Drop for Outputs {
     fn drop(&mut self) {
-        let is_unfinished = self.folder.join(super::CHECKPOINT).exists();
-        if self.lock.is_some() && !is_unfinished {
+        if self.lock.is_some() {
             let _ = files::remove(&self.folder.join(LOCK));
         }
         if self.is_new {

@@ -12,6 +12,8 @@ mod task;
 
 use grid::{Axis, Seeds};
 pub(crate) use run::run_tasks;
+#[cfg(test)]
+pub(crate) use task::Task;
 pub(crate) use task::TaskOutcome;
 
 use run::Shard;

@@ -56,7 +56,8 @@ fn run_all(tasks: &[Task], store: &ResultStore, jobs: usize, console: &Console) 
     let pool = Pool { tasks, store, next: AtomicUsize::new(0), done: Mutex::default() };
     let bar = console.progress(tasks.len() as u64, "task");
     std::thread::scope(|scope| {
-        (0..jobs.min(tasks.len())).for_each(|_| drop(scope.spawn(|| pool.work(&bar))));
+        (1..jobs.min(tasks.len())).for_each(|_| drop(scope.spawn(|| pool.work(&bar))));
+        pool.work(&bar);
     });
     bar.finish_and_clear();
     let Done { run, found, broken, failure } = pool.done.into_inner().unwrap_or_default();
