@@ -1,5 +1,6 @@
 //! `check`: whether a scenario can be run.
 
+use crate::clean;
 use crate::console::print;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -45,7 +46,7 @@ fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
     let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
-    Ok(print(format!("ok: {name}, {size}\n"))?)
+    Ok(print(format!("ok: {}, {size}\n", clean::line(name)))?)
 }
 
 fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
