@@ -1,7 +1,11 @@
 //! The command line: the options that all verbs share. Those of one verb are in its file under `verbs`.
 
+use crate::console::Console;
+use crate::failure::Failure;
 use crate::verbs::Verb;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
+use std::io::Write;
+use std::process::ExitCode;
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -10,7 +14,7 @@ use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
     version,
     about = "Runs, measures and pictures microsim scenarios without a window",
     after_help = "Exit codes: 0 success; 1 a check that failed, a difference or a missing result; 2 wrong usage, a refused scenario or\n\
-an output that cannot be written; 130 interrupted."
+an output that cannot be written; 130 interrupted by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP."
 )]
 pub(crate) struct Args {
     /// When to colour what goes to a terminal; NO_COLOR is obeyed
@@ -27,11 +31,15 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Reads the command line; help, version and mistakes end the process, as clap does.
-    pub(crate) fn from_command_line() -> Self {
-        let command = Self::command().color(color_asked_for(std::env::args_os().skip(1)));
-        let matches = command.get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    /// Reads the command line. Prints help, version and mistakes as clap does, and returns the exit code.
+    pub(crate) fn from_command_line() -> Result<Self, ExitCode> {
+        let color = color_asked_for(std::env::args_os().skip(1));
+        let read = Self::command().color(color).try_get_matches();
+        read.and_then(|matches| Self::from_arg_matches(&matches)).map_err(|said| {
+            let printed = said.print().and_then(|()| std::io::stdout().flush());
+            let code = ExitCode::from(u8::try_from(said.exit_code()).unwrap_or(2));
+            printed.map_or_else(|error| Failure::from(error).report(&Console::new(color, false, false)), |()| code)
+        })
     }
 }
 

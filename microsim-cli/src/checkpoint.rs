@@ -1,18 +1,21 @@
-//! The file that an unfinished run can be resumed from: one line of JSON about its files, then the run as bytes.
+//! The file that an unfinished run can be resumed from: one line of JSON about its files, the run as bytes, and a SHA-256 of
+//! both.
 
 use crate::failure::Failure;
-use crate::output::{FileProgress, Outputs};
+use crate::output::{self, CHECKPOINT, FileProgress, Outputs};
+use crate::read;
 use crate::tally::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
-use std::fs;
+use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// Its name in the folder of the run.
-pub(crate) const FILE: &str = "checkpoint";
+/// Bytes of the checksum at the end.
+const CHECKSUM: usize = 32;
 
 /// The part of a checkpoint beside the run itself.
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct CheckpointHeader {
     /// Origin of the scenario.
     pub source: String,
@@ -28,19 +31,26 @@ pub(crate) struct CheckpointHeader {
     pub digest_at_start: String,
 }
 
-/// Writes the checkpoint in place of the one before.
+/// Writes the checkpoint in place of the one before. All files that it needs must be on the disk.
 pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
+    let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
+    outputs.sync()?;
+    outputs.replace(CHECKPOINT, &sealed(header, &run)?)?;
+    outputs.sync()
+}
+
+fn sealed(header: &CheckpointHeader, run: &[u8]) -> Result<Vec<u8>, Failure> {
     let mut bytes = serde_json::to_vec(header).map_err(std::io::Error::from)?;
     bytes.push(b'\n');
-    let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
     bytes.extend(run);
-    outputs.replace(FILE, &bytes)
+    bytes.extend(Sha256::digest(&bytes));
+    Ok(bytes)
 }
 
 /// Reads the checkpoint of a folder.
 pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Failure> {
-    let path = folder.join(FILE);
-    let bytes = match fs::read(&path) {
+    let path = folder.join(CHECKPOINT);
+    let bytes = match read::whole(&path) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let is_done = folder.join("run.json").exists();
@@ -55,23 +65,75 @@ pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Fail
 
 /// The two parts of a checkpoint.
 fn parse(bytes: &[u8]) -> Result<(CheckpointHeader, Checkpoint), String> {
-    let run = run_of(bytes).ok_or("not a checkpoint")?;
-    let header = &bytes[..bytes.len() - run.len()];
-    let header = serde_json::from_slice(header).map_err(|error| format!("not a checkpoint: {error}"))?;
+    let (header, run) = split(bytes).ok_or("not a checkpoint, or damaged")?;
+    let header: CheckpointHeader =
+        serde_json::from_slice(header).map_err(|error| format!("not a checkpoint: {error}"))?;
     let run = Checkpoint::from_bytes(run).map_err(|error| error.to_string())?;
+    if header.tally.steps != run.run.world.step_index() {
+        return Err("its line and its run are of different steps".to_owned());
+    }
     Ok((header, run))
 }
 
-/// The run behind the line about its files; `None` where there is no such line.
+/// The line and the run of a checkpoint whose checksum is right.
+fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (content, checksum) = bytes.split_at_checked(bytes.len().checked_sub(CHECKSUM)?)?;
+    if !content.starts_with(b"{") || Sha256::digest(content)[..] != *checksum {
+        return None;
+    }
+    let end = content.iter().position(|byte| *byte == b'\n')?;
+    Some((&content[..end], &content[end + 1..]))
+}
+
+/// The run behind the line about its files; `None` where there is no sound line.
 pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
-    let end = bytes.iter().position(|byte| *byte == b'\n')?;
-    bytes.starts_with(b"{").then(|| &bytes[end + 1..])
+    split(bytes).map(|(_, run)| run)
 }
 
 /// Removes the files of an unfinished run: the checkpoint first, which cannot be resumed without the `others`.
 pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
-    for path in std::iter::once(folder.join(FILE)).chain(others) {
+    for path in std::iter::once(folder.join(CHECKPOINT)).chain(others) {
         // It does no harm where it cannot be removed: `run.json` says that the run is finished.
-        let _ = fs::remove_file(path);
+        let _ = output::remove(&path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepared::prepare;
+    use crate::scenario_args::{Changes, ScenarioArgs};
+
+    fn bytes_at(steps: u64) -> Vec<u8> {
+        let args = ScenarioArgs { scenario: "empty".to_owned(), changes: Changes::default() };
+        let prepared = prepare(&args).ok().unwrap();
+        let header = CheckpointHeader {
+            source: "empty".to_owned(),
+            steps: 9,
+            progress: FileProgress::default(),
+            tally: Tally { steps, ..Tally::default() },
+            validates: false,
+            broken: None,
+            digest_at_start: String::new(),
+        };
+        let run = Checkpoint { origin: prepared.scenario.origin(), run: prepared.built };
+        sealed(&header, &run.to_bytes().unwrap()).ok().unwrap()
+    }
+
+    #[test]
+    fn no_bit_of_a_checkpoint_can_change_unseen() {
+        let mut bytes = bytes_at(0);
+        assert!(parse(&bytes).is_ok());
+        for bit in 0..8 * bytes.len() {
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            assert!(parse(&bytes).is_err() && run_of(&bytes).is_none(), "bit {bit}");
+            bytes[bit / 8] ^= 1 << (bit % 8);
+        }
+        assert!((0..bytes.len()).all(|end| parse(&bytes[..end]).is_err()));
+    }
+
+    #[test]
+    fn line_and_run_are_of_the_same_step() {
+        assert!(parse(&bytes_at(3)).is_err());
     }
 }

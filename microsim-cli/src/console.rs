@@ -1,5 +1,6 @@
 //! Stdout for results, stderr for notes, errors and progress, and whether to use colour.
 
+use crate::clean;
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -27,19 +28,24 @@ impl Console {
     /// One line for the user. That stderr is closed is no reason to fail.
     pub(crate) fn note(self, text: &str) {
         if !self.is_quiet {
-            let _ = writeln!(io::stderr(), "{text}");
+            let _ = writeln!(io::stderr(), "{}", clean::lines(text));
         }
     }
 
     /// One line for `--verbose`.
     pub(crate) fn detail(self, text: impl FnOnce() -> String) {
         if self.is_verbose {
-            let _ = writeln!(io::stderr(), "{}", text());
+            let _ = writeln!(io::stderr(), "{}", clean::lines(&text()));
         }
     }
 
     /// One line or report about what went wrong; also when quiet.
     pub(crate) fn complain(self, text: &str) {
+        self.complain_styled(&clean::lines(text));
+    }
+
+    /// The same of a text that is clean and may have colours.
+    pub(crate) fn complain_styled(self, text: &str) {
         let _ = writeln!(io::stderr(), "{}", text.trim_end());
     }
 

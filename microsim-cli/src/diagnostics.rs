@@ -1,5 +1,6 @@
 //! Shows the problems of a scenario with the lines that cause them.
 
+use crate::clean;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use microsim_core::scenario::{Diagnostic, Diagnostics};
@@ -25,20 +26,23 @@ pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured:
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let shown = problems.iter().map(|problem| renderer.render(&[group(source, problem)]));
     let mut text = shown.collect::<Vec<_>>().join("\n\n");
-    let count = problems.iter().count();
+    for more in problems.left_out() {
+        text.push_str(&format!("\n\n{more}"));
+    }
+    let count = problems.len() + problems.left_out().iter().map(|more| more.count).sum::<usize>();
     let plural = if count == 1 { "" } else { "s" };
-    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", &source.origin));
+    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", clean::line(&source.origin)));
     text
 }
 
 fn group<'a>(source: &'a ScenarioText, problem: &'a Diagnostic) -> Group<'a> {
-    let title = Level::ERROR.primary_title(title(problem));
+    let title = Level::ERROR.primary_title(clean::line(&title(problem)).into_owned());
     let group = match &problem.span {
         Some(span) => title.element(snippet(source, span)),
         None => title.element(origin(source, problem)),
     };
     match &problem.accepted {
-        Some(accepted) => group.element(Level::HELP.message(format!("accepted: {accepted}"))),
+        Some(accepted) => group.element(Level::HELP.message(format!("accepted: {}", clean::line(accepted)))),
         None => group,
     }
 }
@@ -54,11 +58,11 @@ fn title(problem: &Diagnostic) -> String {
 
 fn snippet<'a>(source: &'a ScenarioText, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let annotation = AnnotationKind::Primary.span(within(&source.text, span));
-    Snippet::source(&source.text).path(&source.origin).annotation(annotation)
+    Snippet::source(&source.text).path(clean::line(&source.origin)).annotation(annotation)
 }
 
 fn origin<'a>(source: &'a ScenarioText, problem: &Diagnostic) -> Origin<'a> {
-    let origin = Origin::path(&source.origin);
+    let origin = Origin::path(clean::line(&source.origin));
     match (problem.line, problem.column) {
         (Some(line), Some(column)) => origin.line(line).char_column(column),
         (Some(line), None) => origin.line(line),

@@ -1,7 +1,9 @@
 //! Reasons why the program fails, and their exit codes.
 
+use crate::clean;
 use crate::console::Console;
 use crate::diagnostics::{self, ScenarioText};
+use crate::interrupt;
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -22,16 +24,17 @@ pub(crate) enum Failure {
     PipeClosed,
     /// Checks that failed, one a line; all outputs have been written.
     Broken(Vec<String>),
-    /// Ctrl-C; all outputs so far have been written.
+    /// Ctrl-C or a signal like it; all outputs so far have been written.
     Interrupted,
-    /// Ctrl-C, with the command that resumes the run.
+    /// The same, with the command that resumes the run.
     Stopped(String),
 }
 
 impl Failure {
     /// A file or folder that cannot be read or written.
     pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
-        Self::Message(format!("cannot {verb} {}: {error}{}", path.display(), remedy(error.kind())))
+        let path = path.display().to_string();
+        Self::Message(format!("cannot {verb} {}: {error}{}", clean::line(&path), remedy(error.kind())))
     }
 
     /// Tells the user, and says which code to exit with.
@@ -40,12 +43,12 @@ impl Failure {
             Self::PipeClosed => ExitCode::SUCCESS,
             Self::Broken(_) | Self::Negative => ExitCode::from(1),
             Self::Message(_) | Self::Scenario(..) | Self::Reported => ExitCode::from(2),
-            Self::Interrupted | Self::Stopped(_) => ExitCode::from(130),
+            Self::Interrupted | Self::Stopped(_) => ExitCode::from(interrupt::exit_code()),
         };
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),
             Self::Scenario(source, problems) => {
-                console.complain(&diagnostics::render(&source, &problems, console.is_coloured));
+                console.complain_styled(&diagnostics::render(&source, &problems, console.is_coloured));
             }
             Self::Broken(lines) => lines.iter().for_each(|line| console.complain(line)),
             Self::Stopped(text) => console.note(&text),

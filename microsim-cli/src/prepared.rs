@@ -2,9 +2,9 @@
 
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
+use crate::read;
 use crate::scenario_args::{Changes, ScenarioArgs};
 use microsim_core::scenario::{Built, Diagnostics, Scenario, builtin, builtins};
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -59,7 +59,7 @@ pub(crate) fn prepare(args: &ScenarioArgs) -> Result<Prepared, Failure> {
 
 pub(crate) fn load(name: &str) -> Result<ScenarioText, Failure> {
     if name == "-" {
-        return read("<stdin>", Path::new("stdin"), io::stdin().lock());
+        return read_text("<stdin>", Path::new("stdin"), io::stdin().lock());
     }
     if let Some(found) = builtin(name) {
         return Ok(ScenarioText::new(format!("<built-in {name}>"), found.text.to_owned()));
@@ -71,15 +71,15 @@ pub(crate) fn load(name: &str) -> Result<ScenarioText, Failure> {
     if path.is_dir() {
         return Err(Failure::Message(format!("{name} is a directory, accepted: a scenario file")));
     }
-    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
-    read(name, path, file)
+    let file = read::open(path).map_err(|error| Failure::file("read", path, &error))?;
+    read_text(name, path, file)
 }
 
 fn is_path(name: &str) -> bool {
     name.ends_with(".toml") || name.contains(std::path::is_separator)
 }
 
-fn read(origin: &str, path: &Path, from: impl Read) -> Result<ScenarioText, Failure> {
+fn read_text(origin: &str, path: &Path, from: impl Read) -> Result<ScenarioText, Failure> {
     let mut bytes = Vec::new();
     from.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| Failure::file("read", path, &error))?;
     if bytes.len() as u64 > LONGEST {

@@ -1,12 +1,12 @@
 //! `run --record` and `--save`: a replay, written during the run, and a checkpoint of its end.
 
 use crate::failure::Failure;
-use crate::output::Outputs;
+use crate::output::{Outputs, Written};
+use crate::value_parser::positive;
 use microsim_core::replay::Recorder;
 use microsim_core::scenario::{Built, Origin};
 use microsim_core::snapshot::Checkpoint;
 use microsim_core::{Inputs, World};
-use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub(crate) struct RecordArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "checkpoint_every")]
     pub record: Option<PathBuf>,
     /// Steps from one digest of a record to the next
-    #[arg(long, value_name = "N", default_value = "60", requires = "record")]
+    #[arg(long, value_name = "N", default_value = "60", value_parser = positive, requires = "record")]
     pub digest_every: NonZeroU32,
     /// Save a checkpoint of the end of the run into this file
     #[arg(long, value_name = "FILE")]
@@ -29,7 +29,7 @@ pub(crate) struct RecordArgs {
 #[derive(Debug)]
 pub(crate) struct ReplayWriter {
     recorder: Recorder,
-    file: File,
+    file: Written,
     path: PathBuf,
 }
 
@@ -75,7 +75,7 @@ impl ReplayWriter {
         let (recorder, header) = Recorder::new(origin, interval);
         let (outputs, name) = Outputs::beside(path)?;
         outputs.write(&name, &header)?;
-        let file = OpenOptions::new().append(true).open(path).map_err(|error| Failure::file("write", path, &error))?;
+        let file = Written::append(path).map_err(|error| Failure::file("write", path, &error))?;
         Ok(Self { recorder, file, path: path.to_owned() })
     }
 

@@ -1,6 +1,7 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
 use crate::checkpoint::{self, CheckpointHeader};
+use crate::clean;
 use crate::console::{Console, print_json};
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -36,6 +37,10 @@ impl<'o> Session<'o> {
         validates: bool,
         record: &'o RecordArgs,
     ) -> Result<Self, Failure> {
+        if let Some(outputs) = outputs {
+            // The tables of a run that was stopped here are about to be replaced.
+            checkpoint::remove(outputs.folder(), Vec::new());
+        }
         let start = |outputs| RunWriter::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let writer = outputs.map(start).transpose()?;
         let replay = record.start(prepared.scenario.origin())?;
@@ -69,7 +74,15 @@ impl<'o> Session<'o> {
     }
 
     /// Takes the remaining steps, finishes the files and prints the summary. Fails if a check of the scenario did.
-    pub(crate) fn run(mut self, is_json: bool, console: &Console) -> Result<(), Failure> {
+    pub(crate) fn run(self, is_json: bool, console: &Console) -> Result<(), Failure> {
+        let name = self.prepared.name().to_owned();
+        let report = self.complete(console)?;
+        if is_json { print_json(&report) } else { report.table().print() }?;
+        verdict(&report, &name)
+    }
+
+    /// Takes the remaining steps and finishes the files.
+    pub(crate) fn complete(mut self, console: &Console) -> Result<RunReport, Failure> {
         let (name, seed, first) = (self.prepared.name(), self.prepared.scenario.seed(), self.header.tally.steps);
         console.detail(|| format!("running {name} with seed {seed}: steps {first} to {}", self.header.steps));
         let bar = console.progress(self.header.steps, "step");
@@ -86,8 +99,8 @@ impl<'o> Session<'o> {
         self.header.tally.wall = start.elapsed();
         self.header.tally.is_interrupted = self.header.tally.steps < self.header.steps;
         match self.outputs {
-            Some(outputs) if self.header.tally.is_interrupted && every.is_some() => self.leave(outputs),
-            _ => self.conclude(is_json, console),
+            Some(outputs) if self.header.tally.is_interrupted && every.is_some() => Err(self.leave(outputs)?),
+            _ => self.conclude(console),
         }
     }
 
@@ -121,17 +134,14 @@ impl<'o> Session<'o> {
         checkpoint::write(outputs, &self.header, &Checkpoint { origin: self.prepared.scenario.origin(), run })
     }
 
-    /// Stops so that the run can be resumed.
-    fn leave(mut self, outputs: &Outputs) -> Result<(), Failure> {
+    /// Stops so that the run can be resumed. Returns what to tell the user.
+    fn leave(mut self, outputs: &Outputs) -> Result<Failure, Failure> {
         self.save()?;
-        if let Some(writer) = self.writer {
-            writer.leave()?;
-        }
         let (step, folder) = (self.header.tally.steps, shown(outputs.folder()));
-        Err(Failure::Stopped(format!("stopped after step {step}; to continue: microsim resume {folder}")))
+        Ok(Failure::Stopped(format!("stopped after step {step}; to continue: microsim resume {folder}")))
     }
 
-    fn conclude(self, is_json: bool, console: &Console) -> Result<(), Failure> {
+    fn conclude(self, console: &Console) -> Result<RunReport, Failure> {
         let built = &self.prepared.built;
         if let Some(replay) = self.replay {
             replay.finish(&built.world)?;
@@ -148,8 +158,7 @@ impl<'o> Session<'o> {
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }
-        if is_json { print_json(&report) } else { report.table().print() }?;
-        verdict(&report, self.prepared.name())
+        Ok(report)
     }
 }
 
@@ -179,6 +188,7 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     if report.failures.is_empty() {
         return Ok(());
     }
+    let name = clean::line(name);
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
 }

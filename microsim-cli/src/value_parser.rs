@@ -1,5 +1,7 @@
 //! How values on the command line are read.
 
+use std::num::NonZeroU32;
+
 /// `KEY=VALUE`.
 pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -11,6 +13,11 @@ pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
 /// A whole number.
 pub(crate) fn whole(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("expected a whole number, 0 to {}", u64::MAX))
+}
+
+/// A whole number from 1 on.
+pub(crate) fn positive(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| format!("expected a whole number, 1 to {}", u32::MAX))
 }
 
 /// A time in seconds.

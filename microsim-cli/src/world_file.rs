@@ -3,10 +3,11 @@
 use crate::checkpoint;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
+use crate::output::CHECKPOINT;
+use crate::read;
 use microsim_core::World;
 use microsim_core::replay::{Ending, Mismatch, Player, Replay, ReplayError};
 use microsim_core::snapshot::{Checkpoint, SnapshotError};
-use std::fs;
 use std::path::Path;
 
 /// The content of a file.
@@ -20,7 +21,7 @@ pub(crate) enum WorldFile {
 impl WorldFile {
     /// Reads a file of any of these kinds.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let bytes = read(path)?;
+        let bytes = bytes_of(path)?;
         let refuse = |error: &dyn std::error::Error| refused(path, error);
         match (World::from_snapshot(&bytes), Checkpoint::from_bytes(&bytes), Replay::read(&bytes)) {
             (Ok(world), ..) => Ok(Self::World(Box::new(world))),
@@ -107,7 +108,7 @@ pub(crate) fn in_words(mismatch: &Mismatch, replay: &Replay, path: &Path) -> Str
 }
 
 pub(crate) fn read_replay(path: &Path) -> Result<Replay, Failure> {
-    let bytes = read(path)?;
+    let bytes = bytes_of(path)?;
     Replay::read(&bytes).map_err(|error| refused(path, &error))
 }
 
@@ -123,8 +124,8 @@ pub(crate) fn play(replay: &Replay, path: &Path) -> Result<Player, Failure> {
     })
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let path = if path.is_dir() { path.join(checkpoint::FILE) } else { path.to_owned() };
-    let bytes = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
+    let path = if path.is_dir() { path.join(CHECKPOINT) } else { path.to_owned() };
+    let bytes = read::whole(&path).map_err(|error| Failure::file("read", &path, &error))?;
     Ok(checkpoint::run_of(&bytes).map_or(bytes.clone(), <[u8]>::to_vec))
 }

@@ -64,11 +64,7 @@ const BAD: &[(&[&str], &str, &str)] = &[
         "table.xls",
         ".csv or .jsonl",
     ),
-    (
-        &["sweep", "merge", "{}/plan.jsonl", "--store", "{}/results", "-o", "{}/t.csv"],
-        "not a result",
-        "run the task again",
-    ),
+    (&["run", "empty", "--record", "{}/r", "--digest-every", "0"], "--digest-every", "1 to 4294967295"),
     (&["run", "--task", "{}/plan.jsonl"], "--store", "required"),
     (&["man", "walk"], "walk", "sweep"),
 ];
@@ -131,7 +127,15 @@ fn bad_input_is_refused_with_its_place_and_a_remedy() {
 #[test]
 fn a_full_stdout_is_named() {
     let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    for arguments in [&["schema"][..], &["list"], &["run", "empty", "--steps", "1"], &["man"]] {
+    for arguments in [
+        &["schema"][..],
+        &["list"],
+        &["--help"],
+        &["run", "--help"],
+        &["--version"],
+        &["run", "empty", "--steps", "1"],
+        &["man"],
+    ] {
         let child = microsim(arguments).stdout(full()).stderr(Stdio::piped()).spawn().unwrap();
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

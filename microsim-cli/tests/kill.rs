@@ -177,6 +177,7 @@ fn is_whole(path: &Path, name: &str) -> bool {
         Some("svg") => content.trim_ascii_end().ends_with(b"</svg>"),
         Some("json") => serde_json::from_slice::<Value>(&content).is_ok(),
         Some("jsonl" | "csv") => (content.is_empty() || content.ends_with(b"\n")) && are_rows(&content, name),
+        Some("lock") => content.is_empty(),
         Some("snapshot" | "checkpoint") => run(&["inspect", path.to_str().unwrap()]).status.success(),
         Some(moment) if moment.starts_with("moment-") => is_raw_picture(&content),
         _ => false,

@@ -53,3 +53,18 @@ fn all_problems_are_shown_at_once() {
     assert!(text.contains("step.substeps") && text.contains("agar.a.radius"), "{text}");
     assert!(text.contains("2 problems in"), "{text}");
 }
+
+#[test]
+fn of_five_thousand_typos_twenty_are_shown_and_the_others_counted() {
+    let folder = Folder::new("typos");
+    let names: String = (0..5000).map(|k| format!("[agar.pellet{k}]\nradius = 1.0\n")).collect();
+    let typos: String = (0..5000).map(|k| format!("[[spawn]]\nof = \"pelet{k}\"\n")).collect();
+    let file = folder
+        .file("typos.toml", &["schema = 1\n[world]\nsize = [50.0, 50.0]\n", &names, &typos].concat().into_bytes());
+    let text = stderr(&run(&["check", &file]));
+    assert!(text.len() < 50_000, "{} bytes", text.len());
+    assert_eq!(text.matches("unknown prototype `").count(), 20);
+    assert!(text.contains("\nand 4,980 more: unknown prototype\n") && text.contains("5000 problems in"), "{text}");
+    let json: serde_json::Value = serde_json::from_slice(&run(&["check", &file, "--format", "json"]).stdout).unwrap();
+    assert_eq!(json["left_out"][0]["count"], 4980);
+}

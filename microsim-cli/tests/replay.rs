@@ -211,3 +211,15 @@ fn files_of_other_kinds_are_refused() {
     }
     let _ = fs::remove_dir_all("nowhere");
 }
+
+#[test]
+fn every_reader_of_a_damaged_record_says_so_and_fails() {
+    let folder = Folder::new("replay-damaged-readers");
+    let record = folder.path("a.replay");
+    success(&["run", &folder.crowd(), "--steps", "30", "--record", &record, "--digest-every", "5"]);
+    let mut bytes = std::fs::read(&record).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    let damaged = folder.file("damaged.replay", &bytes);
+    refused(&["inspect", &damaged], "damaged at byte");
+    refused(&["render", &damaged, "--size", "16x16", "-o", &folder.path("a.png")], "damaged at byte");
+}

@@ -161,3 +161,54 @@ fn a_hyperqueue_cluster_comes_to_the_same_although_it_is_killed_in_the_middle() 
     assert!(cluster().status().unwrap().success());
     assert!(trial.merge("cluster") == trial.reference);
 }
+
+/// A plan of two tasks, and the names of their results.
+fn two_tasks(folder: &Folder, more: &[&str]) -> (String, Vec<String>) {
+    let plan = success(&[&["sweep", "plan", "empty", "--steps", "3", "--grid", "world.damping=0.5,1"], more].concat());
+    let text = stdout(&plan);
+    let names = text.lines().map(|line| {
+        let task: serde_json::Value = serde_json::from_str(line).unwrap();
+        format!("{}.json", task["key"].as_str().unwrap())
+    });
+    (folder.file("plan.jsonl", &plan.stdout), names.collect())
+}
+
+#[test]
+fn a_torn_or_swapped_result_counts_as_missing_and_is_made_again() {
+    let folder = Folder::new("torn");
+    let (plan, names) = two_tasks(&folder, &[]);
+    let store = folder.path("store");
+    success(&["sweep", "run", &plan, "--store", &store]);
+    let [one, other] = [0, 1].map(|k| Path::new(&store).join(&names[k]));
+    let sound = fs::read(&one).unwrap();
+    for bad in [&sound[..sound.len() / 2], b"", b"\xff", &fs::read(&other).unwrap()] {
+        fs::write(&one, bad).unwrap();
+        let status = run(&["sweep", "status", &plan, "--store", &store]);
+        assert_eq!((status.status.code(), stdout(&status).lines().count()), (Some(1), 1));
+        success(&["sweep", "run", &plan, "--store", &store]);
+        assert!(fs::read(&one).unwrap() == sound);
+    }
+}
+
+#[test]
+fn a_task_whose_parameters_were_changed_is_refused() {
+    let folder = Folder::new("swapped");
+    let (plan, _) = two_tasks(&folder, &[]);
+    let text = fs::read_to_string(&plan).unwrap();
+    let swapped = text.replace(r#""world.damping":"0.5""#, r#""world.damping":"1""#);
+    assert_ne!(swapped, text);
+    let plan = folder.file("swapped.jsonl", swapped.as_bytes());
+    common::refused(&["sweep", "run", &plan, "--store", &folder.path("store")], "plan it again");
+}
+
+#[test]
+fn a_task_that_keeps_going_exits_with_0_and_names_what_broke() {
+    let folder = Folder::new("keep-going");
+    let (plan, _) = two_tasks(&folder, &["--set", "invariants.bodies=[5, 9]"]);
+    let store = folder.path("store");
+    let output = success(&["run", "--task", &plan, "--store", &store, "--keep-going"]);
+    assert!(stderr(&output).contains("bodies is 0"), "{}", stderr(&output));
+    let merged = success(&["sweep", "merge", &plan, "--store", &store, "-o", "-"]);
+    assert_eq!(stdout(&merged).matches("bodies is 0").count(), 2);
+    assert_eq!(run(&["run", "--task", &plan, "--store", &store]).status.code(), Some(1));
+}

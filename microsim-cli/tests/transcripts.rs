@@ -95,6 +95,36 @@ fn the_reference_is_true_and_every_help_fits_a_screen() {
     }
 }
 
+/// The examples at the end of a help: command lines on lines of their own, or after a colon.
+fn examples(help: &str) -> Vec<String> {
+    let (_, end) = help.split_once("Options:").unwrap();
+    let commands = end.lines().map(|line| line.rsplit_once(": ").map_or(line, |(_, command)| command).trim());
+    commands
+        .filter(|command| command.starts_with("microsim ") || command.starts_with("sed "))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn every_example_in_a_help_can_be_run() {
+    let folder = Folder::new("examples");
+    let setup = "export HOME=$PWD SLURM_ARRAY_TASK_ID=1\nmkdir -p .config/fish/completions \
+        .local/share/bash-completion/completions\nmicrosim sweep plan empty --steps 1 --seeds 0..9 > plan.jsonl 2> /dev/null\n\
+        microsim sweep run plan.jsonl --store results 2> /dev/null\n";
+    let mut count = 0;
+    for verb in ["sweep plan", "sweep run", "report", "completions"] {
+        let help = transcript(&format!("microsim {verb} --help"), folder.root());
+        // `fpath` is of another shell.
+        for example in examples(&help).iter().filter(|example| !example.contains("fpath")) {
+            let quick = example.replace("run hunt ", "run hunt --steps 2 ");
+            let text = transcript(&format!("{setup}{{ {quick}; }}"), folder.root());
+            assert!(!text.contains("[exit code"), "{verb}: {example}: {text}");
+            count += 1;
+        }
+    }
+    assert_eq!(count, 7, "as many as there are");
+}
+
 #[test]
 fn the_committed_schema_is_that_of_the_reader() {
     let path = pages().join("../scenario.schema.json");

@@ -90,6 +90,7 @@ impl World {
 
 fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
+    world.scratch.occupancy.clear();
     serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
     world.find_pairs();
@@ -249,9 +250,11 @@ fn update_velocities(world: &mut World, h: f32) {
 /// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.
 fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
+    let mut outline = Vec::new();
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
-        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles));
-        let caught = ring_contact::catch_strays(ring, place, &scratch.broad_phase.ring_contacts, particles);
+        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles, &mut outline));
+        let contacts = &scratch.broad_phase.ring_contacts;
+        let caught = ring_contact::catch_strays(ring, place, &outline, contacts, particles);
         guard.net_fired += u64::from(caught);
     }
 }

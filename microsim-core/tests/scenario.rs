@@ -1,8 +1,8 @@
 //! Scenario files: the built-in ones run, and whatever is wrong with a file is found, placed and explained.
 #![cfg(feature = "scenario")]
 
-use microsim_core::Inputs;
 use microsim_core::scenario::{Scenario, builtin, builtins};
+use microsim_core::{Inputs, Kind};
 use proptest::prelude::*;
 
 fn build(name: &str, overrides: &[(&str, &str)]) -> microsim_core::World {
@@ -39,9 +39,24 @@ fn platelets_come_in_any_number() {
 }
 
 #[test]
+fn a_crowd_has_as_many_cells_as_asked_for_in_a_room_that_grows_with_it() {
+    let area_of_each = |count: u32| {
+        let world = build("crowd", &[("count", &count.to_string())]);
+        let of_kind = |kind| world.view().organisms().filter(|organism| organism.kind() == kind).count() as u32;
+        assert_eq!((of_kind(Kind::AmoeboidCell), of_kind(Kind::Platelet)), (count, count));
+        assert_eq!(world.census().particles as u32, count * 135, "104 of a cell, 31 of a platelet");
+        world.config().size.element_product() / count as f32
+    };
+    let [few, more] = [20, 320].map(area_of_each);
+    assert!([1, 2, 5, 1000].map(area_of_each).into_iter().all(|area| area > more * 0.9));
+    assert!((1.0..2.0).contains(&(few / more)), "only the margin is shared: {few} {more}");
+}
+
+#[test]
 fn a_crowd_finds_room_with_every_seed() {
     for seed in 1..=20 {
         assert_eq!(build("hunt", &[("seed", &seed.to_string())]).organisms().count(), 112, "seed {seed}");
+        assert_eq!(build("crowd", &[("seed", &seed.to_string())]).organisms().count(), 40, "seed {seed}");
     }
 }
 
@@ -260,5 +275,33 @@ proptest! {
         if let Err(errors) = Scenario::parse(builtin("platelets").unwrap().text, &overrides) {
             prop_assert!(errors.iter().all(|error| error.accepted.is_some()), "{}", errors);
         }
+    }
+}
+
+/// A scenario that is right but for what is added.
+fn with(added: &str) -> String {
+    format!("schema = 1\n{added}\n[world]\nsize = [100.0, 100.0]\n[agar.pellet]\nradius = 1.0\n")
+}
+
+#[test]
+fn of_many_problems_of_a_kind_twenty_are_listed_and_the_others_counted() {
+    let keys: String = (0..200_000).map(|k| format!("key{k} = {k}\n")).collect();
+    let names: String = (0..5000).map(|k| format!("[agar.pellet{k}]\nradius = 1.0\n")).collect();
+    let typos: String = (0..5000).map(|k| format!("[[spawn]]\nof = \"pelet{k}\"\n")).collect();
+    let large: String = (0..5000).map(|k| format!("[agar.a{k}]\nradius = 5{k}000\n")).collect();
+    let unset: String = (0..5000).map(|k| format!("[[spawn]]\nof = \"$p{k}\"\n")).collect();
+    let broken: String = (0..5000).map(|k| format!("a{k} = = 1\n")).collect();
+    for (text, count, kind, first_line) in [
+        (with(&keys), 200_000, "unknown field", 2),
+        (with("") + &names + &typos, 5_000, "unknown prototype", 10_008),
+        (with("") + &large, 5_000, "… is out of range", 8),
+        (with("") + &unset, 5_000, "unknown parameter", 8),
+        (with("") + &broken, 5_000, "", 7),
+    ] {
+        let found = Scenario::parse(&text, &[]).unwrap_err();
+        assert_eq!(found.left_out().iter().map(|more| more.count).sum::<usize>() + found.len(), count, "{kind}");
+        assert!(found.len() <= 60 && found.to_string().len() < 100_000, "{kind}: {}", found.to_string().len());
+        assert!(kind.is_empty() || found.left_out()[0].kind == kind, "{:?}", found.left_out());
+        assert_eq!(found.iter().next().unwrap().line, Some(first_line), "{kind}");
     }
 }

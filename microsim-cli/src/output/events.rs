@@ -1,6 +1,6 @@
 //! `events.jsonl`: one object per event.
 
-use super::folder::PendingFile;
+use super::pending::PendingFile;
 use crate::failure::Failure;
 use crate::summary::{handle, rounded};
 use microsim_core::World;

@@ -1,9 +1,12 @@
 //! The folder that a run writes to. A file appears under its name only when it is complete.
 
+use super::files::{self, Written};
+use super::pending::PendingFile;
 use crate::failure::Failure;
+use crate::read;
 use sha2::{Digest, Sha256};
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -17,11 +20,29 @@ pub(crate) struct Outputs {
     is_shared: bool,
     /// Names of the files that were finished.
     names: Mutex<Vec<String>>,
+    /// Held while no other process may write to it.
+    lock: Option<Written>,
 }
 
+/// The file that is locked while a process writes to its folder.
+const LOCK: &str = ".lock";
+
 impl Outputs {
-    /// Creates the folder if it is missing. Nothing in it is ever removed; unless `is_forced`, it must be empty.
+    /// Creates the folder if it is missing, and locks it. Nothing in it is ever removed; unless `is_forced`, it must be
+    /// empty.
     pub(crate) fn open(folder: &Path, is_forced: bool) -> Result<Self, Failure> {
+        let mut outputs = Self::unlocked(folder, is_forced)?;
+        let path = folder.join(LOCK);
+        let lock = Written::lockable(&path).map_err(|error| Failure::file("write", &path, &error))?;
+        if !lock.try_lock(&path) {
+            let why = "another run writes to it, accepted: the folder when that has ended, or another one";
+            return Err(Failure::Message(format!("{}: {why}", folder.display())));
+        }
+        outputs.lock = Some(lock);
+        Ok(outputs)
+    }
+
+    fn unlocked(folder: &Path, is_forced: bool) -> Result<Self, Failure> {
         let refuse = |why: &str| Err(Failure::Message(format!("--out {}: {why}", folder.display())));
         let fail = |error| Failure::file("write to", folder, &error);
         if folder.exists() && !folder.is_dir() {
@@ -31,13 +52,13 @@ impl Outputs {
             return refuse("it is not empty, accepted: an empty or new one, or any with --force");
         }
         let is_new = !folder.exists();
-        fs::create_dir_all(folder).map_err(fail)?;
-        Ok(Self { folder: folder.to_owned(), is_new, is_shared: false, names: Mutex::default() })
+        files::create_folder(folder).map_err(fail)?;
+        Ok(Self { folder: folder.to_owned(), is_new, is_shared: false, names: Mutex::default(), lock: None })
     }
 
     /// A folder that others may write to at the same time.
     pub(crate) fn shared(folder: &Path) -> Result<Self, Failure> {
-        let mut outputs = Self::open(folder, true)?;
+        let mut outputs = Self::unlocked(folder, true)?;
         outputs.is_shared = true;
         Ok(outputs)
     }
@@ -60,31 +81,40 @@ impl Outputs {
         &self.folder
     }
 
+    /// Begins a file.
     pub(crate) fn file(&self, name: &str) -> Result<PendingFile, Failure> {
-        let (path, temporary) = self.names_of(name);
-        let fail = |error| Failure::file("write", &path, &error);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(fail)?;
+        let paths = self.names_of(name);
+        if let Some(parent) = paths.0.parent() {
+            files::create_folder(parent).map_err(|error| Failure::file("write", &paths.0, &error))?;
         }
-        let file = File::create(&temporary).map_err(fail)?;
-        Ok(PendingFile { writer: Some(BufWriter::new(file)), temporary, path, name: name.to_owned() })
+        PendingFile::create(name, paths, !self.is_shared)
     }
 
     /// Continues a file after its first `length` bytes, whether it was finished or not.
     pub(crate) fn resume(&self, name: &str, length: u64) -> Result<PendingFile, Failure> {
+        PendingFile::resume(name, self.names_of(name), length)
+    }
+
+    /// Refuses a file that cannot be continued after its first `length` bytes, which must end with a row. Changes nothing.
+    pub(crate) fn check_resumable(&self, name: &str, length: u64) -> Result<(), Failure> {
         let (path, temporary) = self.names_of(name);
-        let fail = |error: io::Error| Failure::file("continue", &path, &error);
-        if !temporary.exists() && path.exists() {
-            fs::rename(&path, &temporary).map_err(fail)?;
-        }
-        let mut file = OpenOptions::new().write(true).open(&temporary).map_err(fail)?;
+        let path = if temporary.exists() { temporary } else { path };
+        let fail = |error| Failure::file("continue", &path, &error);
+        let mut file = read::open(&path).map_err(fail)?;
+        let refuse = |why| Failure::Message(format!("{} {why}; run the scenario again", path.display()));
         if file.metadata().map_err(fail)?.len() < length {
-            let message =
-                format!("{} is shorter than its checkpoint says; run the scenario again", temporary.display());
-            return Err(Failure::Message(message));
+            return Err(refuse("is shorter than its checkpoint says"));
         }
-        file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0))).map_err(fail)?;
-        Ok(PendingFile { writer: Some(BufWriter::new(file)), temporary, path, name: name.to_owned() })
+        let mut last = *b"\n";
+        if length > 0 {
+            file.seek(SeekFrom::Start(length - 1)).and_then(|_| file.read_exact(&mut last)).map_err(fail)?;
+        }
+        if last == *b"\n" { Ok(()) } else { Err(refuse("has no end of a row where its checkpoint says")) }
+    }
+
+    /// Waits until the names of all files are on the disk.
+    pub(crate) fn sync(&self) -> Result<(), Failure> {
+        files::sync_folder(&self.folder).map_err(|error| Failure::file("write to", &self.folder, &error))
     }
 
     fn names(&self) -> MutexGuard<'_, Vec<String>> {
@@ -139,9 +169,12 @@ impl Outputs {
 
 impl Drop for Outputs {
     fn drop(&mut self) {
+        if self.lock.is_some() {
+            let _ = files::remove(&self.folder.join(LOCK));
+        }
         if self.is_new {
             // Fails unless it is empty.
-            let _ = fs::remove_dir(&self.folder);
+            let _ = files::remove_folder(&self.folder);
         }
     }
 }
@@ -150,7 +183,7 @@ impl Drop for Outputs {
 pub(crate) fn sha256(path: &Path) -> Result<String, Failure> {
     let fail = |error| Failure::file("read", path, &error);
     let mut hasher = Sha256::new();
-    let mut reader = BufReader::new(File::open(path).map_err(fail)?);
+    let mut reader = BufReader::new(read::open(path).map_err(fail)?);
     loop {
         let bytes = reader.fill_buf().map_err(fail)?;
         let count = bytes.len();
@@ -166,62 +199,4 @@ pub(crate) fn sha256(path: &Path) -> Result<String, Failure> {
 /// Bytes as hexadecimal digits.
 pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// A file under a temporary name, removed again unless it is finished.
-#[derive(Debug)]
-pub(crate) struct PendingFile {
-    /// Gone once the file is closed.
-    writer: Option<BufWriter<File>>,
-    /// Where it lies until it is finished.
-    pub temporary: PathBuf,
-    /// The path that it will have.
-    pub path: PathBuf,
-    /// The name within its folder.
-    pub name: String,
-}
-
-impl PendingFile {
-    /// Everything that was written is in the file. Returns its length.
-    pub(crate) fn sync(&mut self) -> Result<u64, Failure> {
-        let length = self.flush().and_then(|()| fs::metadata(&self.temporary));
-        length.map(|data| data.len()).map_err(|error| Failure::file("write", &self.path, &error))
-    }
-
-    /// Gives it its name, in place of any file that has it.
-    pub(crate) fn finish(mut self) -> Result<(), Failure> {
-        let flushed = self.flush();
-        self.writer = None;
-        flushed
-            .and_then(|()| fs::rename(&self.temporary, &self.path))
-            .map_err(|error| Failure::file("write", &self.path, &error))
-    }
-
-    /// Leaves it under its temporary name, to be continued.
-    pub(crate) fn leave(mut self) -> Result<(), Failure> {
-        self.sync()?;
-        self.writer = None;
-        self.temporary.clear();
-        Ok(())
-    }
-}
-
-impl Write for PendingFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.writer.as_mut().map_or(Ok(0), |writer| writer.write(bytes))
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.writer.as_mut().map_or(Ok(()), BufWriter::flush)
-    }
-}
-
-impl Drop for PendingFile {
-    fn drop(&mut self) {
-        self.writer = None;
-        if !self.temporary.as_os_str().is_empty() {
-            // After a rename there is nothing under this name any more.
-            let _ = fs::remove_file(&self.temporary);
-        }
-    }
 }

@@ -2,20 +2,29 @@
 
 mod description;
 mod events;
+#[cfg(test)]
+pub(crate) mod fault;
+mod files;
 mod folder;
 mod measures;
 mod moments;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod pending;
 mod run_writer;
 mod table;
 mod trajectories;
 
 pub(crate) use description::write_description;
-pub(crate) use folder::{Outputs, PendingFile, hex};
+pub(crate) use files::{Written, remove};
+pub(crate) use folder::{Outputs, hex};
+pub(crate) use pending::PendingFile;
 pub(crate) use run_writer::{FileProgress, RunWriter, check_formats};
 
 use microsim_core::World;
+
+/// Name of the file that an unfinished run can be resumed from.
+pub(crate) const CHECKPOINT: &str = "checkpoint";
 
 /// Which steps are sampled.
 #[derive(Clone, Copy, Debug)]

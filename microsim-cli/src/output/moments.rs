@@ -2,7 +2,10 @@
 
 use crate::draw;
 use crate::draw::png::Picture;
+use crate::failure::Failure;
+use crate::read;
 use microsim_core::World;
+use std::path::Path;
 
 /// Pictures on the sheet, start and end included.
 const MOMENTS: u64 = 6;
@@ -40,15 +43,26 @@ impl Moments {
         self.steps.clone().into_iter().filter(move |moment| *moment <= step)
     }
 
-    /// A picture that was taken before.
-    pub(crate) fn add(&mut self, picture: Picture) {
-        self.pictures.push(picture);
+    /// The pictures of a stopped run, up to a step.
+    pub(crate) fn take_up(&mut self, folder: &Path, step: u64) -> Result<(), Failure> {
+        for moment in self.until(step).collect::<Vec<_>>() {
+            let path = folder.join(moment_name(moment));
+            let raw = read::whole(&path).map_err(|error| Failure::file("read", &path, &error))?;
+            let broken = || Failure::Message(format!("{}: no picture; run the scenario again", path.display()));
+            self.pictures.push(Picture::from_raw(&raw).ok_or_else(broken)?);
+        }
+        Ok(())
     }
 
     /// All of them, row by row.
     pub(crate) fn sheet(&self) -> Picture {
         Picture::sheet(&self.pictures)
     }
+}
+
+/// Where the picture of a moment waits for the sheet.
+pub(super) fn moment_name(step: u64) -> String {
+    format!(".moment-{step:08}")
 }
 
 #[cfg(test)]

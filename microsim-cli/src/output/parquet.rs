@@ -1,6 +1,7 @@
 //! Rows, one JSON object a line, as a Parquet file.
 
-use super::folder::{Outputs, PendingFile};
+use super::folder::Outputs;
+use super::pending::PendingFile;
 use crate::failure::Failure;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -11,6 +12,7 @@ use parquet::schema::types::{Type, TypePtr};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Rows that are kept in memory at once.
@@ -18,16 +20,21 @@ const GROUP: usize = 1 << 16;
 
 type Row = serde_json::Map<String, Value>;
 
-/// Writes `NAME.parquet` for the rows of `NAME.parquet-rows`, which vanish.
-pub(super) fn convert(outputs: &Outputs, columns: &[&str], mut rows: PendingFile) -> std::result::Result<(), Failure> {
-    rows.sync()?;
+/// Writes `NAME.parquet` for the rows of `NAME.parquet-rows`. Returns where these lie: nobody but a checkpoint needs them.
+pub(super) fn convert(
+    outputs: &Outputs,
+    columns: &[&str],
+    mut rows: PendingFile,
+) -> std::result::Result<PathBuf, Failure> {
+    rows.flush().map_err(|error| Failure::file("write", &rows.path, &error))?;
     let name = rows.name.trim_end_matches("-rows").to_owned();
     let mut file = outputs.file(&name)?;
     let path = file.path.clone();
     let from = File::open(&rows.temporary).map_err(|error| Failure::file("read", &rows.temporary, &error))?;
     write(&mut file, columns, BufReader::new(from))
         .map_err(|error| Failure::Message(format!("cannot write {}: {error}", path.display())))?;
-    outputs.finish(file)
+    outputs.finish(file)?;
+    Ok(rows.temporary.clone())
 }
 
 fn write(file: impl Write + Send, columns: &[&str], from: impl BufRead) -> Result<()> {

@@ -1,21 +1,21 @@
 //! Writes the outputs of a scenario while it runs: tables, events, pictures and snapshots.
 
-use super::Rhythm;
 use super::events::Events;
 use super::folder::Outputs;
 use super::measures::Measures;
-use super::moments::Moments;
-use super::table::DataTable;
+use super::moments::{Moments, moment_name};
+use super::table::{DataTable, file_name};
 use super::trajectories::{self, Trajectories};
+use super::{CHECKPOINT, Rhythm};
 use crate::draw::png::Picture;
 use crate::draw::{self, svg};
 use crate::failure::Failure;
+use crate::read;
 use microsim_core::World;
 use microsim_core::scenario::{Built, OutputPlan, TableFormat};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Component, Path, PathBuf};
 
 /// Longer side of the picture of the end, pixels.
 const FRAME: u32 = 1200;
@@ -48,6 +48,31 @@ pub(crate) struct FileProgress {
     whole: Vec<String>,
 }
 
+impl FileProgress {
+    /// Refuses files that are not those of the plan, lie elsewhere or do not end with a row. Changes nothing.
+    fn check(&self, outputs: &Outputs, plan: &OutputPlan) -> Result<(), Failure> {
+        let refuse = |why: String| {
+            let path = outputs.folder().join(CHECKPOINT);
+            Err(Failure::Message(format!("{}: {why}; run the scenario again", path.display())))
+        };
+        let table = |name, formats: &[TableFormat]| formats.iter().map(|&f| file_name(name, f)).collect::<Vec<_>>();
+        let tables = [table("measures", &plan.measures.formats), table("trajectories", &plan.trajectories.formats)];
+        let events = plan.events.then(|| Events::FILE.to_owned());
+        let expected: BTreeSet<String> = tables.into_iter().flatten().chain(events).collect();
+        if !self.lengths.keys().eq(&expected) {
+            return refuse("its tables are not those of its scenario".to_owned());
+        }
+        for name in &self.whole {
+            let is_plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+            if !is_plain || name.is_empty() {
+                return refuse(format!("{name:?} is no name of a file in the folder"));
+            }
+            read::open(&outputs.folder().join(name)).map_err(|error| Failure::file("read", Path::new(name), &error))?;
+        }
+        self.lengths.iter().try_for_each(|(name, &length)| outputs.check_resumable(name, length))
+    }
+}
+
 /// Refuses formats that this program was built without.
 pub(crate) fn check_formats(plan: &OutputPlan) -> Result<(), Failure> {
     let mut wanted = plan.measures.formats.iter().chain(&plan.trajectories.formats);
@@ -74,23 +99,21 @@ impl<'o> RunWriter<'o> {
         steps: u64,
         progress: &FileProgress,
     ) -> Result<Self, Failure> {
+        progress.check(outputs, plan)?;
+        let mut moments = plan.pictures.then(|| Moments::new(steps));
+        if let Some(moments) = &mut moments {
+            moments.take_up(outputs.folder(), built.world.step_index())?;
+        }
         let mut writer = Self::open(outputs, plan, built, steps, &progress.lengths)?;
+        writer.moments = moments;
         if let Some(measures) = &mut writer.measures {
             *measures.pending_events() = progress.events;
         }
         outputs.note_written(&progress.whole);
-        if let Some(moments) = &mut writer.moments {
-            for step in moments.until(built.world.step_index()).collect::<Vec<_>>() {
-                let path = outputs.folder().join(moment_name(step));
-                let raw = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
-                let broken = || Failure::Message(format!("{}: no picture; run the scenario again", path.display()));
-                moments.add(Picture::from_raw(&raw).ok_or_else(broken)?);
-            }
-        }
         Ok(writer)
     }
 
-    /// Flushes the files and returns their lengths and names.
+    /// Puts the files on the disk and returns their lengths and names.
     pub(crate) fn progress(&mut self) -> Result<FileProgress, Failure> {
         let mut lengths = BTreeMap::new();
         let measures = self.measures.iter_mut().map(|m| &mut m.table);
@@ -98,7 +121,7 @@ impl<'o> RunWriter<'o> {
             lengths.extend(table.lengths()?);
         }
         if let Some(events) = &mut self.events {
-            lengths.insert(Events::FILE.to_owned(), events.0.sync()?);
+            lengths.insert(Events::FILE.to_owned(), events.0.keep()?);
         }
         let events = self.measures.as_mut().map_or(0, |measures| *measures.pending_events());
         Ok(FileProgress { lengths, events, whole: self.outputs.names_written() })
@@ -164,43 +187,28 @@ impl<'o> RunWriter<'o> {
         Ok(())
     }
 
-    /// Leaves all files so that another process can continue them.
-    pub(crate) fn leave(self) -> Result<(), Failure> {
-        let (measures, trajectories) = (self.measures.map(|m| m.table), self.trajectories.map(|t| t.table));
-        for table in [measures, trajectories].into_iter().flatten() {
-            table.leave()?;
-        }
-        if let Some(events) = self.events {
-            events.0.leave()?;
-        }
-        Ok(())
-    }
-
     /// Gives all files their names. Returns those that only an unfinished run needs, for [`crate::checkpoint::remove`].
     pub(crate) fn finish(self, world: &World) -> Result<Vec<PathBuf>, Failure> {
         let outputs = self.outputs;
+        let mut needless = Vec::new();
         let (measures, trajectories) = (self.measures.map(|m| m.table), self.trajectories.map(|t| t.table));
         for table in [measures, trajectories].into_iter().flatten() {
-            table.finish(outputs)?;
+            needless.extend(table.finish(outputs)?);
         }
         if let Some(events) = self.events {
             outputs.finish(events.0)?;
         }
         let Some(moments) = self.moments else {
-            return Ok(Vec::new());
+            return Ok(needless);
         };
         let page = draw::draw(world);
         outputs.write("frame.svg", svg::write(&page, FRAME).as_bytes())?;
         outputs.write("frame.png", &Picture::of(&page, FRAME).encoded()?)?;
         outputs.write("frames.png", &moments.sheet().encoded()?)?;
         let waiting = moments.until(u64::MAX).filter(|_| self.is_resumable);
-        Ok(waiting.map(|step| outputs.folder().join(moment_name(step))).collect())
+        needless.extend(waiting.map(|step| outputs.folder().join(moment_name(step))));
+        Ok(needless)
     }
-}
-
-/// Where the picture of a moment waits for the sheet.
-fn moment_name(step: u64) -> String {
-    format!(".moment-{step:08}")
 }
 
 fn step_at(time: f32, world: &World) -> u64 {

@@ -1,10 +1,12 @@
 //! Tables that grow while a scenario runs, in any format.
 
-use super::folder::{Outputs, PendingFile};
+use super::folder::Outputs;
+use super::pending::PendingFile;
 use crate::failure::Failure;
 use microsim_core::scenario::TableFormat;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 /// A value in a table.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +27,13 @@ impl Serialize for Cell<'_> {
             Self::Text(text) => serializer.serialize_str(text),
         }
     }
+}
+
+/// Name of the file that grows. A Parquet file cannot be continued, so its rows are gathered as lines and converted at the
+/// end.
+pub(super) fn file_name(table: &str, format: TableFormat) -> String {
+    let ending = if format == TableFormat::Parquet { "parquet-rows" } else { format.name() };
+    format!("{table}.{ending}")
 }
 
 /// One table in one or several formats.
@@ -50,9 +59,7 @@ impl DataTable {
         lengths: impl Fn(&str) -> Option<u64>,
     ) -> Result<Self, Failure> {
         let sink = |&format: &TableFormat| {
-            // A Parquet file cannot be continued, so its rows are gathered as lines and converted at the end.
-            let ending = if format == TableFormat::Parquet { "parquet-rows" } else { format.name() };
-            let name = format!("{name}.{ending}");
+            let name = file_name(name, format);
             if let Some(length) = lengths(&name) {
                 return outputs.resume(&name, length).map(|file| Sink { format, file });
             }
@@ -81,19 +88,19 @@ impl DataTable {
 
     /// Names and lengths of its files, with all rows in them.
     pub(super) fn lengths(&mut self) -> Result<Vec<(String, u64)>, Failure> {
-        self.sinks.iter_mut().map(|sink| Ok((sink.file.name.clone(), sink.file.sync()?))).collect()
+        self.sinks.iter_mut().map(|sink| Ok((sink.file.name.clone(), sink.file.keep()?))).collect()
     }
 
-    pub(super) fn finish(self, outputs: &Outputs) -> Result<(), Failure> {
-        let columns = self.columns;
-        self.sinks.into_iter().try_for_each(|Sink { format, file }| match format {
-            TableFormat::Parquet => convert(outputs, &columns, file),
-            _ => outputs.finish(file),
-        })
-    }
-
-    pub(super) fn leave(self) -> Result<(), Failure> {
-        self.sinks.into_iter().try_for_each(|sink| sink.file.leave())
+    /// Gives all files their names. Returns those that nobody needs any more.
+    pub(super) fn finish(self, outputs: &Outputs) -> Result<Vec<PathBuf>, Failure> {
+        let mut needless = Vec::new();
+        for Sink { format, file } in self.sinks {
+            match format {
+                TableFormat::Parquet => needless.push(convert(outputs, &self.columns, file)?),
+                _ => outputs.finish(file)?,
+            }
+        }
+        Ok(needless)
     }
 }
 
@@ -119,13 +126,12 @@ fn write_line(file: &mut PendingFile, columns: &[&str], cells: &[Cell<'_>]) -> i
 }
 
 #[cfg(feature = "parquet")]
-fn convert(outputs: &Outputs, columns: &[&str], rows: PendingFile) -> Result<(), Failure> {
+fn convert(outputs: &Outputs, columns: &[&str], rows: PendingFile) -> Result<PathBuf, Failure> {
     super::parquet::convert(outputs, columns, rows)
 }
 
 #[cfg(not(feature = "parquet"))]
-fn convert(_: &Outputs, _: &[&str], rows: PendingFile) -> Result<(), Failure> {
+fn convert(_: &Outputs, _: &[&str], rows: PendingFile) -> Result<PathBuf, Failure> {
     // Refused before the run began.
-    drop(rows);
-    Ok(())
+    Ok(rows.temporary.clone())
 }

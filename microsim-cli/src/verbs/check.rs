@@ -1,5 +1,6 @@
 //! `check`: whether a scenario can be run.
 
+use crate::clean;
 use crate::console::print;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -10,7 +11,9 @@ use microsim_core::scenario::{Diagnostic, Diagnostics};
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "All problems are shown at once, each with its line and what would be accepted.")]
+#[command(
+    after_help = "All problems are shown at once, at most twenty of a kind, each with its line and what would be accepted."
+)]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub scenario: ScenarioArgs,
@@ -43,7 +46,7 @@ fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
     let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
-    Ok(print(format!("ok: {name}, {size}\n"))?)
+    Ok(print(format!("ok: {}, {size}\n", clean::line(name)))?)
 }
 
 fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
@@ -59,6 +62,8 @@ struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario: Option<ScenarioSummary<'a>>,
     problems: Vec<Problem<'a>>,
+    /// Of kinds of which enough are listed.
+    left_out: Vec<More<'a>>,
 }
 
 #[derive(Serialize)]
@@ -85,12 +90,24 @@ struct Problem<'a> {
     accepted: Option<&'a str>,
 }
 
+#[derive(Serialize)]
+struct More<'a> {
+    kind: &'a str,
+    count: usize,
+}
+
 impl<'a> Answer<'a> {
     fn sound(prepared: &'a Prepared) -> Self {
         let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
         let (name, seed, duration) = (prepared.scenario.name(), prepared.scenario.seed(), prepared.scenario.duration());
         let scenario = ScenarioSummary { name, seed, duration, organisms, bodies, particles, constraints };
-        Self { ok: true, file: &prepared.source.origin, scenario: Some(scenario), problems: Vec::new() }
+        Self {
+            ok: true,
+            file: &prepared.source.origin,
+            scenario: Some(scenario),
+            problems: Vec::new(),
+            left_out: Vec::new(),
+        }
     }
 
     fn refused(source: &'a ScenarioText, problems: &'a Diagnostics) -> Self {
@@ -102,6 +119,8 @@ impl<'a> Answer<'a> {
             message: &problem.message,
             accepted: problem.accepted.as_deref(),
         };
-        Self { ok: false, file: &source.origin, scenario: None, problems: problems.iter().map(problem).collect() }
+        let left_out = problems.left_out().iter().map(|more| More { kind: &more.kind, count: more.count });
+        let (problems, left_out) = (problems.iter().map(problem).collect(), left_out.collect());
+        Self { ok: false, file: &source.origin, scenario: None, problems, left_out }
     }
 }

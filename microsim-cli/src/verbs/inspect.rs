@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::summary::{Table, rounded};
-use crate::world_file::WorldFile;
+use crate::world_file::{WorldFile, lost};
 use microsim_core::World;
 use microsim_core::replay::Ending;
 use microsim_core::scenario::Origin;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Snapshots are written at the times of output.snapshots, checkpoints by run --checkpoint-every and --save, replays by\n\
-run --record."
+run --record. The exit code is 2 for a damaged replay."
 )]
 pub(crate) struct InspectArgs {
     /// A snapshot, a checkpoint, a replay, or the folder of a run that was stopped
@@ -22,6 +22,7 @@ pub(crate) struct InspectArgs {
 
 pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     let mut table = Table::default();
+    let mut damage = None;
     match WorldFile::read(&args.file)? {
         WorldFile::World(world) => {
             table.row("what", "snapshot of a world");
@@ -44,9 +45,11 @@ pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
                 Ending::Damaged { at } => format!("it is damaged at byte {at}"),
             };
             table.row("end", ending);
+            damage = matches!(replay.ending(), Ending::Damaged { .. }).then(|| lost(&replay, &args.file)).flatten();
         }
     }
-    Ok(table.print()?)
+    table.print()?;
+    damage.map_or(Ok(()), |text| Err(Failure::Message(text)))
 }
 
 fn origin(origin: &Origin, table: &mut Table) {

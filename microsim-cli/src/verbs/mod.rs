@@ -15,6 +15,9 @@ mod run;
 mod schema;
 mod sweep;
 
+#[cfg(test)]
+pub(crate) use sweep::Task;
+
 use crate::console::Console;
 use crate::failure::Failure;
 

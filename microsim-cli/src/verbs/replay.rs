@@ -1,5 +1,6 @@
 //! `replay`: repeats a recorded run and compares it with the record.
 
+use crate::clean;
 use crate::console::{self, Console, print_json};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -78,6 +79,9 @@ fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure>
     }
     let ReplayReport { steps, simulated_seconds, seed, digest, .. } = &report;
     let every = replay.interval();
-    let played = format!("{steps} steps ({simulated_seconds:.2} s) of {scenario} with seed {seed} are as recorded");
+    let played = format!(
+        "{steps} steps ({simulated_seconds:.2} s) of {} with seed {seed} are as recorded",
+        clean::line(&scenario)
+    );
     Ok(console::print(format!("{played}\ndigest {digest}, compared every {every} steps\n"))?)
 }

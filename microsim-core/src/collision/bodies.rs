@@ -126,10 +126,10 @@ impl Bodies {
     pub(super) fn pairs_with(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
         for body in self.iter() {
             let near_body = grid.in_box(body.aabb.low(), body.aabb.high());
-            for other in near_body.filter(|other| other.aabb().overlaps(body.aabb)) {
+            near_body.filter(|other| other.aabb().overlaps(body.aabb)).for_each(|other| {
                 let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
                 near.for_each(|disc| visit(disc, other));
-            }
+            });
         }
     }
 

@@ -9,7 +9,7 @@
 //! [`speculative_margin`]: super::speculative_margin
 
 use super::bodies::{Bodies, PairFilter};
-use super::disc_grid::{Disc, DiscColumns, DiscGrid};
+use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
 use super::obstacle::Obstacle;
 use super::ring::{Containment, Ring, RingContacts, RingQuery};
@@ -32,6 +32,7 @@ pub(crate) struct BroadPhase {
     bodies: Bodies,
     membranes: DiscGrid,
     fluid: DiscGrid,
+    fluid_changes: FluidChanges,
 }
 
 /// What a pair search needs to know of the world.
@@ -66,7 +67,7 @@ impl BroadPhase {
             self.keep_awake(sleep);
         }
         let sleep = &*sleep;
-        let Self { contacts, bodies, membranes, fluid, .. } = self;
+        let Self { contacts, bodies, membranes, fluid, fluid_changes, .. } = self;
         let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
@@ -82,8 +83,8 @@ impl BroadPhase {
                 fluid.near(node).for_each(|other| consider(node, other));
             }
         }
-        if fluid.iter().any(|disc| is_of_another_fluid(disc, fluid, input.particles)) {
-            fluid.pairs(consider);
+        if fluid_changes.find(fluid, input.particles) {
+            fluid_changes.pairs(fluid, input.particles, consider);
         }
         self.find_obstacle_contacts(input, sleep);
         self.find_ring_contacts(input);
@@ -169,11 +170,6 @@ impl BroadPhase {
             obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
         }
     }
-}
-
-/// Whether a disc's fluid is not that of the first disc: then there are several.
-fn is_of_another_fluid(disc: &Disc, fluid: &DiscGrid, p: &Particles) -> bool {
-    fluid.iter().next().is_some_and(|first| p.fluid[first.index as usize] != p.fluid[disc.index as usize])
 }
 
 /// The contact of two discs that are near each other, if they collide at all.
@@ -301,7 +297,7 @@ mod tests {
                     p.x[i] += way;
                 }
             }
-            subtract_displacement(&p.columns().part(block.base..block.end()), left);
+            subtract_displacement(&mut p.columns().part(block.base..block.end()), left);
         }
     }
 

@@ -4,6 +4,7 @@ use super::aabb::Aabb;
 use super::uniform_grid::UniformGrid;
 use crate::particle::{CollisionGroups, Particles};
 use glam::Vec2;
+use std::ops::Range;
 
 /// What the search for pairs has to know of a particle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -113,6 +114,41 @@ impl DiscGrid {
             let (a, b) = (&self.discs[a], &self.discs[b]);
             if a.is_near(b) {
                 visit(a, b);
+            }
+        });
+    }
+}
+
+/// Where the fluid changes from one disc of a grid to the next: neighbours of one fluid are skipped without a look at them.
+#[derive(Debug, Default)]
+pub(super) struct FluidChanges {
+    /// Changes up to each disc.
+    counts: Vec<u32>,
+}
+
+impl FluidChanges {
+    /// Finds the changes; returns whether there are any.
+    pub(super) fn find(&mut self, grid: &DiscGrid, p: &Particles) -> bool {
+        let fluid_of = |disc: &Disc| p.fluid[disc.index as usize];
+        let (mut count, mut last) = (0, grid.iter().next().map(fluid_of));
+        self.counts.clear();
+        self.counts.extend(grid.iter().map(|disc| {
+            let fluid = Some(fluid_of(disc));
+            count += u32::from(fluid != last);
+            last = fluid;
+            count
+        }));
+        count > 0
+    }
+
+    /// Calls `visit` once for each two discs that may touch, but for some of the same fluid.
+    pub(super) fn pairs(&self, grid: &DiscGrid, p: &Particles, mut visit: impl FnMut(&Disc, &Disc)) {
+        let fluid = |place: usize| p.fluid[grid.discs[place].index as usize];
+        grid.grid.neighbours(0..grid.grid.rows(), |k, others| {
+            let Range { start, end } = others;
+            if start < end && (self.counts[start] != self.counts[end - 1] || fluid(start) != fluid(k)) {
+                let near = grid.discs[others].iter().filter(|other| grid.discs[k].is_near(other));
+                near.for_each(|other| visit(&grid.discs[k], other));
             }
         });
     }

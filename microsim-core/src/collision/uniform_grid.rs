@@ -119,6 +119,12 @@ impl UniformGrid {
     /// these rows: within a cell, with the cell to the right, and with the three cells above.
     #[inline(always)]
     pub(crate) fn pairs(&self, rows: Range<usize>, mut visit: impl FnMut(usize, usize)) {
+        self.neighbours(rows, |k, others| others.for_each(|other| visit(k, other)));
+    }
+
+    /// The same with all places at once that are paired with one and lie side by side.
+    #[inline(always)]
+    pub(crate) fn neighbours(&self, rows: Range<usize>, mut visit: impl FnMut(usize, Range<usize>)) {
         for row in rows.start..rows.end.min(self.rows) {
             for column in 0..self.columns {
                 let cell = self.row_range(row, column..column + 1);
@@ -128,8 +134,8 @@ impl UniformGrid {
                 let right = self.row_range(row, column..column + 2);
                 let above = self.row_range(row + 1, column.saturating_sub(1)..column + 2);
                 for k in cell {
-                    (k + 1..right.end).for_each(|other| visit(k, other));
-                    above.clone().for_each(|other| visit(k, other));
+                    visit(k, k + 1..right.end);
+                    visit(k, above.clone());
                 }
             }
         }

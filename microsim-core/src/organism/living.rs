@@ -14,7 +14,6 @@ use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::membrane::{Membrane, MembraneContent};
 use glam::Vec2;
-use parry2d::bounding_volume::Aabb;
 use serde::{Deserialize, Serialize};
 
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
@@ -67,17 +66,10 @@ pub(crate) struct Organism {
     pub progress: Progress,
     /// Where it was spawned.
     pub home: Vec2,
-    /// The step in which it was spawned, and the box around it then: spares the search of what it overlaps.
-    #[serde(skip, default = "long_ago")]
-    pub spawned: (u64, Aabb),
     pub is_quarantined: bool,
 }
 
 /// Stands for a step that is not the present one.
-fn long_ago() -> (u64, Aabb) {
-    (u64::MAX, Aabb::new_invalid())
-}
-
 impl Organism {
     /// Particles of the outline, counter-clockwise.
     pub(crate) fn outline_particles(&self) -> impl ExactSizeIterator<Item = u32> + '_ {

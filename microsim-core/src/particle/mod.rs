@@ -184,6 +184,7 @@ impl Particles {
     }
 
     /// Position of particle `i` in the world.
+    #[inline(always)]
     pub(crate) fn position(&self, i: usize) -> Vec2 {
         Vec2::new(self.origin_x[i] + self.x[i], self.origin_y[i] + self.y[i])
     }

@@ -1,7 +1,7 @@
 //! The world that a scenario describes.
 
 use super::Scenario;
-use super::diagnostic::{Diagnostics, MAX_ERRORS, in_words};
+use super::diagnostic::{Diagnostics, in_words};
 use super::file::File;
 use super::placing::{self, Placed};
 use super::reader::ReadContext;
@@ -55,7 +55,7 @@ impl Scenario {
         let spawners = self.fill(&mut built, &context);
         built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
             .with_spawners(spawners);
-        Diagnostics::check(context.found.into_inner())?;
+        context.finish()?;
         Ok(built)
     }
 
@@ -74,10 +74,7 @@ impl Scenario {
         let mut spawners = Vec::new();
         for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
             let mut there = Vec::new();
-            for Placed { spec, placement } in placed {
-                if context.found.borrow().len() >= MAX_ERRORS {
-                    return spawners;
-                }
+            for Placed { spec, placement, .. } in placed {
                 match built.world.spawn(&spec, placement) {
                     Ok(id) => {
                         built.note(group, id);

@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 14] = [
+const BUILTINS: [Builtin; 15] = [
     Builtin {
         name: "game",
         summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",
@@ -26,6 +26,11 @@ const BUILTINS: [Builtin; 14] = [
         name: "platelets",
         summary: "a probe sweeps through a dense field of platelets, any number of them (thesis, Table 4.1)",
         text: include_str!("../../scenarios/platelets.toml"),
+    },
+    Builtin {
+        name: "crowd",
+        summary: "amoeboid cells wander about and jostle each other, any number of them",
+        text: include_str!("../../scenarios/crowd.toml"),
     },
     Builtin {
         name: "dam-break",

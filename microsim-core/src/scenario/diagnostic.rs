@@ -1,11 +1,12 @@
 //! What is wrong with a scenario, and where.
 
 use crate::error::{Error, ErrorKind};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 
-/// Errors after which reading or building gives up: the rest would be more of the same.
-pub(super) const MAX_ERRORS: usize = 20;
+/// Diagnostics of one kind that are listed: the rest would be more of the same.
+const MAX_OF_A_KIND: usize = 20;
 
 /// One thing that is wrong with a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,39 +41,56 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Everything that is wrong with a scenario, in the order of the text; at least one thing.
+/// Diagnostics of a kind that are not listed, because enough are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Diagnostics(Vec<Diagnostic>);
+pub struct LeftOut {
+    /// What the messages have in common.
+    pub kind: String,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "and {} more: {}", in_thousands(self.count), self.kind)
+    }
+}
+
+/// Everything that is wrong with a scenario, in the order of the text; at least one thing, and at most twenty of a kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics {
+    listed: Vec<Diagnostic>,
+    left_out: Vec<LeftOut>,
+}
 
 impl Diagnostics {
-    /// An error unless the list is empty.
-    pub(super) fn check(mut list: Vec<Diagnostic>) -> Result<(), Self> {
-        list.sort_by_key(|diagnostic| (diagnostic.span.is_none(), diagnostic.span.as_ref().map(|span| span.start)));
-        list.dedup();
-        if list.is_empty() { Ok(()) } else { Err(Self(list)) }
-    }
-
     /// The diagnostics, first line first.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
-        self.0.iter()
+        self.listed.iter()
     }
 
-    /// How many there are.
+    /// How many are listed.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.listed.len()
     }
 
     /// Never: there is always one.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.listed.is_empty()
+    }
+
+    /// What is not listed, of each kind.
+    #[must_use]
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
     }
 }
 
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Self {
-        Self(vec![diagnostic])
+        Self { listed: vec![diagnostic], left_out: Vec::new() }
     }
 }
 
@@ -87,16 +105,74 @@ impl<'a> IntoIterator for &'a Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut separator = "";
-        for diagnostic in self {
-            write!(f, "{separator}{diagnostic}")?;
-            separator = "\n";
-        }
-        Ok(())
+        let lines = self.listed.iter().map(Diagnostic::to_string).chain(self.left_out.iter().map(LeftOut::to_string));
+        f.write_str(&lines.collect::<Vec<_>>().join("\n"))
     }
 }
 
 impl std::error::Error for Diagnostics {}
+
+/// What has been found to be wrong so far.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    listed: Vec<Diagnostic>,
+    /// The cases of each kind.
+    kinds: BTreeMap<String, BTreeSet<String>>,
+}
+
+impl Findings {
+    /// Adds a case of a kind, unless it is known; `describe` is called if it is to be listed.
+    pub(super) fn add(&mut self, kind: &str, case: String, describe: impl FnOnce() -> Diagnostic) {
+        let cases = self.kinds.entry(kind.to_owned()).or_default();
+        if cases.insert(case) && cases.len() <= MAX_OF_A_KIND {
+            self.listed.push(describe());
+        }
+    }
+
+    /// The same; the message says the kind.
+    pub(super) fn add_diagnostic(&mut self, diagnostic: Diagnostic) {
+        self.add(&kind_of(&diagnostic.message), diagnostic.to_string(), || diagnostic);
+    }
+
+    /// An error unless nothing was found.
+    pub(super) fn check(self) -> Result<(), Diagnostics> {
+        let Self { mut listed, kinds } = self;
+        listed.sort_by_key(|diagnostic| (diagnostic.span.is_none(), diagnostic.span.as_ref().map(|span| span.start)));
+        let left_out = |(kind, cases): (String, BTreeSet<String>)| {
+            let count = cases.len().saturating_sub(MAX_OF_A_KIND);
+            (count > 0).then_some(LeftOut { kind, count })
+        };
+        let left_out = kinds.into_iter().filter_map(left_out).collect();
+        if listed.is_empty() { Ok(()) } else { Err(Diagnostics { listed, left_out }) }
+    }
+}
+
+/// A message without what differs from case to case: names in quotes, and numbers.
+fn kind_of(message: &str) -> String {
+    let mut kind = String::new();
+    let mut quote = None;
+    for letter in message.chars() {
+        let is_quote = matches!(letter, '`' | '"') && quote.is_none_or(|quote| quote == letter);
+        if is_quote {
+            quote = if quote.is_some() { None } else { Some(letter) };
+        }
+        let differs = is_quote || quote.is_some() || letter.is_ascii_digit();
+        match (differs, kind.ends_with('…')) {
+            (false, true) if matches!(letter, '.' | '-' | 'e') => {}
+            (false, _) => kind.push(letter),
+            (true, false) => kind.push('…'),
+            (true, true) => {}
+        }
+    }
+    kind
+}
+
+/// A count with a comma after the thousands.
+fn in_thousands(count: usize) -> String {
+    let digits = count.to_string();
+    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
+    groups.join(",")
+}
 
 /// What the library says of a refused value: message and what it accepts.
 pub(super) fn in_words(error: &Error) -> (String, Option<String>) {
@@ -119,14 +195,23 @@ pub(super) fn in_words(error: &Error) -> (String, Option<String>) {
     (message, Some(accepted))
 }
 
-/// Line and column of a byte of the text, from 1, the column in characters.
-pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let offset = offset.min(text.len());
-    let before = &text.as_bytes()[..offset];
-    let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-    let start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
-    let column = text.get(start..offset).map_or(offset - start, |part| part.chars().count()) + 1;
-    (line, column)
+/// Where the lines of a text begin.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Lines(Vec<usize>);
+
+impl Lines {
+    pub(super) fn of(text: &str) -> Self {
+        Self(text.match_indices('\n').map(|(at, _)| at + 1).collect())
+    }
+
+    /// Line and column of a byte of the text, from 1, the column in characters.
+    pub(super) fn place(&self, text: &str, offset: usize) -> (usize, usize) {
+        let offset = offset.min(text.len());
+        let line = self.0.partition_point(|&start| start <= offset);
+        let start = if line == 0 { 0 } else { self.0[line - 1] };
+        let column = text.get(start..offset).map_or(offset - start, |part| part.chars().count()) + 1;
+        (line + 1, column)
+    }
 }
 
 #[cfg(test)]
@@ -136,11 +221,46 @@ mod tests {
     #[test]
     fn places_count_characters_from_one() {
         let text = "a\nµµb\n";
-        assert_eq!(line_and_column(text, 0), (1, 1));
-        assert_eq!(line_and_column(text, text.find('b').unwrap()), (2, 3));
-        assert_eq!(line_and_column(text, text.len()), (3, 1));
-        assert_eq!(line_and_column(text, 3), (2, 2), "inside a character");
-        assert_eq!(line_and_column("", 7), (1, 1));
+        let place = |offset| Lines::of(text).place(text, offset);
+        assert_eq!(place(0), (1, 1));
+        assert_eq!(place(text.find('b').unwrap()), (2, 3));
+        assert_eq!(place(text.len()), (3, 1));
+        assert_eq!(place(3), (2, 2), "inside a character");
+        assert_eq!(Lines::of("").place("", 7), (1, 1));
+    }
+
+    #[test]
+    fn kinds_have_no_names_and_numbers() {
+        for (message, kind) in [
+            ("unknown field `radus`, did you mean `radius`?", "unknown field …, did you mean …?"),
+            ("-1.5e-3 is out of range", "-… is out of range"),
+            ("is the string \"it's `so` wide\"", "is the string …"),
+            ("overlaps the agar at [12.0, 4.5]", "overlaps the agar at […, …]"),
+            ("missing", "missing"),
+        ] {
+            assert_eq!(kind_of(message), kind);
+        }
+        assert_eq!([7, 999, 4_980, 1_234_567].map(in_thousands), ["7", "999", "4,980", "1,234,567"]);
+    }
+
+    #[test]
+    fn only_what_is_listed_is_described_and_nothing_is_found_twice() {
+        let mut described = 0;
+        let mut findings = Findings::default();
+        for turn in 0..3 {
+            for case in 0..200_000 / (turn + 1) {
+                findings.add("unknown field", case.to_string(), || {
+                    described += 1;
+                    let (message, place) = (format!("unknown field `{case}`"), Some(case));
+                    let span = Some(case..case + 1);
+                    Diagnostic { field: String::new(), message, accepted: None, span, line: place, column: place }
+                });
+            }
+        }
+        let found = findings.check().unwrap_err();
+        assert_eq!((described, found.len()), (MAX_OF_A_KIND, MAX_OF_A_KIND));
+        assert_eq!(found.left_out(), [LeftOut { kind: "unknown field".into(), count: 199_980 }]);
+        assert!(found.to_string().ends_with("\nand 199,980 more: unknown field"));
     }
 
     #[test]

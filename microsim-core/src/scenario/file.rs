@@ -41,7 +41,7 @@ pub(super) struct File {
 pub(super) fn read(table: &DeTable<'_>, document: &Document) -> Result<File, Diagnostics> {
     let context = ReadContext::new(document);
     let file = read_root(table, &context);
-    Diagnostics::check(context.found.into_inner())?;
+    context.finish()?;
     Ok(file)
 }
 

@@ -96,7 +96,7 @@ pub(crate) mod spawner;
 pub use build::Built;
 pub use builtin::{Builtin, builtin, builtins};
 pub use describe::{Description, describe};
-pub use diagnostic::{Diagnostic, Diagnostics};
+pub use diagnostic::{Diagnostic, Diagnostics, LeftOut};
 pub use origin::Origin;
 pub use reader::{Entry, ValueType};
 pub use script::{Refusal, Script};

@@ -21,6 +21,8 @@ const STREAM: u64 = 1 << 62;
 pub(super) struct Placed {
     pub spec: OrganismSpec,
     pub placement: Placement,
+    /// Farthest that it reaches from its place, units.
+    extent: f32,
 }
 
 /// Finds places for all organisms that are there from the beginning, group by group. Fixed places count before random
@@ -32,11 +34,14 @@ pub(super) fn place_all(
     seed: u64,
     context: &ReadContext<'_>,
 ) -> Vec<Vec<Placed>> {
+    let rng = |index: usize| Rng::new(seed, STREAM + index as u64);
+    let fixed: Vec<Vec<Placed>> = groups.iter().enumerate().map(|(index, group)| fixed(group, rng(index))).collect();
+    if groups.iter().all(|group| group.random_count() == 0) {
+        return fixed;
+    }
     let reach = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
     let mut taken = Taken::new(reach.fold(0.0, |far, reach| if reach > far { reach } else { far }), obstacles);
-    let rng = |index: usize| Rng::new(seed, STREAM + index as u64);
-    let fixed: Vec<Vec<Placed>> =
-        groups.iter().enumerate().map(|(index, group)| fixed(group, rng(index), &mut taken)).collect();
+    fixed.iter().flatten().for_each(|placed| taken.add(placed));
     let mut lay_out = |layout: usize| {
         let (mut placed, mut taken) = (fixed.clone(), taken.clone());
         for (index, group) in groups.iter().enumerate() {
@@ -60,7 +65,7 @@ pub(super) fn place_all(
 }
 
 /// Those of a group whose places are given.
-fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
+fn fixed(group: &Group, mut rng: Rng) -> Vec<Placed> {
     let places: Vec<Vec2> = match &group.positions {
         _ if group.from > 0.0 => Vec::new(),
         Positions::At(at) => vec![*at],
@@ -69,7 +74,6 @@ fn fixed(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
     };
     let put = |at| {
         let (scale, angle) = draw(group, &mut rng);
-        taken.add(at, group.prototype.extent(scale));
         place(group, at, scale, angle)
     };
     places.into_iter().map(put).collect()
@@ -87,8 +91,8 @@ fn random(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
         let Some(at) = tries.find(|&at| taken.is_free(at, radius + gap)) else {
             return placed;
         };
-        taken.add(at, radius);
         placed.push(place(group, at, scale, angle));
+        taken.add(&placed[placed.len() - 1]);
     }
     placed
 }
@@ -105,9 +109,10 @@ pub(super) fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
 }
 
 pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
+    let extent = group.prototype.extent(scale);
     let (spec, scale) = group.prototype.scaled(scale);
     let placement = Placement { at, angle, scale, controller: group.controller.clone() };
-    Placed { spec, placement }
+    Placed { spec, placement, extent }
 }
 
 /// Circles that are taken, in cells of a square grid so that few are looked at.
@@ -129,8 +134,9 @@ impl<'a> Taken<'a> {
         (at / self.cell).floor().as_ivec2().to_array()
     }
 
-    fn add(&mut self, at: Vec2, radius: f32) {
-        self.circles.entry(self.cell_of(at)).or_default().push((at, radius));
+    fn add(&mut self, placed: &Placed) {
+        let at = placed.placement.at;
+        self.circles.entry(self.cell_of(at)).or_default().push((at, placed.extent));
     }
 
     fn is_free(&self, at: Vec2, radius: f32) -> bool {

@@ -77,7 +77,7 @@ impl Spawner {
         if world.organisms_in_circle(at, radius + gap).next().is_some() {
             return None;
         }
-        let Placed { spec, placement } = placing::place(&self.group, at, scale, angle);
+        let Placed { spec, placement, .. } = placing::place(&self.group, at, scale, angle);
         world.spawn(&spec, placement).ok()
     }
 }

@@ -23,7 +23,7 @@ pub(crate) fn project(contractions: &[Contraction], p: &mut Particles, h: f32) {
         let before = p.between(i, j) - (moved(p, j) - moved(p, i));
         let length = before.length() - h * speed;
         let max_length = if length > 0.0 { length } else { 0.0 };
-        Rope { a, b, max_length }.shorten(Span::LOOSE, &mut p.columns());
+        Rope { a, b, max_length }.shorten(&[Span::LOOSE], &mut p.columns());
     }
 }
 

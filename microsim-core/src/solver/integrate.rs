@@ -29,6 +29,7 @@ pub(crate) fn for_each_chunk(
 /// `v += h g`, limited to the speed limit; `x += h v`, for everything that can move.
 #[inline(always)]
 pub(crate) fn predict_positions(particles: &mut Columns<'_>, gravity: Vec2, max_speed: f32, h: f32) {
+    let particles = &mut particles.even();
     let (whole, end) = in_lanes(particles);
     for at in (0..whole).step_by(LANES) {
         predict::<LANES>(particles, at, gravity, max_speed, h);
@@ -63,6 +64,7 @@ fn predict<const L: usize>(p: &mut Columns<'_>, at: usize, gravity: Vec2, max_sp
 #[inline(always)]
 pub(crate) fn update_velocities(particles: &mut Columns<'_>, damping: f32, max_speed: f32, h: f32) {
     let keep = 1.0 / (1.0 + damping * h);
+    let particles = &mut particles.even();
     let (whole, end) = in_lanes(particles);
     for at in (0..whole).step_by(LANES) {
         update::<LANES>(particles, at, max_speed, keep, h);

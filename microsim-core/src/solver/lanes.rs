@@ -14,7 +14,8 @@ pub(crate) use crate::particle::LANES;
 /// Where the slots of a constraint list lie in the particle store, and how large each instance is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span<const L: usize> {
-    pub base: usize,
+    /// Not a `usize`: then the compiler sees that [`Span::at`] cannot overflow, and checks less.
+    pub base: u32,
     /// Factor on every length of the instance.
     pub scale: [f32; L],
 }
@@ -27,7 +28,7 @@ impl Span<1> {
 impl<const L: usize> Span<L> {
     #[inline(always)]
     pub(crate) fn at(&self, slot: u32) -> usize {
-        self.base + slot as usize * L
+        self.base as usize + slot as usize * L
     }
 }
 
@@ -48,13 +49,6 @@ pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
         *lane = value(l);
     }
     lanes
-}
-
-/// From slot `a` to slot `b` in one coordinate.
-#[inline(always)]
-fn part<const L: usize>(column: &[f32], a: usize, b: usize) -> [f32; L] {
-    let (a, b) = (load::<L>(column, a), load::<L>(column, b));
-    each(|l| b[l] - a[l])
 }
 
 /// Sets the `L` entries of a column from `at` on.
@@ -87,11 +81,7 @@ pub(crate) struct Pair<const L: usize> {
 impl<const L: usize> Pair<L> {
     #[inline(always)]
     pub(crate) fn load(particles: &Columns<'_>, a: usize, b: usize) -> Self {
-        let (ax, ay) = (load::<L>(particles.x, a), load::<L>(particles.y, a));
-        let (bx, by) = (load::<L>(particles.x, b), load::<L>(particles.y, b));
-        let (ox, oy) = (part::<L>(particles.origin_x, a, b), part::<L>(particles.origin_y, a, b));
-        let (across_x, across_y): ([f32; L], [f32; L]) =
-            (each(|l| ox[l] + (bx[l] - ax[l])), each(|l| oy[l] + (by[l] - ay[l])));
+        let [across_x, across_y] = particles.between_lanes::<L>(a, b);
         let squared = each(|l| across_x[l] * across_x[l] + across_y[l] * across_y[l]);
         let (inv_mass_a, inv_mass_b) = (load(particles.inv_mass, a), load(particles.inv_mass, b));
         Self { a, b, across_x, across_y, inv_mass_a, inv_mass_b, squared }
@@ -137,16 +127,6 @@ impl<const L: usize> Pair<L> {
         each(|l| dx[l] * self.across_x[l] + dy[l] * self.across_y[l])
     }
 
-    /// What [`Pair::push`] needs to bring the two slots to within a length of each other, where they are farther apart.
-    #[inline(always)]
-    pub(crate) fn shortening(&self, longest: [f32; L], alpha: f32) -> [f32; L] {
-        each(|l| {
-            let excess = self.length(l) - longest[l];
-            let active = if excess > 0.0 { excess } else { 0.0 };
-            ratio(-active, self.length(l) * (self.weight(l) + alpha))
-        })
-    }
-
     /// How far the two slots have moved apart in one coordinate.
     #[inline(always)]
     fn parted(&self, column: &[f32], prev: &[f32]) -> [f32; L] {
@@ -170,6 +150,28 @@ impl<const L: usize> Pair<L> {
         add(particles.y, self.a, shift[1]);
         add(particles.x, self.b, shift[2]);
         add(particles.y, self.b, shift[3]);
+    }
+}
+
+/// Brings two slots to within a length of each other in the lanes where they are farther apart.
+#[inline(always)]
+pub(crate) fn pull_within<const L: usize>(
+    [a, b]: [u32; 2],
+    length: f32,
+    alpha: f32,
+    spans: &[Span<L>],
+    particles: &mut Columns<'_>,
+) {
+    for span in spans {
+        let pair = Pair::<L>::load(particles, span.at(a), span.at(b));
+        let longest = each::<L>(|l| length * span.scale[l]);
+        if pair.is_longer(longest) {
+            let length = each::<L>(|l| pair.length(l));
+            let error = each::<L>(|l| longest[l] - length[l]);
+            let active = each::<L>(|l| if error[l] < 0.0 { error[l] } else { -0.0 });
+            let share = each(|l| ratio(active[l], length[l] * (pair.weight(l) + alpha)));
+            pair.push(particles, share);
+        }
     }
 }
 

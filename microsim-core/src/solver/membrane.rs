@@ -14,7 +14,7 @@
 //! and [`Membrane::limit_strain`], last in the substep, keeps every link below [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance
 //! joint that will respect a maximum length limit").
 
-use super::constraint::{MeasuredRing, Rope, enforce};
+use super::constraint::{MeasuredRing, Rope};
 use super::lanes::{Pair, ratio};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
@@ -143,12 +143,12 @@ impl Membrane {
             bend(ring, stride, radius * (1.0 - cosine), compliance / (h * h), particles);
         }
         let particles = &mut particles.columns();
-        let measured = MeasuredRing::measure(ring, particles);
-        let excess = measured.area - self.target_area;
+        let measured = MeasuredRing::measure(ring, &Span::LOOSE, particles);
+        let excess = measured.area[0] - self.target_area;
         if excess > 0.0 {
             let fastest = self.rest_perimeter * h * self.rest_length;
             let error = if excess < fastest { excess } else { fastest };
-            enforce(&measured, ring, error, AREA_COMPLIANCE / (h * h), particles);
+            measured.enforce([error], [true], AREA_COMPLIANCE / (h * h), particles);
         }
     }
 
@@ -160,7 +160,7 @@ impl Membrane {
             let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
             let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
             if is_long {
-                Rope { a, b, max_length }.shorten(Span::LOOSE, particles);
+                Rope { a, b, max_length }.shorten(&[Span::LOOSE], particles);
             }
             is_long
         };

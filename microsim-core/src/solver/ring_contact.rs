@@ -30,10 +30,22 @@ struct Relation {
     /// From the nearest point to the disc.
     away: Vec2,
     squared: f32,
-    /// Sine of the angle between link and way, positive inside, times the way's length.
-    height: f32,
+    /// From the link's first node to its second.
+    along: Vec2,
+}
+
+impl Relation {
     /// Unit vector across the link, to the inside.
-    inwards: Vec2,
+    #[inline(always)]
+    fn inwards(&self) -> Vec2 {
+        self.along.perp() * ratio(1.0, self.along.length())
+    }
+
+    /// Sine of the angle between link and way, positive inside, times the way's length.
+    #[inline(always)]
+    fn height(&self) -> f32 {
+        self.inwards().dot(self.away)
+    }
 }
 
 /// Pushes discs and links apart; returns how many discs were on the wrong side.
@@ -42,9 +54,9 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in contacts {
         let links = &links[contact.range()];
-        let Some((nearest, relation)) = nearest_link(contact.particle, links, p) else { continue };
-        let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
-        let is_wrong = is_through(contact, nearest, &relation, links, p);
+        let Some((nearest, relation)) = nearest_link(contact, links, p) else { continue };
+        let radius_sum = contact.radius_sum;
+        let is_wrong = is_through(contact, nearest, &relation, links);
         contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
             wrong += 1;
@@ -61,17 +73,11 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
     wrong
 }
 
-/// The nearer node of each link that a disc may touch, and how far their surfaces are apart.
-pub(crate) fn gaps<'a>(
-    contact: &'a RingContact,
-    rings: &'a RingContacts,
-    p: &'a Particles,
-) -> impl Iterator<Item = (u32, f32)> + 'a {
-    rings.links_of(contact).iter().map(|&link| {
-        let relation = relate(contact.particle, link, p);
-        let radius_sum = p.radius[contact.particle as usize] + p.radius[link.a as usize];
-        (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - radius_sum)
-    })
+/// The nearer node of a link, and how far the surfaces of disc and link are apart.
+pub(crate) fn gap(particle: u32, link: Link, p: &Particles) -> (u32, f32) {
+    let (i, a) = (particle as usize, link.a as usize);
+    let relation = relate(particle, link, p);
+    (if relation.t < 0.5 { link.a } else { link.b }, relation.squared.sqrt() - (p.radius[i] + p.radius[a]))
 }
 
 /// Last in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away; the link stays. Discs
@@ -80,10 +86,10 @@ pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
     let mut wrong = 0;
     for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
         let links = rings.links_of(contact);
-        let Some((link, relation)) = nearest_link(contact.particle, links, p) else { continue };
+        let Some((link, relation)) = nearest_link(contact, links, p) else { continue };
         let i = contact.particle as usize;
-        let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
-        let is_wrong = is_through(contact, link, &relation, links, p);
+        let standoff = STANDOFF * contact.radius_sum;
+        let is_wrong = is_through(contact, link, &relation, links);
         wrong += u32::from(is_wrong);
         if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
             let length = relation.squared.sqrt();
@@ -95,19 +101,24 @@ pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles) -> u32 {
 }
 
 /// Safety net: casts a ray from every disc near a ring and moves those on the wrong side back to the nearest link.
-/// `place` is the ring's place among those that were searched. Returns how many there were.
-pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p: &mut Particles) -> u32 {
-    let outline: Vec<Vec2> = ring.nodes.iter().map(|&node| p.position(node as usize)).collect();
+/// `place` is the ring's place among those that were searched, `outline` where its nodes are. Returns how many there were.
+pub(crate) fn catch_strays(
+    ring: Ring<'_>,
+    place: usize,
+    outline: &[Vec2],
+    rings: &RingContacts,
+    p: &mut Particles,
+) -> u32 {
     // Such a ring is about to be frozen.
     if !outline.iter().all(|at| at.is_finite()) {
         return 0;
     }
     let mut count = 0;
-    for contact in rings.contacts.iter().filter(|contact| contact.ring == place) {
+    for contact in rings.of_ring(place) {
         let position = p.position(contact.particle as usize);
         let is_on_wrong_side = match contact.side {
-            Side::Inside => !contains_point(&outline, position),
-            Side::Outside => contains_point(&outline, position),
+            Side::Inside => !contains_point(outline, position),
+            Side::Outside => contains_point(outline, position),
             Side::Either => false,
         };
         if is_on_wrong_side {
@@ -121,28 +132,26 @@ pub(crate) fn catch_strays(ring: Ring<'_>, place: usize, rings: &RingContacts, p
 /// Moves a disc to its own side of the link of a whole ring that is nearest to it.
 fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
     let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
-    let Some((link, relation)) = nearest_link(contact.particle, &links, p) else { return };
-    let i = contact.particle as usize;
-    let standoff = STANDOFF * (p.radius[i] + p.radius[link.a as usize]);
-    shift(p, i, -relation.away + to_own_side(contact.side, &relation) * standoff);
+    let Some((_, relation)) = nearest_link(contact, &links, p) else { return };
+    let standoff = STANDOFF * contact.radius_sum;
+    shift(p, contact.particle as usize, -relation.away + to_own_side(contact.side, &relation) * standoff);
 }
 
 /// Whether a disc is on the wrong side of the link nearest to it, of those that were found: farther than the contact distance,
 /// or at an end where the next link was not found, another one may be nearer.
-fn is_through(contact: &RingContact, nearest: Link, relation: &Relation, links: &[Link], p: &Particles) -> bool {
-    let radius_sum = p.radius[contact.particle as usize] + p.radius[nearest.a as usize];
+fn is_through(contact: &RingContact, nearest: Link, relation: &Relation, links: &[Link]) -> bool {
     let is_known = || match relation.t {
         0.0 => links.iter().any(|link| link.b == nearest.a),
         1.0 => links.iter().any(|link| link.a == nearest.b),
         _ => true,
     };
-    is_wrong(contact.side, relation) && relation.squared < radius_sum * radius_sum && is_known()
+    is_wrong(contact.side, relation) && relation.squared < contact.radius_sum * contact.radius_sum && is_known()
 }
 
 fn is_wrong(side: Side, relation: &Relation) -> bool {
     match side {
-        Side::Inside => relation.height < 0.0,
-        Side::Outside => relation.height > 0.0,
+        Side::Inside => relation.height() < 0.0,
+        Side::Outside => relation.height() > 0.0,
         Side::Either => false,
     }
 }
@@ -154,20 +163,21 @@ fn to_own_side(side: Side, relation: &Relation) -> Vec2 {
         let away = relation.away / length;
         if is_wrong(side, relation) { -away } else { away }
     } else if side == Side::Inside {
-        relation.inwards
+        relation.inwards()
     } else {
-        -relation.inwards
+        -relation.inwards()
     }
 }
 
 /// The link nearest to a disc. Ends of two links in the same node are equally far; then the more orthogonal link wins.
-fn nearest_link(particle: u32, links: &[Link], p: &Particles) -> Option<(Link, Relation)> {
+#[inline(always)]
+fn nearest_link(contact: &RingContact, links: &[Link], p: &Particles) -> Option<(Link, Relation)> {
     let mut best: Option<(Link, Relation)> = None;
     for &link in links {
-        let relation = relate(particle, link, p);
+        let relation = relate(contact.particle, link, p);
         let is_better = best.is_none_or(|(_, best)| {
             relation.squared < best.squared
-                || (relation.squared == best.squared && relation.height.abs() > best.height.abs())
+                || (relation.squared == best.squared && relation.height().abs() > best.height().abs())
         });
         if is_better {
             best = Some((link, relation));
@@ -176,21 +186,21 @@ fn nearest_link(particle: u32, links: &[Link], p: &Particles) -> Option<(Link, R
     best
 }
 
+#[inline(always)]
 fn relate(particle: u32, link: Link, p: &Particles) -> Relation {
-    let (i, a, b) = (particle as usize, link.a as usize, link.b as usize);
-    let (along, from_a) = (p.between(a, b), p.between(a, i));
-    let squared_length = along.length_squared();
-    let place = ratio(from_a.dot(along), squared_length);
+    let [disc, a, b] = [particle, link.a, link.b].map(|i| i as usize);
+    let (along, from_a) = (p.between(a, b), p.between(a, disc));
+    let (place, squared_length) = (from_a.dot(along), along.length_squared());
     // At an end, relative to that end exactly, so that both links of a node find the same distance.
-    let (t, away) = if place <= 0.0 {
-        (0.0, from_a)
-    } else if place >= 1.0 {
-        (1.0, p.between(b, i))
+    let (t, away) = if place > 0.0 && place < squared_length {
+        let t = place / squared_length;
+        (t, from_a - along * t)
+    } else if place > 0.0 {
+        (1.0, p.between(b, disc))
     } else {
-        (place, from_a - along * place)
+        (0.0, from_a)
     };
-    let inwards = along.perp() * ratio(1.0, squared_length.sqrt());
-    Relation { t, away, squared: away.length_squared(), height: inwards.dot(away), inwards }
+    Relation { t, away, squared: away.length_squared(), along }
 }
 
 /// Moves disc and link `depth` apart, the disc to its own side.
@@ -286,11 +296,8 @@ mod tests {
         let (p, _, nodes) = scene(&square(), Vec2::new(2.0, 0.3), 3);
         let mut exemptions = Exemptions::default();
         exemptions.open_gate(&nodes[..1], 3);
-        assert!(!may_pass(&p, &exemptions, [nodes[0], nodes[1]]) && may_pass(&p, &exemptions, [nodes[1], nodes[2]]));
-    }
-
-    fn may_pass(p: &Particles, exemptions: &Exemptions, ends: [u32; 2]) -> bool {
-        crate::collision::ring::may_touch(p, 4, Ring { owner: 0, nodes: &[0, 1, 2, 3], holds: None }, ends, exemptions)
+        let may_touch = |a, b| crate::collision::ring::may_touch(&p, 4, Link { a: nodes[a], b: nodes[b] }, &exemptions);
+        assert!(!may_touch(0, 1) && may_touch(1, 2));
     }
 
     #[test]
@@ -329,9 +336,9 @@ mod tests {
             let at = Vec2::new(x, y);
             let (p, contacts, nodes) = scene(&outline, at, 0);
             prop_assume!(distance(&nodes, &p, at) > 1e-3 && !contacts.contacts.is_empty());
-            let i = contacts.contacts[0].particle;
-            let (_, relation) = nearest_link(i, contacts.links_of(&contacts.contacts[0]), &p).unwrap();
-            prop_assert_eq!(relation.height > 0.0, contains_point(&outline, at));
+            let contact = &contacts.contacts[0];
+            let (_, relation) = nearest_link(contact, contacts.links_of(contact), &p).unwrap();
+            prop_assert_eq!(relation.height() > 0.0, contains_point(&outline, at));
         }
 
         #[test]
@@ -341,7 +348,7 @@ mod tests {
             let (mut p, contacts, nodes) = scene(&outline, at, 0);
             prop_assume!(!contacts.contacts.is_empty());
             let ring = Ring { owner: 0, nodes: &nodes, holds: None };
-            prop_assert_eq!(catch_strays(ring, 0, &contacts, &mut p), u32::from(!is_inside));
+            prop_assert_eq!(catch_strays(ring, 0, &outline, &contacts, &mut p), u32::from(!is_inside));
             prop_assert_eq!(is_inside, p.position(contacts.contacts[0].particle as usize) == at);
         }
     }

@@ -15,16 +15,21 @@ const BROKEN: f32 = 40.0;
 /// Most rounds: straightened links may cross the next ones.
 const ROUNDS: usize = 4;
 
-/// Straightens the ring between each two links that cross, a few links apart. Returns the number of crossings.
-pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
+/// Straightens the ring between each two links that cross, a few links apart. Leaves in `outline` where its nodes are, and
+/// returns the number of crossings.
+pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>) -> u32 {
     // The way between the two links that cross is the shorter one.
     let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
     let mut crossings = 0;
+    read(ring, p, outline);
     for _ in 0..ROUNDS {
         let before = crossings;
         for first in 0..ring.len() {
-            if let Some(apart) = (1..=farthest).find(|&apart| cross(ring, first, apart, p)) {
-                crossings += u32::from(straighten(ring, first, apart + 1, p));
+            if let Some(apart) = (1..=farthest).find(|&apart| cross(outline, first, apart))
+                && straighten(ring, first, apart + 1, p)
+            {
+                crossings += 1;
+                read(ring, p, outline);
             }
         }
         if crossings == before {
@@ -34,9 +39,14 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
     crossings
 }
 
+fn read(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>) {
+    outline.clear();
+    outline.extend(ring.iter().map(|&node| p.position(node as usize)));
+}
+
 /// Whether a link crosses, or folds back onto, the one `apart` links later.
-fn cross(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
-    let at = |k: usize| position(ring, k, p);
+fn cross(outline: &[Vec2], first: usize, apart: usize) -> bool {
+    let at = |k: usize| outline[if k < outline.len() { k } else { k - outline.len() }];
     let (a, b, c, d) = (at(first), at(first + 1), at(first + apart), at(first + apart + 1));
     if apart == 1 { folds_back(a, b, d) } else { segments_touch(a, b, c, d) }
 }
@@ -44,8 +54,9 @@ fn cross(ring: &[u32], first: usize, apart: usize, p: &Particles) -> bool {
 /// Puts the nodes between two of a ring evenly on the line between those, unless one is so far away that it is broken: such
 /// organisms are for quarantine.
 fn straighten(ring: &[u32], first: usize, count: usize, p: &mut Particles) -> bool {
-    let (from, to) = (position(ring, first, p), position(ring, first + count, p));
-    let way = |k: usize| from + (to - from) * (k as f32 / count as f32) - position(ring, first + k, p);
+    let position = |k: usize| p.position(ring[k % ring.len()] as usize);
+    let (from, to) = (position(first), position(first + count));
+    let way = |k: usize| from + (to - from) * (k as f32 / count as f32) - position(first + k);
     let moves: Vec<_> = (1..count).map(|k| (ring[(first + k) % ring.len()] as usize, way(k))).collect();
     let is_sound = moves.iter().all(|&(i, way)| way.length() < BROKEN * p.radius[i]);
     if is_sound {
@@ -54,10 +65,6 @@ fn straighten(ring: &[u32], first: usize, count: usize, p: &mut Particles) -> bo
         }
     }
     is_sound
-}
-
-fn position(ring: &[u32], k: usize, p: &Particles) -> Vec2 {
-    p.position(ring[k % ring.len()] as usize)
 }
 
 #[cfg(test)]
@@ -73,8 +80,15 @@ mod tests {
         (ring, p)
     }
 
+    fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
+        let mut seen = Vec::new();
+        let crossings = super::untangle(ring, p, &mut seen);
+        assert_eq!(format!("{seen:?}"), format!("{:?}", outline(ring, p)));
+        crossings
+    }
+
     fn outline(ring: &[u32], p: &Particles) -> Vec<Vec2> {
-        (0..ring.len()).map(|k| position(ring, k, p)).collect()
+        ring.iter().map(|&node| p.position(node as usize)).collect()
     }
 
     /// A square of 24 links, and what is done to some of its nodes.

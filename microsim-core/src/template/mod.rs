@@ -83,16 +83,15 @@ impl Node {
         Self { groups: CollisionGroups::NONE, role: Role::Anchor, ..Self::disc(position, f32::INFINITY, 0.0) }
     }
 
-    fn validate(&self, k: usize) -> Result<(), Error> {
-        let field = |name: &str| format!("nodes[{k}].{name}");
-        in_range(&field("position.x"), self.position.x, -1e4, 1e4)?;
-        in_range(&field("position.y"), self.position.y, -1e4, 1e4)?;
+    fn validate(&self) -> Result<(), Error> {
+        in_range("position.x", self.position.x, -1e4, 1e4)?;
+        in_range("position.y", self.position.y, -1e4, 1e4)?;
         if self.mass != f32::INFINITY {
-            in_range(&field("mass"), self.mass, 1e-6, 1e6)?;
+            in_range("mass", self.mass, 1e-6, 1e6)?;
         }
-        in_range(&field("radius"), self.radius, 0.0, 1000.0)?;
-        in_range(&field("material.friction"), self.material.friction, 0.0, 10.0)?;
-        in_range(&field("material.restitution"), self.material.restitution, 0.0, 1.0)
+        in_range("radius", self.radius, 0.0, 1000.0)?;
+        in_range("material.friction", self.material.friction, 0.0, 10.0)?;
+        in_range("material.restitution", self.material.restitution, 0.0, 1.0)
     }
 }
 
@@ -222,7 +221,9 @@ impl TemplateBuilder {
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
-        nodes.iter().enumerate().try_for_each(|(k, node)| node.validate(k))?;
+        for (k, node) in nodes.iter().enumerate() {
+            node.validate().map_err(|error| error.within(&format!("nodes[{k}]")))?;
+        }
         for (k, constraint) in constraints.iter().enumerate() {
             constraint.validate(nodes.len()).map_err(|error| error.within(&format!("constraints[{k}]")))?;
         }

@@ -3,7 +3,7 @@
 use super::World;
 use crate::collision::Contact;
 use crate::collision::broad_phase::SearchInput;
-use crate::collision::ring::Ring;
+use crate::collision::ring::{Link, Ring};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -19,6 +19,22 @@ pub(crate) struct Touching {
     pairs: Vec<(OrganismId, OrganismId)>,
     #[serde(skip)]
     now: Vec<(OrganismId, OrganismId)>,
+}
+
+/// What the last step's search found near each other, before anything is measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Near {
+    Discs {
+        i: u32,
+        j: u32,
+        touched: bool,
+    },
+    /// A disc, a link of a membrane, and the node that the disc touched last.
+    DiscAndLink {
+        i: u32,
+        link: Link,
+        touched: Option<u32>,
+    },
 }
 
 /// Two particles whose surfaces may have touched in the last step.
@@ -47,20 +63,42 @@ impl World {
 
     /// All pairs of live particles that the last step's search found.
     pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> + '_ {
-        let (p, near) = (&self.particles, &self.scratch.broad_phase);
-        let discs = near.contacts.iter().map(|&Contact { i, j, touched, .. }| {
-            let (a, b) = (i as usize, j as usize);
-            NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
+        self.near().filter_map(|near| self.near_pair(near))
+    }
+
+    /// All that the last step's search found, not measured.
+    pub(crate) fn near(&self) -> impl Iterator<Item = Near> + '_ {
+        let found = &self.scratch.broad_phase;
+        let discs = found.contacts.iter().map(|&Contact { i, j, touched, .. }| Near::Discs { i, j, touched });
+        let links = found.ring_contacts.contacts.iter().flat_map(|contact| {
+            let (i, touched) = (contact.particle, contact.touched);
+            found.ring_contacts.links_of(contact).iter().map(move |&link| Near::DiscAndLink { i, link, touched })
         });
-        let links = near.ring_contacts.contacts.iter().flat_map(|contact| {
-            ring_contact::gaps(contact, &near.ring_contacts, p).map(|(j, gap)| NearPair {
-                i: contact.particle,
-                j,
-                gap,
-                touched: contact.touched == Some(j),
-            })
-        });
-        discs.chain(links).filter(|pair| p.is_live(pair.i as usize) && p.is_live(pair.j as usize))
+        discs.chain(links)
+    }
+
+    /// Measures what was found, if both particles are still there.
+    pub(crate) fn near_pair(&self, near: Near) -> Option<NearPair> {
+        let p = &self.particles;
+        let pair = match near {
+            Near::Discs { i, j, touched } => {
+                let (a, b) = (i as usize, j as usize);
+                NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
+            }
+            Near::DiscAndLink { i, link, touched } => {
+                let (j, gap) = ring_contact::gap(i, link, p);
+                NearPair { i, j, gap, touched: touched == Some(j) }
+            }
+        };
+        (p.is_live(pair.i as usize) && p.is_live(pair.j as usize)).then_some(pair)
+    }
+}
+
+impl Near {
+    /// Owners of the two.
+    pub(crate) fn owners(self, p: &Particles) -> [u32; 2] {
+        let (Self::Discs { i, j, .. } | Self::DiscAndLink { i, link: Link { a: j, .. }, .. }) = self;
+        [i, j].map(|particle| p.owner[particle as usize])
     }
 }
 

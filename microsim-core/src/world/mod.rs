@@ -8,6 +8,7 @@ mod controller;
 pub(crate) mod measure;
 mod membrane;
 mod obstacle;
+mod occupancy;
 mod phagocytosis;
 mod push;
 mod quarantine;
@@ -15,6 +16,7 @@ pub(crate) mod query;
 mod scale;
 mod spawn;
 pub(crate) mod state;
+mod vacancies;
 pub(crate) mod view;
 mod wake;
 
@@ -41,7 +43,9 @@ use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
 use contacts::Touching;
 use glam::Vec2;
+use occupancy::Occupancy;
 use serde::{Deserialize, Serialize};
+use vacancies::Vacancies;
 
 /// A room with organisms in it. Cloning it is a snapshot: the clone has the same future and answers every question alike.
 ///
@@ -98,7 +102,8 @@ pub(crate) struct Guard {
     pub net_fired: u64,
 }
 
-/// Buffers of a step, which the next one does not need. Of them, a clone has the pairs that were found.
+/// Buffers of a step, which the next one does not need, and what spares spawning a search. Of them, a clone has the pairs that
+/// were found.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
@@ -106,6 +111,8 @@ pub(crate) struct Scratch {
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
+    pub occupancy: Occupancy,
+    pub vacancies: Vacancies,
 }
 
 impl Clone for World {
@@ -151,6 +158,8 @@ impl Clone for World {
         self.obstacle_digests.clone_from(obstacle_digests);
         self.obstacles.clone_from(obstacles);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
+        self.scratch.occupancy.clear();
+        self.scratch.vacancies.clear();
         self.dispatch = *dispatch;
     }
 }

@@ -1,6 +1,8 @@
 //! Spawning and removing organisms. Everything is checked before anything changes.
 
 use super::World;
+use super::occupancy::bounds_of;
+use super::vacancies::Vacancy;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
@@ -58,7 +60,9 @@ impl World {
         }
         match organism.body {
             Storage::Lane { block, first } => {
-                let block = &mut self.blocks[block as usize];
+                let index = block as usize;
+                let block = &mut self.blocks[index];
+                self.scratch.vacancies.add(block, index);
                 block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
                 (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
             }
@@ -84,6 +88,7 @@ impl World {
         let id = self.organisms.next_id();
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
         self.check_place(&planned)?;
+        self.note_place(id.index, bounds_of(discs(&planned)));
 
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
@@ -120,14 +125,13 @@ impl World {
             relative_speed: 1.0,
             progress: Progress::default(),
             home: placement.at,
-            spawned: (self.step_index, bounds_of(&planned)),
             is_quarantined: false,
         };
         Ok(self.organisms.insert(organism))
     }
 
     /// Checks that planned discs lie inside the walls and overlap nothing.
-    fn check_place(&self, planned: &[Particle]) -> Result<(), Error> {
+    fn check_place(&mut self, planned: &[Particle]) -> Result<(), Error> {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
         for p in planned {
@@ -145,13 +149,13 @@ impl World {
     }
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
-    fn overlap(&self, discs: &[Particle]) -> Option<String> {
-        if self.obstacles().any(|obstacle| discs.iter().any(|disc| is_blocked(obstacle, disc))) {
+    fn overlap(&mut self, planned: &[Particle]) -> Option<String> {
+        if self.obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
-        let bounds = bounds_of(discs);
-        let (hit, _) = self.organisms.iter().find(|(_, organism)| self.overlaps(organism, discs, &bounds))?;
-        self.with_its_place(hit)
+        let bounds = bounds_of(discs(planned));
+        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds))?;
+        self.with_its_place(self.organisms.id_at(hit)?)
     }
 
     /// Describes an organism that a new obstacle would overlap, if there is one.
@@ -169,11 +173,6 @@ impl World {
 
     /// Whether an organism overlaps discs within these bounds.
     fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
-        // Without a step since it was spawned it is still there: this makes filling a world linear in its particles.
-        let (step, spawn_bounds) = &organism.spawned;
-        if *step == self.step_index && !spawn_bounds.intersects(bounds) {
-            return false;
-        }
         let p = &self.particles;
         organism.particles().map(|i| i as usize).any(|i| {
             let near = bounds.loosened(p.radius[i]);
@@ -189,16 +188,16 @@ impl World {
     fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
         let template = self.template_index(template);
-        let has_room = |block: &Block| block.template == template && block.free_lane().is_some();
-        let can_serve = |block: &Block| block.slots == slots as u32 && block.is_empty();
-        let blocks = &self.blocks;
-        let index = blocks.iter().position(has_room).or_else(|| blocks.iter().position(can_serve));
-        let index = index.unwrap_or_else(|| {
-            self.blocks.push(Block::new(template, slots, &mut self.particles));
-            self.blocks.len() - 1
+        let Self { blocks, particles, scratch, .. } = self;
+        let vacancies = &mut scratch.vacancies;
+        let index = vacancies.find(Vacancy::Lane(template), blocks);
+        let index = index.or_else(|| vacancies.find(Vacancy::Block(slots as u32), blocks)).unwrap_or_else(|| {
+            blocks.push(Block::new(template, slots, particles));
+            blocks.len() - 1
         });
-        let block = &mut self.blocks[index];
+        let block = &mut blocks[index];
         block.template = template;
+        vacancies.add(block, index);
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
@@ -298,12 +297,7 @@ fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
     disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
 }
 
-/// Axis-aligned box around discs.
-fn bounds_of(discs: &[Particle]) -> Aabb {
-    let mut bounds = Aabb::new_invalid();
-    for disc in discs {
-        bounds.take_point(disc.position() - disc.radius);
-        bounds.take_point(disc.position() + disc.radius);
-    }
-    bounds
+/// Places and radii of planned particles.
+fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
+    planned.iter().map(|disc| (disc.position(), disc.radius))
 }

@@ -16,11 +16,12 @@ use crate::output::Outputs;
 use crate::prepared::Prepared;
 use crate::scenario_args::ScenarioArgs;
 use crate::value_parser::duration;
+use crate::world_file::lost;
 use animation::{Movie, PictureFormat};
 use indicatif::ProgressBar;
 use microsim_core::World;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::replay::Replay;
+use microsim_core::replay::{Ending, Replay};
 use projector::Projector;
 use std::path::Path;
 
@@ -118,7 +119,12 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     }
     bar.finish_and_clear();
     console.note(&format!("wrote {}", args.output.display()));
-    Ok(())
+    let (replay, path) = (replay.as_ref(), Path::new(&args.scenario.scenario));
+    match replay.and_then(|replay| Some((lost(replay, path)?, replay.ending()))) {
+        Some((text, Ending::Damaged { .. })) => Err(Failure::Message(text)),
+        Some((text, _)) => Ok(console.note(&text)),
+        None => Ok(()),
+    }
 }
 
 /// The pictures to render.

@@ -1,10 +1,10 @@
 //! Reads the files of a run.
 
 use crate::failure::Failure;
+use crate::read;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -47,7 +47,7 @@ impl TextTable {
 
 /// The content of a file; `None` where there is none.
 pub(super) fn bytes(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
-    match fs::read(path) {
+    match read::whole(path) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(Failure::file("read", path, &error)),

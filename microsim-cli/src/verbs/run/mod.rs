@@ -61,12 +61,15 @@ pub(crate) struct RunArgs {
     /// Where the results of tasks are kept
     #[arg(long, value_name = "DIR", requires = "task")]
     pub store: Option<PathBuf>,
+    /// Exit with 0 where checks of tasks fail; their results say so
+    #[arg(long, requires = "task")]
+    pub keep_going: bool,
 }
 
 /// Runs a scenario, writes its files and prints a summary.
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
     if let (Some(tasks), Some(store)) = (&args.task, &args.store) {
-        return sweep::run_tasks(tasks, store, console);
+        return sweep::run_tasks(tasks, store, args.keep_going, console);
     }
     let mut changes = args.changes.clone();
     changes.set.extend(args.outputs.overrides());

@@ -3,6 +3,7 @@
 use super::store::ResultStore;
 use super::task::{Task, TaskOutcome};
 use super::{MergeArgs, StatusArgs, plan};
+use crate::clean;
 use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
@@ -97,7 +98,8 @@ fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
         row.extend(measures.iter().map(|name| outcome.measures.get(*name).map_or(String::new(), f64::to_string)));
         rows.push(row);
     }
-    let written = rows.iter().try_for_each(|row| writer.write_record(row));
+    let written =
+        rows.iter().try_for_each(|row| writer.write_record(row.iter().map(|text| clean::cell(text).into_owned())));
     let fail = |error: &dyn std::fmt::Display| Failure::Message(format!("cannot write the table: {error}"));
     written.map_err(|error| fail(&error))?;
     writer.into_inner().map_err(|error| fail(&error))

@@ -12,6 +12,8 @@ mod task;
 
 use grid::{Axis, Seeds};
 pub(crate) use run::run_tasks;
+#[cfg(test)]
+pub(crate) use task::Task;
 pub(crate) use task::TaskOutcome;
 
 use run::Shard;
@@ -36,7 +38,7 @@ pub(crate) enum SweepVerb {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Each --grid is one axis: whole numbers a..b, so many evenly spaced numbers a..b/n, or values with commas.\n\
-  microsim sweep plan hunt --grid platelets=0..20/5 --grid neutrophil.speed=3,5,8 --seeds 0..9 > plan.jsonl\n\
+  microsim sweep plan hunt --grid platelets=0..20/5 --grid amoeboid_cell.neutrophil.speed=3,5,8 --seeds 0..9 > plan.jsonl\n\
 One task alone: sed -n 7p plan.jsonl | microsim run --task - --store results"
 )]
 pub(crate) struct PlanArgs {

@@ -5,9 +5,9 @@ use super::{Axis, PlanArgs};
 use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::prepared::{Prepared, load};
+use crate::read as file;
 use crate::scenario_args::Changes;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -66,7 +66,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Task>, Failure> {
     let read = if path == Path::new("-") {
         io::stdin().lock().read_to_string(&mut text).map(|_| ())
     } else {
-        fs::read_to_string(path).map(|content| text = content)
+        file::text(path).map(|content| text = content)
     };
     read.map_err(|error| Failure::file("read", path, &error))?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());

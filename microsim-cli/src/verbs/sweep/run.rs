@@ -3,6 +3,7 @@
 use super::store::ResultStore;
 use super::task::Task;
 use super::{SweepRunArgs, plan};
+use crate::clean;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -37,10 +38,17 @@ pub(super) fn run(args: &SweepRunArgs, console: &Console) -> Result<(), Failure>
     run_all(&tasks, &ResultStore::open(&args.from.store)?, jobs, console)
 }
 
-/// Runs the tasks of a file, one after the other.
-pub(crate) fn run_tasks(file: &str, store: &Path, console: &Console) -> Result<(), Failure> {
+/// Runs the tasks of a file, one after the other. Where it `keeps_going`, checks that fail are named and in the results, but no
+/// failure.
+pub(crate) fn run_tasks(file: &str, store: &Path, keeps_going: bool, console: &Console) -> Result<(), Failure> {
     let tasks = plan::read(Path::new(file))?;
-    run_all(&tasks, &ResultStore::open(store)?, 1, console)
+    match run_all(&tasks, &ResultStore::open(store)?, 1, console) {
+        Err(broken @ Failure::Broken(_)) if keeps_going => {
+            broken.report(console);
+            Ok(())
+        }
+        result => result,
+    }
 }
 
 fn run_all(tasks: &[Task], store: &ResultStore, jobs: usize, console: &Console) -> Result<(), Failure> {
@@ -48,7 +56,8 @@ fn run_all(tasks: &[Task], store: &ResultStore, jobs: usize, console: &Console) 
     let pool = Pool { tasks, store, next: AtomicUsize::new(0), done: Mutex::default() };
     let bar = console.progress(tasks.len() as u64, "task");
     std::thread::scope(|scope| {
-        (0..jobs.min(tasks.len())).for_each(|_| drop(scope.spawn(|| pool.work(&bar))));
+        (1..jobs.min(tasks.len())).for_each(|_| drop(scope.spawn(|| pool.work(&bar))));
+        pool.work(&bar);
     });
     bar.finish_and_clear();
     let Done { run, found, broken, failure } = pool.done.into_inner().unwrap_or_default();
@@ -109,7 +118,8 @@ impl Pool<'_> {
         self.note(|done| {
             done.found += usize::from(is_found);
             done.run += usize::from(!is_found);
-            let name = |failure| format!("{} with seed {} ({}): {failure}", task.scenario, task.seed, task.key);
+            let name =
+                |failure| format!("{} with seed {} ({}): {failure}", clean::line(&task.scenario), task.seed, task.key);
             done.broken.extend(outcome.failures.first().map(name));
         });
         Ok(())

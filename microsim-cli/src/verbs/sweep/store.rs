@@ -3,7 +3,7 @@
 use super::task::{Task, TaskOutcome};
 use crate::failure::Failure;
 use crate::output::Outputs;
-use std::fs;
+use crate::read;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -23,19 +23,15 @@ impl ResultStore {
         Ok(Self { outputs: Outputs::shared(folder)? })
     }
 
-    /// The result of a task, if there is one.
+    /// The result of a task. One that is torn, or of another task, counts as missing, and is replaced when the task is run.
     pub(crate) fn get(&self, task: &Task) -> Result<Option<TaskOutcome>, Failure> {
         let path = self.outputs.folder().join(name(task));
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
+        let bytes = match read::whole(&path) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::file("read", &path, &error)),
         };
-        let refuse =
-            |why: String| Failure::Message(format!("{}: {why}; remove it and run the task again", path.display()));
-        let outcome: TaskOutcome =
-            serde_json::from_str(&text).map_err(|error| refuse(format!("not a result: {error}")))?;
-        if outcome.key == task.key { Ok(Some(outcome)) } else { Err(refuse("the result of another task".to_owned())) }
+        Ok(serde_json::from_slice(&bytes).ok().filter(|outcome: &TaskOutcome| outcome.is_of(task)))
     }
 
     /// Keeps the result of a task.

@@ -63,9 +63,10 @@ impl Task {
         task
     }
 
-    /// The first half of a SHA-256 of version, number of steps and effective scenario, its seed included.
+    /// The first half of a SHA-256 of all other fields.
     fn hash(&self) -> String {
-        let content = format!("microsim {}\n{}\n{}", self.version, self.steps, self.text);
+        let Self { key: _, scenario, seed, set, steps, version, text } = self;
+        let content = format!("microsim {version}\n{scenario:?} {seed} {set:?} {steps}\n{text}");
         hex(&Sha256::digest(content.as_bytes())[..16])
     }
 
@@ -120,6 +121,14 @@ impl Task {
     }
 }
 
+impl TaskOutcome {
+    /// Whether it is the result of a task.
+    pub(super) fn is_of(&self, task: &Task) -> bool {
+        (&self.key, &self.scenario, self.seed, &self.set, self.steps)
+            == (&task.key, &task.scenario, task.seed, &task.set, task.steps)
+    }
+}
+
 /// Most measures are single precision: the number with the shortest digits that mean them.
 fn shortest(value: f64) -> f64 {
     (value as f32).to_string().parse().unwrap_or(value)
@@ -149,7 +158,13 @@ mod tests {
         let sound = task(1);
         let line = |task: &Task| serde_json::to_string(task).unwrap();
         assert_eq!(Task::parse(&line(&sound), "plan:1").ok(), Some(sound.clone()));
-        let changed = [Task { steps: 6, ..sound.clone() }, Task { text: sound.text.replace('1', "2"), ..sound }];
+        let changed = [
+            Task { steps: 6, ..sound.clone() },
+            Task { scenario: "other".to_owned(), ..sound.clone() },
+            Task { seed: 2, ..sound.clone() },
+            Task { set: [("a".to_owned(), "1".to_owned())].into(), ..sound.clone() },
+            Task { text: sound.text.replace('1', "2"), ..sound },
+        ];
         assert!(changed.iter().all(|task| Task::parse(&line(task), "plan:1").is_err()));
         assert!(Task::parse("{}", "plan:1").is_err());
     }

@@ -5,18 +5,19 @@ use super::entry::{Entry, Note};
 use super::name::unknown;
 use super::value::join;
 use crate::error::Error;
-use crate::scenario::diagnostic::{Diagnostic, in_words};
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, Findings, in_words};
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// What is wrong with a file so far. Shared by all sections of one file, hence the cell.
 #[derive(Debug)]
 pub(crate) struct ReadContext<'s> {
     document: &'s Document,
-    pub found: RefCell<Vec<Diagnostic>>,
+    found: RefCell<Findings>,
     /// Every field that was asked for, if the format is being described.
     pub notes: Option<RefCell<Vec<Note>>>,
     /// Paths of values that were refused by themselves and are read as if they were not there.
-    refused: RefCell<Vec<String>>,
+    refused: RefCell<BTreeSet<String>>,
 }
 
 impl<'s> ReadContext<'s> {
@@ -39,16 +40,23 @@ impl<'s> ReadContext<'s> {
         }
     }
 
+    /// An error unless nothing is wrong.
+    pub(crate) fn finish(self) -> Result<(), Diagnostics> {
+        self.found.into_inner().check()
+    }
+
     /// Refuses the value at a path.
     pub(crate) fn refuse(&self, path: &str, message: impl Into<String>, accepted: impl Into<String>) {
-        let diagnostic = self.document.diagnostic(path, message, Some(accepted.into()));
-        self.found.borrow_mut().push(diagnostic);
+        self.add(self.document.diagnostic(path, message, Some(accepted.into())));
     }
 
     /// Refuses the key at a path.
     pub(crate) fn refuse_key(&self, path: &str, message: impl Into<String>, accepted: impl Into<String>) {
-        let diagnostic = self.document.key_diagnostic(path, message.into(), accepted.into());
-        self.found.borrow_mut().push(diagnostic);
+        self.add(self.document.key_diagnostic(path, message.into(), accepted.into()));
+    }
+
+    fn add(&self, diagnostic: Diagnostic) {
+        self.found.borrow_mut().add_diagnostic(diagnostic);
     }
 
     /// Refuses the value at a path: a name that is none of those known.
@@ -59,8 +67,24 @@ impl<'s> ReadContext<'s> {
         name: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) {
-        let (message, accepted) = unknown(what, name, known);
-        self.refuse(path, message, accepted);
+        self.found.borrow_mut().add(&format!("unknown {what}"), path.to_owned(), || {
+            let (message, accepted) = unknown(what, name, known);
+            self.document.diagnostic(path, message, Some(accepted))
+        });
+    }
+
+    /// Refuses the key at a path: a name that is none of those known.
+    pub(crate) fn refuse_unknown_key<'a>(
+        &self,
+        path: &str,
+        what: &str,
+        name: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) {
+        self.found.borrow_mut().add(&format!("unknown {what}"), path.to_owned(), || {
+            let (message, accepted) = unknown(what, name, known);
+            self.document.key_diagnostic(path, message, accepted)
+        });
     }
 
     /// Whether the file has a value at a path.
@@ -70,7 +94,7 @@ impl<'s> ReadContext<'s> {
 
     /// Passes on what the library says of a value in the table at `path`.
     pub(crate) fn check<T>(&self, path: &str, result: Result<T, Error>) -> Option<T> {
-        let refuse = |error: Error| self.found.borrow_mut().push(self.diagnostic(path, &error));
+        let refuse = |error: Error| self.add(self.diagnostic(path, &error));
         result.map_err(refuse).ok()
     }
 
@@ -82,11 +106,11 @@ impl<'s> ReadContext<'s> {
         while let Err(error) = &result {
             let diagnostic = self.diagnostic(path, error);
             let refused = diagnostic.field.clone();
-            self.found.borrow_mut().push(diagnostic);
+            self.add(diagnostic);
             if !self.document.has(&refused) || self.is_refused(&refused) {
                 return None;
             }
-            self.refused.borrow_mut().push(refused);
+            self.refused.borrow_mut().insert(refused);
             result = read();
         }
         result.ok().filter(|_| is_sound)
@@ -94,9 +118,8 @@ impl<'s> ReadContext<'s> {
 
     /// Whether the value at a path, or an element of it, was refused.
     pub(super) fn is_refused(&self, path: &str) -> bool {
-        let is_within =
-            |refused: &String| refused.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-        self.refused.borrow().iter().any(is_within)
+        let (refused, within) = (self.refused.borrow(), format!("{path}."));
+        refused.contains(path) || refused.range(within.clone()..).next().is_some_and(|next| next.starts_with(&within))
     }
 
     /// What the library says of a value in the table at `path`.

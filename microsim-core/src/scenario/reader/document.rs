@@ -2,7 +2,7 @@
 
 use super::value::{SpannedValue, join};
 use super::{overrides, parameters};
-use crate::scenario::diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, line_and_column};
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, Findings, Lines};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -17,6 +17,7 @@ pub(crate) struct Document {
     pub text: String,
     pub overrides: Vec<(String, String)>,
     spans: BTreeMap<String, Spans>,
+    lines: Lines,
 }
 
 /// Where a value and its key stand, bytes of the text.
@@ -32,26 +33,31 @@ impl Document {
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
-        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans: BTreeMap::new() };
+        let (spans, lines) = (BTreeMap::new(), Lines::of(text));
+        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans, lines };
         let (root, errors) = DeTable::parse_recoverable(text);
         // One syntax error for each line: others there are consequences of it.
         let mut broken: Vec<Diagnostic> = errors.iter().map(|error| document.syntax_error(error)).collect();
         broken.dedup_by_key(|diagnostic| diagnostic.line);
-        broken.truncate(MAX_ERRORS);
-        Diagnostics::check(broken)?;
+        let mut found = Findings::default();
+        broken.into_iter().for_each(|diagnostic| found.add_diagnostic(diagnostic));
+        found.check()?;
         let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
-        let mut found = Vec::new();
+        let mut found = Findings::default();
         for (index, (key, value)) in overrides.iter().enumerate() {
             let span = text.len() + 1 + index;
             if let Err((message, accepted)) = overrides::apply(&mut root, key, value, span..span) {
-                found.push(document.diagnostic_at(span..span, key.clone(), message, Some(accepted)));
+                found.add_diagnostic(document.diagnostic_at(span..span, key.clone(), message, Some(accepted)));
             }
         }
-        parameters::substitute(&mut root, &mut |span, field, message, accepted| {
-            found.push(document.diagnostic_at(span, field.to_owned(), message, Some(accepted)));
+        parameters::substitute(&mut root, &mut |span, field, kind, describe| {
+            found.add(kind, field.to_owned(), || {
+                let (message, accepted) = describe();
+                document.diagnostic_at(span, field.to_owned(), message, Some(accepted))
+            });
         });
         document.record("", 0..0, &root);
-        Diagnostics::check(found)?;
+        found.check()?;
         match root.into_inner() {
             DeValue::Table(table) => Ok((table, document)),
             _ => Ok((DeTable::new(), document)),
@@ -86,7 +92,7 @@ impl Document {
         if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
             message = format!("{message}, as set by `{key}={value}`");
         }
-        let (line, column) = line_and_column(&self.text, span.start);
+        let (line, column) = self.lines.place(&self.text, span.start);
         let is_in_text = beyond.is_none();
         Diagnostic {
             field,

@@ -6,7 +6,7 @@
 use super::context::ReadContext;
 use super::convert::{Read, one_of, refuse_value};
 use super::entry::{Entry, Note};
-use super::name::{NAME, is_name, unknown};
+use super::name::{NAME, is_name};
 use super::value::{SpannedValue, join};
 use super::value_type::ValueType;
 use toml::de::DeTable;
@@ -190,12 +190,13 @@ impl<'a> Fields<'a> {
         array.iter().enumerate().map(entry).collect()
     }
 
-    /// Refuses what was not asked for.
+    /// Refuses what was not asked for, in the order of the text.
     pub(crate) fn finish(self) {
-        let keys = self.table.into_iter().flat_map(DeTable::keys).map(|key| key.get_ref().as_ref());
-        for key in keys.filter(|key| !self.asked.contains(key)) {
-            let (message, accepted) = unknown("field", key, self.asked.iter().copied());
-            self.context.refuse_key(&self.at(key), message, accepted);
+        let keys = self.table.into_iter().flat_map(DeTable::keys);
+        let mut others: Vec<_> = keys.filter(|key| !self.asked.contains(&key.get_ref().as_ref())).collect();
+        others.sort_by_key(|key| key.span().start);
+        for key in others.into_iter().map(|key| key.get_ref().as_ref()) {
+            self.context.refuse_unknown_key(&self.at(key), "field", key, self.asked.iter().copied());
         }
     }
 }

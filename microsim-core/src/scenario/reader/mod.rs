@@ -20,6 +20,6 @@ pub(crate) use document::Document;
 pub use entry::Entry;
 pub(crate) use entry::Note;
 pub(crate) use fields::Fields;
-pub(crate) use name::{NAME, is_name, unknown};
+pub(crate) use name::{NAME, is_name};
 pub(crate) use value::{DEGREE, SpannedValue, join, without_spans};
 pub use value_type::ValueType;

@@ -3,6 +3,9 @@
 /// What names of prototypes, controllers, organisms and parameters look like.
 pub(crate) const NAME: &str = "1 to 64 letters, digits, _ or -";
 
+/// Known names that are listed, more than there are fields in any table.
+const MOST_NAMES: usize = 80;
+
 /// Whether this is a name: nothing that needs quoting in a dotted path.
 pub(crate) fn is_name(text: &str) -> bool {
     let is_part = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
@@ -13,7 +16,11 @@ pub(crate) fn is_name(text: &str) -> bool {
 pub(crate) fn unknown<'a>(what: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> (String, String) {
     let known: Vec<&str> = known.into_iter().collect();
     let guess = nearest(name, &known).map_or(String::new(), |near| format!(", did you mean `{near}`?"));
-    let accepted = if known.is_empty() { "none: there is none".to_owned() } else { known.join(", ") };
+    let accepted = match known.len() {
+        0 => "none: there is none".to_owned(),
+        count if count > MOST_NAMES => format!("{}, and others", known[..MOST_NAMES].join(", ")),
+        _ => known.join(", "),
+    };
     (format!("unknown {what} `{name}`{guess}"), accepted)
 }
 

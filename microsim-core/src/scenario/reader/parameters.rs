@@ -8,8 +8,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-/// Takes a refused value or key: where it stands, its path, what is wrong with it and what is accepted.
-type Refuse<'r> = &'r mut dyn FnMut(Range<usize>, &str, String, String);
+/// Takes a refused value or key: where it stands, its path, the kind of problem, and what says what is wrong with it and what is
+/// accepted.
+type Refuse<'r> = &'r mut dyn FnMut(Range<usize>, &str, &str, &dyn Fn() -> (String, String));
 
 /// Replaces every string `$name` outside `[parameters]` by that parameter.
 pub(super) fn substitute(root: &mut SpannedValue<'_>, refuse: Refuse<'_>) {
@@ -23,17 +24,19 @@ fn parameters<'a>(root: &SpannedValue<'a>, refuse: Refuse<'_>) -> BTreeMap<Strin
         return BTreeMap::new();
     };
     let Some(table) = parameters.get_ref().as_table() else {
-        refuse(parameters.span(), "parameters", "not a table".to_owned(), "a [parameters] table".to_owned());
+        let message = "not a table";
+        refuse(parameters.span(), "parameters", message, &|| (message.to_owned(), "a [parameters] table".to_owned()));
         return BTreeMap::new();
     };
     for (key, value) in table {
         let path = join("parameters", key.get_ref());
         if !is_name(key.get_ref()) {
-            refuse(key.span(), &path, "not a usable name".to_owned(), NAME.to_owned());
+            let message = "not a usable name";
+            refuse(key.span(), &path, message, &|| (message.to_owned(), NAME.to_owned()));
         }
         if value.get_ref().is_table() || value.get_ref().is_array() {
-            let accepted = "a number, a string or a boolean".to_owned();
-            refuse(value.span(), &path, "not a single value".to_owned(), accepted);
+            let (message, accepted) = ("not a single value", "a number, a string or a boolean");
+            refuse(value.span(), &path, message, &|| (message.to_owned(), accepted.to_owned()));
         }
     }
     let entry = |(key, value): (&Spanned<Cow<'_, str>>, &SpannedValue<'a>)| (key.get_ref().to_string(), value.clone());
@@ -51,8 +54,8 @@ fn substitute_in<'a>(
         match parameters.get(name) {
             Some(parameter) => *value = parameter.clone(),
             None => {
-                let (message, accepted) = unknown("parameter", name, parameters.keys().map(String::as_str));
-                refuse(value.span(), path, message, accepted);
+                let describe = || unknown("parameter", name, parameters.keys().map(String::as_str));
+                refuse(value.span(), path, "unknown parameter", &describe);
             }
         }
         return;

@@ -1,7 +1,7 @@
 //! Games: the table `[game]`, what a front-end needs to make a game of a scenario.
 
 use crate::kind::Kind;
-use crate::scenario::reader::{Fields, unknown};
+use crate::scenario::reader::Fields;
 use crate::scenario::sections::group::Group;
 
 /// Time that a game lasts if the file does not say, s (seed, 3.3.2).
@@ -51,10 +51,7 @@ pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
         match PREY.iter().find(|(known, _)| *known == name) {
             Some(&(_, kind)) => points.push((kind, Points { each, per_area })),
             None if context.notes.is_some() => {}
-            None => {
-                let (message, accepted) = unknown("prey", &name, PREY.map(|(known, _)| known));
-                context.refuse_key(&path, message, accepted);
-            }
+            None => context.refuse_unknown_key(&path, "prey", &name, PREY.map(|(known, _)| known)),
         }
     }
     fields.finish();

@@ -6,7 +6,7 @@
 use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
-use crate::solver::lanes::{Pair, Span, each};
+use crate::solver::lanes::{Span, pull_within};
 use serde::{Deserialize, Serialize};
 
 /// A node held to a static anchor by a contracting rope.
@@ -41,25 +41,16 @@ impl Constrain for Anchor {
     }
 
     #[inline(always)]
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32) {
-        let alpha = self.compliance / (h * h);
-        contract(self, self.rest_length, alpha, span, particles);
-        contract(self, self.max_length, 0.0, span, particles);
+    fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
+        let ends = [self.anchor, self.node];
+        pull_within(ends, self.rest_length, self.compliance / (h * h), spans, particles);
+        pull_within(ends, self.max_length, 0.0, spans, particles);
     }
 }
 
 impl From<Anchor> for Constraint {
     fn from(constraint: Anchor) -> Self {
         Self::Anchor(constraint)
-    }
-}
-
-#[inline(always)]
-fn contract<const L: usize>(c: &Anchor, length: f32, alpha: f32, span: Span<L>, particles: &mut Columns<'_>) {
-    let pair = Pair::<L>::load(particles, span.at(c.anchor), span.at(c.node));
-    let longest: [f32; L] = each(|l| length * span.scale[l]);
-    if pair.is_longer(longest) {
-        pair.push(particles, pair.shortening(longest, alpha));
     }
 }
 
@@ -73,17 +64,17 @@ mod tests {
     #[test]
     fn pulls_home_softly_and_stops_hard() {
         let mut p = line(1.0, [0.0, 1.0]);
-        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.01);
+        ANCHOR.project(&[Span::LOOSE], &mut p.columns(), 0.01);
         assert_eq!((p.x[0], p.x[1]), (0.0, 0.5));
         let mut p = line(100.0, [0.0, 1.0]);
-        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.001);
+        ANCHOR.project(&[Span::LOOSE], &mut p.columns(), 0.001);
         assert_eq!(p.x[1], 2.0);
     }
 
     #[test]
     fn node_at_its_anchor_stays() {
         let mut p = line(0.0, [0.0, 1.0]);
-        ANCHOR.project(Span::LOOSE, &mut p.columns(), 0.01);
+        ANCHOR.project(&[Span::LOOSE], &mut p.columns(), 0.01);
         assert_eq!((p.x[1], p.y[1]), (0.0, 0.0));
     }
 }

@@ -6,8 +6,7 @@
 use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_ring};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
-use crate::solver::lanes::{Span, ratio};
-use glam::Vec2;
+use crate::solver::lanes::{Span, each, load, ratio, store};
 use serde::{Deserialize, Serialize};
 
 /// A ring of nodes around a given area.
@@ -40,9 +39,16 @@ impl Constrain for Area {
     }
 
     #[inline(always)]
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32) {
-        for lane in 0..L {
-            project_lane(self, |slot| span.at(slot) + lane, span.scale[lane], particles, h);
+    fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
+        let alpha = self.compliance / (h * h);
+        for span in spans {
+            let measured = MeasuredRing::measure(&self.ring, span, particles);
+            let error = each::<L>(|l| measured.area[l] - self.rest_area * span.scale[l] * span.scale[l]);
+            let mut acts = [true; L];
+            if self.is_upper_bound {
+                acts.iter_mut().zip(error).for_each(|(acts, error)| *acts = error > 0.0);
+            }
+            measured.enforce(error, acts, alpha, particles);
         }
     }
 }
@@ -53,62 +59,76 @@ impl From<Area> for Constraint {
     }
 }
 
-fn project_lane(c: &Area, at: impl Fn(u32) -> usize, scale: f32, particles: &mut Columns<'_>, h: f32) {
-    let ring: Vec<u32> = c.ring.iter().map(|&slot| at(slot) as u32).collect();
-    let measured = MeasuredRing::measure(&ring, particles);
-    let error = measured.area - c.rest_area * scale * scale;
-    if !c.is_upper_bound || error > 0.0 {
-        enforce(&measured, &ring, error, c.compliance / (h * h), particles);
-    }
-}
-
-/// A ring of particles as it is now.
-pub(crate) struct MeasuredRing {
+/// Rings as they are now, one in each lane.
+pub(crate) struct MeasuredRing<'a, const L: usize> {
+    ring: &'a [u32],
+    span: &'a Span<L>,
     /// Enclosed area, positive for a counter-clockwise ring.
-    pub area: f32,
+    pub area: [f32; L],
     /// Sum of inverse mass times squared gradient over the nodes.
-    weight: f32,
+    weight: [f32; L],
 }
 
-impl MeasuredRing {
-    pub(crate) fn measure(ring: &[u32], particles: &Columns<'_>) -> Self {
-        let count = ring.len();
-        let node = |k: usize| ring[k % count] as usize;
-        let (mut twice_area, mut weight) = (0.0, 0.0);
-        for k in 0..count {
-            twice_area += particles.between(node(0), node(k)).perp_dot(particles.between(node(0), node(k + 1)));
-            let gradient = gradient(particles.between(node(k + count - 1), node(k + 1)));
-            weight += particles.inv_mass[node(k)] * gradient.length_squared();
+impl<'a, const L: usize> MeasuredRing<'a, L> {
+    #[inline(always)]
+    pub(crate) fn measure(ring: &'a [u32], span: &'a Span<L>, particles: &Columns<'_>) -> Self {
+        let at = |k: usize| span.at(ring[k]);
+        let (mut twice_area, mut weight) = ([0.0; L], [0.0; L]);
+        for k in 0..ring.len() {
+            let next = if k + 1 < ring.len() { k + 1 } else { 0 };
+            let before = if k > 0 { k - 1 } else { ring.len() - 1 };
+            let [ax, ay] = particles.between_lanes::<L>(at(0), at(k));
+            let [bx, by] = particles.between_lanes::<L>(at(0), at(next));
+            twice_area = each(|l| twice_area[l] + (ax[l] * by[l] - ay[l] * bx[l]));
+            let [gx, gy] = gradient(particles.between_lanes::<L>(at(before), at(next)));
+            let inv_mass = load::<L>(particles.inv_mass, at(k));
+            weight = each(|l| weight[l] + inv_mass[l] * (gx[l] * gx[l] + gy[l] * gy[l]));
         }
-        Self { area: 0.5 * twice_area, weight }
+        Self { ring, span, area: each(|l| 0.5 * twice_area[l]), weight }
     }
-}
 
-/// Corrects an area error: moves every node along its gradient, as the ring was when it was measured.
-pub(crate) fn enforce(measured: &MeasuredRing, ring: &[u32], error: f32, alpha: f32, particles: &mut Columns<'_>) {
-    let count = ring.len();
-    let offset = |particles: &Columns<'_>, k: usize| particles.between(ring[0] as usize, ring[k % count] as usize);
-    let multiplier = ratio(-error, measured.weight + alpha);
-    // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
-    let mut before = offset(particles, count - 1);
-    let mut here = Vec2::ZERO;
-    let mut moved_first = Vec2::ZERO;
-    for (k, &node) in ring.iter().enumerate() {
-        let after = if k + 1 == count { Vec2::ZERO } else { offset(particles, k + 1) + moved_first };
-        let i = node as usize;
-        let by = gradient(after - before) * (multiplier * particles.inv_mass[i]);
-        particles.x[i] += by.x;
-        particles.y[i] += by.y;
-        if k == 0 {
-            moved_first = by;
+    /// Corrects an area error in the lanes where it acts: moves every node along its gradient, as the ring was when it was
+    /// measured.
+    #[inline(always)]
+    pub(crate) fn enforce(&self, error: [f32; L], acts: [bool; L], alpha: f32, particles: &mut Columns<'_>) {
+        let at = |k: usize| self.span.at(self.ring[k]);
+        let multiplier = each::<L>(|l| ratio(-error[l], self.weight[l] + alpha));
+        // Nodes that are moved already are remembered where they were; all relative to the first node's old place.
+        let mut before = particles.between_lanes::<L>(at(0), at(self.ring.len() - 1));
+        let [mut here, mut moved_first] = [[[0.0; L]; 2]; 2];
+        for k in 0..self.ring.len() {
+            let is_last = k + 1 == self.ring.len();
+            let after =
+                if is_last { [[0.0; L]; 2] } else { sum(particles.between_lanes::<L>(at(0), at(k + 1)), moved_first) };
+            let [gx, gy] = gradient::<L>(difference(after, before));
+            let (x, y) = (load::<L>(particles.x, at(k)), load::<L>(particles.y, at(k)));
+            let inv_mass = load::<L>(particles.inv_mass, at(k));
+            let share = each::<L>(|l| multiplier[l] * inv_mass[l]);
+            let by = [each::<L>(|l| gx[l] * share[l]), each::<L>(|l| gy[l] * share[l])];
+            store(particles.x, at(k), each::<L>(|l| if acts[l] { x[l] + by[0][l] } else { x[l] }));
+            store(particles.y, at(k), each::<L>(|l| if acts[l] { y[l] + by[1][l] } else { y[l] }));
+            if k == 0 {
+                moved_first = by;
+            }
+            (before, here) = (here, after);
         }
-        (before, here) = (here, after);
     }
 }
 
 /// Gradient of the area with respect to a node, from the way between its neighbours.
-fn gradient(across: Vec2) -> Vec2 {
-    Vec2::new(0.5 * across.y, -0.5 * across.x)
+#[inline(always)]
+fn gradient<const L: usize>([x, y]: [[f32; L]; 2]) -> [[f32; L]; 2] {
+    [each(|l| 0.5 * y[l]), each(|l| -0.5 * x[l])]
+}
+
+#[inline(always)]
+fn sum<const L: usize>(a: [[f32; L]; 2], b: [[f32; L]; 2]) -> [[f32; L]; 2] {
+    [each(|l| a[0][l] + b[0][l]), each(|l| a[1][l] + b[1][l])]
+}
+
+#[inline(always)]
+fn difference<const L: usize>(a: [[f32; L]; 2], b: [[f32; L]; 2]) -> [[f32; L]; 2] {
+    [each(|l| a[0][l] - b[0][l]), each(|l| a[1][l] - b[1][l])]
 }
 
 #[cfg(test)]
@@ -132,7 +152,7 @@ mod tests {
             let mut p = ring(12, 1.1);
             let before = momentum(&p);
             for _ in 0..8 {
-                constraint(12, target, false).project(Span::LOOSE, &mut p.columns(), 0.01);
+                constraint(12, target, false).project(&[Span::LOOSE], &mut p.columns(), 0.01);
             }
             assert!((area_of(&p) - target).abs() < 1e-3, "area {} for {target}", area_of(&p));
             assert!((momentum(&p) - before).length() < 1e-4);
@@ -143,10 +163,10 @@ mod tests {
     fn rest_state_is_a_fixed_point_and_degenerate_rings_stay_finite() {
         let mut p = ring(12, 1.0);
         let (rest, before) = (area_of(&p), p.clone());
-        constraint(12, rest, false).project(Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(12, rest, false).project(&[Span::LOOSE], &mut p.columns(), 0.01);
         assert!((0..12).all(|i| (p.position(i) - before.position(i)).length() < 1e-6));
         let mut point = ring(12, 0.0);
-        constraint(12, 1.0, false).project(Span::LOOSE, &mut point.columns(), 0.01);
+        constraint(12, 1.0, false).project(&[Span::LOOSE], &mut point.columns(), 0.01);
         assert!((0..12).all(|i| point.position(i).is_finite()));
     }
 
@@ -154,7 +174,7 @@ mod tests {
     fn upper_bound_lets_the_ring_shrink() {
         let mut p = ring(12, 0.5);
         let before = area_of(&p);
-        constraint(12, 6.0, true).project(Span::LOOSE, &mut p.columns(), 0.01);
+        constraint(12, 6.0, true).project(&[Span::LOOSE], &mut p.columns(), 0.01);
         assert_eq!(area_of(&p), before);
     }
 }

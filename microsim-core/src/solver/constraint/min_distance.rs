@@ -35,16 +35,18 @@ impl Constrain for MinDistance {
     }
 
     #[inline(always)]
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, _: f32) {
-        let pair = Pair::<L>::load(particles, span.at(self.a), span.at(self.b));
-        let shortest: [f32; L] = each(|l| self.min_length * span.scale[l]);
-        if pair.is_shorter(shortest) {
-            let share = each(|l| {
-                let deficit = shortest[l] - pair.length(l);
-                let active = if deficit > 0.0 { deficit } else { 0.0 };
-                ratio(active, pair.length(l) * pair.weight(l))
-            });
-            pair.push(particles, share);
+    fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, _: f32) {
+        let Self { a, b, min_length } = *self;
+        for span in spans {
+            let pair = Pair::<L>::load(particles, span.at(a), span.at(b));
+            let shortest = each::<L>(|l| min_length * span.scale[l]);
+            if pair.is_shorter(shortest) {
+                let length = each::<L>(|l| pair.length(l));
+                let deficit = each::<L>(|l| shortest[l] - length[l]);
+                let active = each::<L>(|l| if deficit[l] > 0.0 { deficit[l] } else { 0.0 });
+                let share = each(|l| ratio(active[l], length[l] * pair.weight(l)));
+                pair.push(particles, share);
+            }
         }
     }
 }
@@ -64,16 +66,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.5], 1.0, |p| STANDOFF.project(Span::LOOSE, &mut p.columns(), 0.01));
+        assert_pair_laws(&[0.5], 1.0, |p| STANDOFF.project(&[Span::LOOSE], &mut p.columns(), 0.01));
     }
 
     #[test]
     fn acts_only_when_too_near() {
         let mut far = line(1.5, [1.0, 1.0]);
-        STANDOFF.project(Span::LOOSE, &mut far.columns(), 0.01);
+        STANDOFF.project(&[Span::LOOSE], &mut far.columns(), 0.01);
         assert_eq!(far.x[1], 1.5);
         let mut near = line(0.5, [1.0, 1.0]);
-        STANDOFF.project(Span::LOOSE, &mut near.columns(), 0.01);
+        STANDOFF.project(&[Span::LOOSE], &mut near.columns(), 0.01);
         assert_eq!((near.x[0], near.x[1]), (-0.25, 0.75));
     }
 }

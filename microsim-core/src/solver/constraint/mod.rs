@@ -8,7 +8,7 @@ mod rope;
 
 pub use anchor::Anchor;
 pub use area::Area;
-pub(super) use area::{MeasuredRing, enforce};
+pub(super) use area::MeasuredRing;
 pub use distance::Distance;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
@@ -50,8 +50,8 @@ pub(crate) trait Constrain {
     /// Checks its nodes, of which there are so many, and the range of each number. Errors name the field.
     fn validate(&self, nodes: usize) -> Result<(), Error>;
 
-    /// Projects it once in each lane of a span, in a substep of `h` seconds.
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, h: f32)
+    /// Projects it once in each lane of some spans, in a substep of `h` seconds.
+    fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32)
     where
         Self: Sized;
 }
@@ -110,9 +110,7 @@ impl<const L: usize> Task<'_> for Project<'_, '_, L> {
 
     #[inline(always)]
     fn run(self, constraint: &impl Constrain) {
-        for &span in self.spans {
-            constraint.project(span, self.particles, self.h);
-        }
+        constraint.project(self.spans, self.particles, self.h);
     }
 }
 
@@ -122,8 +120,9 @@ impl<const L: usize> Task<'_> for Project<'_, '_, L> {
 /// each other, those of different bodies do not, so the processor can overlap them.
 #[inline(always)]
 pub(crate) fn project<const L: usize>(list: &[Constraint], spans: &[Span<L>], particles: &mut Columns<'_>, h: f32) {
+    let mut particles = particles.even();
     for constraint in list {
-        constraint.run(Project { spans, particles: &mut *particles, h });
+        constraint.run(Project { spans, particles: &mut particles, h });
     }
 }
 

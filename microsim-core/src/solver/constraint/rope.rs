@@ -6,7 +6,7 @@
 use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
-use crate::solver::lanes::{Pair, Span, each};
+use crate::solver::lanes::{Span, pull_within};
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at most so far apart.
@@ -35,20 +35,16 @@ impl Constrain for Rope {
     }
 
     #[inline(always)]
-    fn project<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>, _: f32) {
-        self.shorten(span, particles);
+    fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, _: f32) {
+        self.shorten(spans, particles);
     }
 }
 
 impl Rope {
     /// Draws its nodes together where they are too far apart.
     #[inline(always)]
-    pub(crate) fn shorten<const L: usize>(&self, span: Span<L>, particles: &mut Columns<'_>) {
-        let pair = Pair::<L>::load(particles, span.at(self.a), span.at(self.b));
-        let longest: [f32; L] = each(|l| self.max_length * span.scale[l]);
-        if pair.is_longer(longest) {
-            pair.push(particles, pair.shortening(longest, 0.0));
-        }
+    pub(crate) fn shorten<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>) {
+        pull_within([self.a, self.b], self.max_length, 0.0, spans, particles);
     }
 }
 
@@ -67,16 +63,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[1.7], 1.0, |p| ROPE.shorten(Span::LOOSE, &mut p.columns()));
+        assert_pair_laws(&[1.7], 1.0, |p| ROPE.shorten(&[Span::LOOSE], &mut p.columns()));
     }
 
     #[test]
     fn slack_rope_does_nothing_and_taut_rope_stops() {
         let mut slack = line(0.4, [1.0, 1.0]);
-        ROPE.shorten(Span::LOOSE, &mut slack.columns());
+        ROPE.shorten(&[Span::LOOSE], &mut slack.columns());
         assert_eq!((slack.x[0], slack.x[1]), (0.0, 0.4));
         let mut taut = line(3.0, [0.0, 1.0]);
-        ROPE.shorten(Span::LOOSE, &mut taut.columns());
+        ROPE.shorten(&[Span::LOOSE], &mut taut.columns());
         assert_eq!((taut.x[0], taut.x[1]), (0.0, 1.0));
     }
 }

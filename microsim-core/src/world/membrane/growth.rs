@@ -70,6 +70,7 @@ impl World {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
         };
         check_room(organism, &self.particles, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
+        self.scratch.occupancy.clear();
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
         }

@@ -7,20 +7,50 @@ use crate::capability::phagocytosis::Encounter;
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
-use crate::world::contacts::NearPair;
+use crate::world::contacts::{Near, NearPair};
 use glam::Vec2;
 use std::f32::consts::PI;
 
 /// Gap at which two discs still count as touching, as a share of the smaller one's radius.
 const TOUCH_GAP: f32 = 0.5;
 
+/// What lies near the membranes of engulfers and belongs to prey, by engulfer: looked for once a step and not by each of them,
+/// so that a crowd takes as long as its members.
+#[derive(Debug, Default)]
+pub(super) struct NearPrey(Vec<(u32, Near)>);
+
+impl NearPrey {
+    fn of(&self, engulfer: OrganismId) -> impl Iterator<Item = Near> {
+        let first = self.0.partition_point(|(owner, _)| *owner < engulfer.index);
+        self.0[first..].iter().take_while(move |(owner, _)| *owner == engulfer.index).map(|(_, near)| *near)
+    }
+}
+
 impl World {
+    /// What the last step's search found of prey near engulfers.
+    pub(super) fn near_prey(&self) -> NearPrey {
+        let organism = |owner| self.organisms.id_at(owner).and_then(|id| self.organisms.get(id));
+        let mut found = Vec::new();
+        for near in self.near() {
+            let [a, b] = near.owners(&self.particles);
+            for (engulfer, prey) in [(a, b), (b, a)].into_iter().filter(|_| a != b) {
+                let may_eat = organism(engulfer).is_some_and(|organism| organism.engulfer.is_some());
+                if may_eat && organism(prey).is_some_and(|organism| organism.prey.is_some()) {
+                    found.push((engulfer, near));
+                }
+            }
+        }
+        found.sort_by_key(|(engulfer, _)| *engulfer);
+        NearPrey(found)
+    }
+
     /// The prey that touches the front of an engulfer in this step.
-    pub(super) fn encounters(&self, id: OrganismId) -> Vec<Encounter> {
+    pub(super) fn encounters(&self, id: OrganismId, near_prey: &NearPrey) -> Vec<Encounter> {
         let Some(organism) = self.organisms.get(id) else { return Vec::new() };
         let front = front_nodes(organism);
         let mut touched: Vec<OrganismId> = Vec::new();
-        for pair in self.near_pairs().filter(|pair| self.is_contact(pair)) {
+        let pairs = near_prey.of(id).filter_map(|near| self.near_pair(near));
+        for pair in pairs.filter(|pair| self.is_contact(pair)) {
             let other = match (front.binary_search(&pair.i), front.binary_search(&pair.j)) {
                 (Ok(_), Err(_)) => pair.j,
                 (Err(_), Ok(_)) => pair.i,
@@ -73,4 +103,30 @@ pub(in crate::world) fn front_nodes(organism: &Organism) -> Vec<u32> {
         organism.outline_particles().zip(0..count).filter(|&(_, k)| is_front(k)).map(|(node, _)| node).collect();
     nodes.sort_unstable();
     nodes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, WorldConfig};
+
+    #[test]
+    fn an_engulfer_looks_at_nothing_but_the_prey_near_it() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cells = [30.0, 53.0, 76.0].map(|x| {
+            world.spawn(&PlateletSpec::default().into(), Placement::at(x, 59.5)).unwrap();
+            world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(x, 45.0)).unwrap()
+        });
+        let pellets = [30.0, 76.0].map(|x| world.spawn(&AgarSpec::default().into(), Placement::at(x, 32.5)).unwrap());
+        world.step(&Inputs::new());
+        let near_prey = world.near_prey();
+        let owners = |cell| near_prey.of(cell).map(|near| near.owners(&world.particles)).collect::<Vec<_>>();
+        for (cell, pellet) in [(cells[0], pellets[0]), (cells[2], pellets[1])] {
+            assert!(!owners(cell).is_empty());
+            assert!(owners(cell).iter().all(|pair| pair.contains(&cell.index) && pair.contains(&pellet.index)));
+        }
+        assert!(owners(cells[1]).is_empty());
+        let (looked_at, all) = (near_prey.0.len(), world.near().count());
+        assert!(looked_at < 20 && all > 200, "{looked_at} of {all}");
+    }
 }

@@ -15,6 +15,7 @@ use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
+use encounter::NearPrey;
 
 impl World {
     /// Advances all engulfers by a step: encounters, ingestion, digestion and growth.
@@ -26,10 +27,11 @@ impl World {
             .filter(|(_, o)| o.engulfer.is_some() && !o.is_quarantined)
             .map(|(id, _)| id)
             .collect();
+        let near_prey = if engulfers.is_empty() { NearPrey::default() } else { self.near_prey() };
         for id in engulfers {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
             self.remove_lost_meals(&mut engulfer);
-            for k in engulfer.advance_touching(&self.encounters(id), self.config.dt) {
+            for k in engulfer.advance_touching(&self.encounters(id, &near_prey), self.config.dt) {
                 self.begin_ingestion(id, &mut engulfer.meals[k]);
             }
             self.advance_ingestion(id, &mut engulfer);

@@ -1,0 +1,51 @@
+//! Text from outside, made harmless for a terminal or a table: the only place that does so.
+
+use std::borrow::Cow;
+
+/// A name or a value as part of a line: nothing in it ends the line, moves the cursor, or turns the direction of writing.
+pub(crate) fn line(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| c.is_control() || is_invisible(c))
+}
+
+/// Text of several lines.
+pub(crate) fn lines(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| c != '\n' && c.is_control() || is_invisible(c))
+}
+
+/// A cell of a table: text that a spreadsheet would take for a formula begins with an apostrophe.
+pub(crate) fn cell(text: &str) -> Cow<'_, str> {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err();
+    if is_formula { Cow::Owned(format!("'{}", line(text))) } else { line(text) }
+}
+
+fn escaped(text: &str, is_harmful: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_harmful) {
+        return Cow::Borrowed(text);
+    }
+    let show = |c: char| if is_harmful(c) { c.escape_unicode().to_string() } else { c.to_string() };
+    Cow::Owned(text.chars().map(show).collect())
+}
+
+/// Ends of lines and marks of direction of Unicode: UAX 9, section 2, and UAX 14.
+fn is_invisible(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cell, line, lines};
+
+    #[test]
+    fn nothing_controls_a_terminal() {
+        assert_eq!(line("a\u{1b}[2Jb\nok\u{202e}\u{9b}"), "a\\u{1b}[2Jb\\u{a}ok\\u{202e}\\u{9b}");
+        assert_eq!(lines("a\n\rµ\u{2028}"), "a\n\\u{d}µ\\u{2028}");
+    }
+
+    #[test]
+    fn no_cell_is_a_formula() {
+        for text in ["=1+1", "+x", "-x", "@x"] {
+            assert_eq!(cell(text), format!("'{text}"));
+        }
+        assert!(["-1.5", "+2", "a=b", ""].iter().all(|text| cell(text) == *text));
+    }
+}

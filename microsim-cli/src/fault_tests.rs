@@ -1,0 +1,261 @@
+//! Every call that changes a file fails once, in each way: afterwards the old state or the new one is whole.
+
+use crate::args::Args;
+use crate::console::Console;
+use crate::diagnostics::ScenarioText;
+use crate::failure::Failure;
+use crate::output::fault::{self, Fault};
+use crate::output::{CHECKPOINT, Outputs};
+use crate::prepared::Prepared;
+use crate::record_args::RecordArgs;
+use crate::scenario_args::Changes;
+use crate::session::Session;
+use crate::verbs::{self, Task};
+use clap::{CommandFactory, Parser};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+
+const FAULTS: [Fault; 4] = [
+    // EIO has no kind of its own.
+    Fault::Once(ErrorKind::Other),
+    Fault::Once(ErrorKind::StorageFull),
+    Fault::Once(ErrorKind::Interrupted),
+    Fault::Crash,
+];
+
+const SCENARIO: &str = r#"
+    schema = 1
+    name = "faults"
+    duration = 0.1
+    [world]
+    size = [80.0, 60.0]
+    [platelet.stone]
+    radius = 2.5
+    [[spawn]]
+    of = "stone"
+    at = [40.0, 30.0]
+    [output]
+    snapshots = [0.05]
+    checkpoint_every = 2
+    [output.measures]
+    formats = ["csv", "jsonl"]
+    every = 0.0
+    [output.trajectories]
+    formats = ["csv"]
+    every = 0.0
+    [output.frames]
+    at = [0.05]
+    width = 32
+"#;
+
+type Contents = BTreeMap<PathBuf, Vec<u8>>;
+
+/// A folder of its own that is removed at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("microsim-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// An empty place.
+    fn cleared(&self, name: &str) -> PathBuf {
+        let path = self.0.join(name);
+        let _ = fs::remove_dir_all(&path);
+        path
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn quiet() -> Console {
+    Console::new(clap::ColorChoice::Never, true, false)
+}
+
+fn run(folder: &Path, has_pictures: bool, steps: u64) -> Result<(), Failure> {
+    let set = vec![("output.pictures".to_owned(), has_pictures.to_string())];
+    let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
+    let prepared = Prepared::new(source, &Changes { seed: None, set })?;
+    let record = RecordArgs { record: None, digest_every: NonZeroU32::MIN, save: None };
+    let outputs = Outputs::open(folder, true)?;
+    Session::start(prepared, steps, Some(&outputs), false, &record)?.complete(&quiet()).map(drop)
+}
+
+fn resume(folder: &Path) -> Result<(), Failure> {
+    let outputs = Outputs::open(folder, true)?;
+    Session::resume(&outputs)?.complete(&quiet()).map(drop)
+}
+
+/// All files but `run.json`, which holds times.
+fn results(folder: &Path) -> Contents {
+    let mut all = contents(folder);
+    assert!(all.remove(Path::new("run.json")).is_some(), "no run.json in {folder:?}");
+    all.retain(|path, _| !path.file_name().unwrap().to_string_lossy().starts_with('.'));
+    all
+}
+
+fn contents(folder: &Path) -> Contents {
+    let mut all = Contents::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for path in fs::read_dir(next).into_iter().flatten().map(|entry| entry.unwrap().path()) {
+            match path.is_dir() {
+                true => folders.push(path),
+                false => drop(all.insert(path.strip_prefix(folder).unwrap().to_owned(), fs::read(&path).unwrap())),
+            }
+        }
+    }
+    all
+}
+
+fn copy(from: &Path, to: &Path) {
+    for (name, content) in contents(from) {
+        fs::create_dir_all(to.join(&name).parent().unwrap()).unwrap();
+        fs::write(to.join(name), content).unwrap();
+    }
+}
+
+/// Completes what a failed run has left, as a user would.
+fn complete(folder: &Path, has_pictures: bool, steps: u64) {
+    if folder.join(CHECKPOINT).exists() {
+        resume(folder).unwrap_or_else(|failure| panic!("{failure:?}"));
+    } else if !folder.join("run.json").exists() {
+        run(folder, has_pictures, steps).unwrap_or_else(|failure| panic!("{failure:?}"));
+    }
+}
+
+/// Fails each call of some work in each way. What interrupts must not show.
+fn try_all(faults: &[Fault], work: impl Fn() -> Result<(), Failure>, check: impl Fn(&str)) {
+    let (result, calls) = fault::with(None, &work);
+    assert!(result.is_ok() && calls > 0, "{result:?}");
+    for number in 0..calls {
+        for &planned in faults {
+            let (result, _) = fault::with(Some((number, planned)), &work);
+            let is_silent = planned == Fault::Once(ErrorKind::Interrupted);
+            assert!(!is_silent || result.is_ok(), "call {number}: {result:?}");
+            check(&format!("call {number} of {calls}, {planned:?}: {result:?}"));
+        }
+    }
+}
+
+fn a_run_survives(name: &str, faults: &[Fault], has_pictures: bool, steps: u64) {
+    let scratch = Scratch::new(name);
+    let reference = scratch.cleared("reference");
+    run(&reference, has_pictures, steps).ok().unwrap();
+    let reference = results(&reference);
+    let work = || run(&scratch.cleared("run"), has_pictures, steps);
+    try_all(faults, work, |what| {
+        let folder = scratch.0.join("run");
+        complete(&folder, has_pictures, steps);
+        assert!(results(&folder) == reference, "{what}");
+    });
+}
+
+#[test]
+fn a_run_survives_every_fault() {
+    a_run_survives("run", &FAULTS, false, 5);
+}
+
+#[test]
+fn pictures_survive_every_crash() {
+    a_run_survives("pictures", &[Fault::Crash], true, 3);
+}
+
+#[test]
+fn a_stopped_run_survives_every_fault_of_its_resumption() {
+    let scratch = Scratch::new("resume");
+    let reference = scratch.cleared("reference");
+    let (_, calls) = fault::with(None, || run(&reference, false, 5));
+    let reference = results(&reference);
+    for share in 1..4 {
+        let stopped = scratch.cleared("stopped");
+        let _ = fault::with(Some((calls * share / 4, Fault::Crash)), || run(&stopped, false, 5));
+        if !stopped.join(CHECKPOINT).exists() {
+            continue;
+        }
+        let work = || {
+            let folder = scratch.cleared("run");
+            copy(&stopped, &folder);
+            resume(&folder)
+        };
+        try_all(&FAULTS, work, |what| {
+            let folder = scratch.0.join("run");
+            complete(&folder, false, 5);
+            assert!(results(&folder) == reference, "{what}");
+        });
+    }
+}
+
+/// Does what a command line says.
+fn perform(line: &str) -> Result<(), Failure> {
+    let args = Args::try_parse_from(line.split_whitespace()).unwrap();
+    verbs::perform(&args.verb, Args::command(), &quiet())
+}
+
+/// A command line that replaces the file `new` in its folder leaves the old one or the new one.
+fn a_file_survives(scratch: &Scratch, line: &str, file: &str) {
+    let file = scratch.0.join(file);
+    perform(line).ok().unwrap();
+    let new = fs::read(&file).unwrap();
+    let work = || {
+        fs::write(&file, "old").unwrap();
+        let done = perform(line);
+        assert!(done.is_err() || fs::read(&file).unwrap() == new);
+        done
+    };
+    try_all(&FAULTS, work, |what| {
+        let left = fs::read(&file).unwrap();
+        assert!(left == b"old" || left == new, "{what}");
+    });
+}
+
+#[test]
+fn pages_and_pictures_survive_every_fault() {
+    let scratch = Scratch::new("files");
+    let folder = scratch.0.display();
+    fs::write(scratch.0.join("a.toml"), SCENARIO).unwrap();
+    run(&scratch.0.join("run"), false, 3).ok().unwrap();
+    a_file_survives(&scratch, &format!("microsim report {folder}/run -o {folder}/page.html"), "page.html");
+    for name in ["still.png", "film.gif", "film.apng"] {
+        let when = if name == "still.png" { "--at 0" } else { "--from 0 --to 0.1" };
+        let line = format!("microsim render {folder}/a.toml {when} --size 16x16 --threads 1 -o {folder}/{name}");
+        a_file_survives(&scratch, &line, name);
+    }
+    a_file_survives(&scratch, &format!("microsim run {folder}/a.toml --steps 1 --save {folder}/end"), "end");
+}
+
+#[test]
+fn a_sweep_survives_every_fault() {
+    let scratch = Scratch::new("sweep");
+    let prepared = |seed| {
+        let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
+        Prepared::new(source, &Changes { seed: Some(seed), set: Vec::new() }).ok().unwrap()
+    };
+    let task = |seed| serde_json::to_string(&Task::new(&prepared(seed), BTreeMap::new(), 2)).unwrap() + "\n";
+    let tasks = [1, 2].map(task).concat();
+    let plan = scratch.0.join("plan.jsonl");
+    fs::write(&plan, tasks).unwrap();
+    let line = |store: &Path| format!("microsim sweep run {} --store {} --jobs 1", plan.display(), store.display());
+    let store = scratch.cleared("reference");
+    perform(&line(&store)).ok().unwrap();
+    let reference = contents(&store);
+    assert_eq!(reference.len(), 2);
+    let work = || perform(&line(&scratch.cleared("store")));
+    try_all(&FAULTS, work, |what| {
+        let store = scratch.0.join("store");
+        perform(&line(&store)).unwrap_or_else(|failure| panic!("{what}: {failure:?}"));
+        let mut results = contents(&store);
+        results.retain(|path, _| !path.to_string_lossy().starts_with('.'));
+        assert!(results == reference, "{what}");
+    });
+}

@@ -1,0 +1,112 @@
+//! The calls that change files. All of them are here, so that tests can make any one of them fail.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+/// A file that is open for writing.
+#[derive(Debug)]
+pub(crate) struct Written(File);
+
+impl Written {
+    /// A new, empty file, in place of any that has its name.
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+        attempt(|| File::create(path)).map(Self)
+    }
+
+    /// An existing file, to be written to at its end.
+    pub(crate) fn append(path: &Path) -> io::Result<Self> {
+        attempt(|| OpenOptions::new().append(true).open(path)).map(Self)
+    }
+
+    /// A file that is there to be locked; its content stays.
+    pub(crate) fn lockable(path: &Path) -> io::Result<Self> {
+        attempt(|| OpenOptions::new().create(true).append(true).open(path)).map(Self)
+    }
+
+    pub(crate) fn truncate(&self, length: u64) -> io::Result<()> {
+        attempt(|| self.0.set_len(length))
+    }
+
+    /// Waits until the content is on the disk.
+    pub(crate) fn sync(&self) -> io::Result<()> {
+        attempt(|| self.0.sync_all())
+    }
+
+    pub(crate) fn length(&self) -> io::Result<u64> {
+        self.0.metadata().map(|data| data.len())
+    }
+
+    /// Takes the file at this path for this process alone, until it is closed; `false` where another has it. The system
+    /// gives up the lock of a process that dies. Where the file system has no locks, the file counts as free.
+    pub(crate) fn try_lock(&self, path: &Path) -> bool {
+        !matches!(self.0.try_lock(), Err(fs::TryLockError::WouldBlock)) && self.is_at(path)
+    }
+
+    /// Whether it still has this path: the process that held the lock before removes it.
+    fn is_at(&self, path: &Path) -> bool {
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt;
+            let place = |data: fs::Metadata| (data.dev(), data.ino());
+            self.0.metadata().map(place).ok() == fs::metadata(path).map(place).ok()
+        }
+        #[cfg(not(unix))]
+        path.exists()
+    }
+}
+
+impl Write for Written {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        #[cfg(test)]
+        if let Err(error) = super::fault::next_call() {
+            // A full disk and the moment of a crash may leave the first part.
+            if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::Other) {
+                let _ = self.0.write(&bytes[..bytes.len() / 2]);
+            }
+            return Err(error);
+        }
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
+    attempt(|| fs::create_dir_all(path))
+}
+
+/// Gives a file another name, in place of any file that has it.
+pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    attempt(|| fs::rename(from, to))
+}
+
+/// Waits until the names in a folder are on the disk. Only Unix opens folders.
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
+    if cfg!(unix) { attempt(|| File::open(path)?.sync_all()) } else { Ok(()) }
+}
+
+pub(crate) fn remove(path: &Path) -> io::Result<()> {
+    attempt(|| fs::remove_file(path))
+}
+
+/// Removes a folder if it is empty.
+pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
+    attempt(|| fs::remove_dir(path))
+}
+
+/// Makes a call, again where a signal has interrupted it.
+fn attempt<T>(call: impl Fn() -> io::Result<T>) -> io::Result<T> {
+    loop {
+        #[cfg(test)]
+        let made = super::fault::next_call().and_then(|()| call());
+        #[cfg(not(test))]
+        let made = call();
+        match made {
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            made => return made,
+        }
+    }
+}

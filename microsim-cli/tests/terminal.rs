@@ -1,0 +1,62 @@
+//! Names from files control no terminal, forge no line and are no formula in a table.
+
+mod common;
+
+use common::{Folder, refused, run, stderr, stdout, success};
+
+/// A name that clears the screen, forges a line and turns the direction of writing.
+const NAME: &str = r"x\u001B[2J\nok: forged\u202E\u009B";
+const HARMFUL: [char; 3] = ['\u{1b}', '\u{202e}', '\u{9b}'];
+
+fn check(text: &str) {
+    assert!(!text.contains(HARMFUL) && !text.contains("\nok: forged"), "{text:?}");
+}
+
+#[test]
+fn a_name_is_printed_without_what_controls_a_terminal() {
+    let folder = Folder::new("terminal");
+    let text = format!("schema = 1\nname = \"{NAME}\"\nduration = 0.05\n[world]\nsize = [80.0, 60.0]\n");
+    let scenario = folder.file("name.toml", text.as_bytes());
+    let replay = folder.path("a.replay");
+    for arguments in [
+        &["check", &scenario][..],
+        &["run", &scenario, "--record", &replay],
+        &["run", &scenario, "--dry-run"],
+        &["replay", &replay],
+        &["inspect", &replay],
+        &["bench", &scenario, "--steps", "1"],
+    ] {
+        let output = run(arguments);
+        assert!(output.status.success() && !output.stdout.is_empty(), "{arguments:?}: {}", stderr(&output));
+        check(&stdout(&output));
+        check(&stderr(&output));
+    }
+    let broken = text.replace("[world]", "[invariants]\nbodies = [5, 9]\n[world]");
+    let output = run(&["run", &folder.file("broken.toml", broken.as_bytes())]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    check(&stderr(&output));
+}
+
+#[test]
+fn a_refusal_is_printed_without_what_controls_a_terminal() {
+    let folder = Folder::new("terminal-refusal");
+    let text = format!(
+        "schema = 1\n[world]\nsize = [80.0, 60.0]\n[agar.\"{NAME}\"]\nradius = 1.0\n[[spawn]]\nof = \"other\"\n"
+    );
+    let output = refused(&["check", &folder.file("a.toml", text.as_bytes())], "other");
+    check(&stderr(&output));
+    check(&stderr(&refused(&["check", "./no\u{1b}[2J\nok: forged.toml"], "u{1b}")));
+}
+
+#[test]
+fn no_cell_of_a_merged_table_is_a_formula() {
+    let folder = Folder::new("formula");
+    let scenario =
+        folder.file("a.toml", b"schema = 1\nname = \"=cmd\"\nduration = 0.05\n[world]\nsize = [80.0, 60.0]\n");
+    let plan = success(&["sweep", "plan", &scenario, "--grid", "world.damping=0.5,1"]);
+    let (plan, store, table) = (folder.file("p.jsonl", &plan.stdout), folder.path("s"), folder.path("t.csv"));
+    success(&["sweep", "run", &plan, "--store", &store]);
+    success(&["sweep", "merge", &plan, "--store", &store, "-o", &table]);
+    let text = std::fs::read_to_string(&table).unwrap();
+    assert!(text.contains(",'=cmd,") && !text.contains(",=cmd"), "{text}");
+}
