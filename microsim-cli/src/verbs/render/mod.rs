@@ -121,10 +121,11 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     console.note(&format!("wrote {}", args.output.display()));
     let (replay, path) = (replay.as_ref(), Path::new(&args.scenario.scenario));
     match replay.and_then(|replay| Some((lost(replay, path)?, replay.ending()))) {
-        Some((text, Ending::Damaged { .. })) => Err(Failure::Message(text)),
-        Some((text, _)) => Ok(console.note(&text)),
-        None => Ok(()),
+        Some((text, Ending::Damaged { .. })) => return Err(Failure::Message(text)),
+        Some((text, _)) => console.note(&text),
+        None => {}
     }
+    Ok(())
 }
 
 /// The pictures to render.
