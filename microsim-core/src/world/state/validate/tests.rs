@@ -39,7 +39,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.particles.x[0] = f32::NAN, "amoeboid_cell 0 (generation 0): particle 0: x is NaN");
     finds(|w| w.particles.vy[3] = f32::INFINITY, "velocity y is inf");
     finds(|w| w.particles.prev_x[3] = 1e9, "previous x");
-    finds(|w| w.particles.origin_x[3] += 0.5, "origin x is 40.5, must be whole");
+    finds(|w| w.particles.origin_x[3] += 0.001, "must be a multiple of 0.00390625");
     finds(|w| w.particles.radius[2] = -1.0, "radius is -1");
     finds(|w| w.particles.inv_mass[2] = f32::NAN, "inverse mass");
     finds(|w| w.particles.role[2] = 200, "role 200");

@@ -1,0 +1,148 @@
+//! Fluids as a whole: density, walls, grains, viscosity.
+
+use super::*;
+use crate::rng::Rng;
+use crate::solver::testing::disc;
+
+fn block(mode: FluidMode, spacing: f32) -> (Fluid, Particles) {
+    let mut fluid = Fluid::new(FluidParams { mode, ..FluidParams::default() }, false);
+    let mut particles = Particles::default();
+    let mut rng = Rng::new(1, 1);
+    for k in 0..200 {
+        let jitter = Vec2::new(rng.range(-0.1, 0.1), rng.range(-0.1, 0.1));
+        let at = Vec2::new((k % 20) as f32, (k / 20) as f32) * spacing + jitter + 50.0; // far from walls
+        fluid.particles.push(particles.insert(&disc(at, 1.0)));
+    }
+    (fluid, particles)
+}
+
+/// A substep of 1/480 s in which nothing was predicted.
+fn project(fluid: &Fluid, particles: &mut Particles) {
+    particles.prev_x.clone_from(&particles.x);
+    particles.prev_y.clone_from(&particles.y);
+    project_in(Vec2::INFINITY, fluid, particles);
+}
+
+fn project_in(size: Vec2, fluid: &Fluid, particles: &mut Particles) {
+    let (fluids, mut workspace) = (std::slice::from_ref(fluid), Workspace::default());
+    workspace.find_neighbours(fluids, particles, size);
+    workspace.project(fluids, particles, 1.0 / 480.0, Dispatch::default());
+}
+
+fn centre(particles: &Particles) -> Vec2 {
+    particles.live().map(|i| particles.position(i)).sum::<Vec2>() / particles.len() as f32
+}
+
+#[test]
+fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
+    let (fluid, mut particles) = block(FluidMode::Density, 0.7);
+    let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
+    (0..60).for_each(|_| project(&fluid, &mut particles));
+    let after = fluid.mean_compression(&particles);
+    assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
+    assert!((centre(&particles) - start).length() < 1e-3, "momentum");
+}
+
+#[test]
+fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
+    // A lattice row at half a spacing from the wall is as dense as one inside: nothing moves.
+    let (fluid, mut particles) = block(FluidMode::Density, 1.0);
+    for i in 0..200 {
+        particles.x[i] = (i % 20) as f32 + 0.5 * (i / 20 % 2) as f32 + 0.5;
+        particles.y[i] = (i / 20) as f32 * 0.866 + 0.5;
+    }
+    let at_rest = particles.clone();
+    let shift = |fluid: &Fluid, lower: f32| {
+        let mut moved = at_rest.clone();
+        moved.y.iter_mut().for_each(|y| *y -= lower);
+        moved.prev_x.clone_from(&moved.x);
+        moved.prev_y.clone_from(&moved.y);
+        project_in(Vec2::splat(1e4), fluid, &mut moved);
+        moved.y[10] - (at_rest.y[10] - lower)
+    };
+    assert!(shift(&fluid, 0.0).abs() < 0.02, "at half a spacing: {}", shift(&fluid, 0.0));
+    assert!(shift(&fluid, 0.2) > 0.02, "nearer: {}", shift(&fluid, 0.2));
+}
+
+#[test]
+fn fluid_at_rest_density_or_below_stays() {
+    let (fluid, mut particles) = block(FluidMode::Density, 1.3);
+    let before = particles.clone();
+    project(&fluid, &mut particles);
+    assert!((0..200).all(|i| (particles.position(i) - before.position(i)).length() < 1e-6));
+}
+
+#[test]
+fn grains_separate_to_their_spacing() {
+    let (mut fluid, mut particles) = block(FluidMode::Granular, 0.8);
+    fluid.params.friction = 0.0;
+    (0..400).for_each(|_| project(&fluid, &mut particles));
+    for i in 0..200 {
+        for j in 0..i {
+            let gap = (particles.position(i) - particles.position(j)).length();
+            assert!(gap > 0.93, "grains {i} and {j} at {gap}");
+        }
+    }
+}
+
+#[test]
+fn viscosity_draws_ways_towards_the_neighbours_mean() {
+    for mode in [FluidMode::Density, FluidMode::Granular] {
+        let (mut fluid, mut particles) = block(mode, 0.99);
+        let mut rng = Rng::new(5, 5);
+        let still = particles.clone();
+        let ways: Vec<f32> = (0..200).map(|_| rng.range(-1e-3, 1e-3)).collect();
+        let mut ways_taken = |viscosity: f32| -> Vec<f32> {
+            fluid.params.viscosity = viscosity;
+            for (i, way) in ways.iter().enumerate() {
+                particles.prev_x[i] = still.x[i];
+                (particles.x[i], particles.y[i]) = (still.x[i] + way, still.y[i]);
+            }
+            project_in(Vec2::INFINITY, &fluid, &mut particles);
+            (0..200).map(|i| particles.x[i] - still.x[i]).collect()
+        };
+        let (free, viscous) = (ways_taken(0.0), ways_taken(1000.0));
+        let taken_back: f32 = (0..200).map(|i| (free[i] - viscous[i]) * ways[i]).sum();
+        let all: f32 = ways.iter().map(|way| way * way).sum();
+        assert!(taken_back > 0.2 * all && taken_back < all, "{mode:?}: {taken_back} of {all}");
+    }
+}
+
+#[test]
+fn neighbours_found_once_per_step_are_enough() {
+    for (mode, spacing) in [(FluidMode::Density, 0.8), (FluidMode::Granular, 0.8)] {
+        // Eight substeps of shear and push, with a search before the first or before each; a workspace that has seen others.
+        let after = |searches: usize| {
+            let (fluid, mut particles) = block(mode, spacing);
+            let (fluids, mut workspace) = ([Fluid::new(fluid.params, true), fluid], Workspace::default());
+            workspace.find_neighbours(&fluids[1..], &particles, Vec2::INFINITY);
+            for substep in 0..8 {
+                for i in 0..200 {
+                    (particles.prev_x[i], particles.prev_y[i]) = (particles.x[i], particles.y[i]);
+                    particles.x[i] += 0.005 * (particles.y[i] - 50.0);
+                }
+                if substep < searches {
+                    workspace.find_neighbours(&fluids, &particles, Vec2::INFINITY);
+                }
+                workspace.project(&fluids, &mut particles, 1.0 / 480.0, Dispatch::default());
+            }
+            let gap = |i: usize, j: usize| (particles.position(i) - particles.position(j)).length();
+            let least = |i: usize| (0..200).filter(|&j| j != i).map(|j| gap(i, j)).fold(f32::INFINITY, f32::min);
+            (fluids[1].mean_compression(&particles), (0..200).map(least).sum::<f32>() / 200.0)
+        };
+        let (once, each) = (after(1), after(8));
+        assert!((once.0 - each.0).abs() < 0.005 && (once.1 - each.1).abs() < 0.005, "{mode:?}: {once:?} {each:?}");
+    }
+}
+
+#[test]
+fn particles_in_one_place_come_apart() {
+    let mut fluid = Fluid::new(FluidParams::default(), false);
+    let mut particles = Particles::default();
+    for _ in 0..4 {
+        fluid.particles.push(particles.insert(&disc(Vec2::splat(50.0), 1.0)));
+    }
+    (0..20).for_each(|_| project(&fluid, &mut particles));
+    let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
+    assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
+}
