@@ -37,7 +37,7 @@ pub struct DivisionParams {
 
 impl Default for DivisionParams {
     fn default() -> Self {
-        Self { furrow_speed: 3.0, closing_length: 1.2, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
+        Self { furrow_speed: 3.0, closing_length: 1.25, time_limit: 30.0, least_particles: 20, least_nodes: 10 }
     }
 }
 
