@@ -96,9 +96,6 @@ fn absorb(name: &str, seed: u64, dt: f32, substeps: u32) -> String {
                 _ => {}
             }
         }
-        if std::env::var("TRACE").is_ok() && stretch_of(&built.world) > 0.22 {
-            println!("{:.4} stretch {:.3} {:?}", built.world.time(), stretch_of(&built.world), built.world.events());
-        }
         stretch = stretch.max(stretch_of(&built.world));
         if built.world.step_index() % 10 == 0 {
             let census = built.world.census();
@@ -113,8 +110,8 @@ fn absorb(name: &str, seed: u64, dt: f32, substeps: u32) -> String {
     for (name, count) in [
         ("released", released),
         ("improper", improper as u64),
-        ("wrong_side", census.wrong_side as u64),
-        ("net_fired", census.net_fired as u64),
+        ("wrong_side", census.wrong_side),
+        ("net_fired", census.net_fired),
         ("stretch%", if stretch > 0.25 { (stretch * 100.0) as u64 } else { 0 }),
     ] {
         if count > 0 {
@@ -139,11 +136,6 @@ fn row(dt: f32, substeps: u32, seeds: u64) -> String {
 }
 
 fn main() {
-    if let Ok(only) = std::env::var("ONLY") {
-        let a: Vec<&str> = only.split(' ').collect();
-        println!("{}", absorb(a[0], a[1].parse().unwrap(), a[2].parse().unwrap(), a[3].parse().unwrap()));
-        return;
-    }
     let mut args = std::env::args().skip(1);
     let seeds: u64 = args.next().and_then(|seeds| seeds.parse().ok()).unwrap_or(5);
     let only: Option<f32> = args.next().and_then(|dt| dt.parse().ok());

@@ -166,7 +166,10 @@ impl AmoeboidCellSpec {
         let count = (std::f32::consts::PI * inside.x * inside.y / rest_area(1, spacing)) as usize;
         let room = inside - Vec2::splat(0.5 * spacing);
         let mut points = even_fill(count, room);
-        settle(&mut points, params, |at| at / (at / room).length().max(1.0));
+        settle(&mut points, params, |at| {
+            let share = (at / room).length();
+            if share > 1.0 { at / share } else { at }
+        });
         FluidPlan { params, points, is_enclosed: true }
     }
 }

@@ -203,7 +203,7 @@ impl Workspace {
                     dispatch,
                     #[inline(always)]
                     |_, group, shifts| {
-                        *shifts = granular::shifts(group, &sorted.neighbours, [viscosity, fluid.params.friction])
+                        *shifts = granular::shifts(group, &sorted.neighbours, [viscosity, fluid.params.friction]);
                     },
                 ),
             }
