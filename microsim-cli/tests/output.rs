@@ -105,7 +105,7 @@ fn an_interrupt_still_leaves_complete_files() {
     let out = folder.path("out");
     let file = folder.crowd();
     let arguments = ["run", &file, "--steps", "1000000000", "--out", &out];
-    let mut child = common::microsim(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = common::heeding_signals(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     // Once the folder is there, the program listens.
     while !folder.root().join("out").exists() {
         std::thread::sleep(std::time::Duration::from_millis(20));

@@ -110,7 +110,7 @@ impl Trial {
     fn stop_after(&self, out: &str, first: bool, after: Duration, signal: &str) -> bool {
         let start = ["run", &self.scenario, "--steps", Self::STEPS, "--out", out];
         let resume = ["resume", out];
-        let mut command = common::microsim(if first { &start[..] } else { &resume[..] });
+        let mut command = common::heeding_signals(if first { &start[..] } else { &resume[..] });
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         std::thread::sleep(after);
         let _ = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status();

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Folder, crowd, microsim, refused, run, stderr, success};
+use common::{Folder, crowd, heeding_signals, microsim, refused, run, stderr, success};
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -26,7 +26,7 @@ const OUTPUT: &str = r#"
 /// A run that is never stopped by itself within a test.
 fn start(folder: &Folder, out: &str) -> Child {
     let scenario = folder.file("crowd.toml", (crowd() + OUTPUT).as_bytes());
-    let mut command = microsim(&["run", &scenario, "--steps", "100000000", "--out", out, "--quiet"]);
+    let mut command = heeding_signals(&["run", &scenario, "--steps", "100000000", "--out", out, "--quiet"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     while !Path::new(out).join("checkpoint").exists() {
         sleep(Duration::from_millis(2));
@@ -132,8 +132,8 @@ fn signals_stop_a_run_that_can_be_resumed() {
         let mut child = start(&folder, &out);
         signal(&child, name);
         assert_eq!(child.wait().unwrap().code(), Some(code), "{name}");
-        let mut child = microsim(&["resume", &out, "--quiet"]).stdout(Stdio::null()).spawn().unwrap();
-        sleep(Duration::from_millis(300));
+        let mut child = heeding_signals(&["resume", &out, "--quiet"]).stdout(Stdio::null()).spawn().unwrap();
+        sleep(Duration::from_millis(1000));
         signal(&child, name);
         assert_eq!(child.wait().unwrap().code(), Some(code), "{name}, resumed");
     }

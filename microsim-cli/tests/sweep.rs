@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, microsim, run, stderr, stdout, success};
+use common::{Folder, heeding_signals, run, stderr, stdout, success};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -54,7 +54,7 @@ impl Trial {
     /// Starts work and ends it with a signal once some tasks are done.
     fn stop(&self, store: &str, signal: &str) -> Option<i32> {
         let folder = self.folder.path(store);
-        let mut command = microsim(&["sweep", "run", &self.plan, "--store", &folder, "--jobs", "2"]);
+        let mut command = heeding_signals(&["sweep", "run", &self.plan, "--store", &folder, "--jobs", "2"]);
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         while self.done(store) < 10 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));

@@ -12,6 +12,14 @@ pub(crate) fn microsim(arguments: &[&str]) -> Command {
     command
 }
 
+/// The program with the default action of signals: where this test runs, they may be ignored, as by `nohup`.
+#[cfg(unix)]
+pub(crate) fn heeding_signals(arguments: &[&str]) -> Command {
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_microsim")]).args(arguments);
+    command
+}
+
 pub(crate) fn run(arguments: &[&str]) -> Output {
     microsim(arguments).output().unwrap()
 }

@@ -14,6 +14,9 @@ use serde::{Deserialize, Serialize};
 /// Most cells of one grid.
 const MAX_CELLS: usize = 1_000_000;
 
+/// Highest concentration, amount per square unit: what would be more is lost, so that no sum is infinite.
+const HIGHEST: f32 = 1e30;
+
 /// How a chemical spreads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChemicalSpec {
@@ -112,7 +115,7 @@ impl Chemical {
         if self.grid.count != count || values.len() != cells.len() {
             return Err(format!("{} concentrations do not fill {count:?} cells", values.len()));
         }
-        let is_sound = |value: f32, is_open| if is_open { (0.0..=f32::MAX).contains(&value) } else { value == 0.0 };
+        let is_sound = |value: f32, is_open| if is_open { (0.0..=HIGHEST).contains(&value) } else { value == 0.0 };
         let unsound = values.iter().zip(cells).position(|(&value, &is_open)| !is_sound(value, is_open));
         unsound.map_or(Ok(()), |cell| Err(format!("the concentration in cell {cell} is {}", values[cell])))
     }
@@ -144,7 +147,8 @@ impl Chemical {
     pub(crate) fn add(&mut self, at: Vec2, amount: f32) {
         let density = amount / self.grid.cell_area();
         for (cell, share) in self.grid.around(at) {
-            self.values[cell] += share * density;
+            let more = self.values[cell] + share * density;
+            self.values[cell] = if more > HIGHEST { HIGHEST } else { more };
         }
     }
 
@@ -282,6 +286,16 @@ mod tests {
         assert_eq!(chemical.concentration(Vec2::new(60.0, 30.0)), 0.0);
         let beside = chemical.concentration(Vec2::new(37.0, 30.0));
         assert!(beside > 0.0 && chemical.concentration(Vec2::new(38.4, 30.0)) >= 0.99 * beside, "the wall is no hole");
+    }
+
+    #[test]
+    fn no_amount_makes_a_concentration_infinite() {
+        let mut chemical = chemical(ChemicalSpec::default());
+        for _ in 0..4 {
+            chemical.add(Vec2::new(30.0, 30.0), f32::MAX);
+            chemical.advance(DT);
+            assert!(chemical.values().iter().all(|&value| (0.0..=HIGHEST).contains(&value)));
+        }
     }
 
     #[test]

@@ -34,12 +34,6 @@ use serde::{Deserialize, Serialize};
 pub(crate) const GRID: f32 = 1.0 / 256.0;
 /// Owner of an entry that holds no live particle.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
-/// Limits of what is read from a file: radius, and each coordinate of position and velocity.
-#[cfg(feature = "snapshot")]
-const MAX_RADIUS: f32 = 1e5;
-#[cfg(feature = "snapshot")]
-const MAX_COORDINATE: f32 = 1e6;
-
 /// One particle, as it is put into the store.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Particle {
@@ -319,26 +313,17 @@ impl Particles {
     /// Restores what a file leaves out: positions at the start of the substep, and the number of live particles.
     ///
     /// # Errors
-    /// When columns differ in length, or a number is not finite or outside its range.
+    /// When columns differ in length.
     #[cfg(feature = "snapshot")]
     pub(crate) fn restore_skipped(&mut self) -> Result<(), String> {
         let len = self.len();
-        let Self { origin_x, origin_y, x, y, vx, vy, inv_mass, radius, groups, material, role, .. } = &*self;
+        let Self { origin_x, origin_y, x, y, vx, vy, inv_mass, radius, .. } = &*self;
         let columns = [origin_x, origin_y, x, y, vx, vy, inv_mass, radius];
-        let others = [groups.len(), material.len(), role.len(), self.next_in_ring.len(), self.owner.len()];
+        let others =
+            [self.groups.len(), self.material.len(), self.role.len(), self.next_in_ring.len(), self.owner.len()];
         let lengths = columns.iter().map(|column| column.len()).chain(others).chain([self.fluid.len()]);
         if lengths.into_iter().any(|other| other != len) || len >= NO_OWNER as usize - 1 {
             return Err("particles: columns differ in length".to_owned());
-        }
-        let is_length = |value: f32| (0.0..=MAX_RADIUS).contains(&value);
-        let is_sound = |i: usize| {
-            let Material { friction, restitution } = material[i];
-            let is_place = columns[..6].iter().all(|column| column[i].abs() <= MAX_COORDINATE);
-            let is_surface = (0.0..=10.0).contains(&friction) && (0.0..=1.0).contains(&restitution);
-            is_place && inv_mass[i] >= 0.0 && inv_mass[i].is_finite() && is_length(radius[i]) && is_surface
-        };
-        if let Some(i) = (0..len).find(|&i| !is_sound(i)) {
-            return Err(format!("particles[{i}]: a number is not finite or out of range"));
         }
         self.prev_x.clone_from(&self.x);
         self.prev_y.clone_from(&self.y);

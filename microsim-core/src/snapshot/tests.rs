@@ -163,6 +163,27 @@ fn forged_numbers_never_panic() {
 }
 
 #[test]
+fn numbers_out_of_their_range_are_refused() {
+    let refuse = |damage: &dyn Fn(&mut World), words: &str| {
+        let mut world = menagerie();
+        damage(&mut world);
+        let error = World::from_snapshot(&world.to_snapshot().unwrap()).unwrap_err().to_string();
+        assert!(error.contains(words), "`{error}` instead of `{words}`");
+    };
+    let first = menagerie().organisms().next().unwrap();
+    refuse(&|w| w.particles.vx[7] = f32::NAN, "velocity x is NaN");
+    refuse(&|w| w.particles.inv_mass[7] = -1.0, "inverse mass is -1");
+    refuse(&|w| w.organisms.get_mut(first).unwrap().spawn_scale = -3.4e38, "spawn scale is -3");
+    refuse(
+        &|w| {
+            let drop_of = w.fluids[0].particles[0] as usize;
+            w.particles.radius[drop_of] = 100.0;
+        },
+        "radius is 100",
+    );
+}
+
+#[test]
 fn a_long_list_of_nothing_takes_no_memory() {
     // A list of 2^60 obstacles.
     let mut content = vec![0x80; 8];

@@ -41,19 +41,29 @@ pub struct Quality {
     pub stalled_max: f32,
 }
 
+/// Relative errors of the rigid links of all templated outlines.
+#[derive(Default)]
+struct RingErrors {
+    mean: f32,
+    max: f32,
+    /// Of the links that are too long.
+    stretch_max: f32,
+}
+
 impl World {
     /// Measures errors of constraints and the shape of membranes. Costs more than a step in worlds with large cells;
     /// [`crate::Measure`] measures one number alone.
     #[must_use]
     pub fn quality(&self) -> Quality {
+        let (ring, membrane_stretch_max) = (self.ring_errors(), self.membrane_stretch_max());
         Quality {
-            ring_error_mean: self.ring_error_mean(),
-            ring_error_max: self.ring_error_max(),
+            ring_error_mean: ring.mean,
+            ring_error_max: ring.max,
             penetration_max: self.penetration_max(),
-            edge_stretch_max: self.edge_stretch_max(),
+            edge_stretch_max: larger(ring.stretch_max, membrane_stretch_max),
             anchor_offset_max: self.anchor_offset_max(),
             fluid_compression_mean: self.fluid_compression_mean(),
-            membrane_stretch_max: self.membrane_stretch_max(),
+            membrane_stretch_max,
             voids_max: self.voids_max(),
             excess_turning_max: self.excess_turning_max(),
             width_ratio_mean: self.width_ratio_mean(),
@@ -64,15 +74,15 @@ impl World {
     }
 
     pub(in crate::world) fn ring_error_mean(&self) -> f32 {
-        mean(self.ring_strains().map(f32::abs))
+        self.ring_errors().mean
     }
 
     pub(in crate::world) fn ring_error_max(&self) -> f32 {
-        largest(self.ring_strains().map(f32::abs))
+        self.ring_errors().max
     }
 
     pub(in crate::world) fn edge_stretch_max(&self) -> f32 {
-        larger(largest(self.ring_strains()), self.membrane_stretch_max())
+        larger(self.ring_errors().stretch_max, self.membrane_stretch_max())
     }
 
     pub(in crate::world) fn membrane_stretch_max(&self) -> f32 {
@@ -119,8 +129,15 @@ impl World {
         self.organisms.iter().filter_map(|(_, organism)| self.crawl_quality_of(organism))
     }
 
-    fn ring_strains(&self) -> impl Iterator<Item = f32> + '_ {
-        self.organisms.iter().flat_map(|(_, organism)| self.outline_strains(organism))
+    fn ring_errors(&self) -> RingErrors {
+        let (mut errors, mut sum, mut count) = (RingErrors::default(), 0.0, 0.0);
+        for strain in self.organisms.iter().flat_map(|(_, organism)| self.outline_strains(organism)) {
+            errors.max = larger(errors.max, strain.abs());
+            errors.stretch_max = larger(errors.stretch_max, strain);
+            (sum, count) = (sum + strain.abs(), count + 1.0);
+        }
+        errors.mean = if count > 0.0 { sum / count } else { 0.0 };
+        errors
     }
 
     /// Relative error of each rigid link between neighbours of a templated outline, positive when stretched.

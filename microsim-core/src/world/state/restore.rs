@@ -1,5 +1,5 @@
 //! A world from state that was read: derived parts are rebuilt, and everything that stepping relies on is checked
-//! ([`super::validate::structure`]).
+//! ([`super::validate::structure`], [`super::validate::numbers`]).
 
 use super::validate;
 use crate::chemical;
@@ -68,7 +68,9 @@ impl World {
         world.guard = state.guard;
         world.particles.restore_skipped()?;
         world.organisms.complete();
-        validate::structure::check(&world).map_err(|violation| violation.to_string())?;
+        validate::structure::check(&world)
+            .and_then(|()| validate::numbers::check(&world))
+            .map_err(|violation| violation.to_string())?;
         // Measures need the pairs of the last step, which are not part of the state.
         if world.step_index > 0 {
             world.find_pairs();

@@ -4,14 +4,9 @@ use super::{Check, Subject};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::organism::{Organism, Storage};
 use crate::particle::{CollisionGroups, NO_OWNER};
-use crate::solver::membrane::{Membrane, links};
+use crate::solver::membrane::links;
 use crate::world::World;
 use glam::Vec2;
-
-/// Largest length, area or count in an organism.
-const MOST: f32 = 1e9;
-/// Largest length of a membrane, in circles around its content.
-const MOST_LOBES: f32 = 3.0;
 
 pub(super) fn check(world: &World) -> Check {
     for (id, organism) in world.organisms.iter() {
@@ -20,8 +15,7 @@ pub(super) fn check(world: &World) -> Check {
         check_outline(world, organism, cell)?;
         check_rings(world, organism, cell)?;
         check_fluid(world, organism, cell)?;
-        check_state(organism, cell)?;
-        check_divider(organism, cell)?;
+        check_furrow(organism, cell)?;
     }
     check_links(world)
 }
@@ -53,24 +47,17 @@ fn check_rings(world: &World, organism: &Organism, cell: Subject) -> Check {
     nodes.sort_unstable();
     linked.sort_unstable();
     cell.must(nodes == linked, || format!("{} nodes, of which its rings have {}", nodes.len(), linked.len()))?;
-    organism.membranes().try_for_each(|(membrane, ring)| check_ring(world, organism, cell, membrane, ring))
+    organism.membranes().try_for_each(|(_, ring)| check_ring(world, organism, cell, ring))
 }
 
-fn check_ring(world: &World, organism: &Organism, cell: Subject, membrane: &Membrane, ring: &[u32]) -> Check {
+fn check_ring(world: &World, organism: &Organism, cell: Subject, ring: &[u32]) -> Check {
     let p = &world.particles;
     let loose = links(ring).find(|&(a, b)| p.next_in_ring[a as usize] != b);
     if let Some((a, b)) = loose {
         let node = Subject { particle: Some(a), ..cell };
         return Err(node.violation(format!("{b} follows it in its ring, but it is linked to another")));
     }
-    if organism.is_quarantined {
-        return Ok(());
-    }
-    let names = ["rest length", "node radius", "activity", "rest perimeter"];
-    for (name, value) in names.into_iter().zip(membrane.state()) {
-        cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST)?;
-    }
-    if !world.config.protects_membranes {
+    if organism.is_quarantined || !world.config.protects_membranes {
         return Ok(());
     }
     let outline: Vec<Vec2> = ring.iter().map(|&i| p.position(i as usize)).collect();
@@ -113,21 +100,9 @@ fn check_fluid(world: &World, organism: &Organism, cell: Subject) -> Check {
     leak.map_or(Ok(()), |&i| Err(Subject { particle: Some(i), ..cell }.violation("it has leaked out of its membrane")))
 }
 
-fn check_state(organism: &Organism, cell: Subject) -> Check {
-    cell.must_range("speed", organism.speed, 0.0, MOST)?;
-    cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
-    cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
-    let (goal, home) = (organism.goal, organism.home);
-    cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
-}
-
-fn check_divider(organism: &Organism, cell: Subject) -> Check {
-    let Some(divider) = &organism.divider else { return Ok(()) };
-    cell.must_range("lobes", divider.lobes, 1.0, MOST_LOBES)?;
-    divider.nodes_per_root.map_or(Ok(()), |nodes| cell.must_range("nodes per root", nodes, 0.0, MOST))?;
-    let Some(furrow) = divider.furrow else { return Ok(()) };
-    cell.must_range("width of its furrow", furrow.width, 0.0, MOST)?;
-    cell.must_range("age of its furrow", furrow.elapsed, 0.0, MOST)?;
+/// A furrow is between two nodes of the membrane.
+fn check_furrow(organism: &Organism, cell: Subject) -> Check {
+    let Some(furrow) = organism.furrow() else { return Ok(()) };
     let [a, b] = furrow.nodes;
     let is_there = a != b && organism.outline.contains(&a) && organism.outline.contains(&b);
     cell.must(is_there, || format!("its furrow is between {a} and {b}, which are not two of its nodes"))

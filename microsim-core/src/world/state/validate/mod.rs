@@ -3,6 +3,7 @@
 //! For tests, soaks and worlds from files. It costs about as much as a step and does not panic on any state.
 
 mod bodies;
+pub(super) mod numbers;
 mod relations;
 mod store;
 pub(super) mod structure;
@@ -40,6 +41,7 @@ impl World {
         self.config.validate().map_err(|error| Subject::default().violation(error.to_string()))?;
         store::check_columns(&self.particles)?;
         structure::check(self)?;
+        numbers::check(self)?;
         store::check(self)?;
         bodies::check(self)?;
         relations::check(self)

@@ -1,20 +1,13 @@
 //! Tables: particles, free indices, blocks, fluids, obstacles.
 
 use super::{Check, Subject};
-use crate::config::WorldConfig;
-use crate::particle::{CollisionGroups, GRID, NO_OWNER, Particles};
+use crate::particle::{CollisionGroups, NO_OWNER, Particles};
 use crate::solver::block::Block;
 use crate::template::Role;
 use crate::world::World;
 use crate::world::obstacle::WALLS;
 use glam::Vec2;
 
-/// Largest coordinate, units: quarantine freezes organisms farther from the room than the room's size.
-const FARTHEST: f32 = 3.0 * WorldConfig::MAX_SIZE;
-/// Largest radius: of a template's node times the scale of its placement.
-const LARGEST: f32 = 1e5;
-/// Largest speed over the speed limit: impacts may exceed the limit until the next substep.
-const TIMES_SPEED_LIMIT: f32 = 10.0;
 /// Largest distance of the centre of a colliding disc beyond a wall, as a share of its radius.
 const BEYOND_WALLS: f32 = 0.5;
 
@@ -24,11 +17,7 @@ pub(super) fn check(world: &World) -> Check {
     (0..world.fluids.len()).try_for_each(|k| check_fluid(world, k))?;
     let (digests, obstacles) = (world.obstacle_digests.len(), world.obstacles.len() - WALLS);
     let none = Subject::default();
-    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))?;
-    for (k, chemical) in world.chemicals.iter().enumerate() {
-        chemical.check(&world.config).map_err(|flaw| none.violation(format!("chemical {k}: {flaw}")))?;
-    }
-    Ok(())
+    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))
 }
 
 pub(super) fn check_columns(p: &Particles) -> Check {
@@ -53,29 +42,8 @@ fn check_entry(world: &World, i: usize) -> Check {
             && p.velocity(i) == Vec2::ZERO;
         return disc.must(is_dead, || "it has no owner, but mass, speed, a fluid, a ring or collisions".to_owned());
     }
-    check_numbers(world, i, disc)?;
     disc.must((p.role[i] as usize) < Role::ALL.len(), || format!("role {} is unknown", p.role[i]))?;
     check_within_walls(world, i, disc)
-}
-
-fn check_numbers(world: &World, i: usize, disc: Subject) -> Check {
-    let p = &world.particles;
-    for (name, column) in [("origin x", &p.origin_x), ("origin y", &p.origin_y)] {
-        disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
-        disc.must((column[i] / GRID).fract() == 0.0, || {
-            format!("{name} is {}, must be a multiple of {GRID}", column[i])
-        })?;
-    }
-    for (name, column) in [("x", &p.x), ("y", &p.y), ("previous x", &p.prev_x), ("previous y", &p.prev_y)] {
-        disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
-    }
-    let fastest = TIMES_SPEED_LIMIT * world.config.speed_limit();
-    disc.must_range("velocity x", p.vx[i], -fastest, fastest)?;
-    disc.must_range("velocity y", p.vy[i], -fastest, fastest)?;
-    disc.must_range("inverse mass", p.inv_mass[i], 0.0, f32::MAX)?;
-    disc.must_range("radius", p.radius[i], 0.0, LARGEST)?;
-    disc.must_range("friction", p.material[i].friction, 0.0, 10.0)?;
-    disc.must_range("restitution", p.material[i].restitution, 0.0, 1.0)
 }
 
 /// Discs that collide with walls have their centres within them, except in a world without protection, where discs move
