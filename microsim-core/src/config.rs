@@ -28,7 +28,7 @@ pub struct WorldConfig {
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
-    /// Drag of the medium, 1/s: a free particle loses this fraction of its speed per second. 0 to 100.
+    /// Linear damping, 1/s, the drag of the medium: a free particle keeps exp(-damping t) of its speed. 0 to 100.
     pub damping: f32,
     /// Speed limit of every particle, units/s, 0.1 to 1000. Bounds how far anything moves in a step, hence the margin with
     /// which pairs are searched, and is what makes walls and membranes tight (thesis 3.1.2, 4.2.2).

@@ -11,7 +11,7 @@ pub struct Exchange {
     pub chemical: ChemicalId,
     /// Amount that it secretes, 1/s, 0 to 1 000 000.
     pub secretion: f32,
-    /// Area that it clears of the chemical, square units/s, 0 to 1 000 000.
+    /// Clearance: area that it frees of the chemical, square units/s, 0 to 1 000 000.
     pub uptake: f32,
 }
 

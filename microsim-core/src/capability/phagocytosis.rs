@@ -119,7 +119,7 @@ impl PhagocytosisParams {
         visit(field("closing_length", words), Number(&mut self.closing_length, [1.0, 1.25]));
         let words = "Size to which soft prey shrinks while it goes in, relative to its own.";
         visit(field("soft_prey_scale", words), Number(&mut self.soft_prey_scale, [0.05, 1.0]));
-        let words = "Time of digestion of simple and of soft prey, s.";
+        let words = "Time of digestion of simple prey, of bacteria and of soft prey, s.";
         visit(field("digestion_time", words), Triple(&mut self.digestion_time, [0.05, 60.0]));
         let words = "Share of its speed that it keeps while it digests.";
         visit(field("digestion_speed", words), Number(&mut self.digestion_speed, [0.0, 1.0]));

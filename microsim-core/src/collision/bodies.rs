@@ -32,7 +32,7 @@ pub(super) struct BodyProxy {
     lane: usize,
     /// How much smaller its speculative margin is than the largest displacement, units.
     slack: f32,
-    /// Whether it was above the sleep threshold in the last step.
+    /// Whether it was above the sleep speed in the last step.
     is_moving: bool,
     discs: Range<usize>,
 }

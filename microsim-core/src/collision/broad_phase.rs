@@ -59,7 +59,7 @@ impl BroadPhase {
         self.ring_contacts.clone_from(&other.ring_contacts);
     }
 
-    /// Finds the pairs of the step that begins, and the blocks that sleep in it: those of which all bodies have a sleep time of
+    /// Finds the pairs of the step that begins, and the blocks that sleep in it: those whose bodies have all been slow for
     /// `steps_to_sleep` steps, with nothing near that moves.
     pub(crate) fn find_pairs(&mut self, input: SearchInput<'_>, sleep: &mut Sleep, steps_to_sleep: u16) {
         self.sort(input, sleep);

@@ -9,9 +9,9 @@ use super::wave;
 use glam::Vec2;
 
 /// Standard deviations of the two normal distributions by which the wave is blurred, micrometres, and the share of the
-/// first. They stand for the ring of the condenser and its image on the phase plate: the second is the width of the halo.
-const NEAR: f32 = 0.67;
-const FAR: f32 = 2.17;
+/// first. They stand for the ring of the condenser and its image on the phase plate.
+const CORE_WIDTH: f32 = 0.67;
+const HALO_WIDTH: f32 = 2.17;
 const NEAR_SHARE: f32 = 0.52;
 
 /// Pixel on which the surround wave is computed, micrometres: half of what it could show.
@@ -24,7 +24,7 @@ pub(super) const GLSL: Glsl =
 pub(super) fn grid_around(picture: &PixelGrid, least: f32) -> PixelGrid {
     let pixel = larger(PIXEL, least);
     let (low, high) = picture.bounds();
-    let margin = Vec2::splat(3.0 * FAR + 2.0 * pixel);
+    let margin = Vec2::splat(3.0 * HALO_WIDTH + 2.0 * pixel);
     // On a lattice of the world's: what is between its points does not come and go as the camera moves.
     let (low, high) = (((low - margin) / pixel).floor(), ((high + margin) / pixel).ceil());
     let corner = Vec2::new(low.x, high.y) * pixel;
@@ -33,7 +33,7 @@ pub(super) fn grid_around(picture: &PixelGrid, least: f32) -> PixelGrid {
 
 /// The weights of both distributions for a graphics card: those of the middle pixel and outwards, near and far in turn.
 pub(super) fn weights(pixel: f32) -> Vec<f32> {
-    let (near, far) = (gaussian(NEAR / pixel), gaussian(FAR / pixel));
+    let (near, far) = (gaussian(CORE_WIDTH / pixel), gaussian(HALO_WIDTH / pixel));
     let at = |weights: &[f32], k: usize| weights.get(weights.len() / 2 + k).copied().unwrap_or(0.0);
     (0..=far.len() / 2).flat_map(|k| [at(&near, k), at(&far, k)]).collect()
 }
@@ -50,8 +50,8 @@ impl SurroundWave {
     pub(super) fn of(MatterRaster { grid, matter }: MatterRaster) -> Self {
         let wave: Vec<[f32; 2]> = matter.into_iter().map(|matter| wave::behind(matter).to_array()).collect();
         let (mut near, mut far) = (wave.clone(), wave);
-        blur(&mut near, grid.columns, &gaussian(NEAR / grid.pixel));
-        blur(&mut far, grid.columns, &gaussian(FAR / grid.pixel));
+        blur(&mut near, grid.columns, &gaussian(CORE_WIDTH / grid.pixel));
+        blur(&mut far, grid.columns, &gaussian(HALO_WIDTH / grid.pixel));
         let mixed = near.into_iter().zip(far);
         let mixed = mixed.map(|(near, far)| Vec2::from(near) * NEAR_SHARE + Vec2::from(far) * (1.0 - NEAR_SHARE));
         Self { grid, wave: mixed.collect() }

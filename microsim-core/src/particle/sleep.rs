@@ -7,7 +7,7 @@
 use super::{BlockRange, LANES, Particles};
 use serde::{Deserialize, Serialize};
 
-/// Block of a body that is in none.
+/// Block index of a body that is in no block.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
 /// Sleep times of the bodies in blocks, and the blocks that sleep.
@@ -45,7 +45,7 @@ impl Sleep {
         self.sleep_time.get(block as usize).is_some_and(|lanes| lanes.iter().all(|&time| time >= steps))
     }
 
-    /// Puts the blocks to sleep of which all bodies have a sleep time of so many steps; returns whether there are any.
+    /// Puts to sleep each block whose bodies have all been slow for at least `steps` steps; returns whether there are any.
     pub(crate) fn fall_asleep(&mut self, steps: u16) -> bool {
         let Self { sleep_time, asleep } = self;
         asleep.clear();

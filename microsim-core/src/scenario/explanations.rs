@@ -28,7 +28,7 @@ const WORDS: &[(&str, &str)] = &[
     ("world", "The room."),
     ("world.size", "Width and height of the walled room, micrometres. May be left out when a [[field]] sizes it."),
     ("world.gravity", "Acceleration on everything, micrometres/s2."),
-    ("world.damping", "Drag of the medium, 1/s: the share of its speed that a free particle loses per second."),
+    ("world.damping", "Linear damping, 1/s: a free particle keeps exp(-damping t) of its speed."),
     ("world.max_speed", "Speed limit of every particle, micrometres/s."),
     ("world.protects_membranes", "Whether membranes are kept from leaking. Off is for comparison only."),
     ("world.sleeps", "Whether what lies still is left out of the step until something that moves comes near."),

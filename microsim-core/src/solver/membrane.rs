@@ -76,7 +76,7 @@ pub(crate) struct MembraneContent {
     pub area: f32,
     /// Rest spacing of the fluid.
     pub spacing: f32,
-    /// Circles of equal size that it is to fill: 1, or up to 2 while a furrow closes.
+    /// Circles of equal size that it is to fill: 1, or up to 3 while a furrow closes.
     pub lobes: f32,
     /// Length that folds take beside that, units.
     pub folds: f32,

@@ -6,7 +6,7 @@ use crate::organism::Organism;
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
-/// Boxes for each cell on average, at which there get to be more cells.
+/// Mean number of boxes in a cell above which the grid is refined.
 const CROWDED: usize = 4;
 
 /// Boxes of organisms, made for the first one that is spawned after a step and forgotten in the next step.

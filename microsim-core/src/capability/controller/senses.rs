@@ -104,7 +104,7 @@ impl Senses<'_> {
         self.others(is_so).reduce(|a, b| if distance(b) < distance(a) { b } else { a })
     }
 
-    /// A direction without what leads into walls next to it. One that is head-on becomes a direction along the wall.
+    /// A direction without its component into walls nearby. One that is head-on becomes a direction along the wall.
     pub(crate) fn along_walls(&self, heading: Vec2) -> Vec2 {
         let mut way = heading;
         for Wall { away, gap } in self.walls() {

@@ -1,6 +1,6 @@
 //! Phase contrast: the surround wave is weakened and set back (or ahead) by a quarter of a wave before it meets the wave
 //! that the specimen scattered (Zernike 1942). Halo and shade-off come by themselves: the phase plate cannot tell the
-//! surround wave from light that the specimen scatters a little. The width of the halo is that of the surround wave.
+//! surround wave from light that the specimen scatters a little. The width of the halo is `HALO_WIDTH` in `surround_wave`.
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 

@@ -17,7 +17,7 @@ pub(crate) fn unknown<'a>(what: &str, name: &str, known: impl IntoIterator<Item 
     let known: Vec<&str> = known.into_iter().collect();
     let guess = nearest(name, &known).map_or(String::new(), |near| format!(", did you mean `{near}`?"));
     let accepted = match known.len() {
-        0 => "none: there is none".to_owned(),
+        0 => "nothing: none is defined".to_owned(),
         count if count > MOST_NAMES => format!("{}, and others", known[..MOST_NAMES].join(", ")),
         _ => known.join(", "),
     };

@@ -1,4 +1,4 @@
-//! Distance constraint: two nodes keep their rest length, like a spring.
+//! Distance constraint: two nodes keep their rest length: rigid at compliance 0, else a damped spring.
 //!
 //! `C = |x_b - x_a| - l`, gradient `±n`. One XPBD iteration per substep with the multiplier starting at 0
 //! (Macklin, Mueller, Chentanez 2016, eqs. 18 and 26; Macklin et al. 2019, "Small Steps"):

@@ -1,25 +1,19 @@
-//! Division: a furrow closes around the equator of a cell, two links are swapped, one ring becomes two, and each lobe keeps
-//! its content.
+//! Division: a [furrow](super::furrow) closes around the equator of a cell, two links are swapped, one ring becomes two, and
+//! each lobe keeps its content.
 
 use crate::capability::Locomotion;
-use crate::capability::division::{Furrow, Order};
+use crate::capability::division::Order;
 use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::error::Error;
-use crate::event::{Event, Refusal};
+use crate::event::Event;
 use crate::geometry::polygon::{centroid, contains_point};
 use crate::geometry::ring::direction_or;
 use crate::id::OrganismId;
-use crate::organism::ring_surgery::{Swap, insert_node_in, set_outline};
+use crate::organism::ring_surgery::{Swap, set_outline};
 use crate::organism::{Organism, Phagosome, Storage};
-use crate::particle::Particles;
 use crate::rng::Rng;
-use crate::solver::membrane::links;
 use crate::world::World;
 use glam::Vec2;
-use std::ops::Range;
-
-/// Length of a link in a closing furrow above which it gets a new node, in rest lengths.
-const LONGEST: f32 = 1.15;
 
 /// One side of a divided cell: a ring and its content.
 struct Lobe {
@@ -72,51 +66,12 @@ impl World {
         }
     }
 
-    /// Advances a furrow by a step: adds nodes where the membrane is stretched, and swaps links when both sides have met.
-    pub(super) fn advance_furrow(&mut self, id: OrganismId) {
-        let Some(organism) = self.organisms.get_mut(id) else { return };
-        let Some(Furrow { elapsed, .. }) = organism.furrow() else { return };
-        if organism.is_quarantined {
-            return self.abandon_division(id, Refusal::Quarantined);
-        }
-        let elapsed = elapsed + self.config.dt;
-        let Some(divider) = organism.divider.as_mut() else { return };
-        divider.furrow = divider.furrow.map(|furrow| Furrow { elapsed, ..furrow });
-        let time_limit = divider.params.time_limit;
-        (0..self.membrane_changes()).for_each(|_| self.lengthen_furrow(id));
-        let Some(organism) = self.organisms.get(id) else { return };
-        match self.division_swap(organism) {
-            Ok(swap) => self.split(id, &swap),
-            Err(reason) if elapsed >= time_limit => self.abandon_division(id, reason),
-            Err(_) => {}
-        }
-    }
-
-    /// Puts a node into the membrane of the furrow, if it needs one.
-    fn lengthen_furrow(&mut self, id: OrganismId) {
-        let has_room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
-        let Self { organisms, particles, .. } = self;
-        let Some(organism) = organisms.get_mut(id).filter(|_| has_room) else { return };
-        if organism.missing_nodes() > 0 || longest_link(organism, particles) > LONGEST {
-            insert_node_in(organism, shorter_arc(organism), particles);
-        }
-    }
-
-    fn abandon_division(&mut self, id: OrganismId, reason: Refusal) {
-        let Some(organism) = self.organisms.get_mut(id) else { return };
-        if let Some(divider) = &mut organism.divider {
-            divider.furrow = None;
-        }
-        organism.update_wanted_nodes(&self.fluids);
-        self.events.push(Event::DivisionAbandoned { organism: id, reason });
-    }
-
     /// Splits a cell: the lobe that is cut off becomes an organism with the same properties, but a handle and random numbers
     /// of its own.
     pub(in crate::world) fn split(&mut self, id: OrganismId, swap: &Swap) {
         let Some(parent) = self.organisms.get(id) else { return };
-        let (left, cut) = swap.cut(&parent.outline);
-        let (left, cut) = (self.lobe(parent, left), self.lobe(parent, cut));
+        let (kept, cut) = swap.cut(&parent.outline);
+        let (kept, cut) = (self.lobe(parent, kept), self.lobe(parent, cut));
         let mut daughter = parent.clone();
         let daughter_id = self.organisms.next_id();
         daughter.rng = Rng::new(self.config.seed, daughter_id.stream());
@@ -132,7 +87,7 @@ impl World {
         self.organisms.insert(daughter);
         self.move_cytoplasm(&cut.fluid_particles, fluid, daughter_id);
         self.move_meals(&cut.meals, id, daughter_id);
-        self.reduce_to_lobe(id, left);
+        self.reduce_to_lobe(id, kept);
         self.reduce_to_lobe(daughter_id, cut);
         self.events.push(Event::Divided { parent: id, daughter: daughter_id });
     }
@@ -177,22 +132,4 @@ impl World {
         }
         organism.update_wanted_nodes(fluids);
     }
-}
-
-/// Positions in the outline of the side of the furrow with fewer nodes: lobes with equal membranes become equal.
-fn shorter_arc(organism: &Organism) -> Range<usize> {
-    let count = organism.outline.len();
-    let nodes = organism.furrow().map_or([0; 2], |furrow| furrow.nodes);
-    let [a, b] = nodes.map(|node| organism.outline.iter().position(|&other| other == node).unwrap_or(0));
-    let arcs = [(a, b), (b, a)].map(|(from, to)| from..from + (to + count - from) % count);
-    let [one, other] = arcs;
-    if one.len() < other.len() { one } else { other }
-}
-
-/// Length of the longest link over its rest length.
-fn longest_link(organism: &Organism, particles: &Particles) -> f32 {
-    let rest = organism.body.membrane().map_or(f32::INFINITY, |membrane| membrane.rest_length);
-    let length = |(a, b): (u32, u32)| particles.between(a as usize, b as usize).length();
-    links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest })
-        / rest
 }

@@ -1,60 +1,61 @@
-//! The furrow of a dividing cell: where it begins, and whether its two sides can be joined.
+//! The furrow of a dividing cell: it gets longer and narrower until its two sides are joined, or it is abandoned.
 
 use crate::capability::division::{DivisionParams, Furrow};
-use crate::capability::phagocytosis::{Meal, PreyClass};
-use crate::event::Refusal;
-use crate::geometry::polygon::{centroid, contains_point, is_simple};
-use crate::geometry::ring::direction_or;
+use crate::capability::phagocytosis::Meal;
+use crate::event::{Event, Refusal};
+use crate::geometry::polygon::{contains_point, is_simple};
+use crate::id::OrganismId;
 use crate::organism::Organism;
-use crate::organism::ring_surgery::Swap;
+use crate::organism::ring_surgery::{Swap, insert_node_in};
+use crate::particle::Particles;
+use crate::solver::membrane::links;
 use crate::world::World;
 use glam::Vec2;
+use std::ops::Range;
 
+/// Length of a link in a closing furrow above which it gets a new node, in rest lengths.
+const LONGEST: f32 = 1.15;
 /// Number of nodes on both sides of the bottom of the furrow between which the links to swap are searched for.
 const SEARCHED_NODES: usize = 4;
-/// Share of nodes that a division may add: two circles need 1.41 times the nodes of one.
-const SLACK: f32 = 0.6;
 
 impl World {
-    /// The furrow across `axis`, or across the longest axis, or the reason why the cell cannot divide.
-    pub(super) fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
-        Self::refusal(organism).map_or(Ok(()), Err)?;
-        let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else {
-            return Err(Refusal::TooSmall);
-        };
-        let outline = self.outline_of(organism);
-        let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
-        let axis = axis.unwrap_or_else(|| long_axis(&outline, centre));
-        let slack = (SLACK * outline.len() as f32) as u64;
-        if self.particles.live_count() as u64 + slack > u64::from(self.config.max_particles) {
-            return Err(Refusal::WorldFull);
+    /// Advances a furrow by a step: adds nodes where the membrane is stretched, and swaps links when both sides have met.
+    pub(super) fn advance_furrow(&mut self, id: OrganismId) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        let Some(Furrow { elapsed, .. }) = organism.furrow() else { return };
+        if organism.is_quarantined {
+            return self.abandon_division(id, Refusal::Quarantined);
         }
-        let ahead = |at: Vec2| (at - centre).dot(axis) > 0.0;
-        let fluid = organism.fluid_particles.iter().map(|&i| self.particles.position(i as usize));
-        let is_small = |count: usize, all: usize, least: u32| count.min(all - count) < least as usize;
-        if is_small(fluid.filter(|&at| ahead(at)).count(), organism.fluid_particles.len(), params.least_particles)
-            || is_small(outline.iter().filter(|&&at| ahead(at)).count(), outline.len(), params.least_nodes)
-        {
-            return Err(Refusal::TooSmall);
+        let elapsed = elapsed + self.config.dt;
+        let Some(divider) = organism.divider.as_mut() else { return };
+        divider.furrow = divider.furrow.map(|furrow| Furrow { elapsed, ..furrow });
+        let time_limit = divider.params.time_limit;
+        (0..self.membrane_changes()).for_each(|_| self.lengthen_furrow(id));
+        let Some(organism) = self.organisms.get(id) else { return };
+        match self.division_swap(organism) {
+            Ok(swap) => self.split(id, &swap),
+            Err(reason) if elapsed >= time_limit => self.abandon_division(id, reason),
+            Err(_) => {}
         }
-        if self.soft_prey_reaches(organism, centre, axis) {
-            return Err(Refusal::PreyInFurrow);
-        }
-        let nodes = bottom_nodes(organism, &outline, centre, axis).ok_or(Refusal::TooSmall)?;
-        let width = self.particles.between(nodes[0] as usize, nodes[1] as usize).length();
-        Ok(Furrow { nodes, width, elapsed: 0.0 })
     }
 
-    /// Whether soft prey inside a cell lies on the line across `axis` through a point, or closer than the membrane of the
-    /// furrow needs.
-    fn soft_prey_reaches(&self, organism: &Organism, point: Vec2, axis: Vec2) -> bool {
-        let room = organism.body.membrane().map_or(0.0, |membrane| membrane.rest_length);
-        let soft = organism.meals().iter().filter(|meal| meal.class == PreyClass::Soft && meal.phase.is_inside());
-        soft.filter_map(|meal| self.organisms.get(meal.prey)).any(|prey| {
-            let side = |i: usize, reach: f32| (self.particles.position(i) - point).dot(axis) + reach;
-            let discs = || prey.particles().map(|i| (i as usize, self.particles.radius[i as usize] + room));
-            discs().any(|(i, reach)| side(i, reach) > 0.0) && discs().any(|(i, reach)| side(i, -reach) < 0.0)
-        })
+    /// Puts a node into the membrane of the furrow, if it needs one.
+    fn lengthen_furrow(&mut self, id: OrganismId) {
+        let has_room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
+        let Self { organisms, particles, .. } = self;
+        let Some(organism) = organisms.get_mut(id).filter(|_| has_room) else { return };
+        if organism.missing_nodes() > 0 || longest_link(organism, particles) > LONGEST {
+            insert_node_in(organism, shorter_arc(organism), particles);
+        }
+    }
+
+    fn abandon_division(&mut self, id: OrganismId, reason: Refusal) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        if let Some(divider) = &mut organism.divider {
+            divider.furrow = None;
+        }
+        organism.update_wanted_nodes(&self.fluids);
+        self.events.push(Event::DivisionAbandoned { organism: id, reason });
     }
 
     /// The links to swap, if both sides of the furrow are close enough and all content lies in one lobe or the other.
@@ -73,11 +74,11 @@ impl World {
         if swap.length > divider.params.closing_length * membrane.rest_length {
             return Err(Refusal::FurrowOpen);
         }
-        let (left, cut) = swap.cut(&outline);
-        if !(is_simple(&left) && is_simple(&cut)) {
+        let (kept, cut) = swap.cut(&outline);
+        if !(is_simple(&kept) && is_simple(&cut)) {
             return Err(Refusal::FurrowOpen);
         }
-        self.check_lobes(organism, &divider.params, &left, &cut).map(|()| swap)
+        self.check_lobes(organism, &divider.params, &kept, &cut).map(|()| swap)
     }
 
     /// Checks that both rings are large enough, that each particle of cytoplasm is in exactly one of them, and that no prey
@@ -86,7 +87,7 @@ impl World {
         &self,
         organism: &Organism,
         params: &DivisionParams,
-        left: &[Vec2],
+        kept: &[Vec2],
         cut: &[Vec2],
     ) -> Result<(), Refusal> {
         let is_in = |lobe: &[Vec2], i: usize| contains_point(lobe, self.particles.position(i));
@@ -95,16 +96,16 @@ impl World {
             let inside = fluid().filter(|&i| is_in(lobe, i)).count();
             lobe.len() < params.least_nodes as usize || inside < params.least_particles as usize
         };
-        if is_small(left) || is_small(cut) {
+        if is_small(kept) || is_small(cut) {
             return Err(Refusal::TooSmall);
         }
-        if fluid().any(|i| is_in(left, i) == is_in(cut, i)) {
+        if fluid().any(|i| is_in(kept, i) == is_in(cut, i)) {
             return Err(Refusal::FurrowOpen);
         }
         let lies_between = |meal: &Meal| {
             let phagosome = organism.phagosomes.iter().find(|inner| inner.prey == meal.prey);
             let around = phagosome.into_iter().flat_map(|inner| &inner.ring).map(|&i| i as usize);
-            let mut sides = self.discs_of(meal.prey).chain(around).map(|i| is_in(left, i));
+            let mut sides = self.discs_of(meal.prey).chain(around).map(|i| is_in(kept, i));
             let first = sides.next();
             sides.any(|side| Some(side) != first)
         };
@@ -113,33 +114,20 @@ impl World {
     }
 }
 
-/// Direction in which an outline is longest: that of the larger eigenvalue of its second moments.
-fn long_axis(outline: &[Vec2], centre: Vec2) -> Vec2 {
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for &at in outline {
-        let arm = at - centre;
-        (xx, xy, yy) = (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y);
-    }
-    let half = 0.5 * (xx - yy);
-    let root = (half * half + xy * xy).sqrt();
-    // Of the two forms of the eigenvector, the one that does not cancel.
-    let axis = if half >= 0.0 { Vec2::new(half + root, xy) } else { Vec2::new(xy, root - half) };
-    direction_or(axis, Vec2::X)
+/// Positions in the outline of the side of the furrow with fewer nodes: lobes with equal membranes become equal.
+fn shorter_arc(organism: &Organism) -> Range<usize> {
+    let count = organism.outline.len();
+    let nodes = organism.furrow().map_or([0; 2], |furrow| furrow.nodes);
+    let [a, b] = nodes.map(|node| organism.outline.iter().position(|&other| other == node).unwrap_or(0));
+    let arcs = [(a, b), (b, a)].map(|(from, to)| from..from + (to + count - from) % count);
+    let [one, other] = arcs;
+    if one.len() < other.len() { one } else { other }
 }
 
-/// On each side of the axis the node of the outline that is nearest to the line across it.
-fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2) -> Option<[u32; 2]> {
-    let nearest = |is_left: bool| {
-        let on_side =
-            outline.iter().zip(&organism.outline).filter(|(at, _)| (axis.perp_dot(**at - centre) > 0.0) == is_left);
-        let mut best: Option<(f32, u32)> = None;
-        for (&at, &node) in on_side {
-            let distance = (at - centre).dot(axis).abs();
-            if best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, node));
-            }
-        }
-        best.map(|(_, node)| node)
-    };
-    Some([nearest(true)?, nearest(false)?])
+/// Length of the longest link over its rest length.
+fn longest_link(organism: &Organism, particles: &Particles) -> f32 {
+    let rest = organism.body.membrane().map_or(f32::INFINITY, |membrane| membrane.rest_length);
+    let length = |(a, b): (u32, u32)| particles.between(a as usize, b as usize).length();
+    links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest })
+        / rest
 }

@@ -5,6 +5,7 @@
 
 mod division;
 mod furrow;
+mod furrow_plan;
 mod fusion;
 mod growth;
 mod transfer;

@@ -1,0 +1,87 @@
+//! The plan of a furrow: where it begins, or why the cell cannot divide.
+
+use crate::capability::division::Furrow;
+use crate::capability::phagocytosis::PreyClass;
+use crate::event::Refusal;
+use crate::geometry::polygon::centroid;
+use crate::geometry::ring::direction_or;
+use crate::organism::Organism;
+use crate::world::World;
+use glam::Vec2;
+
+/// Share of nodes that a division may add: two circles need 1.41 times the nodes of one.
+const SLACK: f32 = 0.6;
+
+impl World {
+    /// The furrow across `axis`, or across the longest axis, or the reason why the cell cannot divide.
+    pub(super) fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
+        Self::refusal(organism).map_or(Ok(()), Err)?;
+        let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else {
+            return Err(Refusal::TooSmall);
+        };
+        let outline = self.outline_of(organism);
+        let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
+        let axis = axis.unwrap_or_else(|| long_axis(&outline, centre));
+        let slack = (SLACK * outline.len() as f32) as u64;
+        if self.particles.live_count() as u64 + slack > u64::from(self.config.max_particles) {
+            return Err(Refusal::WorldFull);
+        }
+        let ahead = |at: Vec2| (at - centre).dot(axis) > 0.0;
+        let fluid = organism.fluid_particles.iter().map(|&i| self.particles.position(i as usize));
+        let is_small = |count: usize, all: usize, least: u32| count.min(all - count) < least as usize;
+        if is_small(fluid.filter(|&at| ahead(at)).count(), organism.fluid_particles.len(), params.least_particles)
+            || is_small(outline.iter().filter(|&&at| ahead(at)).count(), outline.len(), params.least_nodes)
+        {
+            return Err(Refusal::TooSmall);
+        }
+        if self.soft_prey_reaches(organism, centre, axis) {
+            return Err(Refusal::PreyInFurrow);
+        }
+        let nodes = bottom_nodes(organism, &outline, centre, axis).ok_or(Refusal::TooSmall)?;
+        let width = self.particles.between(nodes[0] as usize, nodes[1] as usize).length();
+        Ok(Furrow { nodes, width, elapsed: 0.0 })
+    }
+
+    /// Whether soft prey inside a cell lies on the line across `axis` through a point, or closer than the membrane of the
+    /// furrow needs.
+    fn soft_prey_reaches(&self, organism: &Organism, point: Vec2, axis: Vec2) -> bool {
+        let room = organism.body.membrane().map_or(0.0, |membrane| membrane.rest_length);
+        let soft = organism.meals().iter().filter(|meal| meal.class == PreyClass::Soft && meal.phase.is_inside());
+        soft.filter_map(|meal| self.organisms.get(meal.prey)).any(|prey| {
+            let side = |i: usize, reach: f32| (self.particles.position(i) - point).dot(axis) + reach;
+            let discs = || prey.particles().map(|i| (i as usize, self.particles.radius[i as usize] + room));
+            discs().any(|(i, reach)| side(i, reach) > 0.0) && discs().any(|(i, reach)| side(i, -reach) < 0.0)
+        })
+    }
+}
+
+/// Direction in which an outline is longest: that of the larger eigenvalue of its second moments.
+fn long_axis(outline: &[Vec2], centre: Vec2) -> Vec2 {
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for &at in outline {
+        let arm = at - centre;
+        (xx, xy, yy) = (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y);
+    }
+    let half = 0.5 * (xx - yy);
+    let root = (half * half + xy * xy).sqrt();
+    // Of the two forms of the eigenvector, the one that does not cancel.
+    let axis = if half >= 0.0 { Vec2::new(half + root, xy) } else { Vec2::new(xy, root - half) };
+    direction_or(axis, Vec2::X)
+}
+
+/// On each side of the axis the node of the outline that is nearest to the line across it.
+fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2) -> Option<[u32; 2]> {
+    let nearest = |is_left: bool| {
+        let on_side =
+            outline.iter().zip(&organism.outline).filter(|(at, _)| (axis.perp_dot(**at - centre) > 0.0) == is_left);
+        let mut best: Option<(f32, u32)> = None;
+        for (&at, &node) in on_side {
+            let distance = (at - centre).dot(axis).abs();
+            if best.is_none_or(|(least, _)| distance < least) {
+                best = Some((distance, node));
+            }
+        }
+        best.map(|(_, node)| node)
+    };
+    Some([nearest(true)?, nearest(false)?])
+}
