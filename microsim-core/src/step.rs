@@ -3,6 +3,7 @@
 
 use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
+use crate::float_environment::with_default_float_environment;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
@@ -82,9 +83,11 @@ impl World {
     }
 
     /// The same as [`World::step`]; calls `finished` after each phase, once per substep for those inside the loop. For
-    /// measuring times: the core itself reads no clock.
+    /// measuring times: the core itself reads no clock. It is called in the default floating-point environment.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+        with_default_float_environment(|| {
+            parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+        });
     }
 }
 

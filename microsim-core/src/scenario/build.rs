@@ -11,6 +11,7 @@ use super::sections::game::Game;
 use super::sections::group::{Group, Positions};
 use super::spawner::Spawner;
 use crate::error::Error;
+use crate::float_environment::with_default_float_environment;
 use crate::id::{ChemicalId, OrganismId};
 use crate::inputs::Inputs;
 use crate::world::World;
@@ -52,7 +53,7 @@ impl Scenario {
             checks: self.file.checks.clone(),
             game: self.file.game.clone(),
         };
-        let spawners = self.fill(&mut built, &context);
+        let spawners = with_default_float_environment(|| self.fill(&mut built, &context));
         built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
             .with_spawners(spawners);
         context.finish()?;

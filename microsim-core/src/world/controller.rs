@@ -4,6 +4,7 @@ use super::World;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::error::Error;
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 
 impl World {
@@ -14,7 +15,7 @@ impl World {
     /// the organism cannot move or has no outline to sense with.
     pub fn set_controller(&mut self, id: OrganismId, controller: Controller) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
-        controller.validate().map_err(|error| error.within("controller"))?;
+        with_default_float_environment(|| controller.validate()).map_err(|error| error.within("controller"))?;
         if let Some(organism) = self.organisms.get(id) {
             self.check_controller(&controller, &organism.locomotion, !organism.outline.is_empty())?;
         }
