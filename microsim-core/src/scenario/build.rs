@@ -121,7 +121,14 @@ fn refuse_spawn(context: &ReadContext<'_>, group: &Group, error: &Error) {
     let path = match error.field() {
         field @ ("scale" | "controller") => format!("{}.{field}", group.path),
         at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
+        field if is_of_controller(field) => format!("{}.controller", group.path),
         _ => group.count_path(context),
     };
-    context.refuse(&path, format!("`{}` {message}", group.prototype.name), accepted.unwrap_or_default());
+    let what = if is_of_controller(error.field()) { format!(", {}:", error.field()) } else { String::new() };
+    context.refuse(&path, format!("`{}`{what} {message}", group.prototype.name), accepted.unwrap_or_default());
+}
+
+/// Whether a field is why an organism cannot follow its controller.
+fn is_of_controller(field: &str) -> bool {
+    field == "speed" || field.starts_with("controller.")
 }

@@ -38,7 +38,7 @@ use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
-use crate::solver::drive::Drive;
+use crate::solver::drive::{Drive, Tow};
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
@@ -110,6 +110,7 @@ pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
+    pub tows: Vec<Tow>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
     pub occupancy: Occupancy,

@@ -76,7 +76,7 @@ impl World {
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
         let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
-        self.check_controller(&placement.controller, &blueprint.locomotion, has_outline)?;
+        self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
         if blueprint.fluid.is_some() && placement.scale != 1.0 {
             return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
         }
