@@ -1,6 +1,7 @@
 //! Inputs: commands to organisms for one step, the same for mouse, bot and replay.
 
 use crate::error::{Error, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use glam::Vec2;
 use serde::de::Error as _;
@@ -26,7 +27,8 @@ impl Intent {
         in_range("goal.x", goal.x, -1e6, 1e6)?;
         in_range("goal.y", goal.y, -1e6, 1e6)?;
         // Turns -0 into +0: equal intents have equal bits.
-        Ok(Self { goal: Some(goal + Vec2::ZERO), digests: false })
+        let goal = with_default_float_environment(|| goal + Vec2::ZERO);
+        Ok(Self { goal: Some(goal), digests: false })
     }
 
     /// The same, and to digest what is inside (or not to).

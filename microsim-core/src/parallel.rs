@@ -3,6 +3,8 @@
 //! do results.
 
 #[cfg(feature = "parallel")]
+use crate::float_environment::with_default_float_environment;
+#[cfg(feature = "parallel")]
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Particles that are worked on in one go, a fixed number whatever the number of threads.
@@ -16,7 +18,7 @@ const LARGE: usize = 8192;
 pub(crate) fn in_pool(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     if particles > LARGE && !is_inside() {
-        return rayon::scope(|_| work());
+        return rayon::scope(|_| with_default_float_environment(work));
     }
     let _ = particles;
     work();
@@ -33,7 +35,9 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
     #[cfg(feature = "parallel")]
     if parts.len() > 1 && is_inside() {
         use rayon::prelude::*;
-        return parts.into_par_iter().with_max_len(1).map(work).collect();
+        let work = |part| with_default_float_environment(|| work(part));
+        // Around all of it too: a thread that waits may do work of others, and that may leave it in another environment.
+        return with_default_float_environment(|| parts.into_par_iter().with_max_len(1).map(work).collect());
     }
     parts.into_iter().map(work).collect()
 }
@@ -46,7 +50,7 @@ pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {
         let is_done = AtomicBool::new(false);
         let worker = || {
             let _end = SetAtEnd(&is_done);
-            work();
+            with_default_float_environment(work);
         };
         // Nobody waits before the work has begun, and the work waits for nobody: whichever thread waits, it ends.
         let waiter = || {
@@ -54,7 +58,7 @@ pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {
                 std::hint::spin_loop();
             }
         };
-        rayon::join(worker, waiter);
+        with_default_float_environment(|| rayon::join(worker, waiter));
         return;
     }
     let _ = particles;

@@ -3,6 +3,7 @@
 
 use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
+use crate::float_environment::with_default_float_environment;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
 use crate::parallel;
@@ -82,9 +83,11 @@ impl World {
     }
 
     /// The same as [`World::step`]; calls `finished` after each phase, once per substep for those inside the loop. For
-    /// measuring times: the core itself reads no clock.
+    /// measuring times: the core itself reads no clock. It is called in the default floating-point environment.
     pub fn step_observed(&mut self, inputs: &Inputs, mut finished: impl FnMut(Phase) + Send) {
-        parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+        with_default_float_environment(|| {
+            parallel::in_pool(self.particles.len(), || advance(self, inputs, &mut finished));
+        });
     }
 }
 
@@ -134,15 +137,18 @@ fn steer(world: &mut World, inputs: &Inputs) {
         world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
     let environment = senses::Environment { size, dt, chemicals, obstacles, others };
-    steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, events);
+    steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, &mut scratch.tows, events);
+    drive::begin_tows(&scratch.tows, particles);
     phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
     division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
     // An organism with a drive stays awake, even if it is blocked.
-    for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
-        let owner = organisms.id_at(particles.owner[drive.particle as usize]);
+    let driven = scratch.drives.iter().map(|drive| (drive.particle, drive.velocity));
+    let towed = scratch.tows.iter().map(|tow| (tow.first, tow.velocity));
+    for (particle, _) in driven.chain(towed).filter(|(_, velocity)| *velocity != Vec2::ZERO) {
+        let owner = organisms.id_at(particles.owner[particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
         if let Some((block, lane)) = lane {
             sleep.wake_up(block, lane);
@@ -162,6 +168,7 @@ fn stop_sleepers(world: &mut World) {
 
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
+    drive::apply_tows(&scratch.tows, particles, config, h);
     drive::apply(&scratch.drives, particles, h);
     let outside = outside_of(blocks.iter().map(Block::range), particles.len());
     let mut columns = particles.columns();

@@ -6,6 +6,7 @@ pub(crate) mod exchange;
 pub(crate) mod front_pull;
 pub(crate) mod phagocytosis;
 pub(crate) mod sensing;
+mod tow;
 
 use crate::capability::Locomotion;
 use crate::capability::controller::senses::{Environment, Senses, Steering};
@@ -15,7 +16,7 @@ use crate::inputs::Inputs;
 use crate::organism::Organism;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
-use crate::solver::drive::Drive;
+use crate::solver::drive::{Drive, Tow};
 use glam::Vec2;
 use sensing::OwnBody;
 
@@ -26,21 +27,30 @@ pub(crate) fn steer_organisms(
     particles: &Particles,
     environment: &Environment<'_>,
     drives: &mut Vec<Drive>,
+    tows: &mut Vec<Tow>,
     events: &mut Vec<Event>,
 ) {
     drives.clear();
+    tows.clear();
     let can_move = |organism: &Organism| !organism.is_quarantined && organism.locomotion != Locomotion::None;
     for (id, organism) in organisms.iter_mut(can_move) {
         let body = OwnBody::of(organism, particles);
         let senses = body.senses(id, organism, environment);
+        let before = tow::wanted_velocity(organism, senses.at);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
         let steering = intent.map_or(own, |intent| intent.goal().map(Steering::to));
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
-        organism.goal = steering.map(|steering| steering.goal).filter(|_| may_move);
+        organism.goal = steering.filter(|steering| may_move && steering.relative_speed != 0.0).map(|it| it.goal);
         organism.relative_speed = steering.map_or(1.0, |steering| steering.relative_speed);
-        organism.progress.note(organism.goal.is_some(), &senses);
-        move_towards(id, organism, particles, drives, events);
+        if let Locomotion::Tow { max_acceleration } = organism.locomotion {
+            let is_hindered = !tow::follows(senses.velocity, before);
+            organism.progress.note(organism.goal.is_some() && is_hindered, &senses);
+            tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration));
+        } else {
+            organism.progress.note(organism.goal.is_some(), &senses);
+            move_towards(id, organism, particles, drives, events);
+        }
     }
 }
 
@@ -64,7 +74,7 @@ fn move_towards(
 ) {
     let goal = organism.goal;
     match organism.locomotion.clone() {
-        Locomotion::None => {}
+        Locomotion::None | Locomotion::Tow { .. } => {}
         Locomotion::FrontPull { front } => {
             let Some(goal) = goal else { return };
             let new_front = front_pull::drive(organism, front, goal, particles, drives);
@@ -76,16 +86,6 @@ fn move_towards(
         Locomotion::Crawl { .. } => {
             let front_centre = goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
             organism.locomotion = Locomotion::Crawl { front_centre };
-        }
-        Locomotion::Tow { max_acceleration } => {
-            // The first particle heads for the goal, each other one for the one before it: at low Reynolds number nothing swings.
-            let mut ahead = goal;
-            for particle in (0..organism.slots).map(|slot| organism.body.particle(slot)) {
-                let at = particles.position(particle as usize);
-                let velocity = heading(ahead.map_or(Vec2::ZERO, |ahead| ahead - at)) * organism.present_speed();
-                drives.push(Drive { particle, velocity, max_acceleration });
-                ahead = ahead.map(|_| at);
-            }
         }
     }
 }

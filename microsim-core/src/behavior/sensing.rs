@@ -29,8 +29,9 @@ impl OwnBody {
         let outline = organism.outline_positions(particles);
         let count = outline.len() as f32;
         if outline.is_empty() {
-            let first = organism.first_node().map(|i| i as usize);
-            let (velocity, radius) = first.map_or((Vec2::ZERO, 0.0), |i| (particles.velocity(i), particles.radius[i]));
+            let radius = organism.first_node().map_or(0.0, |i| particles.radius[i as usize]);
+            let count = organism.particles().count().max(1) as f32;
+            let velocity = organism.particles().map(|i| particles.velocity(i as usize)).sum::<Vec2>() / count;
             return Self { at, velocity, radius, outline };
         }
         let velocity = organism.outline_particles().map(|i| particles.velocity(i as usize)).sum::<Vec2>() / count;

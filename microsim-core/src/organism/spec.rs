@@ -4,6 +4,7 @@ use super::OrganismSpec;
 use super::blueprint::Blueprint;
 use crate::capability::Locomotion;
 use crate::error::Error;
+use crate::float_environment::with_default_float_environment;
 use crate::look::Look;
 use crate::spec_field::FieldVisitor;
 
@@ -81,7 +82,7 @@ impl OrganismSpec {
     #[must_use]
     pub fn scaled(&self, scale: f32) -> (Self, f32) {
         let mut scaled = self.clone();
-        let is_scaled = scaled.spec_mut().scale(scale);
+        let is_scaled = with_default_float_environment(|| scaled.spec_mut().scale(scale));
         (scaled, if is_scaled { 1.0 } else { scale })
     }
 

@@ -11,6 +11,7 @@ use super::sections::game::Game;
 use super::sections::group::{Group, Positions};
 use super::spawner::Spawner;
 use crate::error::Error;
+use crate::float_environment::with_default_float_environment;
 use crate::id::{ChemicalId, OrganismId};
 use crate::inputs::Inputs;
 use crate::world::World;
@@ -52,7 +53,7 @@ impl Scenario {
             checks: self.file.checks.clone(),
             game: self.file.game.clone(),
         };
-        let spawners = self.fill(&mut built, &context);
+        let spawners = with_default_float_environment(|| self.fill(&mut built, &context));
         built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
             .with_spawners(spawners);
         context.finish()?;
@@ -120,7 +121,14 @@ fn refuse_spawn(context: &ReadContext<'_>, group: &Group, error: &Error) {
     let path = match error.field() {
         field @ ("scale" | "controller") => format!("{}.{field}", group.path),
         at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
+        field if is_of_controller(field) => format!("{}.controller", group.path),
         _ => group.count_path(context),
     };
-    context.refuse(&path, format!("`{}` {message}", group.prototype.name), accepted.unwrap_or_default());
+    let what = if is_of_controller(error.field()) { format!(", {}:", error.field()) } else { String::new() };
+    context.refuse(&path, format!("`{}`{what} {message}", group.prototype.name), accepted.unwrap_or_default());
+}
+
+/// Whether a field is why an organism cannot follow its controller.
+fn is_of_controller(field: &str) -> bool {
+    field == "speed" || field.starts_with("controller.")
 }

@@ -105,6 +105,7 @@ pub use sections::game::{Game, Points};
 pub use sections::output::{FramePlan, OutputPlan, TableFormat, TablePlan};
 
 use crate::config::WorldConfig;
+use crate::float_environment::with_default_float_environment;
 use file::File;
 use reader::Document;
 
@@ -127,9 +128,11 @@ impl Scenario {
     /// All errors in the text and the overrides, each with its place. [`Scenario::build`] reports those that depend on the
     /// seed, and overlaps of organisms.
     pub fn parse(text: &str, overrides: &[(String, String)]) -> Result<Self, Diagnostics> {
-        let (table, document) = Document::read(text, overrides)?;
-        let file = file::read(&table, &document)?;
-        Ok(Self { file, document, effective: reader::without_spans(&table) })
+        with_default_float_environment(|| {
+            let (table, document) = Document::read(text, overrides)?;
+            let file = file::read(&table, &document)?;
+            Ok(Self { file, document, effective: reader::without_spans(&table) })
+        })
     }
 
     /// Its name; empty if the file has none.

@@ -6,6 +6,7 @@ use super::spawner::Spawner;
 #[cfg(feature = "snapshot")]
 use super::spawner::SpawnerState;
 use crate::error::{Error, ErrorKind};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::{Event, Inputs, Intent, World};
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,11 @@ impl Script {
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
+        with_default_float_environment(|| self.do_what_is_due(world));
+        &self.inputs
+    }
+
+    fn do_what_is_due(&mut self, world: &mut World) {
         self.rename(world.events());
         for spawner in &mut self.spawners {
             spawner.before_step(world);
@@ -109,7 +115,6 @@ impl Script {
             let way = place.and_then(|place| Intent::toward(place).ok());
             self.inputs.set(*organism, way.unwrap_or(Intent::REST).digesting(*digests));
         }
-        &self.inputs
     }
 
     /// Names daughters of divisions, and lets those that have fused go by the names of both.

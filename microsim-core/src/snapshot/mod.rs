@@ -25,6 +25,7 @@ pub use checkpoint::Checkpoint;
 
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::ObstacleRecord;
+use crate::float_environment::with_default_float_environment;
 use crate::world::World;
 use crate::world::state::restore::WorldState;
 use envelope::Format;
@@ -115,6 +116,10 @@ impl World {
     /// When the bytes are not what [`World::to_snapshot`] wrote, see [`SnapshotError`]. All of them are checked: the
     /// returned world can be stepped.
     pub fn from_snapshot(bytes: &[u8]) -> Result<Self, SnapshotError> {
+        with_default_float_environment(|| Self::read(bytes))
+    }
+
+    fn read(bytes: &[u8]) -> Result<Self, SnapshotError> {
         let (records, state): Content = decode(WORLD.open(bytes)?)?;
         let obstacle = |(k, record): (usize, ObstacleRecord)| {
             record.restore().ok_or_else(|| invalid(format!("obstacles[{k}]: no shape")))

@@ -1,7 +1,14 @@
-//! Drives: velocities that a body gives to its own particles, for example the front of a crawling cell.
+//! Drives: velocities that a body gives to its own particles, for example the front of a crawling cell, and tows, velocities of
+//! a body as a whole.
 
+use super::lanes::LANES;
+use crate::config::WorldConfig;
+use crate::geometry::ring::direction_or;
 use crate::particle::Particles;
 use glam::Vec2;
+
+/// Time in which a rod turns most of the way to its heading, s.
+const TURN_TIME: f32 = 0.1;
 
 /// One particle that is to move with a given velocity.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +27,81 @@ pub(crate) fn apply(drives: &[Drive], particles: &mut Particles, h: f32) {
         let limit = super::ratio_limit(change.length_squared(), drive.max_acceleration * h);
         particles.vx[i] += change.x * limit;
         particles.vy[i] += change.y * limit;
+    }
+}
+
+/// A body in a block that is to move as a whole with a given velocity, with its first particle ahead.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tow {
+    /// Its first particle, and the number of its particles.
+    pub first: u32,
+    pub slots: u32,
+    /// Wanted velocity of its centre, units/s.
+    pub velocity: Vec2,
+    /// Where the first particle is to point: a unit vector, or zero to turn no further.
+    pub heading: Vec2,
+    /// Largest acceleration towards the velocity, units/s2, beyond that against the drag of the medium.
+    pub max_acceleration: f32,
+    /// Change of velocity in this step that needs no acceleration, units/s: at low Reynolds number nothing has inertia.
+    pub at_once: f32,
+}
+
+impl Tow {
+    fn particles(&self) -> impl Iterator<Item = usize> + use<> {
+        (self.first as usize..).step_by(LANES).take(self.slots as usize)
+    }
+
+    fn mean_velocity(&self, particles: &Particles) -> Vec2 {
+        self.particles().map(|i| particles.velocity(i)).sum::<Vec2>() / self.slots as f32
+    }
+
+    /// Brings the velocity of its centre nearer to the wanted one, by at most `limit`.
+    fn approach(&self, particles: &mut Particles, limit: f32) {
+        let change = self.velocity - self.mean_velocity(particles);
+        let change = change * super::ratio_limit(change.length_squared(), limit);
+        for i in self.particles() {
+            particles.vx[i] += change.x;
+            particles.vy[i] += change.y;
+        }
+    }
+
+    /// Turns it towards its heading about its centre, which it leaves as it is.
+    fn turn(&self, particles: &mut Particles, fastest: f32, limit: f32) {
+        if self.slots < 2 {
+            return;
+        }
+        let (first, last) = (self.first as usize, self.first as usize + (self.slots as usize - 1) * LANES);
+        let rod = particles.between(last, first);
+        let (axis, arm) = (direction_or(rod, Vec2::X), 0.5 * rod.length());
+        let side = axis.perp_dot(self.heading);
+        let side = if axis.dot(self.heading) < 0.0 { 1.0_f32.copysign(side) } else { side };
+        let wanted = side * arm / TURN_TIME;
+        let wanted = wanted * super::ratio_limit(wanted * wanted, fastest);
+        let present = (particles.velocity(first) - particles.velocity(last)).dot(axis.perp()) * 0.5;
+        let change = wanted - present;
+        let change = axis.perp() * (change * super::ratio_limit(change * change, limit));
+        for (slot, i) in self.particles().enumerate() {
+            let share = 1.0 - 2.0 * slot as f32 / (self.slots - 1) as f32;
+            particles.vx[i] += change.x * share;
+            particles.vy[i] += change.y * share;
+        }
+    }
+}
+
+/// Begins a step: changes of velocity that need no acceleration.
+pub(crate) fn begin_tows(tows: &[Tow], particles: &mut Particles) {
+    for tow in tows.iter().filter(|tow| tow.at_once > 0.0) {
+        tow.approach(particles, tow.at_once);
+    }
+}
+
+pub(crate) fn apply_tows(tows: &[Tow], particles: &mut Particles, config: &WorldConfig, h: f32) {
+    for tow in tows {
+        let speed = tow.velocity.length();
+        tow.approach(particles, (tow.max_acceleration + config.damping * speed) * h);
+        let room = config.speed_limit() - speed;
+        let room = if room > 0.0 { room } else { 0.0 };
+        tow.turn(particles, if room < speed { room } else { speed }, tow.max_acceleration * h);
     }
 }
 

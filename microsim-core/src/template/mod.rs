@@ -4,6 +4,7 @@
 //! differ in place, direction and size.
 
 use crate::error::{Error, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::particle::{CollisionGroups, Material};
 use crate::solver::constraint::{self, Constraint, Distance, check_ring};
 use glam::Vec2;
@@ -183,7 +184,7 @@ impl TemplateBuilder {
     /// Links two slots at their present distance, with this compliance and damping time.
     pub fn spring(&mut self, a: u32, b: u32, compliance: f32, damping: f32) -> &mut Self {
         let rest_length = match (self.nodes.get(a as usize), self.nodes.get(b as usize)) {
-            (Some(a), Some(b)) => (b.position - a.position).length(),
+            (Some(a), Some(b)) => with_default_float_environment(|| (b.position - a.position).length()),
             _ => 0.0,
         };
         self.constraint(Distance { a, b, rest_length, compliance, damping })
@@ -217,6 +218,10 @@ impl TemplateBuilder {
     /// # Errors
     /// Names the node or constraint that is out of range or refers to a slot that does not exist.
     pub fn build(self) -> Result<Template, Error> {
+        with_default_float_environment(|| self.check())
+    }
+
+    fn check(self) -> Result<Template, Error> {
         let Self { nodes, mut constraints, outline } = self;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));

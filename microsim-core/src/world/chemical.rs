@@ -4,6 +4,7 @@ use super::World;
 use crate::capability::exchange::Exchange;
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::error::{Error, ErrorKind};
+use crate::float_environment::with_default_float_environment;
 use crate::id::{ChemicalId, OrganismId};
 
 impl World {
@@ -12,6 +13,10 @@ impl World {
     /// # Errors
     /// Names the field out of its range, which may depend on the room and the time step.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
+        with_default_float_environment(|| self.insert_chemical(spec))
+    }
+
+    fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let mut chemical = Chemical::new(spec, &self.config)?;
         for obstacle in self.obstacles() {
             chemical.close(|at| obstacle.nearest(at).1);
@@ -25,7 +30,7 @@ impl World {
     /// # Errors
     /// When the organism or the chemical does not exist, or a number is out of range.
     pub fn set_exchange(&mut self, id: OrganismId, exchange: Exchange) -> Result<(), Error> {
-        exchange.validate()?;
+        with_default_float_environment(|| exchange.validate())?;
         self.check_chemical(exchange.chemical, "chemical")?;
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         organism.exchanges.retain(|other| other.chemical != exchange.chemical);

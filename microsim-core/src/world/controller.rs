@@ -4,19 +4,20 @@ use super::World;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::error::Error;
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 
 impl World {
     /// Gives an organism another controller. Inputs still come first.
     ///
     /// # Errors
-    /// When the handle is stale, a field is out of range, the controller senses a chemical that this world does not have, or
-    /// the organism cannot move or has no outline to sense with.
+    /// When the handle is stale, a field is out of range, the controller senses a chemical that this world does not have, the
+    /// organism cannot move or has no outline to sense with, or it could not follow a random walk.
     pub fn set_controller(&mut self, id: OrganismId, controller: Controller) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
-        controller.validate().map_err(|error| error.within("controller"))?;
+        with_default_float_environment(|| controller.validate()).map_err(|error| error.within("controller"))?;
         if let Some(organism) = self.organisms.get(id) {
-            self.check_controller(&controller, &organism.locomotion, !organism.outline.is_empty())?;
+            self.check_controller(&controller, &organism.locomotion, organism.speed, !organism.outline.is_empty())?;
         }
         if let Some(organism) = self.organisms.get_mut(id) {
             organism.controller = controller;
@@ -29,6 +30,7 @@ impl World {
         &self,
         controller: &Controller,
         locomotion: &Locomotion,
+        speed: f32,
         has_outline: bool,
     ) -> Result<(), Error> {
         controller.chemicals().try_for_each(|chemical| self.check_chemical(chemical, "controller.chemical"))?;
@@ -38,6 +40,6 @@ impl World {
         if controller.needs_outline() && !has_outline {
             return Err(Error::unsupported("controller", "an organism with an outline, to sense with"));
         }
-        Ok(())
+        controller.check_body(locomotion, speed, &self.config)
     }
 }

@@ -27,6 +27,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::event::Event;
+use crate::float_environment::with_default_float_environment;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::Organism;
@@ -37,7 +38,7 @@ use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
-use crate::solver::drive::Drive;
+use crate::solver::drive::{Drive, Tow};
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
@@ -109,6 +110,7 @@ pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
+    pub tows: Vec<Tow>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
     pub occupancy: Occupancy,
@@ -170,8 +172,7 @@ impl World {
     /// # Errors
     /// Names the field of `config` that is out of range.
     pub fn new(config: WorldConfig) -> Result<Self, Error> {
-        config.validate()?;
-        let walls = obstacle::walls(&config);
+        let walls = with_default_float_environment(|| config.validate().map(|()| obstacle::walls(&config)))?;
         Ok(Self::of(config, Shared::new(walls)))
     }
 
@@ -193,7 +194,8 @@ impl World {
             events: Vec::new(),
             step_index: 0,
             guard: Guard::default(),
-            scratch: Scratch::default(),
+            // It holds a density, the fluid's at rest.
+            scratch: with_default_float_environment(Scratch::default),
             dispatch: Dispatch::default(),
         }
     }
@@ -234,7 +236,7 @@ impl World {
 
     /// Index of an equal template, added if there is none.
     pub(crate) fn template_index(&mut self, template: Template) -> u32 {
-        let known = self.templates.iter().position(|other| *other == template);
+        let known = with_default_float_environment(|| self.templates.iter().position(|other| *other == template));
         known.unwrap_or_else(|| {
             self.templates.push(template);
             self.templates.len() - 1

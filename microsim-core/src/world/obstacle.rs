@@ -6,6 +6,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::ObstacleRecord;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::ObstacleId;
 use crate::particle::Material;
 use glam::Vec2;
@@ -22,6 +23,10 @@ impl World {
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, or the obstacle would
     /// overlap an organism. Nothing is changed then.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
+        with_default_float_environment(|| self.insert_obstacle(obstacle))
+    }
+
+    fn insert_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
         let Material { friction, restitution } = obstacle.material;
         in_range("material.friction", friction, 0.0, 10.0)?;
         in_range("material.restitution", restitution, 0.0, 1.0)?;

@@ -2,6 +2,7 @@
 
 use super::World;
 use crate::error::{Error, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use glam::Vec2;
 
@@ -12,6 +13,10 @@ impl World {
     /// # Errors
     /// When the handle is stale, or a coordinate is not finite or beyond ±1000 units/s. Nothing is changed then.
     pub fn push(&mut self, id: OrganismId, velocity: Vec2) -> Result<(), Error> {
+        with_default_float_environment(|| self.add_velocity(id, velocity))
+    }
+
+    fn add_velocity(&mut self, id: OrganismId, velocity: Vec2) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         in_range("velocity.x", velocity.x, -1000.0, 1000.0)?;
         in_range("velocity.y", velocity.y, -1000.0, 1000.0)?;

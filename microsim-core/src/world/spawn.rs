@@ -8,6 +8,7 @@ use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
+use crate::float_environment::with_default_float_environment;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage};
@@ -31,7 +32,7 @@ impl World {
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
     /// what is already there, or when the world would hold too many particles. Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
-        self.spawn_blueprint(spec.blueprint()?, placement)
+        with_default_float_environment(|| self.spawn_blueprint(spec.blueprint()?, placement))
     }
 
     /// Puts an instance of a custom template into the world.
@@ -41,7 +42,7 @@ impl World {
     pub fn spawn_template(&mut self, template: TemplateId, placement: Placement) -> Result<OrganismId, Error> {
         let template = self.templates.get(template.0 as usize).cloned();
         let template = template.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
-        self.spawn_blueprint(Blueprint::custom(template), placement)
+        with_default_float_environment(|| self.spawn_blueprint(Blueprint::custom(template), placement))
     }
 
     /// Removes an organism. Prey that it holds is released and returns to its full size.
@@ -50,7 +51,7 @@ impl World {
     /// When the handle is stale.
     pub fn remove(&mut self, id: OrganismId) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
-        self.release_meals(id);
+        with_default_float_environment(|| self.release_meals(id));
         self.wake_up_touching(id);
         let Some(organism) = self.organisms.remove(id) else { return Ok(()) };
         self.exemptions.forget(id.index);
@@ -75,7 +76,7 @@ impl World {
     fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
         let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
-        self.check_controller(&placement.controller, &blueprint.locomotion, has_outline)?;
+        self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
         if blueprint.fluid.is_some() && placement.scale != 1.0 {
             return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
         }

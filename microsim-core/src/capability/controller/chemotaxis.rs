@@ -2,18 +2,23 @@
 //! there are more; what it cannot tell apart it ignores, and walks at random.
 //!
 //! Occupancy `c / (c + K)`: Zigmond 1977 (J. Cell Biol. 75, 606), who found that neutrophils tell a difference of about 1 %
-//! across their length, best near `K`. Direction from the first moment of the occupancy around the rim: Hu et al. 2010
+//! across their length, best near `K`. That receptors are counted sets the lower limit: of `N` receptors around the rim about
+//! `N q` are occupied, binomially, so that each component of the reading has the variance `8 (1 - q) / (N q)` (Berg and Purcell
+//! 1977, Biophys. J. 20, 193; around a rim Hu et al. 2010), and what no receptor tells is not heard. Direction from the first moment of the occupancy around the rim: Hu et al. 2010
 //! (Phys. Rev. Lett. 105, 048104). Turning bit by bit instead of growing a new front: Arrieumerlou and Meyer 2005 (Dev. Cell
 //! 8, 215).
 
 use super::persistent_walk::{PersistentWalk, PersistentWalkParams};
-use super::senses::{Senses, Steering};
+use super::senses::{Senses, Steering, larger};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::id::ChemicalId;
 use crate::rng::Rng;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+
+/// Receptors of a cell, about those of *Dictyostelium* (Hu et al. 2010). Between readings all of them change.
+const RECEPTORS: f32 = 80_000.0;
 
 /// Parameters of chemotaxis, see [`super::Controller::chemotaxis`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,7 +29,8 @@ pub struct ChemotaxisParams {
     pub saturation: f32,
     /// Least difference of occupancy between its two sides that it goes by, over the mean occupancy, 0 to 2.
     pub threshold: f32,
-    /// Standard deviation of each component of that difference in one reading, 0 to 2.
+    /// Standard deviation of each component of that difference in one reading, 0 to 2, beside that of the number of occupied
+    /// receptors.
     pub noise: f32,
     /// Time from one reading to the next, s, 0.01 to 60.
     pub interval: f32,
@@ -81,9 +87,7 @@ impl Chemotaxis {
         self.remaining -= dt;
         if self.remaining <= 0.0 {
             self.remaining = self.params.interval;
-            let reading = self.read(senses) + Vec2::new(rng.normal(), rng.normal()) * self.params.noise;
-            let is_heard = reading.length_squared() > self.params.threshold * self.params.threshold;
-            self.signal = is_heard.then(|| direction_or(reading, Vec2::X));
+            self.signal = self.read(senses, rng);
         }
         self.walk.turn(dt, rng);
         self.walk.heading = match self.signal {
@@ -94,8 +98,21 @@ impl Chemotaxis {
         Some(senses.along(self.walk.heading))
     }
 
-    /// Difference of occupancy between two sides of the outline, over the mean, and where it points: twice the first moment.
-    fn read(&self, senses: &Senses<'_>) -> Vec2 {
+    /// Where a reading says that there is more, if it says anything.
+    fn read(&self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Vec2> {
+        let (difference, occupancy) = self.compare(senses);
+        let occupied = RECEPTORS * occupancy;
+        let variance = self.params.noise * self.params.noise + 8.0 * (1.0 - occupancy) / larger(occupied, 1.0);
+        let reading = difference + Vec2::new(rng.normal(), rng.normal()) * variance.sqrt();
+        // With the probability of this none is occupied.
+        let is_silent = rng.exponential() > occupied;
+        let is_heard = !is_silent && reading.length_squared() > self.params.threshold * self.params.threshold;
+        is_heard.then(|| direction_or(reading, Vec2::X))
+    }
+
+    /// Difference of occupancy between two sides of the outline, over the mean, and where it points: twice the first moment; and
+    /// the mean.
+    fn compare(&self, senses: &Senses<'_>) -> (Vec2, f32) {
         let (mut sum, mut moment, mut middle) = (0.0, Vec2::ZERO, Vec2::ZERO);
         for &node in senses.outline {
             let concentration = senses.concentration(self.params.chemical, node);
@@ -108,7 +125,7 @@ impl Chemotaxis {
         let count = senses.outline.len() as f32;
         // Nodes are not spread evenly in direction around a cell that is not round.
         let moment = moment - middle * (sum / count);
-        if sum > 1e-9 { moment * (4.0 / sum) } else { Vec2::ZERO }
+        if sum > 0.0 { (moment * (4.0 / sum), sum / count) } else { (Vec2::ZERO, 0.0) }
     }
 }
 
@@ -160,6 +177,23 @@ mod tests {
         assert!(drift(bench(|params| (params.saturation, params.threshold) = (1e-3, 0.01))).abs() < 0.6, "saturated");
         assert!(drift(bench(|params| params.chemical = ChemicalId(9))).abs() < 0.6, "not there");
         assert!(drift(bench(|params| params.noise = 2.0)).abs() < 0.6, "drowned in noise");
+    }
+
+    #[test]
+    fn it_loses_its_way_with_the_number_of_occupied_receptors() {
+        // Over the concentration where it is, which is 3.
+        let index = |saturation: f32| {
+            let drift = |seed| {
+                let mut bench = bench(|params| (params.saturation, params.persistence) = (3.0 * saturation, 2.0));
+                bench.rng = Rng::new(seed, 1);
+                drift(bench)
+            };
+            (0..10).map(drift).sum::<f32>() / 10.0
+        };
+        let indices = [1.0, 1e2, 1e4, 1e6, 3e8].map(index);
+        println!("chemotactic index at c / K of 1, 1e-2, 1e-4, 1e-6, 3e-9: {indices:?}");
+        assert!(indices[0] > 0.9 && indices[1] > 0.5 && indices[2] < 0.4, "{indices:?}");
+        assert!(indices[2] < indices[1] && indices[3].abs() < 0.15 && indices[4].abs() < 0.15, "{indices:?}");
     }
 
     #[test]

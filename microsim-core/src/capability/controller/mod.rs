@@ -19,7 +19,9 @@ mod testing;
 pub(crate) mod thrash;
 pub(crate) mod wander;
 
-use crate::error::{Error, in_range};
+use crate::capability::Locomotion;
+use crate::config::WorldConfig;
+use crate::error::{Error, in_range, out_of_range};
 use crate::id::ChemicalId;
 use crate::rng::Rng;
 use avoidance::{Avoidance, AvoidanceParams};
@@ -119,7 +121,8 @@ impl Controller {
         Self::RunAndTumble(RunAndTumble::new(params))
     }
 
-    /// Brownian motion. What is kicked has to be light enough to follow; its speed must not be 0.
+    /// Brownian motion of what is kicked as a whole: a coccus, a bacillus or a probe. Refused where it would have to be faster
+    /// than [`WorldConfig::max_speed`].
     #[must_use]
     pub fn brownian(params: BrownianParams) -> Self {
         Self::Brownian(Brownian::new(params))
@@ -165,6 +168,16 @@ impl Controller {
             Self::Flee(model) => model.validate(),
             Self::Pursue(model) => model.validate(),
         }
+    }
+
+    /// Checks that a body follows it as its law says: one that moves in this way, at this speed, in a world of these settings.
+    pub(crate) fn check_body(&self, locomotion: &Locomotion, speed: f32, config: &WorldConfig) -> Result<(), Error> {
+        self.chain().try_for_each(|controller| match controller {
+            Self::PersistentWalk(model) => model.check_step(config.dt).and(check_speed(speed, 0.0, config)),
+            Self::RunAndTumble(model) => model.check_step(config.dt).and(check_speed(speed, 0.0, config)),
+            Self::Brownian(model) => model.check_body(locomotion, config).and(check_speed(speed, 1e-3, config)),
+            _ => Ok(()),
+        })
     }
 
     /// Decides for one step.
@@ -239,6 +252,21 @@ impl Controller {
     pub(crate) fn needs_outline(&self) -> bool {
         self.chain().any(|controller| matches!(controller, Self::Chemotaxis(_)))
     }
+}
+
+/// Checks that what walks at random can have its speed.
+fn check_speed(speed: f32, low: f32, config: &WorldConfig) -> Result<(), Error> {
+    let accepted = || format!("{low} to {}, `max_speed` of the world, for a random walk", config.max_speed);
+    let is_sound = (low..=config.max_speed).contains(&speed);
+    is_sound.then_some(()).ok_or_else(|| out_of_range("speed", speed.into(), accepted()))
+}
+
+/// Checks that a time of a random walk is three steps long or longer: its law does not hold for shorter ones.
+fn check_time(field: &str, time: f32, dt: f32) -> Result<(), Error> {
+    let accepted = || format!("{} or more, three steps of {dt} s", 3.0 * dt);
+    (time >= 2.99 * dt)
+        .then_some(())
+        .ok_or_else(|| out_of_range(&format!("controller.{field}"), time.into(), accepted()))
 }
 
 fn check_point(field: &str, point: Vec2) -> Result<(), Error> {

@@ -3,6 +3,7 @@
 //! `2 S^2 P (t - P (1 - exp(-t / P)))`; for crawling cells see Gail and Boone 1970 (Biophys. J. 10, 980) and Li,
 //! Norrelykke and Cox 2008 (PLoS ONE 3, e2093).
 
+use super::check_time;
 use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
@@ -14,7 +15,7 @@ use std::f32::consts::TAU;
 /// Parameters of the persistent random walk, see [`super::Controller::persistent_walk`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PersistentWalkParams {
-    /// Time over which it keeps its direction, s, 0.05 to 10 000.
+    /// Time over which it keeps its direction, s, 0.05 to 10 000; at least three steps.
     pub persistence: f32,
 }
 
@@ -41,10 +42,17 @@ impl PersistentWalk {
         in_range("persistence", self.params.persistence, 0.05, 1e4)
     }
 
+    pub(super) fn check_step(&self, dt: f32) -> Result<(), Error> {
+        check_time("persistence", self.params.persistence, dt)
+    }
+
     pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
+        let before = self.heading;
         self.turn(senses.around.dt, rng);
         self.heading = senses.along_walls(self.heading);
-        Some(senses.along(self.heading))
+        // It turns during the step: nearer to the law than where it heads before or after.
+        let mean = if before == Vec2::ZERO { self.heading } else { 0.5 * (before + self.heading) };
+        Some(senses.with_velocity(mean))
     }
 
     /// Lets the heading diffuse for a step.

@@ -5,6 +5,7 @@
 //! and Berg 1986 (PNAS 83, 8987). In an even field it diffuses with `v^2 tau^2 / (2 (1 - a) (tau + T))`, `a` being the mean
 //! cosine of a turn and `T` the time of a tumble (Lovely and Dahlquist 1975, J. Theor. Biol. 50, 477, in two dimensions).
 
+use super::check_time;
 use super::senses::{Senses, Steering, larger};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
@@ -14,10 +15,14 @@ use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
+/// Receptors of a bacterium, about those of *Escherichia coli* (Li and Hazelbauer 2004, J. Bacteriol. 186, 3687): what it
+/// remembers counts as one of them at least, which bounds what it can notice from below.
+const RECEPTORS: f32 = 15_000.0;
+
 /// Parameters of run and tumble, see [`super::Controller::run_and_tumble`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunAndTumbleParams {
-    /// Mean time of a run where nothing gets better, s, 0.02 to 600.
+    /// Mean time of a run where nothing gets better, s, 0.02 to 600; at least three steps.
     pub run: f32,
     /// Mean time of a tumble, s, 0 to 60.
     pub tumble: f32,
@@ -78,6 +83,10 @@ impl RunAndTumble {
         in_range("gain", gain, 0.0, 1e4)
     }
 
+    pub(super) fn check_step(&self, dt: f32) -> Result<(), Error> {
+        check_time("run", self.params.run, dt)
+    }
+
     pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let dt = senses.around.dt;
         let stretch = self.stretch(senses);
@@ -87,20 +96,22 @@ impl RunAndTumble {
         }
         if self.tumble_left > 0.0 {
             self.tumble_left -= dt;
-            if self.tumble_left > 0.0 {
-                return None;
+            if self.tumble_left > 0.5 * dt {
+                return Some(senses.with_velocity(Vec2::ZERO));
             }
             self.begin_run(rng);
         }
-        self.run_left -= dt / (self.params.run * stretch);
-        if self.run_left <= 0.0 {
+        let part = dt / (self.params.run * stretch);
+        self.run_left -= part;
+        // Rounded to steps, so that runs are neither longer nor shorter on average.
+        if self.run_left <= 0.5 * part {
             self.tumble_left = self.params.tumble * rng.exponential();
             if self.tumble_left < 0.5 * dt {
                 self.begin_run(rng);
             }
         }
         self.heading = senses.along_walls(self.heading);
-        Some(senses.along(self.heading))
+        Some(senses.with_velocity(self.heading))
     }
 
     fn begin_run(&mut self, rng: &mut Rng) {
@@ -119,7 +130,7 @@ impl RunAndTumble {
         if self.remembered < 0.0 {
             self.remembered = occupancy;
         }
-        let rise = (occupancy - self.remembered) / larger(self.remembered, 1e-9);
+        let rise = (occupancy - self.remembered) / larger(self.remembered, 1.0 / RECEPTORS);
         let part = senses.around.dt / (self.params.memory + senses.around.dt);
         self.remembered += (occupancy - self.remembered) * part;
         1.0 + self.params.gain * larger(rise, 0.0)

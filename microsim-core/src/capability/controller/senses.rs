@@ -19,12 +19,15 @@ pub(crate) struct Steering {
     pub goal: Vec2,
     /// Speed, in units of its own; negative: away from the goal, with the rear ahead.
     pub relative_speed: f32,
+    /// Whether a body that is towed as a whole takes this velocity at once, as it would at low Reynolds number, not by its
+    /// acceleration.
+    pub is_at_once: bool,
 }
 
 impl Steering {
     /// Steering to a point.
     pub(crate) fn to(goal: Vec2) -> Self {
-        Self { goal, relative_speed: 1.0 }
+        Self { goal, relative_speed: 1.0, is_at_once: false }
     }
 }
 
@@ -86,6 +89,12 @@ impl Senses<'_> {
     /// Steering along a direction.
     pub(crate) fn along(&self, heading: Vec2) -> Steering {
         Steering::to(self.at + heading * FAR)
+    }
+
+    /// Steering with a velocity, in units of its own speed.
+    pub(crate) fn with_velocity(&self, relative: Vec2) -> Steering {
+        let relative_speed = relative.length();
+        Steering { relative_speed, is_at_once: true, ..self.along(direction_or(relative, Vec2::X)) }
     }
 
     /// Concentration of a chemical at a point; nothing of one that is not there.

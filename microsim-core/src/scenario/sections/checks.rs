@@ -1,6 +1,7 @@
 //! Checks: the tables `[invariants]` and `[[expect]]`.
 
 use crate::event::Event;
+use crate::float_environment::with_default_float_environment;
 use crate::scenario::reader::{Fields, Read, ReadContext, SpannedValue, ValueType, mismatch};
 use crate::{Measure, World};
 use serde::de::Error as _;
@@ -63,9 +64,11 @@ impl Checks {
     /// Looks at the world after a step. Returns what this step has broken: invariants in the order of the measures, then
     /// expectations whose time has come.
     pub fn after_step(&mut self, world: &World) -> Vec<Violation> {
-        let mut broken: Vec<_> = self.invariants.iter_mut().filter_map(|bound| bound.broken(world)).collect();
-        broken.extend(self.expectations.iter_mut().filter_map(|expectation| expectation.broken(world)));
-        broken
+        with_default_float_environment(|| {
+            let mut broken: Vec<_> = self.invariants.iter_mut().filter_map(|bound| bound.broken(world)).collect();
+            broken.extend(self.expectations.iter_mut().filter_map(|expectation| expectation.broken(world)));
+            broken
+        })
     }
 }
 

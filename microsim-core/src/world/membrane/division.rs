@@ -6,6 +6,7 @@ use crate::capability::division::Order;
 use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::error::Error;
 use crate::event::Event;
+use crate::float_environment::with_default_float_environment;
 use crate::geometry::polygon::{centroid, contains_point};
 use crate::geometry::ring::direction_or;
 use crate::id::OrganismId;
@@ -43,7 +44,7 @@ impl World {
     /// # Errors
     /// When the handle is stale, the organism is no amoeboid cell, or the axis is zero or not finite.
     pub fn divide_along(&mut self, id: OrganismId, axis: Vec2) -> Result<(), Error> {
-        let axis = direction_or(axis, Vec2::ZERO);
+        let axis = with_default_float_environment(|| direction_or(axis, Vec2::ZERO));
         if axis == Vec2::ZERO {
             return Err(Error::unsupported("axis", "a finite vector that is not zero"));
         }

@@ -1,6 +1,7 @@
 //! Growth of an amoeboid cell (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
 use crate::error::{Error, ErrorKind, out_of_range};
+use crate::float_environment::with_default_float_environment;
 use crate::geometry::polygon::{contains_point, signed_area};
 use crate::geometry::ring::{GOLDEN_ANGLE, unit_vector};
 use crate::id::OrganismId;
@@ -32,7 +33,7 @@ impl World {
         if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
             return Err(Error::unsupported("organism", "an organism that is not dividing"));
         }
-        self.enlarge(id, nodes, particles)?;
+        with_default_float_environment(|| self.enlarge(id, nodes, particles))?;
         if let Some(organism) = self.organisms.get_mut(id) {
             organism.add_wanted_nodes(nodes, &self.fluids);
         }

@@ -1,5 +1,6 @@
 //! The first field in which two worlds differ, in words.
 
+use crate::float_environment::with_default_float_environment;
 use crate::particle::NO_OWNER;
 use crate::walk::{Leaf, PathSegment, Visitor, walk};
 use crate::world::World;
@@ -32,7 +33,7 @@ impl World {
         let mut listed = Leaves::default();
         walk(self, &mut listed);
         let mut compared = Comparison { known: listed.0.into_iter(), path: Vec::new(), found: None };
-        walk(other, &mut compared);
+        with_default_float_environment(|| walk(other, &mut compared));
         let (path, values) = compared.found?;
         let (of, field) = self.describe(&path);
         Some(Difference { of, field, values })

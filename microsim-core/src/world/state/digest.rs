@@ -5,6 +5,7 @@
 //! variants and the number of a list's elements one word, 64-bit integers and numbers two, text its bytes a word each after
 //! their number. Zeros are made positive and every NaN the same, so that equal states have equal digests.
 
+use crate::float_environment::with_default_float_environment;
 use crate::fnv::Fnv1a;
 use crate::walk::{Leaf, Visitor, walk};
 use crate::world::World;
@@ -61,7 +62,7 @@ impl World {
     /// anywhere in what the next step depends on differ in it (up to chance, 2^-64).
     #[must_use]
     pub fn digest(&self) -> u64 {
-        Digest::of(self)
+        with_default_float_environment(|| Digest::of(self))
     }
 }
 

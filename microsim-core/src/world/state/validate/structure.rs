@@ -104,7 +104,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
 fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Result<(), Error> {
     let Organism { controller, exchanges, engulfer, divider, .. } = organism;
     controller.validate().map_err(|error| error.within("controller"))?;
-    world.check_controller(controller, &organism.locomotion, has_outline)?;
+    world.check_controller(controller, &organism.locomotion, organism.speed, has_outline)?;
     for exchange in exchanges {
         let is_known = world.check_chemical(exchange.chemical, "chemical").and_then(|()| exchange.validate());
         is_known.map_err(|error| error.within("exchanges"))?;
