@@ -1,6 +1,6 @@
 //! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
-use crate::id::OrganismId;
+use crate::id::{ObstacleId, OrganismId};
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
 
@@ -104,6 +104,30 @@ pub enum Event {
         /// The organism.
         organism: OrganismId,
     },
+    /// A kinematic obstacle that stops met a body that it would have crushed; it stays where it is.
+    ObstacleBlocked {
+        /// The obstacle.
+        obstacle: ObstacleId,
+    },
+    /// Something entered a sensor. Exactly one [`Event::SensorLeft`] follows, even if one of them is removed.
+    SensorEntered {
+        /// The sensor.
+        sensor: ObstacleId,
+        /// What entered, or whose particle.
+        organism: OrganismId,
+        /// Of fluid without a membrane, of which each particle enters by itself: which one, see
+        /// [`crate::ParticleView::index`].
+        particle: Option<u32>,
+    },
+    /// Something left a sensor.
+    SensorLeft {
+        /// The sensor; after its removal the handle is stale.
+        sensor: ObstacleId,
+        /// What left, or whose particle; after its removal the handle is stale.
+        organism: OrganismId,
+        /// Of fluid without a membrane: which of its particles.
+        particle: Option<u32>,
+    },
 }
 
 /// Why a cell does not divide or fuse.
@@ -153,7 +177,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 14] = [
+    pub const NAMES: [&str; 17] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -168,6 +192,9 @@ impl Event {
         "fusion_refused",
         "fused",
         "quarantined",
+        "obstacle_blocked",
+        "sensor_entered",
+        "sensor_left",
     ];
 
     /// Name of its kind, for counting.
@@ -188,6 +215,9 @@ impl Event {
             Self::FusionRefused { .. } => "fusion_refused",
             Self::Fused { .. } => "fused",
             Self::Quarantined { .. } => "quarantined",
+            Self::ObstacleBlocked { .. } => "obstacle_blocked",
+            Self::SensorEntered { .. } => "sensor_entered",
+            Self::SensorLeft { .. } => "sensor_left",
         }
     }
 
@@ -207,7 +237,10 @@ impl Event {
             | Self::DivisionBegan { organism }
             | Self::DivisionRefused { organism, .. }
             | Self::DivisionAbandoned { organism, .. }
+            | Self::SensorEntered { organism, .. }
+            | Self::SensorLeft { organism, .. }
             | Self::Quarantined { organism } => [Some(organism), None],
+            Self::ObstacleBlocked { .. } => [None, None],
         }
     }
 }

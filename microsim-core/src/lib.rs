@@ -83,7 +83,7 @@ pub use capability::division::DivisionParams;
 pub use capability::exchange::Exchange;
 pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
 pub use chemical::{Chemical, ChemicalSpec};
-pub use collision::obstacle::Obstacle;
+pub use collision::obstacle::{Obstacle, ObstacleMotion};
 pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::{Event, Refusal};

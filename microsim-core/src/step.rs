@@ -93,6 +93,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.scratch.occupancy.clear();
     serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
+    world.plan_obstacle_paths();
     world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
@@ -216,6 +217,7 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
+    world.advance_obstacles();
     let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
@@ -226,7 +228,8 @@ fn project_contacts(world: &mut World) {
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);
     }
-    obstacle::project(&broad_phase.obstacle_contacts, obstacles, particles, &mut scratch.impacts);
+    let (paths, h) = (&mut scratch.obstacle_paths, config.substep());
+    obstacle::project(&broad_phase.obstacle_contacts, obstacles, paths, particles, &mut scratch.impacts, h);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
@@ -266,10 +269,13 @@ fn diffuse_chemicals(world: &mut World) {
 }
 
 fn conclude(world: &mut World) {
-    let World { config, particles, blocks, sleep, organisms, touching, events, scratch, .. } = world;
+    let World { particles, blocks, sleep, organisms, touching, events, scratch, .. } = world;
     let lane = |id| organisms.get(id)?.body.lane(blocks);
     let is_asleep = |id| lane(id).is_some_and(|(block, _)| sleep.is_asleep(block));
     touching.update(scratch.broad_phase.touched(), is_asleep, particles, organisms, events);
+    world.conclude_obstacle_paths();
+    world.update_sensors();
+    let World { config, particles, blocks, sleep, .. } = world;
     if config.sleeps {
         sleep.update_sleep_times(
             blocks.iter().map(Block::range),

@@ -3,8 +3,9 @@
 #![cfg(feature = "scenario")]
 
 use microsim_core::glam::Vec2;
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
-use microsim_core::{Event, OrganismId, Refusal};
+use microsim_core::{Event, Obstacle, OrganismId, Refusal, World, WorldConfig};
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
     [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
@@ -129,6 +130,8 @@ fn invariants_are_ranges_of_measures_and_counts() {
 fn every_kind_of_event_has_its_name_in_the_list() {
     let id = cell(&built(""));
     let (kind, reason) = (microsim_core::Kind::Agar, Refusal::Dividing);
+    let ball = Obstacle::new(SharedShape::ball(1.0), Pose::IDENTITY);
+    let obstacle = World::new(WorldConfig::default()).unwrap().add_obstacle(ball).unwrap();
     let events = [
         Event::ContactBegan { a: id, b: id },
         Event::ContactEnded { a: id, b: id },
@@ -144,6 +147,9 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::FusionRefused { organism: id, with: id, reason },
         Event::Fused { into: id, from: id },
         Event::Quarantined { organism: id },
+        Event::ObstacleBlocked { obstacle },
+        Event::SensorEntered { sensor: obstacle, organism: id, particle: None },
+        Event::SensorLeft { sensor: obstacle, organism: id, particle: None },
     ];
     assert_eq!(events.map(|event| event.name()), Event::NAMES);
 }

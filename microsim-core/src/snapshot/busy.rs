@@ -3,9 +3,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, Kind, Node, Obstacle, OrganismId,
-    PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, World,
-    WorldConfig,
+    CoccusSpec, Controller, Event, Exchange, FleeParams, FluidBlockSpec, Inputs, Intent, Kind, Node, Obstacle,
+    ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec,
+    Rope, RunAndTumbleParams, Template, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -15,6 +15,7 @@ use parry2d::shape::SharedShape;
 pub(super) fn world() -> World {
     let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
+    let [sensor, platform] = obstacles(&mut world);
     steer(&mut world, chemical);
     cage(&mut world, chemical);
     roped(&mut world);
@@ -24,7 +25,8 @@ pub(super) fn world() -> World {
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
-    world.events = events(eater, divider);
+    world.events = events(eater, divider, sensor);
+    world.move_obstacle(platform, Pose::translation(9.0, 4.0)).unwrap();
     let gone = cell(&mut world, 24.0, 55.0);
     world.remove(gone).unwrap();
     world
@@ -105,8 +107,23 @@ fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
     world.organisms.get(cell)?.engulfer.as_ref()?.meals.first().map(|meal| meal.phase)
 }
 
+/// A sensor with fluid in it, a one-way platform, and a place that is free again.
+fn obstacles(world: &mut World) -> [ObstacleId; 2] {
+    let block = FluidBlockSpec { size: Vec2::splat(2.0), ..FluidBlockSpec::default() };
+    world.spawn(&block.into(), Placement::at(150.0, 84.0)).unwrap();
+    let ball = |x, y| Obstacle::new(SharedShape::ball(2.0), Pose::translation(x, y));
+    let sensor = world.add_obstacle(Obstacle { is_sensor: true, ..ball(150.0, 84.0) }).unwrap();
+    let platform = Obstacle { motion: ObstacleMotion::Push, one_way: Some(Vec2::Y), ..ball(4.0, 4.0) };
+    let platform = world.add_obstacle(platform).unwrap();
+    let still = world.add_obstacle(Obstacle { motion: ObstacleMotion::Stop, ..ball(4.0, 86.0) }).unwrap();
+    let gone = world.add_obstacle(ball(150.0, 4.0)).unwrap();
+    world.remove_obstacle(gone).unwrap();
+    world.set_obstacle_enabled(still, false).unwrap();
+    [sensor, platform]
+}
+
 /// One of each kind.
-fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
+fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
     let reason = Refusal::FurrowOpen;
     vec![
         Event::ContactBegan { a, b },
@@ -123,5 +140,8 @@ fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
         Event::FusionRefused { organism: a, with: b, reason },
         Event::Fused { into: a, from: b },
         Event::Quarantined { organism: a },
+        Event::ObstacleBlocked { obstacle },
+        Event::SensorEntered { sensor: obstacle, organism: a, particle: Some(1) },
+        Event::SensorLeft { sensor: obstacle, organism: a, particle: None },
     ]
 }

@@ -18,12 +18,14 @@ const HEAVIEST: f32 = 30.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Impact {
     i: u32,
-    /// The other disc; `None` if it is a static obstacle.
+    /// The other disc; `None` if it is an obstacle.
     j: Option<u32>,
     /// From `i` to the other.
     normal: Vec2,
     /// Speed of separation that restitution asks for.
     rebound: f32,
+    /// Velocity of the obstacle's surface.
+    surface: Vec2,
 }
 
 /// Pushes overlapping discs apart.
@@ -93,19 +95,20 @@ impl Impact {
     /// An impact of two discs, if they approach each other; what sleeps is as if it were static.
     fn of(c: &Contact, normal: Vec2, p: &Particles) -> Option<Self> {
         match c.asleep {
-            [true, _] => return Self::on_static(p, c.j, -normal, c.restitution),
-            [_, true] => return Self::on_static(p, c.i, normal, c.restitution),
+            [true, _] => return Self::on_surface(p, c.j, -normal, c.restitution, Vec2::ZERO),
+            [_, true] => return Self::on_surface(p, c.i, normal, c.restitution, Vec2::ZERO),
             _ => {}
         }
         let approach = (p.velocity(c.j as usize) - p.velocity(c.i as usize)).dot(normal);
-        (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound: -c.restitution * approach })
+        let rebound = -c.restitution * approach;
+        (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound, surface: Vec2::ZERO })
     }
 
-    /// An impact of particle `i` on a static surface, if it approaches it.
-    pub(crate) fn on_static(p: &Particles, i: u32, normal: Vec2, restitution: f32) -> Option<Self> {
-        let approach = -p.velocity(i as usize).dot(normal);
+    /// An impact of particle `i` on a surface of this velocity, which nothing moves, if it approaches it.
+    pub(crate) fn on_surface(p: &Particles, i: u32, normal: Vec2, restitution: f32, surface: Vec2) -> Option<Self> {
+        let approach = (surface - p.velocity(i as usize)).dot(normal);
         let bounces = restitution > 0.0 && approach < 0.0;
-        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach })
+        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach, surface })
     }
 }
 
@@ -113,7 +116,7 @@ impl Impact {
 pub(crate) fn apply_restitution(impacts: &mut Vec<Impact>, p: &mut Particles) {
     for impact in impacts.drain(..) {
         let i = impact.i as usize;
-        let (other, wj) = impact.j.map_or((Vec2::ZERO, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
+        let (other, wj) = impact.j.map_or((impact.surface, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
         let lacking = impact.rebound - (other - p.velocity(i)).dot(impact.normal);
         if lacking > 0.0 {
             let impulse = impact.normal * ratio(lacking, p.inv_mass[i] + wj);

@@ -13,7 +13,7 @@ impl World {
     /// Names the field out of its range, which may depend on the room and the time step.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let mut chemical = Chemical::new(spec, &self.config)?;
-        for obstacle in self.obstacles() {
+        for obstacle in self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals()) {
             chemical.close(|at| obstacle.nearest(at).1);
         }
         self.chemicals.push(chemical);

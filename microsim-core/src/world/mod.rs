@@ -7,7 +7,7 @@ pub(crate) mod contacts;
 mod controller;
 pub(crate) mod measure;
 mod membrane;
-mod obstacle;
+pub(crate) mod obstacle;
 mod occupancy;
 mod phagocytosis;
 mod push;
@@ -24,6 +24,7 @@ use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_path::ObstaclePath;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::event::Event;
@@ -43,6 +44,8 @@ use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
 use contacts::Touching;
 use glam::Vec2;
+use obstacle::sensor::Presences;
+use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
 use serde::{Deserialize, Serialize};
 use vacancies::Vacancies;
@@ -83,8 +86,9 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
-    /// Of each obstacle, see [`obstacle::digest`].
-    obstacle_digests: Vec<u64>,
+    pub(crate) obstacle_table: ObstacleTable,
+    presences: Presences,
+    /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
     #[serde(skip)]
@@ -107,6 +111,8 @@ pub(crate) struct Guard {
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
+    /// Of the obstacles that move in this step, in their order.
+    pub obstacle_paths: Vec<ObstaclePath>,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
@@ -137,7 +143,8 @@ impl Clone for World {
             touching,
             events,
             guard,
-            obstacle_digests,
+            obstacle_table,
+            presences,
             obstacles,
             scratch,
             dispatch,
@@ -155,7 +162,8 @@ impl Clone for World {
         self.touching.clone_from(touching);
         self.events.clone_from(events);
         self.guard = *guard;
-        self.obstacle_digests.clone_from(obstacle_digests);
+        self.obstacle_table.clone_from(obstacle_table);
+        self.presences.clone_from(presences);
         self.obstacles.clone_from(obstacles);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
         self.scratch.occupancy.clear();
@@ -182,7 +190,8 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Shared::default(),
-            obstacle_digests: Vec::new(),
+            obstacle_table: ObstacleTable::default(),
+            presences: Presences::default(),
             blocks: Shared::default(),
             sleep: Sleep::default(),
             fluids: Vec::new(),

@@ -22,9 +22,8 @@ pub(super) fn check(world: &World) -> Check {
     (0..world.particles.len()).try_for_each(|i| check_entry(world, i))?;
     check_places(world)?;
     (0..world.fluids.len()).try_for_each(|k| check_fluid(world, k))?;
-    let (digests, obstacles) = (world.obstacle_digests.len(), world.obstacles.len() - WALLS);
     let none = Subject::default();
-    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))?;
+    world.obstacle_table.check(&world.obstacles[WALLS..]).map_err(|flaw| none.violation(flaw))?;
     for (k, chemical) in world.chemicals.iter().enumerate() {
         chemical.check(&world.config).map_err(|flaw| none.violation(format!("chemical {k}: {flaw}")))?;
     }
