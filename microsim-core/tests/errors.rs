@@ -5,10 +5,10 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance,
-    Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle,
-    ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec,
-    RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, ContactReporting,
+    Controller, Distance, Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance,
+    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec,
+    RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -214,6 +214,7 @@ const CASES: &[Case] = &[
         skew.pose.rotation.re = 0.5;
         r.world.add_obstacle(skew).unwrap_err()
     }),
+    ("World::set_contact_reporting", "OutOfRange", "hit_speed", |r| r.world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(-1.0) })).unwrap_err()),
     ("World::remove_obstacle", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.remove_obstacle(stale).unwrap_err() }),
     ("World::set_obstacle_pose", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.set_obstacle_pose(stale, Pose::IDENTITY).unwrap_err() }),
     ("World::set_obstacle_pose", "Overlap", "pose", |r| {

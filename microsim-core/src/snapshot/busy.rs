@@ -3,9 +3,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Controller, Event, Exchange, FleeParams, FluidBlockSpec, Inputs, Intent, Kind, Node, Obstacle,
-    ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec,
-    Rope, RunAndTumbleParams, Template, World, WorldConfig,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Event, Exchange, FleeParams, FluidBlockSpec,
+    Inputs, Intent, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement,
+    PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -16,6 +16,7 @@ pub(super) fn world() -> World {
     let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
     let [sensor, platform] = obstacles(&mut world);
+    world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(0.0) })).unwrap();
     steer(&mut world, chemical);
     cage(&mut world, chemical);
     roped(&mut world);
@@ -53,6 +54,9 @@ fn steer(world: &mut World, chemical: ChemicalId) {
         Controller::flee(FleeParams::default(), Controller::Still),
         Controller::pursue(PursueParams::default(), Controller::Still),
     ];
+    // One that never stops at a wall.
+    let to_wall = Controller::patrol(vec![Vec2::new(170.0, 65.0)], true);
+    world.spawn(&CoccusSpec::default().into(), Placement::at(157.0, 65.0).steered_by(to_wall)).unwrap();
     let place = |k: usize| Placement::at(10.0 + 10.0 * k as f32, 70.0);
     let mut spawn = |(k, controller): (usize, Controller)| {
         world.spawn(&CoccusSpec::default().into(), place(k).steered_by(controller)).unwrap()
@@ -122,9 +126,15 @@ fn obstacles(world: &mut World) -> [ObstacleId; 2] {
     [sensor, platform]
 }
 
+fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
+    let (point, normal) = (Vec2::ONE, Vec2::X);
+    ContactPoint { organism, partner, node: 1, partner_node: Some(2), point, normal, speed: 3.0, impulse: 4.0 }
+}
+
 /// One of each kind.
 fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
     let reason = Refusal::FurrowOpen;
+    let contact = contact(a, Collider::Organism(b));
     vec![
         Event::ContactBegan { a, b },
         Event::ContactEnded { a, b },
@@ -143,5 +153,8 @@ fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
         Event::ObstacleBlocked { obstacle },
         Event::SensorEntered { sensor: obstacle, organism: a, particle: Some(1) },
         Event::SensorLeft { sensor: obstacle, organism: a, particle: None },
+        Event::TouchBegan { organism: a, collider: Collider::Obstacle(obstacle) },
+        Event::TouchEnded { organism: a, collider: Collider::Wall(Wall::Top) },
+        Event::Hit { contact },
     ]
 }

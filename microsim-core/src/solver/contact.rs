@@ -4,6 +4,7 @@
 //! et al. 2014, "Unified Particle Physics", section 6.1, static and kinetic coefficient equal); restitution is a velocity
 //! pass after the substep (Mueller et al. 2020, "Detailed Rigid Body Simulation", eq. 34).
 
+use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use crate::collision::Contact;
 use crate::particle::Particles;
@@ -29,19 +30,31 @@ pub(crate) struct Impact {
 }
 
 /// Pushes overlapping discs apart.
-pub(crate) fn project(contacts: &mut [Contact], particles: &mut Particles, impacts: &mut Vec<Impact>) {
+pub(crate) fn project(
+    contacts: &mut [Contact],
+    particles: &mut Particles,
+    impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
+) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
         let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
         let squared = between.length_squared();
         if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
-            separate(contact, between, squared, particles, impacts);
+            separate(contact, between, squared, particles, impacts, recorder);
         }
     }
 }
 
-fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts: &mut Vec<Impact>) {
+fn separate(
+    c: &Contact,
+    between: Vec2,
+    squared: f32,
+    p: &mut Particles,
+    impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
+) {
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
@@ -50,6 +63,15 @@ fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts
     if c.restitution > 0.0 {
         impacts.extend(Impact::of(c, normal, p));
     }
+    recorder.note(p, || Projected {
+        particle: c.i,
+        touched: Touched::Disc(c.j),
+        normal: -normal,
+        depth,
+        weight: wi + wj,
+        restitution: c.restitution,
+        velocity: p.velocity(j),
+    });
     let push = normal * ratio(depth, wi + wj);
     shift(p, i, -push * wi);
     shift(p, j, push * wj);
@@ -141,14 +163,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.6], 1.0, |p| project(&mut [touching(0.0, 0.0)], p, &mut Vec::new()));
+        assert_pair_laws(&[0.6], 1.0, |p| {
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default())
+        });
     }
 
     #[test]
     fn discs_apart_are_left_alone_and_not_touched() {
         let mut p = line(1.2, [1.0, 1.0]);
         let mut contact = touching(0.5, 0.0);
-        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new());
+        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default());
         assert!(!contact.touched && p.x[1] == 1.2);
     }
 
@@ -160,7 +184,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new());
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default());
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
@@ -171,7 +195,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts);
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default());
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);

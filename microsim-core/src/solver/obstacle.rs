@@ -4,6 +4,7 @@
 //! pushed into it, or that others press into it by more than [`PRESS`] of its radius.
 
 use super::contact::{Impact, friction, moved, shift};
+use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_path::{ObstaclePath, path_of};
@@ -26,6 +27,7 @@ pub(crate) fn project(
     paths: &mut [ObstaclePath],
     particles: &mut Particles,
     impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
     h: f32,
 ) {
     for contact in contacts {
@@ -35,6 +37,15 @@ pub(crate) fn project(
             let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(particles.position(i)));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
             impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
+            recorder.note(particles, || Projected {
+                particle: contact.particle,
+                touched: Touched::Obstacle(contact.obstacle),
+                normal: away,
+                depth,
+                weight: particles.inv_mass[i],
+                restitution,
+                velocity: way / h,
+            });
             if let Some(path) = path {
                 let approach = (way - particles.velocity(i) * h).dot(away);
                 let pressed = depth - if approach > 0.0 { approach } else { 0.0 };
@@ -123,7 +134,15 @@ mod tests {
         let mut p = line(100.0, [1.0, 1.0]);
         (p.x[0], p.y[0]) = (start.x, start.y);
         let contact = ObstacleContact { particle: 0, obstacle: 0 };
-        project(&[contact], std::slice::from_ref(&obstacle), &mut [], &mut p, &mut Vec::new(), 0.01);
+        project(
+            &[contact],
+            std::slice::from_ref(&obstacle),
+            &mut [],
+            &mut p,
+            &mut Vec::new(),
+            &mut ContactRecorder::default(),
+            0.01,
+        );
         let (surface, is_inside) = obstacle.nearest(p.position(0));
         let distance = (p.position(0) - surface).length();
         if is_inside { -distance } else { distance }

@@ -3,6 +3,7 @@
 //! ([`state`]).
 
 mod chemical;
+pub(crate) mod contact_report;
 pub(crate) mod contacts;
 mod controller;
 pub(crate) mod measure;
@@ -37,11 +38,13 @@ use crate::particle::sleep::Sleep;
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
+use crate::solver::contact_record::ContactRecorder;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
+use contact_report::ContactReports;
 use contacts::Touching;
 use glam::Vec2;
 use obstacle::sensor::Presences;
@@ -88,6 +91,7 @@ pub struct World {
     pub(crate) guard: Guard,
     pub(crate) obstacle_table: ObstacleTable,
     presences: Presences,
+    contact_reports: ContactReports,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -117,6 +121,7 @@ pub(crate) struct Scratch {
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
+    pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,
 }
@@ -145,6 +150,7 @@ impl Clone for World {
             guard,
             obstacle_table,
             presences,
+            contact_reports,
             obstacles,
             scratch,
             dispatch,
@@ -164,6 +170,7 @@ impl Clone for World {
         self.guard = *guard;
         self.obstacle_table.clone_from(obstacle_table);
         self.presences.clone_from(presences);
+        self.contact_reports.clone_from(contact_reports);
         self.obstacles.clone_from(obstacles);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
         self.scratch.occupancy.clear();
@@ -192,6 +199,7 @@ impl World {
             templates: Shared::default(),
             obstacle_table: ObstacleTable::default(),
             presences: Presences::default(),
+            contact_reports: ContactReports::default(),
             blocks: Shared::default(),
             sleep: Sleep::default(),
             fluids: Vec::new(),

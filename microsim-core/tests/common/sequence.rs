@@ -10,8 +10,8 @@ use choices::Choices;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    ChemicalId, ChemicalSpec, Error, Exchange, Inputs, InstructionSet, Intent, Measure, Node, Obstacle, ObstacleId,
-    ObstacleMotion, OrganismId, Template, TemplateId, World,
+    ChemicalId, ChemicalSpec, Collider, Error, Exchange, Inputs, InstructionSet, Intent, Measure, Node, Obstacle,
+    ObstacleId, ObstacleMotion, OrganismId, QueryFilter, Template, TemplateId, World,
 };
 
 /// Most calls and steps of a sequence.
@@ -288,8 +288,8 @@ impl Sequence<'_> {
         let found = world.organisms_at(a).count() + world.organisms_in_circle(a, radius).count();
         let boxed = world.organisms_in_box(a, b).count();
         assert!(found <= 2 * world.organisms().count() && boxed <= world.organisms().count());
-        let hit = world.cast_ray(a, b - a, radius);
-        assert!(hit.is_none_or(|hit| world.kind(hit.organism).is_some()));
+        self.query(a, b, radius);
+        let world = &self.world;
         for &id in &self.handles {
             let is_alive = world.kind(id).is_some();
             assert_eq!(is_alive, world.view().organism(id).is_some());
@@ -298,6 +298,26 @@ impl Sequence<'_> {
         }
         assert!(Measure::ALL.iter().all(|measure| measure.of(world).is_finite()));
         Ok(())
+    }
+
+    /// All queries agree with each other.
+    fn query(&self, a: Vec2, b: Vec2, radius: f32) {
+        let (queries, all) = (self.world.queries(), QueryFilter { sensors: true, ..QueryFilter::default() });
+        let is_known = |collider: Collider| match collider {
+            Collider::Organism(id) => self.world.kind(id).is_some(),
+            Collider::Obstacle(id) => self.world.obstacle(id).is_some(),
+            Collider::Wall(_) => true,
+        };
+        let hits = queries.cast_ray_all(a, b - a, 10.0 * radius, &all);
+        let first = queries.cast_ray(a, b - a, 10.0 * radius, &all);
+        assert_eq!(hits.first().map(|hit| hit.distance), first.map(|hit| hit.distance));
+        assert!(hits.iter().all(|hit| is_known(hit.collider)));
+        let cast = queries.cast_disc(a, b - a, 10.0 * radius, radius, &all);
+        assert!(first.is_none_or(|first| cast.is_some_and(|cast| cast.distance <= first.distance + 0.01)));
+        let boxed = queries.overlap_box(a, b, &all);
+        let near = [queries.overlap_disc(a, radius, &all), boxed, queries.overlap_polygon(&[a, b, a + b], &all)];
+        assert!(near.iter().flatten().all(|&collider| is_known(collider)));
+        assert!(queries.nearest(a, radius, &all).is_none_or(|nearest| nearest.distance <= radius));
     }
 
     /// Goes on with what is read of what the world is written as.

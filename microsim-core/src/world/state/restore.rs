@@ -14,6 +14,7 @@ use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::template::Template;
+use crate::world::contact_report::ContactReports;
 use crate::world::contacts::Touching;
 use crate::world::obstacle::sensor::Presences;
 use crate::world::obstacle::table::ObstacleTable;
@@ -38,6 +39,7 @@ pub(crate) struct WorldState {
     guard: Guard,
     obstacle_table: ObstacleTable,
     presences: Presences,
+    contact_reports: ContactReports,
 }
 
 impl World {
@@ -49,6 +51,7 @@ impl World {
         let mut world = Self::new(state.config).map_err(|error| error.within("config").to_string())?;
         world.restore_obstacles(state.obstacle_table, obstacles)?;
         world.presences = state.presences;
+        world.restore_contact_reports(state.contact_reports)?;
         for (k, record) in state.chemicals.into_iter().enumerate() {
             let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
             let filled = added.and_then(|()| world.chemicals[k].restore(record, &world.config));
