@@ -1,11 +1,12 @@
 //! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
-use crate::id::OrganismId;
+use crate::collider::{Collider, ContactPoint};
+use crate::id::{ObstacleId, OrganismId};
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Something that happened in a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Event {
     /// Two organisms began to touch. Exactly one [`Event::ContactEnded`] follows, even if one is removed.
@@ -104,6 +105,51 @@ pub enum Event {
         /// The organism.
         organism: OrganismId,
     },
+    /// A kinematic obstacle that stops met a body that it would have crushed; it stays where it is.
+    ObstacleBlocked {
+        /// The obstacle.
+        obstacle: ObstacleId,
+    },
+    /// Something entered a sensor. Exactly one [`Event::SensorLeft`] follows, even if one of them is removed.
+    SensorEntered {
+        /// The sensor.
+        sensor: ObstacleId,
+        /// What entered, or whose particle.
+        organism: OrganismId,
+        /// Of fluid without a membrane, of which each particle enters by itself: which one, see
+        /// [`crate::ParticleView::index`].
+        particle: Option<u32>,
+    },
+    /// Something left a sensor.
+    SensorLeft {
+        /// The sensor; after its removal the handle is stale.
+        sensor: ObstacleId,
+        /// What left, or whose particle; after its removal the handle is stale.
+        organism: OrganismId,
+        /// Of fluid without a membrane: which of its particles.
+        particle: Option<u32>,
+    },
+    /// An organism began to touch an obstacle or a wall, if [contacts are reported](crate::World::set_contact_reporting).
+    /// Exactly one [`Event::TouchEnded`] follows, even if one of them is removed, unless reports are turned off.
+    TouchBegan {
+        /// The organism.
+        organism: OrganismId,
+        /// The obstacle or wall.
+        collider: Collider,
+    },
+    /// An organism stopped touching an obstacle or a wall.
+    TouchEnded {
+        /// The organism; after its removal the handle is stale.
+        organism: OrganismId,
+        /// The obstacle or wall; after its removal the handle is stale.
+        collider: Collider,
+    },
+    /// Two touched as fast as [`ContactReporting::hit_speed`](crate::ContactReporting::hit_speed): once for each two, and not in
+    /// the step after.
+    Hit {
+        /// Their fastest contact, with the impulse of all of them.
+        contact: ContactPoint,
+    },
 }
 
 /// Why a cell does not divide or fuse.
@@ -153,7 +199,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 14] = [
+    pub const NAMES: [&str; 20] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -168,6 +214,12 @@ impl Event {
         "fusion_refused",
         "fused",
         "quarantined",
+        "obstacle_blocked",
+        "sensor_entered",
+        "sensor_left",
+        "touch_began",
+        "touch_ended",
+        "hit",
     ];
 
     /// Name of its kind, for counting.
@@ -188,6 +240,12 @@ impl Event {
             Self::FusionRefused { .. } => "fusion_refused",
             Self::Fused { .. } => "fused",
             Self::Quarantined { .. } => "quarantined",
+            Self::ObstacleBlocked { .. } => "obstacle_blocked",
+            Self::SensorEntered { .. } => "sensor_entered",
+            Self::SensorLeft { .. } => "sensor_left",
+            Self::TouchBegan { .. } => "touch_began",
+            Self::TouchEnded { .. } => "touch_ended",
+            Self::Hit { .. } => "hit",
         }
     }
 
@@ -207,7 +265,13 @@ impl Event {
             | Self::DivisionBegan { organism }
             | Self::DivisionRefused { organism, .. }
             | Self::DivisionAbandoned { organism, .. }
+            | Self::SensorEntered { organism, .. }
+            | Self::SensorLeft { organism, .. }
+            | Self::TouchBegan { organism, .. }
+            | Self::TouchEnded { organism, .. }
             | Self::Quarantined { organism } => [Some(organism), None],
+            Self::Hit { contact } => [Some(contact.organism), contact.partner.organism()],
+            Self::ObstacleBlocked { .. } => [None, None],
         }
     }
 }

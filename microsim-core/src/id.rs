@@ -32,9 +32,26 @@ impl OrganismId {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TemplateId(pub(crate) u32);
 
-/// Names an obstacle of a world; valid as long as the world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ObstacleId(pub(crate) u32);
+/// Names one obstacle of a world until it is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct ObstacleId {
+    pub(crate) index: u32,
+    pub(crate) generation: u32,
+}
+
+impl ObstacleId {
+    /// Position in the world's table; reused after removal.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.index
+    }
+
+    /// How many obstacles had this index before.
+    #[must_use]
+    pub fn generation(self) -> u32 {
+        self.generation
+    }
+}
 
 /// Names a chemical of a world; valid as long as the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]

@@ -94,8 +94,10 @@ impl World {
 fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
     world.scratch.occupancy.clear();
+    world.begin_contact_reports();
     serial(world, |world| steer(world, inputs));
     finished(Phase::SteerOrganisms);
+    world.plan_obstacle_paths();
     world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
@@ -223,17 +225,21 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
+    world.advance_obstacles();
     let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, &mut scratch.impacts);
+        contact::project(contacts, particles, &mut scratch.impacts, &mut scratch.contact_records);
     }
-    guard.wrong_side += u64::from(ring_contact::project(&mut broad_phase.ring_contacts, particles));
+    guard.wrong_side +=
+        u64::from(ring_contact::project(&mut broad_phase.ring_contacts, particles, &mut scratch.contact_records));
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);
     }
-    obstacle::project(&broad_phase.obstacle_contacts, obstacles, particles, &mut scratch.impacts);
+    let (paths, h) = (&mut scratch.obstacle_paths, config.substep());
+    let (impacts, recorder) = (&mut scratch.impacts, &mut scratch.contact_records);
+    obstacle::project(&broad_phase.obstacle_contacts, obstacles, paths, particles, impacts, recorder, h);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
@@ -273,10 +279,14 @@ fn diffuse_chemicals(world: &mut World) {
 }
 
 fn conclude(world: &mut World) {
-    let World { config, particles, blocks, sleep, organisms, touching, events, scratch, .. } = world;
+    let World { particles, blocks, sleep, organisms, touching, events, scratch, .. } = world;
     let lane = |id| organisms.get(id)?.body.lane(blocks);
     let is_asleep = |id| lane(id).is_some_and(|(block, _)| sleep.is_asleep(block));
     touching.update(scratch.broad_phase.touched(), is_asleep, particles, organisms, events);
+    world.conclude_obstacle_paths();
+    world.update_sensors();
+    world.report_contacts();
+    let World { config, particles, blocks, sleep, .. } = world;
     if config.sleeps {
         sleep.update_sleep_times(
             blocks.iter().map(Block::range),

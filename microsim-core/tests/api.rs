@@ -8,8 +8,9 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Controller, ErrorKind, Event, FluidBlockSpec, Inputs, Kind, Material, Node, Obstacle,
-    OrganismId, Placement, PlateletSpec, ProbeSpec, RigidCellSpec, Role, Template, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Collider, Controller, ErrorKind, Event, FluidBlockSpec, Inputs, Kind, Material, Node,
+    Obstacle, OrganismId, Placement, PlateletSpec, ProbeSpec, QueryFilter, RigidCellSpec, Role, Template, World,
+    WorldConfig,
 };
 
 fn room() -> World {
@@ -207,12 +208,13 @@ fn queries_find_what_is_there() {
     assert_eq!(near(4.5), [cell, pellet]);
     let boxed: Vec<_> = world.organisms_in_box(Vec2::new(58.0, 40.0), Vec2::new(90.0, 50.0)).collect();
     assert_eq!(boxed, [pellet]);
-    let hit = world.cast_ray(Vec2::new(100.0, 45.0), Vec2::NEG_X, 1000.0).unwrap();
-    assert_eq!(hit.organism, pellet);
+    let (queries, filter) = (world.queries(), QueryFilter::organisms());
+    let hit = queries.cast_ray(Vec2::new(100.0, 45.0), Vec2::NEG_X, 1000.0, &filter).unwrap();
+    assert_eq!(hit.collider, Collider::Organism(pellet));
     assert!((hit.distance - 39.0).abs() < 1e-3 && (hit.normal - Vec2::X).length() < 1e-4);
-    assert_eq!(world.cast_ray(Vec2::new(100.0, 45.0), Vec2::NEG_X, 30.0), None);
-    assert_eq!(world.cast_ray(Vec2::new(100.0, 45.0), Vec2::ZERO, 30.0), None);
-    assert_eq!(world.cast_ray(Vec2::NAN, Vec2::X, 30.0), None);
+    assert_eq!(queries.cast_ray(Vec2::new(100.0, 45.0), Vec2::NEG_X, 30.0, &filter), None);
+    assert_eq!(queries.cast_ray(Vec2::new(100.0, 45.0), Vec2::ZERO, 30.0, &filter), None);
+    assert_eq!(queries.cast_ray(Vec2::NAN, Vec2::X, 30.0, &filter), None);
 }
 
 #[test]

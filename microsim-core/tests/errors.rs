@@ -5,10 +5,10 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, Controller, Distance,
-    Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance, Node, Obstacle,
-    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, Rope, Template,
-    TemplateBuilder, TemplateId, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, ContactReporting,
+    Controller, Distance, Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance,
+    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec,
+    RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -57,6 +57,18 @@ impl Room {
         self.world.add_chemical(ChemicalSpec::default()).unwrap()
     }
 
+    /// Handle of an obstacle that is gone.
+    fn stale_obstacle(&mut self) -> ObstacleId {
+        let id = self.world.add_obstacle(ball(9.0)).unwrap();
+        self.world.remove_obstacle(id).unwrap();
+        id
+    }
+
+    fn kinematic(&mut self, is_enabled: bool) -> ObstacleId {
+        let obstacle = Obstacle { motion: ObstacleMotion::Push, is_enabled, ..ball(9.0) };
+        self.world.add_obstacle(obstacle).unwrap()
+    }
+
     /// The error of spawning a template of one disc.
     fn spawn_single(&mut self, placement: Placement) -> Error {
         let id = single(&mut self.world);
@@ -73,6 +85,10 @@ fn single(world: &mut World) -> TemplateId {
 
 fn obstacle(shape: SharedShape, x: f32) -> Obstacle {
     Obstacle::new(shape, Pose::translation(x, 10.0))
+}
+
+fn ball(x: f32) -> Obstacle {
+    obstacle(SharedShape::ball(1.0), x)
 }
 
 fn spec_error(spec: impl Into<OrganismSpec>) -> Error {
@@ -192,6 +208,31 @@ const CASES: &[Case] = &[
     ("World::add_obstacle", "OutOfRange", "pose.translation.x", |r| r.world.add_obstacle(obstacle(SharedShape::ball(1.0), f32::NAN)).unwrap_err()),
     ("World::add_obstacle", "Unsupported", "shape", |r| r.world.add_obstacle(obstacle(SharedShape::ball(f32::NAN), 9.0)).unwrap_err()),
     ("World::add_obstacle", "Overlap", "pose", |r| r.world.add_obstacle(obstacle(SharedShape::ball(40.0), 40.0)).unwrap_err()),
+    ("World::add_obstacle", "OutOfRange", "one_way", |r| r.world.add_obstacle(Obstacle { one_way: Some(Vec2::ZERO), ..ball(9.0) }).unwrap_err()),
+    ("World::add_obstacle", "OutOfRange", "pose.rotation", |r| {
+        let mut skew = ball(9.0);
+        skew.pose.rotation.re = 0.5;
+        r.world.add_obstacle(skew).unwrap_err()
+    }),
+    ("World::set_contact_reporting", "OutOfRange", "hit_speed", |r| r.world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(-1.0) })).unwrap_err()),
+    ("World::remove_obstacle", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.remove_obstacle(stale).unwrap_err() }),
+    ("World::set_obstacle_pose", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.set_obstacle_pose(stale, Pose::IDENTITY).unwrap_err() }),
+    ("World::set_obstacle_pose", "Overlap", "pose", |r| {
+        let (id, to) = (r.world.add_obstacle(ball(9.0)).unwrap(), r.world.centroid(r.cell).unwrap());
+        r.world.set_obstacle_pose(id, Pose::translation(to.x, to.y)).unwrap_err()
+    }),
+    ("World::set_obstacle_shape", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.set_obstacle_shape(stale, SharedShape::ball(1.0)).unwrap_err() }),
+    ("World::set_obstacle_shape", "Overlap", "pose", |r| { let id = r.world.add_obstacle(ball(9.0)).unwrap(); r.world.set_obstacle_shape(id, SharedShape::ball(90.0)).unwrap_err() }),
+    ("World::set_obstacle_enabled", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.set_obstacle_enabled(stale, true).unwrap_err() }),
+    ("World::set_obstacle_enabled", "Overlap", "pose", |r| {
+        let id = r.world.add_obstacle(Obstacle { is_enabled: false, ..obstacle(SharedShape::ball(90.0), 9.0) }).unwrap();
+        r.world.set_obstacle_enabled(id, true).unwrap_err()
+    }),
+    ("World::move_obstacle", "Stale", "obstacle", |r| { let stale = r.stale_obstacle(); r.world.move_obstacle(stale, Pose::IDENTITY).unwrap_err() }),
+    ("World::move_obstacle", "Unsupported", "motion", |r| { let id = r.world.add_obstacle(ball(9.0)).unwrap(); r.world.move_obstacle(id, Pose::IDENTITY).unwrap_err() }),
+    ("World::move_obstacle", "Unsupported", "is_enabled", |r| { let id = r.kinematic(false); r.world.move_obstacle(id, Pose::IDENTITY).unwrap_err() }),
+    ("World::move_obstacle", "OutOfRange", "target.translation.y", |r| { let id = r.kinematic(true); r.world.move_obstacle(id, Pose::translation(0.0, f32::NAN)).unwrap_err() }),
+    ("World::move_obstacle", "OutOfRange", "target.rotation", |r| { let id = r.kinematic(true); r.world.move_obstacle(id, Pose::rotation(2.0)).unwrap_err() }),
 ];
 
 fn kind_of(error: &Error) -> &'static str {

@@ -16,7 +16,8 @@ const LAYERS: &[(&str, &str)] = &[
     ("config spec_field", "error"),
     ("particle", "shared"),
     ("inputs", "error float_environment id"),
-    ("event", "id kind"),
+    ("collider", "id"),
+    ("event", "collider id kind"),
     ("collision", "geometry parallel particle shared"),
     ("solver", "collision config error geometry parallel particle spec_field"),
     ("template", "error float_environment geometry particle solver"),
@@ -28,7 +29,7 @@ const LAYERS: &[(&str, &str)] = &[
     ("behavior", "capability chemical event geometry id inputs organism particle solver::contraction solver::drive"),
     (
         "world",
-        "behavior capability chemical collision config error event float_environment fnv geometry id kind organism \
+        "behavior capability chemical collider collision config error event float_environment fnv geometry id kind organism \
         parallel particle rng shared solver template walk",
     ),
     // The step takes the world apart and hands each phase what it needs.

@@ -3,8 +3,9 @@
 #![cfg(feature = "scenario")]
 
 use microsim_core::glam::Vec2;
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
-use microsim_core::{Event, OrganismId, Refusal};
+use microsim_core::{Collider, ContactPoint, Event, Obstacle, OrganismId, Refusal, World, WorldConfig};
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
     [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
@@ -129,6 +130,20 @@ fn invariants_are_ranges_of_measures_and_counts() {
 fn every_kind_of_event_has_its_name_in_the_list() {
     let id = cell(&built(""));
     let (kind, reason) = (microsim_core::Kind::Agar, Refusal::Dividing);
+    let ball = Obstacle::new(SharedShape::ball(1.0), Pose::IDENTITY);
+    let obstacle = World::new(WorldConfig::default()).unwrap().add_obstacle(ball).unwrap();
+    let collider = Collider::Obstacle(obstacle);
+    let (point, normal) = (Vec2::ZERO, Vec2::X);
+    let contact = ContactPoint {
+        organism: id,
+        partner: collider,
+        node: 0,
+        partner_node: None,
+        point,
+        normal,
+        speed: 1.0,
+        impulse: 1.0,
+    };
     let events = [
         Event::ContactBegan { a: id, b: id },
         Event::ContactEnded { a: id, b: id },
@@ -144,6 +159,12 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::FusionRefused { organism: id, with: id, reason },
         Event::Fused { into: id, from: id },
         Event::Quarantined { organism: id },
+        Event::ObstacleBlocked { obstacle },
+        Event::SensorEntered { sensor: obstacle, organism: id, particle: None },
+        Event::SensorLeft { sensor: obstacle, organism: id, particle: None },
+        Event::TouchBegan { organism: id, collider },
+        Event::TouchEnded { organism: id, collider },
+        Event::Hit { contact },
     ];
     assert_eq!(events.map(|event| event.name()), Event::NAMES);
 }

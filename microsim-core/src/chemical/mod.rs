@@ -127,6 +127,11 @@ impl Chemical {
         Ok(Self { spec, values: vec![spec.initial; count[0] * count[1]], grid, rounds })
     }
 
+    /// Opens all cells and faces of a room of this size. What was closed is empty.
+    pub(crate) fn open(&mut self, size: Vec2) {
+        self.grid = DiffusionGrid::new(self.grid.count, size);
+    }
+
     /// Closes the cells that lie in an obstacle, and the faces that it crosses. Walls thinner than half a cell may leak.
     pub(crate) fn close(&mut self, is_inside: impl Fn(Vec2) -> bool) {
         self.grid.close(is_inside);

@@ -12,6 +12,7 @@ use super::bodies::{Bodies, PairFilter};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
 use super::obstacle::Obstacle;
+use super::obstacle_path::ObstaclePath;
 use super::ring::{Containment, Ring, RingContacts, RingQuery};
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
 use super::{Contact, Contacts, ObstacleContact};
@@ -20,13 +21,16 @@ use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
 use crate::shared::Shared;
 use glam::Vec2;
-use parry2d::bounding_volume::BoundingVolume;
+use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
 /// The pairs of this step, and what found them.
 #[derive(Debug, Default)]
 pub(crate) struct BroadPhase {
     pub contacts: Shared<Contacts>,
+    /// Those of moving obstacles first, so that fixed ones have the last word.
     pub obstacle_contacts: Vec<ObstacleContact>,
+    /// Discs that may be in a sensor at the end of the step.
+    pub sensor_contacts: Vec<ObstacleContact>,
     pub ring_contacts: Shared<RingContacts>,
     pub margins: SpeculativeMargins,
     bodies: Bodies,
@@ -42,6 +46,8 @@ pub(crate) struct SearchInput<'a> {
     /// The blocks, in the order in which they lie in the store.
     pub blocks: &'a [BlockRange],
     pub obstacles: &'a [Obstacle],
+    /// Of the obstacles that move in this step, in their order.
+    pub paths: &'a [ObstaclePath],
     pub exemptions: &'a Exemptions,
     /// Rings whose links collide. Without any, ring nodes collide as discs.
     pub rings: &'a [Ring<'a>],
@@ -64,7 +70,7 @@ impl BroadPhase {
     pub(crate) fn find_pairs(&mut self, input: SearchInput<'_>, sleep: &mut Sleep, steps_to_sleep: u16) {
         self.sort(input, sleep);
         if sleep.fall_asleep(steps_to_sleep) {
-            self.keep_awake(sleep);
+            self.keep_awake(input, sleep);
         }
         let sleep = &*sleep;
         let Self { contacts, bodies, membranes, fluid, fluid_changes, .. } = self;
@@ -100,14 +106,17 @@ impl BroadPhase {
     }
 
     /// Keeps the blocks of sleepers awake near which something moves. Membranes and fluid always count as moving.
-    fn keep_awake(&self, sleep: &mut Sleep) {
+    fn keep_awake(&self, input: SearchInput<'_>, sleep: &mut Sleep) {
         let Self { bodies, membranes, fluid, .. } = self;
         let woken = bodies.sleepers(sleep).filter(|body| {
             let (low, high) = (body.aabb.low(), body.aabb.high());
             let mut disc_grids = [membranes, fluid].into_iter();
             bodies.has_moving_neighbour(body) || disc_grids.any(|grid| grid.in_box(low, high).next().is_some())
         });
-        for block in woken.map(|body| body.block).collect::<Vec<_>>() {
+        let boxes = input.paths.iter().map(|path| path.aabb(&input.obstacles[path.obstacle as usize]));
+        let pushed =
+            boxes.flat_map(|aabb| bodies.in_box(aabb.mins, aabb.maxs)).filter(|body| sleep.is_asleep(body.block));
+        for block in woken.chain(pushed).map(|body| body.block).collect::<Vec<_>>() {
             sleep.keep_awake(block);
         }
     }
@@ -153,22 +162,34 @@ impl BroadPhase {
     }
 
     fn find_obstacle_contacts(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
-        let Self { obstacle_contacts, bodies, membranes, fluid, .. } = self;
-        obstacle_contacts.clear();
-        for (obstacle, k) in input.obstacles.iter().zip(0..) {
-            let aabb = obstacle.aabb();
-            let (low, high) = (aabb.mins, aabb.maxs);
-            let is_near = |disc: &&Disc| {
-                let (p, i) = (input.particles, disc.index as usize);
-                let is_inside = aabb.loosened(disc.swept_radius).contains_local_point(disc.at);
-                is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(obstacle.groups)
-            };
-            let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
-            let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
-            let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high));
-            let near = of_bodies.chain(of_grids).filter(is_near);
-            obstacle_contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle: k }));
+        self.obstacle_contacts.clear();
+        self.sensor_contacts.clear();
+        let SearchInput { obstacles, paths, .. } = input;
+        for path in paths {
+            self.find_contacts_of(path.obstacle, path.aabb(&obstacles[path.obstacle as usize]), input, sleep);
         }
+        let moves = |k: u32| paths.binary_search_by_key(&k, |path| path.obstacle).is_ok();
+        for (obstacle, k) in obstacles.iter().zip(0..).filter(|(obstacle, k)| obstacle.is_enabled && !moves(*k)) {
+            self.find_contacts_of(k, obstacle.aabb(), input, sleep);
+        }
+    }
+
+    /// Finds the discs that may touch an obstacle in this box.
+    fn find_contacts_of(&mut self, obstacle: u32, aabb: Aabb, input: SearchInput<'_>, sleep: &Sleep) {
+        let Self { obstacle_contacts, sensor_contacts, bodies, membranes, fluid, .. } = self;
+        let (low, high) = (aabb.mins, aabb.maxs);
+        let Obstacle { groups, is_sensor, .. } = input.obstacles[obstacle as usize];
+        let is_near = |disc: &&Disc| {
+            let (p, i) = (input.particles, disc.index as usize);
+            let is_inside = aabb.loosened(disc.swept_radius).contains_local_point(disc.at);
+            is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(groups)
+        };
+        let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
+        let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
+        let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high));
+        let near = of_bodies.chain(of_grids).filter(is_near);
+        let contacts = if is_sensor { sensor_contacts } else { obstacle_contacts };
+        contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle }));
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod broad_phase;
 mod disc_grid;
 pub(crate) mod exemptions;
 pub(crate) mod obstacle;
+pub(crate) mod obstacle_path;
 pub(crate) mod obstacle_record;
 pub(crate) mod ring;
 pub(crate) mod speculative_margin;

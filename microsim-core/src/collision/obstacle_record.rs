@@ -1,11 +1,9 @@
 //! Obstacles as the numbers that their shapes are made from: what digests and snapshots know of them.
 
-use super::obstacle::Obstacle;
+use super::obstacle::{Obstacle, ObstacleMotion};
 use crate::particle::{CollisionGroups, Material};
 use glam::Vec2;
-use parry2d::math::Pose;
-#[cfg(feature = "snapshot")]
-use parry2d::math::Rot2;
+use parry2d::math::{Pose, Rot2};
 #[cfg(feature = "snapshot")]
 use parry2d::shape::{Polyline, RoundShape};
 use parry2d::shape::{PolylineFlags, SharedShape, Triangle, TypedShape};
@@ -16,12 +14,22 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct ObstacleRecord {
     shape: ShapeRecords,
     pose: PoseRecord,
+    surface: Surface,
+}
+
+/// All of an obstacle but its shape and its place.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct Surface {
     material: Material,
     groups: CollisionGroups,
+    motion: ObstacleMotion,
+    one_way: Option<Vec2>,
+    is_sensor: bool,
+    is_enabled: bool,
 }
 
 /// A place and the cosine and sine of an angle.
-type PoseRecord = (Vec2, [f32; 2]);
+pub(crate) type PoseRecord = (Vec2, [f32; 2]);
 
 /// A shape, or the shapes that it consists of.
 #[derive(Debug, Serialize, Deserialize)]
@@ -56,14 +64,14 @@ impl ObstacleRecord {
             }
             _ => ShapeRecords::One(ShapeRecord::of(&obstacle.shape)?),
         };
-        let Obstacle { pose, material, groups, .. } = obstacle;
-        Some(Self { shape, pose: record(pose), material: *material, groups: *groups })
+        Some(Self { shape, pose: record(&obstacle.pose), surface: Surface::of(obstacle) })
     }
 
     /// The obstacle, if its numbers make one.
     #[cfg(feature = "snapshot")]
     pub(crate) fn restore(self) -> Option<Obstacle> {
-        let Self { shape, pose, material, groups } = self;
+        let Self { shape, pose, surface } = self;
+        let Surface { material, groups, motion, one_way, is_sensor, is_enabled } = surface;
         let shape = match shape {
             ShapeRecords::One(shape) => shape.restore()?,
             ShapeRecords::Several(parts) if !parts.is_empty() => {
@@ -74,7 +82,14 @@ impl ObstacleRecord {
             }
             ShapeRecords::Several(_) => return None,
         };
-        Some(Obstacle { shape, pose: pose_of(pose)?, material, groups })
+        Some(Obstacle { shape, pose: pose_of(pose)?, material, groups, motion, one_way, is_sensor, is_enabled })
+    }
+}
+
+impl Surface {
+    pub(crate) fn of(obstacle: &Obstacle) -> Self {
+        let &Obstacle { material, groups, motion, one_way, is_sensor, is_enabled, .. } = obstacle;
+        Self { material, groups, motion, one_way, is_sensor, is_enabled }
     }
 }
 
@@ -137,12 +152,13 @@ impl ShapeRecord {
     }
 }
 
-fn record(pose: &Pose) -> PoseRecord {
+/// A pose as its numbers.
+pub(crate) fn record(pose: &Pose) -> PoseRecord {
     (pose.translation, [pose.rotation.re, pose.rotation.im])
 }
 
-#[cfg(feature = "snapshot")]
-fn pose_of((at, [cosine, sine]): PoseRecord) -> Option<Pose> {
+/// The pose of these numbers, if they are one.
+pub(crate) fn pose_of((at, [cosine, sine]): PoseRecord) -> Option<Pose> {
     let is_sound = at.is_finite() && (cosine * cosine + sine * sine - 1.0).abs() < 1e-3;
     is_sound.then(|| Pose::from_parts(at, Rot2::from_cos_sin_unchecked(cosine, sine)))
 }

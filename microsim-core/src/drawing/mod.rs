@@ -55,7 +55,11 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
             DrawingLayer::Room => items.push(room(size)),
             DrawingLayer::Chemicals => items.extend(chemical::draw(view)),
             DrawingLayer::Halos => items.extend(organisms.iter().copied().filter_map(organism::halo)),
-            DrawingLayer::Obstacles => items.extend(view.world().obstacles().flat_map(obstacle::draw)),
+            DrawingLayer::Obstacles => {
+                let world = view.world();
+                let obstacles = world.obstacles().filter_map(|id| world.obstacle(id));
+                items.extend(obstacles.filter(|obstacle| obstacle.is_solid()).flat_map(obstacle::draw));
+            }
             DrawingLayer::Organisms => organisms.iter().for_each(|&organism| organism::draw(organism, &mut items)),
             DrawingLayer::Walls => items.extend(walls(size)),
         }

@@ -63,7 +63,7 @@ impl Painting {
     pub(super) fn of(view: View<'_>) -> Self {
         let world = view.world();
         let room = world.config().size;
-        let mut painting = Self { room, obstacles: world.obstacles().cloned().collect(), primitives: Vec::new() };
+        let mut painting = Self { room, obstacles: world.solid_obstacles().cloned().collect(), primitives: Vec::new() };
         painting.background(world.config().seed as u32, view.time() as f32);
         let mut organisms: Vec<OrganismView<'_>> = view.organisms().collect();
         organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));

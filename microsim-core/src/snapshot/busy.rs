@@ -3,9 +3,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, Kind, Node, Obstacle, OrganismId,
-    PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, World,
-    WorldConfig,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Event, Exchange, FleeParams, FluidBlockSpec,
+    Inputs, Intent, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement,
+    PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -15,6 +15,8 @@ use parry2d::shape::SharedShape;
 pub(super) fn world() -> World {
     let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
+    let [sensor, platform] = obstacles(&mut world);
+    world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(0.0) })).unwrap();
     steer(&mut world, chemical);
     cage(&mut world, chemical);
     roped(&mut world);
@@ -24,7 +26,8 @@ pub(super) fn world() -> World {
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
-    world.events = events(eater, divider);
+    world.events = events(eater, divider, sensor);
+    world.move_obstacle(platform, Pose::translation(9.0, 4.0)).unwrap();
     let gone = cell(&mut world, 24.0, 55.0);
     world.remove(gone).unwrap();
     world
@@ -51,6 +54,9 @@ fn steer(world: &mut World, chemical: ChemicalId) {
         Controller::flee(FleeParams::default(), Controller::Still),
         Controller::pursue(PursueParams::default(), Controller::Still),
     ];
+    // One that never stops at a wall.
+    let to_wall = Controller::patrol(vec![Vec2::new(170.0, 65.0)], true);
+    world.spawn(&CoccusSpec::default().into(), Placement::at(157.0, 65.0).steered_by(to_wall)).unwrap();
     let place = |k: usize| Placement::at(10.0 + 10.0 * k as f32, 70.0);
     let mut spawn = |(k, controller): (usize, Controller)| {
         world.spawn(&CoccusSpec::default().into(), place(k).steered_by(controller)).unwrap()
@@ -105,9 +111,30 @@ fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
     world.organisms.get(cell)?.engulfer.as_ref()?.meals.first().map(|meal| meal.phase)
 }
 
+/// A sensor with fluid in it, a one-way platform, and a place that is free again.
+fn obstacles(world: &mut World) -> [ObstacleId; 2] {
+    let block = FluidBlockSpec { size: Vec2::splat(2.0), ..FluidBlockSpec::default() };
+    world.spawn(&block.into(), Placement::at(150.0, 84.0)).unwrap();
+    let ball = |x, y| Obstacle::new(SharedShape::ball(2.0), Pose::translation(x, y));
+    let sensor = world.add_obstacle(Obstacle { is_sensor: true, ..ball(150.0, 84.0) }).unwrap();
+    let platform = Obstacle { motion: ObstacleMotion::Push, one_way: Some(Vec2::Y), ..ball(4.0, 4.0) };
+    let platform = world.add_obstacle(platform).unwrap();
+    let still = world.add_obstacle(Obstacle { motion: ObstacleMotion::Stop, ..ball(4.0, 86.0) }).unwrap();
+    let gone = world.add_obstacle(ball(150.0, 4.0)).unwrap();
+    world.remove_obstacle(gone).unwrap();
+    world.set_obstacle_enabled(still, false).unwrap();
+    [sensor, platform]
+}
+
+fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
+    let (point, normal) = (Vec2::ONE, Vec2::X);
+    ContactPoint { organism, partner, node: 1, partner_node: Some(2), point, normal, speed: 3.0, impulse: 4.0 }
+}
+
 /// One of each kind.
-fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
+fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
     let reason = Refusal::FurrowOpen;
+    let contact = contact(a, Collider::Organism(b));
     vec![
         Event::ContactBegan { a, b },
         Event::ContactEnded { a, b },
@@ -123,5 +150,11 @@ fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
         Event::FusionRefused { organism: a, with: b, reason },
         Event::Fused { into: a, from: b },
         Event::Quarantined { organism: a },
+        Event::ObstacleBlocked { obstacle },
+        Event::SensorEntered { sensor: obstacle, organism: a, particle: Some(1) },
+        Event::SensorLeft { sensor: obstacle, organism: a, particle: None },
+        Event::TouchBegan { organism: a, collider: Collider::Obstacle(obstacle) },
+        Event::TouchEnded { organism: a, collider: Collider::Wall(Wall::Top) },
+        Event::Hit { contact },
     ]
 }

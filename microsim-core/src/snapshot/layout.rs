@@ -341,7 +341,7 @@ fn the_worlds_of_the_tests_hold_everything_that_can_be_written() {
     ];
     let mut held = Layout::default();
     for world in worlds() {
-        let records: Vec<_> = world.obstacles().map(|obstacle| ObstacleRecord::of(obstacle).unwrap()).collect();
+        let records: Vec<_> = world.obstacles().filter_map(|id| ObstacleRecord::of(world.obstacle(id)?)).collect();
         walk(&(records, &world), &mut held);
     }
     let ways = |layout: &Layout| layout.parts.iter().map(|(way, _)| way.clone()).collect::<BTreeSet<_>>();

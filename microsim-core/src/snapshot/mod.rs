@@ -106,7 +106,12 @@ impl World {
     /// [`SnapshotError::UnknownShape`].
     pub fn to_snapshot(&self) -> Result<Vec<u8>, SnapshotError> {
         let record = |(obstacle, known)| ObstacleRecord::of(known).ok_or(SnapshotError::UnknownShape { obstacle });
-        let obstacles = self.obstacles().enumerate().map(record).collect::<Result<Vec<_>, _>>()?;
+        let obstacles = self
+            .obstacles()
+            .filter_map(|id| self.obstacle(id))
+            .enumerate()
+            .map(record)
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(WORLD.seal(&encode(&(obstacles, self))?))
     }
 

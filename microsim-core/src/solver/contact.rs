@@ -4,6 +4,7 @@
 //! et al. 2014, "Unified Particle Physics", section 6.1, static and kinetic coefficient equal); restitution is a velocity
 //! pass after the substep (Mueller et al. 2020, "Detailed Rigid Body Simulation", eq. 34).
 
+use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use crate::collision::Contact;
 use crate::particle::Particles;
@@ -18,28 +19,42 @@ const HEAVIEST: f32 = 30.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Impact {
     i: u32,
-    /// The other disc; `None` if it is a static obstacle.
+    /// The other disc; `None` if it is an obstacle.
     j: Option<u32>,
     /// From `i` to the other.
     normal: Vec2,
     /// Speed of separation that restitution asks for.
     rebound: f32,
+    /// Velocity of the obstacle's surface.
+    surface: Vec2,
 }
 
 /// Pushes overlapping discs apart.
-pub(crate) fn project(contacts: &mut [Contact], particles: &mut Particles, impacts: &mut Vec<Impact>) {
+pub(crate) fn project(
+    contacts: &mut [Contact],
+    particles: &mut Particles,
+    impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
+) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
         let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
         let squared = between.length_squared();
         if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
-            separate(contact, between, squared, particles, impacts);
+            separate(contact, between, squared, particles, impacts, recorder);
         }
     }
 }
 
-fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts: &mut Vec<Impact>) {
+fn separate(
+    c: &Contact,
+    between: Vec2,
+    squared: f32,
+    p: &mut Particles,
+    impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
+) {
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
@@ -48,6 +63,15 @@ fn separate(c: &Contact, between: Vec2, squared: f32, p: &mut Particles, impacts
     if c.restitution > 0.0 {
         impacts.extend(Impact::of(c, normal, p));
     }
+    recorder.note(p, || Projected {
+        particle: c.i,
+        touched: Touched::Disc(c.j),
+        normal: -normal,
+        depth,
+        weight: wi + wj,
+        restitution: c.restitution,
+        velocity: p.velocity(j),
+    });
     let push = normal * ratio(depth, wi + wj);
     shift(p, i, -push * wi);
     shift(p, j, push * wj);
@@ -93,19 +117,20 @@ impl Impact {
     /// An impact of two discs, if they approach each other; what sleeps is as if it were static.
     fn of(c: &Contact, normal: Vec2, p: &Particles) -> Option<Self> {
         match c.asleep {
-            [true, _] => return Self::on_static(p, c.j, -normal, c.restitution),
-            [_, true] => return Self::on_static(p, c.i, normal, c.restitution),
+            [true, _] => return Self::on_surface(p, c.j, -normal, c.restitution, Vec2::ZERO),
+            [_, true] => return Self::on_surface(p, c.i, normal, c.restitution, Vec2::ZERO),
             _ => {}
         }
         let approach = (p.velocity(c.j as usize) - p.velocity(c.i as usize)).dot(normal);
-        (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound: -c.restitution * approach })
+        let rebound = -c.restitution * approach;
+        (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound, surface: Vec2::ZERO })
     }
 
-    /// An impact of particle `i` on a static surface, if it approaches it.
-    pub(crate) fn on_static(p: &Particles, i: u32, normal: Vec2, restitution: f32) -> Option<Self> {
-        let approach = -p.velocity(i as usize).dot(normal);
+    /// An impact of particle `i` on a surface of this velocity, which nothing moves, if it approaches it.
+    pub(crate) fn on_surface(p: &Particles, i: u32, normal: Vec2, restitution: f32, surface: Vec2) -> Option<Self> {
+        let approach = (surface - p.velocity(i as usize)).dot(normal);
         let bounces = restitution > 0.0 && approach < 0.0;
-        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach })
+        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach, surface })
     }
 }
 
@@ -113,7 +138,7 @@ impl Impact {
 pub(crate) fn apply_restitution(impacts: &mut Vec<Impact>, p: &mut Particles) {
     for impact in impacts.drain(..) {
         let i = impact.i as usize;
-        let (other, wj) = impact.j.map_or((Vec2::ZERO, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
+        let (other, wj) = impact.j.map_or((impact.surface, 0.0), |j| (p.velocity(j as usize), p.inv_mass[j as usize]));
         let lacking = impact.rebound - (other - p.velocity(i)).dot(impact.normal);
         if lacking > 0.0 {
             let impulse = impact.normal * ratio(lacking, p.inv_mass[i] + wj);
@@ -138,14 +163,16 @@ mod tests {
 
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
-        assert_pair_laws(&[0.6], 1.0, |p| project(&mut [touching(0.0, 0.0)], p, &mut Vec::new()));
+        assert_pair_laws(&[0.6], 1.0, |p| {
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default())
+        });
     }
 
     #[test]
     fn discs_apart_are_left_alone_and_not_touched() {
         let mut p = line(1.2, [1.0, 1.0]);
         let mut contact = touching(0.5, 0.0);
-        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new());
+        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default());
         assert!(!contact.touched && p.x[1] == 1.2);
     }
 
@@ -157,7 +184,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new());
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default());
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
@@ -168,7 +195,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts);
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default());
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);

@@ -6,6 +6,7 @@
 pub(crate) mod block;
 pub(crate) mod constraint;
 pub(crate) mod contact;
+pub(crate) mod contact_record;
 pub(crate) mod contraction;
 pub(crate) mod drive;
 pub(crate) mod fluid;

@@ -1,45 +1,112 @@
-//! Contacts of discs with static geometry: any `parry2d` shape. The world's walls are the first user.
+//! Contacts of discs with obstacles: any `parry2d` shape, fixed or on its way. The world's walls are the first user.
+//!
+//! A moving obstacle pushes with no limit of force, but moves back from what is caught: from a disc that something fixed has
+//! pushed into it, or that others press into it by more than [`PRESS`] of its radius.
 
 use super::contact::{Impact, friction, moved, shift};
+use super::contact_record::{ContactRecorder, Projected, Touched};
+use super::lanes::ratio;
 use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_path::{ObstaclePath, path_of};
 use crate::collision::{ObstacleContact, combine};
 use crate::geometry::ring::direction_or;
 use crate::particle::Particles;
 use glam::Vec2;
 
-/// Moves discs out of obstacles.
+/// Share of a disc's radius by which a moving obstacle lets it be pressed in.
+const PRESS: f32 = 0.1;
+/// A one-way platform holds a disc that was at least this share of its radius above it ...
+const CLEAR: f32 = 0.9;
+/// ... in a direction whose cosine with the normal is at least this.
+const UPRIGHT: f32 = 0.5;
+
+/// Moves discs out of obstacles in a substep of `h`; obstacles on their way move back from what is caught.
 pub(crate) fn project(
     contacts: &[ObstacleContact],
     obstacles: &[Obstacle],
+    paths: &mut [ObstaclePath],
     particles: &mut Particles,
     impacts: &mut Vec<Impact>,
+    recorder: &mut ContactRecorder,
+    h: f32,
 ) {
     for contact in contacts {
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
-        if let Some((away, depth)) = separate(i, obstacle, particles) {
+        let path = path_of(paths, contact.obstacle);
+        if let Some((away, depth)) = separate(i, obstacle, path.as_deref(), particles) {
+            let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(particles.position(i)));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
-            impacts.extend(Impact::on_static(particles, contact.particle, -away, restitution));
-            let rub = friction(moved(particles, i), away, mu * depth);
+            impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
+            recorder.note(particles, || Projected {
+                particle: contact.particle,
+                touched: Touched::Obstacle(contact.obstacle),
+                normal: away,
+                depth,
+                weight: particles.inv_mass[i],
+                restitution,
+                velocity: way / h,
+            });
+            if let Some(path) = path {
+                let approach = (way - particles.velocity(i) * h).dot(away);
+                let pressed = depth - if approach > 0.0 { approach } else { 0.0 };
+                path.give_way(pressed - PRESS * particles.radius[i], way, away);
+            }
+            let rub = friction(moved(particles, i) - way, away, mu * depth);
             shift(particles, i, rub);
         }
     }
     // In a corner the friction on one wall may have moved a disc into the other.
     for contact in contacts {
-        separate(contact.particle as usize, &obstacles[contact.obstacle as usize], particles);
+        let path = path_of(paths, contact.obstacle);
+        separate(contact.particle as usize, &obstacles[contact.obstacle as usize], path.as_deref(), particles);
+    }
+    if !paths.is_empty() {
+        move_back(contacts, obstacles, paths, particles);
+    }
+}
+
+/// Moves obstacles back from the discs that something fixed has pushed into them.
+fn move_back(contacts: &[ObstacleContact], obstacles: &[Obstacle], paths: &mut [ObstaclePath], p: &Particles) {
+    for contact in contacts {
+        let Some(path) = path_of(paths, contact.obstacle) else { return };
+        let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
+        if let Some((away, depth)) = overlap(i, obstacle, Some(path), p) {
+            path.give_way(depth, path.displacement(p.position(i)), away);
+        }
     }
 }
 
 /// Moves a disc out of an obstacle; returns the way out and how deep it was, if it was inside.
-fn separate(i: usize, obstacle: &Obstacle, particles: &mut Particles) -> Option<(Vec2, f32)> {
+fn separate(
+    i: usize,
+    obstacle: &Obstacle,
+    path: Option<&ObstaclePath>,
+    particles: &mut Particles,
+) -> Option<(Vec2, f32)> {
+    let (away, depth) = overlap(i, obstacle, path, particles)?;
+    shift(particles, i, away * depth);
+    Some((away, depth))
+}
+
+/// The way out of an obstacle and how deep a disc is in it, if it is.
+fn overlap(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &Particles) -> Option<(Vec2, f32)> {
     let position = particles.position(i);
     let (surface, is_inside) = obstacle.nearest(position);
     let came_from = particles.last_position(i) - surface;
     let (away, distance) = direction(position - surface, is_inside, came_from);
     let depth = particles.radius[i] - distance;
-    (depth > 0.0).then(|| {
-        shift(particles, i, away * depth);
-        (away, depth)
-    })
+    let is_held = || obstacle.one_way.is_none_or(|normal| is_above(i, obstacle, normal, path, particles));
+    (depth > 0.0 && is_held()).then_some((away, depth))
+}
+
+/// Whether a disc was wholly on the solid side of a one-way platform when the substep began.
+fn is_above(i: usize, platform: &Obstacle, normal: Vec2, path: Option<&ObstaclePath>, p: &Particles) -> bool {
+    let last = p.last_position(i);
+    let came_from = last + path.map_or(Vec2::ZERO, |path| path.displacement(last));
+    let (surface, is_inside) = platform.nearest(came_from);
+    let (way, normal) = (came_from - surface, platform.pose.transform_vector(normal));
+    let distance = way.length();
+    !is_inside && distance >= CLEAR * p.radius[i] && way.dot(normal) * ratio(1.0, normal.length()) >= UPRIGHT * distance
 }
 
 /// Unit vector out of the obstacle and signed distance to its surface (negative inside). On the surface itself the way out
@@ -67,7 +134,15 @@ mod tests {
         let mut p = line(100.0, [1.0, 1.0]);
         (p.x[0], p.y[0]) = (start.x, start.y);
         let contact = ObstacleContact { particle: 0, obstacle: 0 };
-        project(&[contact], std::slice::from_ref(&obstacle), &mut p, &mut Vec::new());
+        project(
+            &[contact],
+            std::slice::from_ref(&obstacle),
+            &mut [],
+            &mut p,
+            &mut Vec::new(),
+            &mut ContactRecorder::default(),
+            0.01,
+        );
         let (surface, is_inside) = obstacle.nearest(p.position(0));
         let distance = (p.position(0) - surface).length();
         if is_inside { -distance } else { distance }

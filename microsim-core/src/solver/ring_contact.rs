@@ -13,6 +13,7 @@
 //! is that of an angle-weighted normal; in the plane it is that of the more orthogonal edge).
 
 use super::contact::{friction, moved, no_heavier, shift};
+use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use crate::collision::ring::{Link, Ring, RingContact, RingContacts, Side};
 use crate::geometry::polygon::contains_point;
@@ -49,7 +50,7 @@ impl Relation {
 }
 
 /// Pushes discs and links apart; returns how many discs were on the wrong side.
-pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
+pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles, recorder: &mut ContactRecorder) -> u32 {
     let (contacts, links) = rings.parts();
     let mut wrong = 0;
     for contact in contacts {
@@ -60,12 +61,12 @@ pub(crate) fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
         contact.is_close = is_wrong || relation.squared < radius_sum * radius_sum;
         if is_wrong {
             wrong += 1;
-            separate(contact, nearest, &relation, radius_sum + relation.squared.sqrt(), p);
+            separate(contact, nearest, &relation, radius_sum + relation.squared.sqrt(), p, recorder);
         } else if contact.is_close {
             for &link in links {
                 let relation = relate(contact.particle, link, p);
                 if relation.squared < radius_sum * radius_sum {
-                    separate(contact, link, &relation, radius_sum - relation.squared.sqrt(), p);
+                    separate(contact, link, &relation, radius_sum - relation.squared.sqrt(), p, recorder);
                 }
             }
         }
@@ -204,7 +205,14 @@ fn relate(particle: u32, link: Link, p: &Particles) -> Relation {
 }
 
 /// Moves disc and link `depth` apart, the disc to its own side.
-fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f32, p: &mut Particles) {
+fn separate(
+    contact: &mut RingContact,
+    link: Link,
+    relation: &Relation,
+    depth: f32,
+    p: &mut Particles,
+    recorder: &mut ContactRecorder,
+) {
     let (i, a, b) = (contact.particle as usize, link.a as usize, link.b as usize);
     let normal = to_own_side(contact.side, relation);
     let (share_a, share_b) = (1.0 - relation.t, relation.t);
@@ -216,8 +224,18 @@ fn separate(contact: &mut RingContact, link: Link, relation: &Relation, depth: f
         shift(p, a, -by * wa);
         shift(p, b, -by * wb);
     };
+    let node = if relation.t < 0.5 { link.a } else { link.b };
+    recorder.note(p, || Projected {
+        particle: contact.particle,
+        touched: Touched::Disc(node),
+        normal,
+        depth,
+        weight,
+        restitution: 0.0,
+        velocity: p.velocity(a) * share_a + p.velocity(b) * share_b,
+    });
     push(normal * ratio(depth, weight), p);
-    contact.touched = Some(if relation.t < 0.5 { link.a } else { link.b });
+    contact.touched = Some(node);
     let slip = moved(p, i) - moved(p, a) * share_a - moved(p, b) * share_b;
     push(friction(slip, normal, contact.friction * depth) * ratio(1.0, weight), p);
 }
@@ -237,6 +255,10 @@ mod tests {
     use proptest::prelude::*;
 
     const RADIUS: f32 = 0.5;
+
+    fn project(rings: &mut RingContacts, p: &mut Particles) -> u32 {
+        super::project(rings, p, &mut ContactRecorder::default())
+    }
 
     /// A ring of owner 0 and a disc of owner `owner` at some place; the contacts between them.
     fn scene(outline: &[Vec2], at: Vec2, owner: u32) -> (Particles, RingContacts, Vec<u32>) {

@@ -30,7 +30,17 @@ pub(crate) fn search_input<'a>(
     limits: DisplacementLimits,
 ) -> SearchInput<'a> {
     let size = Vec2::new(40.0, 30.0);
-    SearchInput { particles, blocks: &[], obstacles: &[], exemptions, rings: &[], containments: &[], size, limits }
+    SearchInput {
+        particles,
+        blocks: &[],
+        obstacles: &[],
+        paths: &[],
+        exemptions,
+        rings: &[],
+        containments: &[],
+        size,
+        limits,
+    }
 }
 
 /// Two particles on the x axis, the first at the origin.

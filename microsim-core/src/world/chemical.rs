@@ -18,7 +18,7 @@ impl World {
 
     fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let mut chemical = Chemical::new(spec, &self.config)?;
-        for obstacle in self.obstacles() {
+        for obstacle in self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals()) {
             chemical.close(|at| obstacle.nearest(at).1);
         }
         self.chemicals.push(chemical);

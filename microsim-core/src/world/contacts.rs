@@ -57,7 +57,8 @@ impl World {
         let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
         let (rings, containments) = (rings.as_slice(), &organisms.containments());
         let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
-        let input = SearchInput { particles, blocks, obstacles, exemptions, rings, containments, size, limits };
+        let paths = &scratch.obstacle_paths;
+        let input = SearchInput { particles, blocks, obstacles, paths, exemptions, rings, containments, size, limits };
         scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
     }
 

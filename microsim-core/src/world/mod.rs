@@ -3,11 +3,12 @@
 //! ([`state`]).
 
 mod chemical;
+pub(crate) mod contact_report;
 pub(crate) mod contacts;
 mod controller;
 pub(crate) mod measure;
 mod membrane;
-mod obstacle;
+pub(crate) mod obstacle;
 mod occupancy;
 mod phagocytosis;
 mod push;
@@ -24,6 +25,7 @@ use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_path::ObstaclePath;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::event::Event;
@@ -37,13 +39,17 @@ use crate::particle::sleep::Sleep;
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::contact::Impact;
+use crate::solver::contact_record::ContactRecorder;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::{Drive, Tow};
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::template::Template;
+use contact_report::ContactReports;
 use contacts::Touching;
 use glam::Vec2;
+use obstacle::sensor::Presences;
+use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
 use serde::{Deserialize, Serialize};
 use vacancies::Vacancies;
@@ -84,8 +90,10 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
-    /// Of each obstacle, see [`obstacle::digest`].
-    obstacle_digests: Vec<u64>,
+    pub(crate) obstacle_table: ObstacleTable,
+    presences: Presences,
+    contact_reports: ContactReports,
+    /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
     #[serde(skip)]
@@ -108,11 +116,14 @@ pub(crate) struct Guard {
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     pub broad_phase: BroadPhase,
+    /// Of the obstacles that move in this step, in their order.
+    pub obstacle_paths: Vec<ObstaclePath>,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
     pub tows: Vec<Tow>,
     pub contractions: Vec<Contraction>,
     pub impacts: Vec<Impact>,
+    pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,
 }
@@ -139,7 +150,9 @@ impl Clone for World {
             touching,
             events,
             guard,
-            obstacle_digests,
+            obstacle_table,
+            presences,
+            contact_reports,
             obstacles,
             scratch,
             dispatch,
@@ -157,7 +170,9 @@ impl Clone for World {
         self.touching.clone_from(touching);
         self.events.clone_from(events);
         self.guard = *guard;
-        self.obstacle_digests.clone_from(obstacle_digests);
+        self.obstacle_table.clone_from(obstacle_table);
+        self.presences.clone_from(presences);
+        self.contact_reports.clone_from(contact_reports);
         self.obstacles.clone_from(obstacles);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
         self.scratch.occupancy.clear();
@@ -183,7 +198,9 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Shared::default(),
-            obstacle_digests: Vec::new(),
+            obstacle_table: ObstacleTable::default(),
+            presences: Presences::default(),
+            contact_reports: ContactReports::default(),
             blocks: Shared::default(),
             sleep: Sleep::default(),
             fluids: Vec::new(),

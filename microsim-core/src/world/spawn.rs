@@ -151,7 +151,7 @@ impl World {
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
     fn overlap(&mut self, planned: &[Particle]) -> Option<String> {
-        if self.obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
+        if self.solid_obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = bounds_of(discs(planned));

@@ -1,7 +1,9 @@
 //! Waking organisms when something other than motion changes: the body itself, or one that it touches.
 
 use super::World;
+use crate::collision::obstacle::Obstacle;
 use crate::id::OrganismId;
+use parry2d::bounding_volume::BoundingVolume;
 
 impl World {
     /// Wakes an organism.
@@ -9,6 +11,17 @@ impl World {
         let lane = self.organisms.get(id).and_then(|organism| organism.body.lane(&self.blocks));
         if let Some((block, lane)) = lane {
             self.sleep.wake_up(block, lane);
+        }
+    }
+
+    /// Wakes all organisms in and around the box of an obstacle.
+    pub(super) fn wake_up_near(&mut self, obstacle: &Obstacle) {
+        let near = obstacle.aabb().loosened(self.config.max_displacement());
+        let p = &self.particles;
+        let is_near = |&i: &u32| near.loosened(p.radius[i as usize]).contains_local_point(p.position(i as usize));
+        let organisms = self.organisms.iter().filter(|(_, organism)| organism.particles().any(|i| is_near(&i)));
+        for id in organisms.map(|(id, _)| id).collect::<Vec<_>>() {
+            self.wake_up(id);
         }
     }
 

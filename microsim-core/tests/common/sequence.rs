@@ -10,8 +10,8 @@ use choices::Choices;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    ChemicalId, ChemicalSpec, Error, Exchange, Inputs, InstructionSet, Intent, Measure, Node, Obstacle, OrganismId,
-    Template, TemplateId, World,
+    ChemicalId, ChemicalSpec, Collider, Error, Exchange, Inputs, InstructionSet, Intent, Measure, Node, Obstacle,
+    ObstacleId, ObstacleMotion, OrganismId, QueryFilter, Template, TemplateId, World,
 };
 
 /// Most calls and steps of a sequence.
@@ -37,6 +37,7 @@ struct Sequence<'a> {
     /// Digest of `saved` when it was saved.
     digest_saved: u64,
     handles: Vec<OrganismId>,
+    obstacles: Vec<ObstacleId>,
     templates: Vec<TemplateId>,
     chemicals: Vec<ChemicalId>,
     inputs: Inputs,
@@ -56,6 +57,7 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
         digest_saved: world.digest(),
         world,
         handles: Vec::new(),
+        obstacles: Vec::new(),
         templates: Vec::new(),
         chemicals: Vec::new(),
         inputs: Inputs::new(),
@@ -96,7 +98,7 @@ impl Sequence<'_> {
             18 => ("grow", self.with_handle(Self::grow)),
             19 => ("remove", self.with_handle(|sequence, id| sequence.world.remove(id))),
             20 => ("set_exempt", self.with_two_handles(Self::set_exempt)),
-            21 => ("add_obstacle", self.add_obstacle()),
+            21 => self.obstacle_call(),
             22 => ("spawn_template", self.spawn_template()),
             23 => ("clone", self.save_or_restore()),
             24 => ("queries", self.ask()),
@@ -189,15 +191,53 @@ impl Sequence<'_> {
         self.world.set_exchange(id, Exchange { chemical, secretion, uptake })
     }
 
+    /// A call for obstacles, also with handles that are stale.
+    fn obstacle_call(&mut self) -> (&'static str, Outcome) {
+        let which = self.choices.below(12);
+        let count = self.obstacles.len();
+        if which < 4 || count == 0 {
+            return ("add_obstacle", self.add_obstacle());
+        }
+        let id = self.obstacles[self.choices.below(count)];
+        let to = Pose::new(self.place(), self.choices.number(-3.0, 3.0));
+        match which {
+            4 => ("remove_obstacle", self.world.remove_obstacle(id)),
+            5 => ("set_obstacle_pose", self.world.set_obstacle_pose(id, to)),
+            6 => {
+                let shape = self.obstacle_shape();
+                ("set_obstacle_shape", self.world.set_obstacle_shape(id, shape))
+            }
+            7 => {
+                let is_enabled = self.choices.flag();
+                ("set_obstacle_enabled", self.world.set_obstacle_enabled(id, is_enabled))
+            }
+            _ => ("move_obstacle", self.world.move_obstacle(id, to)),
+        }
+    }
+
     fn add_obstacle(&mut self) -> Outcome {
         let at = self.place();
+        let shape = self.obstacle_shape();
+        let kind = self.choices.byte();
+        let motion = [ObstacleMotion::Push, ObstacleMotion::Stop, ObstacleMotion::Fixed][usize::from(kind % 3)];
+        let one_way = (kind % 5 == 1).then(|| Vec2::new(self.choices.number(-1.0, 1.0), 1.0));
+        let added = Obstacle {
+            motion,
+            one_way,
+            is_sensor: kind % 4 == 1,
+            ..Obstacle::new(shape, Pose::translation(at.x, at.y))
+        };
+        self.world.add_obstacle(added).map(|id| self.obstacles.push(id))
+    }
+
+    fn obstacle_shape(&mut self) -> SharedShape {
         let (a, b) = (self.choices.range(0.5, 6.0), self.choices.range(0.5, 6.0));
-        let shape = match self.choices.below(3) {
+        match self.choices.below(4) {
             0 => SharedShape::ball(a),
             1 => SharedShape::cuboid(a, b),
+            2 => SharedShape::polyline(vec![Vec2::ZERO, Vec2::new(a, 0.0), Vec2::new(a, b)], None),
             _ => SharedShape::capsule(Vec2::ZERO, Vec2::new(a, b), 1.0),
-        };
-        self.world.add_obstacle(Obstacle::new(shape, Pose::translation(at.x, at.y))).map(drop)
+        }
     }
 
     fn spawn_template(&mut self) -> Outcome {
@@ -248,8 +288,8 @@ impl Sequence<'_> {
         let found = world.organisms_at(a).count() + world.organisms_in_circle(a, radius).count();
         let boxed = world.organisms_in_box(a, b).count();
         assert!(found <= 2 * world.organisms().count() && boxed <= world.organisms().count());
-        let hit = world.cast_ray(a, b - a, radius);
-        assert!(hit.is_none_or(|hit| world.kind(hit.organism).is_some()));
+        self.query(a, b, radius);
+        let world = &self.world;
         for &id in &self.handles {
             let is_alive = world.kind(id).is_some();
             assert_eq!(is_alive, world.view().organism(id).is_some());
@@ -258,6 +298,26 @@ impl Sequence<'_> {
         }
         assert!(Measure::ALL.iter().all(|measure| measure.of(world).is_finite()));
         Ok(())
+    }
+
+    /// All queries agree with each other.
+    fn query(&self, a: Vec2, b: Vec2, radius: f32) {
+        let (queries, all) = (self.world.queries(), QueryFilter { sensors: true, ..QueryFilter::default() });
+        let is_known = |collider: Collider| match collider {
+            Collider::Organism(id) => self.world.kind(id).is_some(),
+            Collider::Obstacle(id) => self.world.obstacle(id).is_some(),
+            Collider::Wall(_) => true,
+        };
+        let hits = queries.cast_ray_all(a, b - a, 10.0 * radius, &all);
+        let first = queries.cast_ray(a, b - a, 10.0 * radius, &all);
+        assert_eq!(hits.first().map(|hit| hit.distance), first.map(|hit| hit.distance));
+        assert!(hits.iter().all(|hit| is_known(hit.collider)));
+        let cast = queries.cast_disc(a, b - a, 10.0 * radius, radius, &all);
+        assert!(first.is_none_or(|first| cast.is_some_and(|cast| cast.distance <= first.distance + 0.01)));
+        let boxed = queries.overlap_box(a, b, &all);
+        let near = [queries.overlap_disc(a, radius, &all), boxed, queries.overlap_polygon(&[a, b, a + b], &all)];
+        assert!(near.iter().flatten().all(|&collider| is_known(collider)));
+        assert!(queries.nearest(a, radius, &all).is_none_or(|nearest| nearest.distance <= radius));
     }
 
     /// Goes on with what is read of what the world is written as.

@@ -143,7 +143,7 @@ impl Senses<'_> {
     }
 
     fn walls(&self) -> impl Iterator<Item = Wall> {
-        self.around.obstacles.iter().filter_map(|obstacle| {
+        self.around.obstacles.iter().filter(|obstacle| obstacle.is_solid()).filter_map(|obstacle| {
             let (surface, is_inside) = obstacle.nearest(self.at);
             let way = self.at - surface;
             let away = direction_or(if is_inside { -way } else { way }, Vec2::Y);

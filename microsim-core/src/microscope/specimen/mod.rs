@@ -54,7 +54,7 @@ impl Specimen {
         let background = BackgroundMatter { seed: scramble(seed as u32 ^ (seed >> 32) as u32), time, camera };
         let chamber = Chamber {
             size: world.config().size,
-            obstacles: world.obstacles().cloned().collect(),
+            obstacles: world.solid_obstacles().cloned().collect(),
             seed: background.seed,
         };
         let (round, amoeboid, spots, threads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());

@@ -65,7 +65,7 @@ impl World {
             && self.discs_of(prey).all(|i| holds(&arc, i))
             && organism.fluid_particles.iter().all(|&i| holds(&left, i as usize))
             && !p.live().filter(is_foreign).any(|i| holds(&arc, i))
-            && !self.obstacles.iter().any(|obstacle| contains_point(&arc, obstacle.aabb().center()));
+            && !self.solid_obstacles().any(|obstacle| contains_point(&arc, obstacle.aabb().center()));
         is_clear.then_some(swap)
     }
 

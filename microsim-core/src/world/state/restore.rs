@@ -14,7 +14,10 @@ use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::template::Template;
+use crate::world::contact_report::ContactReports;
 use crate::world::contacts::Touching;
+use crate::world::obstacle::sensor::Presences;
+use crate::world::obstacle::table::ObstacleTable;
 use crate::world::{Guard, World};
 use serde::Deserialize;
 
@@ -34,7 +37,9 @@ pub(crate) struct WorldState {
     touching: Touching,
     events: Vec<Event>,
     guard: Guard,
-    obstacle_digests: Vec<u64>,
+    obstacle_table: ObstacleTable,
+    presences: Presences,
+    contact_reports: ContactReports,
 }
 
 impl World {
@@ -44,12 +49,9 @@ impl World {
     /// Says which part of the state cannot be one of a world.
     pub(crate) fn restore(state: WorldState, obstacles: Vec<Obstacle>) -> Result<Self, String> {
         let mut world = Self::new(state.config).map_err(|error| error.within("config").to_string())?;
-        for (k, obstacle) in obstacles.into_iter().enumerate() {
-            world.add_obstacle(obstacle).map_err(|error| error.within(&format!("obstacles[{k}]")).to_string())?;
-        }
-        if world.obstacle_digests != state.obstacle_digests {
-            return Err("obstacles: they differ from those that were written".to_owned());
-        }
+        world.restore_obstacles(state.obstacle_table, obstacles)?;
+        world.presences = state.presences;
+        world.restore_contact_reports(state.contact_reports)?;
         for (k, record) in state.chemicals.into_iter().enumerate() {
             let added = world.add_chemical(record.spec).map_err(|error| error.to_string()).map(drop);
             let filled = added.and_then(|()| world.chemicals[k].restore(record, &world.config));

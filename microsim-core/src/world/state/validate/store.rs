@@ -15,9 +15,8 @@ pub(super) fn check(world: &World) -> Check {
     (0..world.particles.len()).try_for_each(|i| check_entry(world, i))?;
     check_places(world)?;
     (0..world.fluids.len()).try_for_each(|k| check_fluid(world, k))?;
-    let (digests, obstacles) = (world.obstacle_digests.len(), world.obstacles.len() - WALLS);
-    let none = Subject::default();
-    none.must(digests == obstacles, || format!("{digests} digests of {obstacles} obstacles"))
+    let obstacles = world.obstacle_table.check(&world.obstacles[WALLS..]);
+    obstacles.map_err(|flaw| Subject::default().violation(flaw))
 }
 
 pub(super) fn check_columns(p: &Particles) -> Check {

@@ -54,7 +54,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.sleep = Sleep::default(), "2 blocks, but sleep counters of 0");
     finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
     finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
-    finds(|w| w.obstacle_digests.push(7), "digests");
+    finds(|w| w.obstacles.push(crate::world::obstacle::nothing()), "places for");
 }
 
 #[test]

@@ -1,0 +1,84 @@
+//! Records of what contacts did in each substep, for reports. Nothing is recorded unless somebody wants to know.
+
+use super::lanes::ratio;
+use crate::particle::Particles;
+use glam::Vec2;
+
+/// What a disc touched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Touched {
+    /// A particle.
+    Disc(u32),
+    /// The obstacle with this index, walls included.
+    Obstacle(u32),
+}
+
+/// What a contact did in a substep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactRecord {
+    pub particle: u32,
+    pub touched: Touched,
+    pub point: Vec2,
+    /// Unit vector to the particle.
+    pub normal: Vec2,
+    /// Speed of approach; negative if they part.
+    pub speed: f32,
+    /// Normal impulse.
+    pub impulse: f32,
+}
+
+/// A contact that was projected, as the projection knows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projected {
+    pub particle: u32,
+    pub touched: Touched,
+    /// Unit vector to the particle.
+    pub normal: Vec2,
+    pub depth: f32,
+    /// Sum of the inverse masses of both sides along the normal.
+    pub weight: f32,
+    pub restitution: f32,
+    /// Velocity of what is touched.
+    pub velocity: Vec2,
+}
+
+/// Records of a step.
+#[derive(Debug, Default)]
+pub(crate) struct ContactRecorder {
+    is_on: bool,
+    h: f32,
+    records: Vec<ContactRecord>,
+}
+
+impl ContactRecorder {
+    /// Begins a step with substeps of `h`.
+    pub(crate) fn begin(&mut self, is_on: bool, h: f32) {
+        self.records.clear();
+        (self.is_on, self.h) = (is_on, h);
+    }
+
+    /// Notes a contact that was projected.
+    #[inline(always)]
+    pub(crate) fn note(&mut self, p: &Particles, projected: impl FnOnce() -> Projected) {
+        if self.is_on {
+            self.record(p, projected());
+        }
+    }
+
+    /// The records, by particle and by what it touched, in the order of the substeps.
+    pub(crate) fn sorted(&mut self) -> &[ContactRecord] {
+        self.records.sort_by_key(|record| (record.particle, record.touched));
+        &self.records
+    }
+
+    fn record(&mut self, p: &Particles, projected: Projected) {
+        let Projected { particle, touched, normal, depth, weight, restitution, velocity } = projected;
+        let i = particle as usize;
+        let speed = (velocity - p.velocity(i)).dot(normal);
+        // What bounces gets its speed of separation at once, see `apply_restitution`.
+        let (stopped, bounced) = (depth / self.h, (1.0 + restitution) * speed);
+        let impulse = ratio(if restitution > 0.0 && bounced > stopped { bounced } else { stopped }, weight);
+        let point = p.position(i) - normal * p.radius[i];
+        self.records.push(ContactRecord { particle, touched, point, normal, speed, impulse });
+    }
+}
