@@ -1,6 +1,6 @@
 //! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
-use crate::id::OrganismId;
+use crate::id::{JointId, OrganismId};
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
 
@@ -99,6 +99,20 @@ pub enum Event {
         /// The smaller one; the handle is stale.
         from: OrganismId,
     },
+    /// The force of a joint exceeded what it bears.
+    JointBroken {
+        /// The joint; the handle is stale.
+        joint: JointId,
+        /// Whom it joined; `None` for a place of the world.
+        between: [Option<OrganismId>; 2],
+    },
+    /// Something that a joint held is gone or frozen.
+    JointEnded {
+        /// The joint; the handle is stale.
+        joint: JointId,
+        /// Whom it joined; `None` for a place of the world. Handles may be stale.
+        between: [Option<OrganismId>; 2],
+    },
     /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.
     Quarantined {
         /// The organism.
@@ -153,7 +167,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 14] = [
+    pub const NAMES: [&str; 16] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -167,6 +181,8 @@ impl Event {
         "divided",
         "fusion_refused",
         "fused",
+        "joint_broken",
+        "joint_ended",
         "quarantined",
     ];
 
@@ -187,6 +203,8 @@ impl Event {
             Self::Divided { .. } => "divided",
             Self::FusionRefused { .. } => "fusion_refused",
             Self::Fused { .. } => "fused",
+            Self::JointBroken { .. } => "joint_broken",
+            Self::JointEnded { .. } => "joint_ended",
             Self::Quarantined { .. } => "quarantined",
         }
     }
@@ -203,6 +221,7 @@ impl Event {
             Self::Divided { parent: a, daughter: b }
             | Self::FusionRefused { organism: a, with: b, .. }
             | Self::Fused { into: a, from: b } => [Some(a), Some(b)],
+            Self::JointBroken { between, .. } | Self::JointEnded { between, .. } => between,
             Self::FrontSwitched { organism }
             | Self::DivisionBegan { organism }
             | Self::DivisionRefused { organism, .. }

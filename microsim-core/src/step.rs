@@ -1,7 +1,7 @@
 //! The step, as a table of contents: the order of its phases, and what each hands to which function elsewhere. The names are
 //! those of [`Phase`].
 
-use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
+use crate::behavior::{actuation, division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
 use crate::inputs::Inputs;
 use crate::organism::table::Organisms;
@@ -92,13 +92,18 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.events.clear();
     world.scratch.occupancy.clear();
     serial(world, |world| steer(world, inputs));
+    world.wake_up_joints();
+    world.wake_up_in_fields();
     finished(Phase::SteerOrganisms);
     world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
+    world.gather_joints();
+    world.scale_gravity();
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
+        world.apply_fields(h);
         serial(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
@@ -140,9 +145,12 @@ fn steer(world: &mut World, inputs: &Inputs) {
     division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
-    // An organism with a drive stays awake, even if it is blocked.
-    for drive in scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO) {
-        let owner = organisms.id_at(particles.owner[drive.particle as usize]);
+    scratch.forces.clear();
+    actuation::actuate(organisms, inputs, particles, &mut scratch.forces, dt);
+    // An organism with a drive or a force stays awake, even if it is blocked.
+    let driven = scratch.drives.iter().filter(|drive| drive.velocity != Vec2::ZERO).map(|drive| drive.particle);
+    for particle in driven.chain(scratch.forces.particles().iter().copied()) {
+        let owner = organisms.id_at(particles.owner[particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
         if let Some((block, lane)) = lane {
             sleep.wake_up(block, lane);
@@ -163,6 +171,7 @@ fn stop_sleepers(world: &mut World) {
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
     drive::apply(&scratch.drives, particles, h);
+    scratch.forces.apply(particles, config.gravity, config.speed_limit(), h);
     let outside = outside_of(blocks.iter().map(Block::range), particles.len());
     let mut columns = particles.columns();
     dispatch.run(
@@ -207,6 +216,7 @@ fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
         membrane.project(ring, particles, h);
     }
     contraction::project(&scratch.contractions, particles, h);
+    scratch.joints.project(particles, h);
 }
 
 /// All membranes that move, with their rings.
@@ -279,6 +289,7 @@ fn conclude(world: &mut World) {
         );
     }
     world.quarantine();
+    world.conclude_joints();
     let everything = std::iter::once(0..world.particles.len());
     integrate::for_each_chunk(&mut world.particles, everything, world.dispatch, integrate::move_origins);
 }

@@ -10,27 +10,35 @@ use std::path::{Path, PathBuf};
 
 /// Every module, and the prefixes of the paths that it may use besides its own.
 const LAYERS: &[(&str, &str)] = &[
-    ("error fnv geometry id kind look parallel rng shared walk", ""),
+    ("arena error fnv geometry kind look parallel rng shared walk", ""),
     ("chemical", "config error"),
     ("config spec_field", "error"),
     ("particle", "shared"),
-    ("inputs", "error id"),
+    ("actuation", "error"),
+    ("id", "arena"),
+    ("inputs", "actuation error id"),
+    ("joint", "error id"),
+    ("force_field", "error"),
     ("event", "id kind"),
     ("collision", "geometry parallel particle shared"),
     ("solver", "collision config error geometry parallel particle spec_field"),
     ("template", "error geometry particle solver"),
     ("capability", "chemical collision::obstacle config error geometry id rng spec_field"),
     ("organism", "capability collision error geometry id kind look particle rng shared solver spec_field template"),
-    ("behavior", "capability chemical event geometry id inputs organism particle solver::contraction solver::drive"),
+    (
+        "behavior",
+        "actuation capability chemical event geometry id inputs organism particle solver::contraction solver::drive \
+        solver::force",
+    ),
     (
         "world",
-        "behavior capability chemical collision config error event fnv geometry id kind organism parallel \
+        "arena behavior capability chemical collision config error event fnv force_field geometry id inputs joint kind organism parallel \
         particle rng shared solver template walk",
     ),
     // The step takes the world apart and hands each phase what it needs.
     ("step", "behavior capability inputs organism parallel particle solver world"),
     ("snapshot", "collision fnv id scenario world"),
-    ("replay", "fnv id inputs scenario world"),
+    ("replay", "actuation fnv id inputs scenario world"),
     ("microscope", "collision::obstacle error geometry kind look organism::look template world"),
 ];
 

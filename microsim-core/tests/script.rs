@@ -4,7 +4,7 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
-use microsim_core::{Event, OrganismId, Refusal};
+use microsim_core::{Event, JointEnd, JointKind, JointSpec, OrganismId, Refusal};
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
     [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
@@ -127,7 +127,10 @@ fn invariants_are_ranges_of_measures_and_counts() {
 
 #[test]
 fn every_kind_of_event_has_its_name_in_the_list() {
-    let id = cell(&built(""));
+    let mut run = built("");
+    let id = cell(&run);
+    let ends = [JointEnd::Centre(id), JointEnd::Point(Vec2::ZERO)];
+    let joint = run.world.add_joint(JointSpec::new(ends[0], ends[1], JointKind::Weld)).unwrap();
     let (kind, reason) = (microsim_core::Kind::Agar, Refusal::Dividing);
     let events = [
         Event::ContactBegan { a: id, b: id },
@@ -143,6 +146,8 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::Divided { parent: id, daughter: id },
         Event::FusionRefused { organism: id, with: id, reason },
         Event::Fused { into: id, from: id },
+        Event::JointBroken { joint, between: [Some(id), None] },
+        Event::JointEnded { joint, between: [Some(id), None] },
         Event::Quarantined { organism: id },
     ];
     assert_eq!(events.map(|event| event.name()), Event::NAMES);

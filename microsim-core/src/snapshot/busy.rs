@@ -3,9 +3,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, Kind, Node, Obstacle, OrganismId,
-    PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, World,
-    WorldConfig,
+    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
+    Node, Obstacle, OrganismId, PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope,
+    RunAndTumbleParams, Template, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -24,7 +24,8 @@ pub(super) fn world() -> World {
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
-    world.events = events(eater, divider);
+    let joint = join(&mut world, toucher, divider);
+    world.events = events(eater, divider, joint);
     let gone = cell(&mut world, 24.0, 55.0);
     world.remove(gone).unwrap();
     world
@@ -69,6 +70,28 @@ fn cage(world: &mut World, chemical: ChemicalId) {
     world.spawn(&spec.into(), Placement::at(140.0, 75.0).steered_by(Controller::chemotaxis(nose))).unwrap();
 }
 
+/// A joint of each kind, and a free place; returns the last one's handle.
+fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
+    let (length, max_force, frequency, damping_ratio) = (10.0, 1.0, 1.0, 1.0);
+    let kinds = [
+        JointKind::Pin,
+        JointKind::Distance { length },
+        JointKind::Weld,
+        JointKind::Rope { max_length: 90.0 },
+        JointKind::Spring { length, frequency, damping_ratio },
+        JointKind::mouse(max_force),
+        JointKind::LengthMotor { length, max_force },
+        JointKind::SpeedMotor { speed: 1.0, max_force },
+    ];
+    let ends = [JointEnd::Centre(other), JointEnd::Point(Vec2::splat(50.0))];
+    let node = JointEnd::Node { organism: one, node: 0 };
+    let spec = |(k, kind)| JointSpec::new(node, ends[k % 2], kind);
+    let joints: Vec<_> = kinds.into_iter().enumerate().map(|it| world.add_joint(spec(it)).unwrap()).collect();
+    let gone = world.add_joint(spec((0, JointKind::Weld))).unwrap();
+    world.remove_joint(gone).unwrap();
+    joints[7]
+}
+
 /// A custom body.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
@@ -106,7 +129,8 @@ fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
 }
 
 /// One of each kind.
-fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
+fn events(a: OrganismId, b: OrganismId, joint: JointId) -> Vec<Event> {
+    let between = [Some(a), None];
     let reason = Refusal::FurrowOpen;
     vec![
         Event::ContactBegan { a, b },
@@ -122,6 +146,8 @@ fn events(a: OrganismId, b: OrganismId) -> Vec<Event> {
         Event::Divided { parent: a, daughter: b },
         Event::FusionRefused { organism: a, with: b, reason },
         Event::Fused { into: a, from: b },
+        Event::JointBroken { joint, between },
+        Event::JointEnded { joint, between },
         Event::Quarantined { organism: a },
     ]
 }

@@ -95,6 +95,15 @@ impl Node {
     }
 }
 
+/// How a body moves towards a goal, when an intent or a controller gives it one: its nodes are accelerated towards a velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Propulsion {
+    /// Speed, units/s, 0 to 1000.
+    pub speed: f32,
+    /// Largest acceleration, units/s2, 0 to 1 000 000.
+    pub max_acceleration: f32,
+}
+
 /// A validated recipe of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "TemplateBuilder")]
@@ -102,6 +111,7 @@ pub struct Template {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
+    propulsion: Option<Propulsion>,
 }
 
 impl Template {
@@ -127,6 +137,12 @@ impl Template {
     #[must_use]
     pub fn outline(&self) -> &[u32] {
         &self.outline
+    }
+
+    /// How it moves towards a goal; `None` if it cannot.
+    #[must_use]
+    pub fn propulsion(&self) -> Option<Propulsion> {
+        self.propulsion
     }
 
     /// Farthest that a disc of it reaches from its place.
@@ -166,6 +182,7 @@ pub struct TemplateBuilder {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
+    propulsion: Option<Propulsion>,
 }
 
 impl TemplateBuilder {
@@ -212,12 +229,18 @@ impl TemplateBuilder {
         self
     }
 
+    /// Lets it move towards the goal of an intent or a controller. Without it, it goes nowhere by itself.
+    pub fn propulsion(&mut self, propulsion: Propulsion) -> &mut Self {
+        self.propulsion = Some(propulsion);
+        self
+    }
+
     /// Checks everything and returns the template.
     ///
     /// # Errors
     /// Names the node or constraint that is out of range or refers to a slot that does not exist.
     pub fn build(self) -> Result<Template, Error> {
-        let Self { nodes, mut constraints, outline } = self;
+        let Self { nodes, mut constraints, outline, propulsion } = self;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
@@ -231,7 +254,11 @@ impl TemplateBuilder {
         if !outline.is_empty() {
             check_ring("outline", &outline, nodes.len())?;
         }
-        Ok(Template { nodes, constraints, outline })
+        if let Some(Propulsion { speed, max_acceleration }) = propulsion {
+            in_range("propulsion.speed", speed, 0.0, 1000.0)?;
+            in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
+        }
+        Ok(Template { nodes, constraints, outline, propulsion })
     }
 }
 
@@ -289,6 +316,9 @@ mod tests {
         let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
         refuse(&|b| _ = b.constraint(anchor), "constraints[0].max_length");
         refuse(&|b| _ = b.outline(&[0, 1]), "outline");
+        let propulsion = |speed, max_acceleration| Propulsion { speed, max_acceleration };
+        refuse(&|b| _ = b.propulsion(propulsion(-1.0, 0.0)), "propulsion.speed");
+        refuse(&|b| _ = b.propulsion(propulsion(1.0, f32::INFINITY)), "propulsion.max_acceleration");
         let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
         refuse(&|b| _ = b.constraint(area.clone()), "constraints[0].ring");
         assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));

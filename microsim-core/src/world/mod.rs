@@ -5,6 +5,9 @@
 mod chemical;
 pub(crate) mod contacts;
 mod controller;
+mod force_field;
+mod inputs;
+pub(crate) mod joint;
 pub(crate) mod measure;
 mod membrane;
 mod obstacle;
@@ -14,12 +17,14 @@ mod push;
 mod quarantine;
 pub(crate) mod query;
 mod scale;
+mod settings;
 mod spawn;
 pub(crate) mod state;
 mod vacancies;
 pub(crate) mod view;
 mod wake;
 
+use crate::arena::{Arena, Handle};
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::exemptions::Exemptions;
@@ -27,6 +32,7 @@ use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::event::Event;
+use crate::force_field::ForceField;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::Organism;
@@ -39,10 +45,13 @@ use crate::solver::contact::Impact;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::Drive;
 use crate::solver::fluid::{self, Fluid};
+use crate::solver::force::Forces;
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
+use crate::solver::joint::Joints;
 use crate::template::Template;
 use contacts::Touching;
 use glam::Vec2;
+use joint::JointRecord;
 use occupancy::Occupancy;
 use serde::{Deserialize, Serialize};
 use vacancies::Vacancies;
@@ -83,6 +92,8 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
+    pub(crate) joints: Arena<JointRecord>,
+    pub(crate) fields: Arena<ForceField>,
     /// Of each obstacle, see [`obstacle::digest`].
     obstacle_digests: Vec<u64>,
     #[serde(skip)]
@@ -110,6 +121,10 @@ pub(crate) struct Scratch {
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
     pub contractions: Vec<Contraction>,
+    pub forces: Forces,
+    pub joints: Joints,
+    /// The handle of each of these joints.
+    pub joined: Vec<Handle>,
     pub impacts: Vec<Impact>,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,
@@ -137,6 +152,8 @@ impl Clone for World {
             touching,
             events,
             guard,
+            joints,
+            fields,
             obstacle_digests,
             obstacles,
             scratch,
@@ -155,6 +172,8 @@ impl Clone for World {
         self.touching.clone_from(touching);
         self.events.clone_from(events);
         self.guard = *guard;
+        self.joints.clone_from(joints);
+        self.fields.clone_from(fields);
         self.obstacle_digests.clone_from(obstacle_digests);
         self.obstacles.clone_from(obstacles);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
@@ -193,6 +212,8 @@ impl World {
             events: Vec::new(),
             step_index: 0,
             guard: Guard::default(),
+            joints: Arena::default(),
+            fields: Arena::default(),
             scratch: Scratch::default(),
             dispatch: Dispatch::default(),
         }

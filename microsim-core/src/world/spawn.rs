@@ -3,6 +3,7 @@
 use super::World;
 use super::occupancy::bounds_of;
 use super::vacancies::Vacancy;
+use crate::capability::Locomotion;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
@@ -17,7 +18,7 @@ use crate::solver::block::Block;
 use crate::solver::fluid::{Fluid, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
-use crate::template::{Node, Role, Template};
+use crate::template::{Node, Propulsion, Role, Template};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
@@ -126,6 +127,8 @@ impl World {
             progress: Progress::default(),
             home: placement.at,
             is_quarantined: false,
+            gravity_scale: 1.0,
+            user_data: [0; 2],
         };
         Ok(self.organisms.insert(organism))
     }
@@ -253,7 +256,11 @@ impl Blueprint {
         let outline: Vec<Vec2> =
             template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         let area = crate::geometry::polygon::signed_area(&outline);
-        Self { template: Some(template), ..Self::of(Kind::Custom, area) }
+        let (locomotion, speed) = match template.propulsion() {
+            Some(Propulsion { speed, max_acceleration }) => (Locomotion::Propel { max_acceleration }, speed),
+            None => (Locomotion::None, 0.0),
+        };
+        Self { template: Some(template), locomotion, speed, ..Self::of(Kind::Custom, area) }
     }
 }
 
