@@ -92,6 +92,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.events.clear();
     world.scratch.occupancy.clear();
     serial(world, |world| steer(world, inputs));
+    world.contract_muscles(inputs);
     world.wake_up_joints();
     world.wake_up_in_fields();
     finished(Phase::SteerOrganisms);
@@ -109,7 +110,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
         finished(Phase::ProjectFluids);
-        project_constraints(world, h, substep > 0);
+        project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
         serial(world, project_contacts);
@@ -189,26 +190,28 @@ fn project_fluids(world: &mut World, h: f32) {
     scratch.fluid.project(fluids, particles, h, *dispatch);
 }
 
-fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
+fn project_constraints(world: &mut World, h: f32, substep: u32) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
+    let share = (substep + 1) as f32 / config.substeps as f32;
     let margins = scratch.broad_phase.margins.blocks_mut();
     let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     let mut awake: Vec<_> = awake.collect();
     parallel::for_each(block::batches(&mut awake, particles), |mut batch| {
-        let constraints = templates[batch.template()].constraints();
+        let template = &templates[batch.template()];
+        let (constraints, muscles) = (template.constraints(), template.muscles());
         dispatch.run(
             #[inline(always)]
             || {
                 batch.for_each_block(
                     #[inline(always)]
                     |block, margins| {
-                        if has_moved {
+                        if substep > 0 {
                             block::subtract_displacement(block, margins);
                         }
                         integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
                     },
                 );
-                batch.project(constraints, h);
+                batch.project(constraints, muscles, share, h);
             },
         );
     });

@@ -2,8 +2,8 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    CoccusSpec, Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, OrganismId, Placement, Template,
-    World, WorldConfig,
+    Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, OrganismId, Placement, Template, World,
+    WorldConfig,
 };
 use std::f32::consts::TAU;
 

@@ -3,9 +3,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Controller, Event, Exchange, FleeParams, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
-    Node, Obstacle, OrganismId, PersistentWalkParams, Placement, PursueParams, Refusal, RigidCellSpec, Rope,
-    RunAndTumbleParams, Template, World, WorldConfig,
+    CoccusSpec, Controller, Event, Exchange, FieldKind, FleeParams, ForceField, Inputs, Intent, JointEnd, JointId,
+    JointKind, JointSpec, Kind, Node, Obstacle, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams,
+    Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -18,6 +18,7 @@ pub(super) fn world() -> World {
     steer(&mut world, chemical);
     cage(&mut world, chemical);
     roped(&mut world);
+    blow(&mut world);
     let cells = [(24.0, 30.0), (64.0, 30.0), (104.0, 30.0), (140.0, 30.0)].map(|(x, y)| cell(&mut world, x, y));
     let [eater, taker, toucher, divider] = cells;
     dine(&mut world, cells);
@@ -92,11 +93,29 @@ fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
     joints[7]
 }
 
-/// A custom body.
+/// A force field of each kind, a region of each, and a free place.
+fn blow(world: &mut World) {
+    let centre = Vec2::splat(40.0);
+    let kinds = [
+        FieldKind::Uniform { acceleration: Vec2::ZERO },
+        FieldKind::Radial { centre, acceleration: 0.0 },
+        FieldKind::Vortex { centre, acceleration: 0.0 },
+    ];
+    let regions = [Region::All, Region::Circle { centre, radius: 5.0 }, Region::Box { low: Vec2::ZERO, high: centre }];
+    let fields = kinds.into_iter().zip(regions).map(|(kind, region)| ForceField { region, kind });
+    let fields: Vec<_> = fields.map(|field| world.add_field(field).unwrap()).collect();
+    let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();
+    world.remove_field(gone).unwrap();
+    assert_eq!(fields.len(), world.fields().count());
+}
+
+/// A custom body, with a muscle.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
-    builder.constraint(Rope { a, b, max_length: 3.0 });
+    let channel = builder.channel([1.0, 0.5]);
+    builder.muscle(channel, Rope { a, b, max_length: 3.0 });
+    builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
 }

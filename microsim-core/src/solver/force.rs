@@ -41,10 +41,13 @@ impl Forces {
         &self.particles
     }
 
-    /// Changes velocities for a substep of `h` seconds, each by at most the speed limit. Gravity will be added afterwards, so
-    /// a prescribed velocity is less by that.
+    /// Changes velocities for a substep of `h` seconds, each by at most the speed limit; prescribed velocities come last.
+    /// Gravity will be added afterwards, so they are less by that.
     pub(crate) fn apply(&self, p: &mut Particles, gravity: Vec2, max_speed: f32, h: f32) {
-        for (range, force) in &self.list {
+        let is_prescribed = |(_, force): &&(Range<usize>, Force)| force.velocity.is_some();
+        let (free, prescribed) =
+            (self.list.iter().filter(|it| !is_prescribed(it)), self.list.iter().filter(is_prescribed));
+        for (range, force) in free.chain(prescribed) {
             let list = &self.particles[range.clone()];
             let Some(body) = MassProperties::of(p, list) else { continue };
             let spin = if force.torque == 0.0 { None } else { body.inertia(p, list) };

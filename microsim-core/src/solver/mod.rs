@@ -15,6 +15,7 @@ pub(crate) mod integrate;
 pub(crate) mod joint;
 pub(crate) mod lanes;
 pub(crate) mod membrane;
+pub(crate) mod muscle;
 pub(crate) mod obstacle;
 pub(crate) mod ring_contact;
 #[cfg(test)]

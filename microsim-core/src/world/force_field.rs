@@ -9,6 +9,18 @@ use glam::Vec2;
 impl World {
     /// Adds a force field. It acts on every particle in its region, beside gravity; bodies in it stay awake.
     ///
+    /// ```
+    /// # use microsim_core::{AgarSpec, FieldKind, ForceField, Inputs, Placement, Region, World, WorldConfig, glam::Vec2};
+    /// # let mut world = World::new(WorldConfig::default())?;
+    /// let ball = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0))?;
+    /// let region = Region::Circle { centre: Vec2::new(30.0, 30.0), radius: 10.0 };
+    /// let wind = world.add_field(ForceField { region, kind: FieldKind::Uniform { acceleration: Vec2::new(9.0, 0.0) } })?;
+    /// (0..60).for_each(|_| world.step(&Inputs::new()));
+    /// assert!(world.centroid(ball).unwrap().x > 33.0);
+    /// world.remove_field(wind)?;
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// Names the number that is out of its range.
     pub fn add_field(&mut self, field: ForceField) -> Result<FieldId, Error> {

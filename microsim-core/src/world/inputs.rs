@@ -30,6 +30,16 @@ impl World {
                 return Err(Error::reference("actuation.node", accepted));
             }
         }
+        for (id, channel, _) in inputs.activations() {
+            let template = self.named(id, "activation.organism").map(|_| self.view().organism(id)?.template())?;
+            let channels = template.map_or(0, |id| self.templates[id.0 as usize].channels().len());
+            if channel as usize >= channels {
+                return Err(Error::reference(
+                    "activation.channel",
+                    format!("one of the {channels} channels of its template"),
+                ));
+            }
+        }
         Ok(())
     }
 

@@ -10,6 +10,7 @@ mod inputs;
 pub(crate) mod joint;
 pub(crate) mod measure;
 mod membrane;
+mod muscle;
 mod obstacle;
 mod occupancy;
 mod phagocytosis;

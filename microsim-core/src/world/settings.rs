@@ -12,6 +12,17 @@ use glam::Vec2;
 impl World {
     /// Sets the acceleration on everything, see [`WorldConfig::gravity`]. Wakes everything.
     ///
+    /// ```
+    /// # use microsim_core::{AgarSpec, Inputs, Placement, World, WorldConfig, glam::Vec2};
+    /// # let mut world = World::new(WorldConfig::default())?;
+    /// let balloon = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0))?;
+    /// world.set_gravity(Vec2::new(0.0, -10.0))?;
+    /// world.set_gravity_scale(balloon, -0.5)?;
+    /// (0..60).for_each(|_| world.step(&Inputs::new()));
+    /// assert!(world.centroid(balloon).unwrap().y > 31.0);
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// When a component is not finite or out of its range.
     pub fn set_gravity(&mut self, gravity: Vec2) -> Result<(), Error> {

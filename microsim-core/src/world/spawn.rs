@@ -190,6 +190,7 @@ impl World {
     /// Puts a body into a lane of a block of its template.
     fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
+        let at_rest: Vec<[f32; LANES]> = template.channels().iter().map(|&[rest, _]| [rest; LANES]).collect();
         let template = self.template_index(template);
         let Self { blocks, particles, scratch, .. } = self;
         let vacancies = &mut scratch.vacancies;
@@ -199,11 +200,17 @@ impl World {
             blocks.len() - 1
         });
         let block = &mut blocks[index];
+        if block.template != template || block.contraction.len() != at_rest.len() {
+            block.contraction.clone_from(&at_rest);
+        }
         block.template = template;
         vacancies.add(block, index);
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
+        for (contraction, rest) in block.contraction.iter_mut().zip(&at_rest) {
+            contraction[lane] = rest[lane];
+        }
         self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);

@@ -89,8 +89,13 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
         none.must(fits, || {
             format!("block {k} lies at {first}, where {} slots of template {} do not", block.slots, block.template)
         })?;
+        let channels = template.map_or(0, |template| template.channels().len());
+        none.must(channels == block.contraction.len(), || format!("block {k} lacks the channels of its template"))?;
         for (lane, (&owner, &scale)) in block.owner.iter().zip(&block.scale).enumerate() {
             none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
+            for contraction in &block.contraction {
+                none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
+            }
             let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
             let place = holder.and_then(|organism| match organism.body {
                 Storage::Lane { block, first } => Some((block as usize, first)),
