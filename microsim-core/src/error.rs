@@ -57,6 +57,10 @@ impl Error {
         Self { kind, field: field.into() }
     }
 
+    pub(crate) fn stale(field: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Stale, field)
+    }
+
     pub(crate) fn reference(field: impl Into<String>, accepted: impl Into<String>) -> Self {
         Self::new(ErrorKind::BadReference { accepted: accepted.into() }, field)
     }

@@ -1,7 +1,7 @@
 //! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
 use crate::collider::{Collider, ContactPoint};
-use crate::id::{ObstacleId, OrganismId};
+use crate::id::{JointId, ObstacleId, OrganismId};
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
 
@@ -99,6 +99,20 @@ pub enum Event {
         into: OrganismId,
         /// The smaller one; the handle is stale.
         from: OrganismId,
+    },
+    /// The force of a joint exceeded what it bears.
+    JointBroken {
+        /// The joint; the handle is stale.
+        joint: JointId,
+        /// Whom it joined; `None` for a place of the world.
+        between: [Option<OrganismId>; 2],
+    },
+    /// Something that a joint held is gone or frozen.
+    JointEnded {
+        /// The joint; the handle is stale.
+        joint: JointId,
+        /// Whom it joined; `None` for a place of the world. Handles may be stale.
+        between: [Option<OrganismId>; 2],
     },
     /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.
     Quarantined {
@@ -199,7 +213,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 20] = [
+    pub const NAMES: [&str; 22] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -213,6 +227,8 @@ impl Event {
         "divided",
         "fusion_refused",
         "fused",
+        "joint_broken",
+        "joint_ended",
         "quarantined",
         "obstacle_blocked",
         "sensor_entered",
@@ -239,6 +255,8 @@ impl Event {
             Self::Divided { .. } => "divided",
             Self::FusionRefused { .. } => "fusion_refused",
             Self::Fused { .. } => "fused",
+            Self::JointBroken { .. } => "joint_broken",
+            Self::JointEnded { .. } => "joint_ended",
             Self::Quarantined { .. } => "quarantined",
             Self::ObstacleBlocked { .. } => "obstacle_blocked",
             Self::SensorEntered { .. } => "sensor_entered",
@@ -261,6 +279,7 @@ impl Event {
             Self::Divided { parent: a, daughter: b }
             | Self::FusionRefused { organism: a, with: b, .. }
             | Self::Fused { into: a, from: b } => [Some(a), Some(b)],
+            Self::JointBroken { between, .. } | Self::JointEnded { between, .. } => between,
             Self::FrontSwitched { organism }
             | Self::DivisionBegan { organism }
             | Self::DivisionRefused { organism, .. }

@@ -1,5 +1,6 @@
 //! Generational handles: a stale one never names a newer organism.
 
+use crate::arena::Handle;
 use serde::{Deserialize, Serialize};
 
 /// Names one organism of a world for as long as it lives.
@@ -50,6 +51,40 @@ impl ObstacleId {
     #[must_use]
     pub fn generation(self) -> u32 {
         self.generation
+    }
+}
+
+/// Names a joint of a world until it is removed, breaks or ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct JointId {
+    index: u32,
+    generation: u32,
+}
+
+impl JointId {
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
+    }
+}
+
+/// Names a force field of a world until it is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct FieldId {
+    index: u32,
+    generation: u32,
+}
+
+impl FieldId {
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
     }
 }
 

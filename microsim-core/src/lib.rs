@@ -30,6 +30,8 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact"))]
 
+mod actuation;
+mod arena;
 mod behavior;
 mod capability;
 mod chemical;
@@ -42,9 +44,11 @@ mod error;
 mod event;
 mod float_environment;
 mod fnv;
+mod force_field;
 pub mod geometry;
 mod id;
 mod inputs;
+mod joint;
 mod kind;
 #[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "only the microscope reads it"))]
 mod look;
@@ -68,6 +72,7 @@ mod template;
 mod walk;
 mod world;
 
+pub use actuation::Actuation;
 pub use behavior::crawl::MembraneRegion;
 pub use capability::controller::Controller;
 pub use capability::controller::avoidance::{Avoidance, AvoidanceParams};
@@ -91,8 +96,10 @@ pub use config::WorldConfig;
 pub use error::{Error, ErrorKind};
 pub use event::{Event, Refusal};
 pub use float_environment::with_default_float_environment;
-pub use id::{ChemicalId, ObstacleId, OrganismId, TemplateId};
+pub use force_field::{FieldKind, ForceField, Region};
+pub use id::{ChemicalId, FieldId, JointId, ObstacleId, OrganismId, TemplateId};
 pub use inputs::{Inputs, Intent};
+pub use joint::{JointEnd, JointKind, JointSpec};
 pub use kind::Kind;
 pub use organism::agar::AgarSpec;
 pub use organism::amoeboid_cell::AmoeboidCellSpec;
@@ -111,9 +118,10 @@ pub use solver::fluid::{FluidMode, FluidParams};
 pub use solver::instruction_set::InstructionSet;
 pub use spec_field::{FieldValue, FieldVisitor, SpecField};
 pub use step::Phase;
-pub use template::{Node, Role, Template, TemplateBuilder};
+pub use template::{Node, Propulsion, Role, Template, TemplateBuilder};
 pub use world::World;
 pub use world::contact_report::ContactReporting;
+pub use world::joint::JointView;
 pub use world::measure::Measure;
 pub use world::measure::census::Census;
 pub use world::measure::membrane_quality::{CrawlQuality, MembraneQuality};

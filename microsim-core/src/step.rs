@@ -1,7 +1,7 @@
 //! The step, as a table of contents: the order of its phases, and what each hands to which function elsewhere. The names are
 //! those of [`Phase`].
 
-use crate::behavior::{division, exchange, phagocytosis, sensing, steer_organisms};
+use crate::behavior::{actuation, division, exchange, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
 use crate::float_environment::with_default_float_environment;
 use crate::inputs::Inputs;
@@ -96,20 +96,26 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.scratch.occupancy.clear();
     world.begin_contact_reports();
     serial(world, |world| steer(world, inputs));
+    world.contract_muscles(inputs);
+    world.wake_up_joints();
+    world.wake_up_in_fields();
     finished(Phase::SteerOrganisms);
     world.plan_obstacle_paths();
     world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
+    world.gather_joints();
+    world.scale_gravity();
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
+        world.apply_fields(h);
         serial(world, |world| predict_positions(world, h));
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
         finished(Phase::ProjectFluids);
-        project_constraints(world, h, substep > 0);
+        project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
         serial(world, project_contacts);
@@ -146,10 +152,13 @@ fn steer(world: &mut World, inputs: &Inputs) {
     division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
-    // An organism with a drive stays awake, even if it is blocked.
+    scratch.forces.clear();
+    actuation::actuate(organisms, inputs, particles, &mut scratch.forces, dt);
+    // An organism with a drive or a force stays awake, even if it is blocked.
     let driven = scratch.drives.iter().map(|drive| (drive.particle, drive.velocity));
     let towed = scratch.tows.iter().map(|tow| (tow.first, tow.velocity));
-    for (particle, _) in driven.chain(towed).filter(|(_, velocity)| *velocity != Vec2::ZERO) {
+    let driven = driven.chain(towed).filter(|(_, velocity)| *velocity != Vec2::ZERO).map(|(particle, _)| particle);
+    for particle in driven.chain(scratch.forces.particles().iter().copied()) {
         let owner = organisms.id_at(particles.owner[particle as usize]);
         let lane = owner.and_then(|owner| organisms.get(owner)?.body.lane(blocks));
         if let Some((block, lane)) = lane {
@@ -172,6 +181,7 @@ fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
     drive::apply_tows(&scratch.tows, particles, config, h);
     drive::apply(&scratch.drives, particles, h);
+    scratch.forces.apply(particles, config.gravity, config.speed_limit(), h);
     let outside = outside_of(blocks.iter().map(Block::range), particles.len());
     let mut columns = particles.columns();
     dispatch.run(
@@ -189,26 +199,28 @@ fn project_fluids(world: &mut World, h: f32) {
     scratch.fluid.project(fluids, particles, h, *dispatch);
 }
 
-fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
+fn project_constraints(world: &mut World, h: f32, substep: u32) {
     let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
+    let share = (substep + 1) as f32 / config.substeps as f32;
     let margins = scratch.broad_phase.margins.blocks_mut();
     let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     let mut awake: Vec<_> = awake.collect();
     parallel::for_each(block::batches(&mut awake, particles), |mut batch| {
-        let constraints = templates[batch.template()].constraints();
+        let template = &templates[batch.template()];
+        let (constraints, muscles) = (template.constraints(), template.muscles());
         dispatch.run(
             #[inline(always)]
             || {
                 batch.for_each_block(
                     #[inline(always)]
                     |block, margins| {
-                        if has_moved {
+                        if substep > 0 {
                             block::subtract_displacement(block, margins);
                         }
                         integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
                     },
                 );
-                batch.project(constraints, h);
+                batch.project(constraints, muscles, share, h);
             },
         );
     });
@@ -216,6 +228,7 @@ fn project_constraints(world: &mut World, h: f32, has_moved: bool) {
         membrane.project(ring, particles, h);
     }
     contraction::project(&scratch.contractions, particles, h);
+    scratch.joints.project(particles, h);
 }
 
 /// All membranes that move, with their rings.
@@ -296,6 +309,7 @@ fn conclude(world: &mut World) {
         );
     }
     world.quarantine();
+    world.conclude_joints();
     let everything = std::iter::once(0..world.particles.len());
     integrate::for_each_chunk(&mut world.particles, everything, world.dispatch, integrate::move_origins);
 }

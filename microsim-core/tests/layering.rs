@@ -10,12 +10,16 @@ use std::path::{Path, PathBuf};
 
 /// Every module, and the prefixes of the paths that it may use besides its own.
 const LAYERS: &[(&str, &str)] = &[
-    ("error float_environment fnv geometry id kind look rng shared walk", ""),
+    ("arena error float_environment fnv geometry kind look rng shared walk", ""),
     ("parallel", "float_environment"),
     ("chemical", "config error"),
     ("config spec_field", "error"),
     ("particle", "shared"),
-    ("inputs", "error float_environment id"),
+    ("actuation", "error"),
+    ("id", "arena"),
+    ("inputs", "actuation error float_environment id"),
+    ("joint", "error id"),
+    ("force_field", "error"),
     ("collider", "id"),
     ("event", "collider id kind"),
     ("collision", "geometry parallel particle shared"),
@@ -26,16 +30,20 @@ const LAYERS: &[(&str, &str)] = &[
         "organism",
         "capability collision error float_environment geometry id kind look particle rng shared solver spec_field template",
     ),
-    ("behavior", "capability chemical event geometry id inputs organism particle solver::contraction solver::drive"),
+    (
+        "behavior",
+        "actuation capability chemical event geometry id inputs organism particle solver::contraction solver::drive \
+        solver::force",
+    ),
     (
         "world",
-        "behavior capability chemical collider collision config error event float_environment fnv geometry id kind organism \
-        parallel particle rng shared solver template walk",
+        "arena behavior capability chemical collider collision config error event float_environment fnv force_field \
+        geometry id inputs joint kind organism parallel particle rng shared solver template walk",
     ),
     // The step takes the world apart and hands each phase what it needs.
     ("step", "behavior capability float_environment inputs organism parallel particle solver world"),
     ("snapshot", "collision float_environment fnv id scenario world"),
-    ("replay", "fnv id inputs scenario world"),
+    ("replay", "actuation fnv id inputs scenario world"),
     ("microscope", "collision::obstacle error geometry kind look organism::look template world"),
 ];
 

@@ -5,7 +5,9 @@
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
-use microsim_core::{Collider, ContactPoint, Event, Obstacle, OrganismId, Refusal, World, WorldConfig};
+use microsim_core::{
+    Collider, ContactPoint, Event, JointEnd, JointKind, JointSpec, Obstacle, OrganismId, Refusal, World, WorldConfig,
+};
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
     [agar.a]\nradius = 1.5\n[wander.w]\ninterval = [0.1, 0.2]\n\
@@ -128,7 +130,10 @@ fn invariants_are_ranges_of_measures_and_counts() {
 
 #[test]
 fn every_kind_of_event_has_its_name_in_the_list() {
-    let id = cell(&built(""));
+    let mut run = built("");
+    let id = cell(&run);
+    let ends = [JointEnd::Centre(id), JointEnd::Point(Vec2::ZERO)];
+    let joint = run.world.add_joint(JointSpec::new(ends[0], ends[1], JointKind::Weld)).unwrap();
     let (kind, reason) = (microsim_core::Kind::Agar, Refusal::Dividing);
     let ball = Obstacle::new(SharedShape::ball(1.0), Pose::IDENTITY);
     let obstacle = World::new(WorldConfig::default()).unwrap().add_obstacle(ball).unwrap();
@@ -158,6 +163,8 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::Divided { parent: id, daughter: id },
         Event::FusionRefused { organism: id, with: id, reason },
         Event::Fused { into: id, from: id },
+        Event::JointBroken { joint, between: [Some(id), None] },
+        Event::JointEnded { joint, between: [Some(id), None] },
         Event::Quarantined { organism: id },
         Event::ObstacleBlocked { obstacle },
         Event::SensorEntered { sensor: obstacle, organism: id, particle: None },

@@ -1,5 +1,6 @@
 //! Behaviour: how organisms choose a goal, and the drives that move them and their prey.
 
+pub(crate) mod actuation;
 pub(crate) mod crawl;
 pub(crate) mod division;
 pub(crate) mod exchange;
@@ -86,6 +87,11 @@ fn move_towards(
         Locomotion::Crawl { .. } => {
             let front_centre = goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
             organism.locomotion = Locomotion::Crawl { front_centre };
+        }
+        Locomotion::Propel { max_acceleration } => {
+            let Some(goal) = goal else { return };
+            let velocity = heading(goal - position_of(organism, particles)) * organism.present_speed();
+            drives.extend(organism.particles().map(|particle| Drive { particle, velocity, max_acceleration }));
         }
     }
 }

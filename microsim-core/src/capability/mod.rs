@@ -20,4 +20,6 @@ pub(crate) enum Locomotion {
     Crawl { front_centre: Option<u32> },
     /// Somebody pulls all of it with finite force.
     Tow { max_acceleration: f32 },
+    /// All of its particles are accelerated alike ([`crate::template::Propulsion`]).
+    Propel { max_acceleration: f32 },
 }

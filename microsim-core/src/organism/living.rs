@@ -67,6 +67,10 @@ pub(crate) struct Organism {
     /// Where it was spawned.
     pub home: Vec2,
     pub is_quarantined: bool,
+    /// Share of gravity that acts on it.
+    pub gravity_scale: f32,
+    /// The embedder's: low and high half.
+    pub user_data: [u64; 2],
 }
 
 /// Stands for a step that is not the present one.
@@ -208,6 +212,11 @@ impl Organism {
     pub(crate) fn has_spare_node(&self) -> bool {
         let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
         wanted < self.outline.len() as f32
+    }
+
+    /// The particle of a node, see [`Organism::particles`].
+    pub(crate) fn particle_of(&self, node: u32) -> Option<u32> {
+        self.particles().nth(node as usize)
     }
 
     /// All its particles: those of the body by node, then the fluid.

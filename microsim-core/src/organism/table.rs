@@ -15,6 +15,9 @@ pub(crate) struct Organisms {
     /// takes others in or divides.
     #[serde(skip)]
     with_membrane: Vec<u32>,
+    /// Whether gravity was ever scaled for an organism: else nobody has to be asked in a step.
+    #[serde(skip)]
+    scales_gravity: bool,
     /// Indices of empty slots, the last freed first.
     free: Vec<u32>,
 }
@@ -34,9 +37,10 @@ impl Clone for Organisms {
     }
 
     fn clone_from(&mut self, source: &Self) {
-        let Self { slots, with_membrane, free } = source;
+        let Self { slots, with_membrane, scales_gravity, free } = source;
         self.slots.clone_from(slots);
         self.with_membrane.clone_from(with_membrane);
+        self.scales_gravity = *scales_gravity;
         self.free.clone_from(free);
     }
 }
@@ -74,11 +78,13 @@ impl Organisms {
         id
     }
 
-    /// Makes what is not read with a table: who has a membrane.
+    /// Makes what is not read with a table: who has a membrane, whether gravity is scaled.
     #[cfg(feature = "snapshot")]
     pub(crate) fn complete(&mut self) {
         let has_membrane = |organism: &Organism| organism.body.membrane().is_some();
         self.with_membrane = self.iter().filter(|(_, it)| has_membrane(it)).map(|(id, _)| id.index).collect();
+        let scales_gravity = self.iter().any(|(_, organism)| organism.gravity_scale != 1.0);
+        self.scales_gravity = scales_gravity;
     }
 
     pub(crate) fn remove(&mut self, id: OrganismId) -> Option<Organism> {
@@ -141,6 +147,20 @@ impl Organisms {
             if let Some(organism) = slot.and_then(|slot| slot.organism.as_deref_mut()) {
                 change(organism);
             }
+        }
+    }
+
+    /// Those on which gravity acts otherwise.
+    pub(crate) fn with_gravity_scale(&self) -> impl Iterator<Item = &Organism> {
+        let all = if self.scales_gravity { &self.slots[..] } else { &[] };
+        let organisms = all.iter().filter_map(|slot| slot.organism.as_deref());
+        organisms.filter(|organism| organism.gravity_scale != 1.0 && !organism.is_quarantined)
+    }
+
+    pub(crate) fn set_gravity_scale(&mut self, id: OrganismId, scale: f32) {
+        if let Some(organism) = self.get_mut(id) {
+            organism.gravity_scale = scale;
+            self.scales_gravity |= scale != 1.0;
         }
     }
 

@@ -11,8 +11,13 @@ pub struct Material {
     pub restitution: f32,
 }
 
+impl Material {
+    /// That of all surfaces for which nothing else is said.
+    pub(crate) const DEFAULT: Self = Self { friction: 0.2, restitution: 0.0 };
+}
+
 impl Default for Material {
     fn default() -> Self {
-        Self { friction: 0.2, restitution: 0.0 }
+        Self::DEFAULT
     }
 }

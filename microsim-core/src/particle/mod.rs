@@ -19,6 +19,7 @@
 mod block_range;
 mod collision_groups;
 mod columns;
+pub(crate) mod mass_properties;
 mod material;
 pub(crate) mod sleep;
 

@@ -35,6 +35,11 @@ impl Sleep {
         self.sleep_time[block][lane] = 0;
     }
 
+    /// Resets all sleep times.
+    pub(crate) fn wake_all(&mut self) {
+        self.sleep_time.fill([0; LANES]);
+    }
+
     /// Whether a body was above the sleep speed in the last step.
     pub(crate) fn is_moving(&self, block: usize, lane: usize) -> bool {
         self.sleep_time.get(block).is_none_or(|lanes| lanes[lane] == 0)

@@ -1,15 +1,71 @@
-//! Inputs as changes from step to step; goals as differences of the bits of floating-point numbers from the last goal of
+//! Inputs as changes from step to step; forces and activations as they are, goals as differences of the bits of floating-point numbers from the last goal of
 //! the same organism, which are small for a hand that moves.
 
 use super::Record;
+use crate::actuation::Actuation;
 use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What an organism is told from now on; `None`: nothing.
-pub(super) type Change = (OrganismId, Option<Intent>);
+/// What holds from now on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    /// What an organism is told; `None`: nothing.
+    Intent(OrganismId, Option<Intent>),
+    /// What acts on an organism, or on one of its nodes.
+    Actuation(OrganismId, Option<u32>, Actuation),
+    /// The activation of one of its channels.
+    Activation(OrganismId, u32, f32),
+}
+
+impl Change {
+    /// What it is a change of; changes of a step are in this order.
+    fn subject(&self) -> (u8, OrganismId, Option<u32>) {
+        match *self {
+            Self::Intent(organism, _) => (0, organism, None),
+            Self::Actuation(organism, node, _) => (1, organism, node),
+            Self::Activation(organism, channel, _) => (2, organism, Some(channel)),
+        }
+    }
+
+    /// Whether it is so already.
+    fn is_in(&self, told: &Inputs) -> bool {
+        match *self {
+            Self::Intent(organism, intent) => told.get(organism) == intent,
+            Self::Actuation(organism, node, actuation) => told.actuation(organism, node) == actuation,
+            Self::Activation(organism, channel, activation) => told.activation(organism, channel) == activation,
+        }
+    }
+
+    /// Makes the change; `None` if a number is out of its range.
+    pub(super) fn apply(self, told: &mut Inputs) -> Option<()> {
+        match self {
+            Self::Intent(organism, Some(intent)) => told.set(organism, intent),
+            Self::Intent(organism, None) => told.remove(organism),
+            Self::Actuation(organism, node, actuation) => told.act_on(organism, node, actuation).ok()?,
+            Self::Activation(organism, channel, activation) => told.activate(organism, channel, activation).ok()?,
+        }
+        Some(())
+    }
+
+    /// What leads from one to another, by subject.
+    fn between(from: &Inputs, to: &Inputs) -> Vec<Self> {
+        let list = |inputs: &Inputs, or: Option<&Inputs>| {
+            let of = or.unwrap_or(inputs);
+            let intents = inputs.iter().map(|(id, _)| Self::Intent(id, of.get(id)));
+            let actuations = inputs.actuations().map(|(id, node, _)| Self::Actuation(id, node, of.actuation(id, node)));
+            let activations = inputs.activations().map(|(id, k, _)| Self::Activation(id, k, of.activation(id, k)));
+            intents.chain(actuations).chain(activations).filter(|change| !change.is_in(from)).collect::<Vec<_>>()
+        };
+        let mut changes = list(to, None);
+        changes.extend(list(from, Some(to)));
+        changes.sort_unstable_by_key(Self::subject);
+        changes.dedup_by_key(|change| change.subject());
+        changes
+    }
+}
 
 /// The content of a chunk of steps.
 #[derive(Serialize, Deserialize)]
@@ -26,6 +82,10 @@ enum Delta {
     Goal([i32; 2]),
     /// Steps since the change before, or since the end of the chunk before; the organism; what it is told.
     Other(u32, OrganismId, Told),
+    /// Steps as above; the organism, the node; what acts on it.
+    Actuation(u32, OrganismId, Option<u32>, Actuation),
+    /// Steps as above; the organism, the channel; its activation.
+    Activation(u32, OrganismId, u32, f32),
 }
 
 /// What an organism is told; to go somewhere: the difference from its last goal.
@@ -36,29 +96,33 @@ enum Told {
     Go { digests: bool, by: [i32; 2] },
 }
 
-/// The last that an organism was told, and its last goal as bits.
-#[derive(Clone, Copy, Debug, Default)]
-struct Last {
-    intent: Option<Intent>,
-    goal: [u32; 2],
-}
-
-/// What encoder and decoder know: steps, organism and digestion of the last change, if it had a goal, and what every
-/// organism was told last.
+/// What encoder and decoder know: steps, organism and digestion of the last change, if it had a goal, and the last goal of
+/// every organism, as bits.
 #[derive(Clone, Debug, Default)]
 struct History {
     change: Option<(u32, OrganismId, bool)>,
-    organisms: BTreeMap<OrganismId, Last>,
+    goals: BTreeMap<OrganismId, [u32; 2]>,
 }
 
 impl History {
-    fn encode(&mut self, gap: u32, (organism, intent): Change) -> Delta {
+    fn encode(&mut self, gap: u32, change: Change) -> Delta {
+        let (organism, intent) = match change {
+            Change::Intent(organism, intent) => (organism, intent),
+            Change::Actuation(organism, node, actuation) => {
+                self.change = None;
+                return Delta::Actuation(gap, organism, node, actuation);
+            }
+            Change::Activation(organism, channel, activation) => {
+                self.change = None;
+                return Delta::Activation(gap, organism, channel, activation);
+            }
+        };
         let told = match intent.map(|intent| (intent.digests(), intent.goal())) {
             None => Told::Nothing,
             Some((digests, None)) => Told::Rest { digests },
             Some((digests, Some(goal))) => {
                 let goal = goal.to_array().map(f32::to_bits);
-                let last = std::mem::replace(&mut self.organisms.entry(organism).or_default().goal, goal);
+                let last = self.goals.insert(organism, goal).unwrap_or_default();
                 Told::Go { digests, by: [0, 1].map(|k| goal[k].wrapping_sub(last[k]).cast_signed()) }
             }
         };
@@ -70,28 +134,29 @@ impl History {
         }
     }
 
-    /// `None` if nothing changes, or the goal is not finite.
+    /// `None` if the goal is not finite, or the same as that of no change.
     fn decode(&mut self, delta: Delta) -> Option<(u32, Change)> {
+        let before = self.change.take();
         let (gap, organism, told) = match delta {
             Delta::Goal(by) => {
-                let (gap, organism, digests) = self.change?;
+                let (gap, organism, digests) = before?;
                 (gap, organism, Told::Go { digests, by })
             }
             Delta::Other(gap, organism, told) => (gap, organism, told),
+            Delta::Actuation(gap, organism, node, it) => return Some((gap, Change::Actuation(organism, node, it))),
+            Delta::Activation(gap, organism, k, it) => return Some((gap, Change::Activation(organism, k, it))),
         };
-        let last = self.organisms.entry(organism).or_default();
-        self.change = None;
         let intent = match told {
             Told::Nothing => None,
             Told::Rest { digests } => Some(Intent::REST.digesting(digests)),
             Told::Go { digests, by } => {
                 self.change = Some((gap, organism, digests));
-                last.goal = [0, 1].map(|k| last.goal[k].wrapping_add(by[k].cast_unsigned()));
-                Some(Intent::toward(Vec2::from(last.goal.map(f32::from_bits))).ok()?.digesting(digests))
+                let goal = self.goals.entry(organism).or_default();
+                *goal = [0, 1].map(|k| goal[k].wrapping_add(by[k].cast_unsigned()));
+                Some(Intent::toward(Vec2::from(goal.map(f32::from_bits))).ok()?.digesting(digests))
             }
         };
-        let is_change = std::mem::replace(&mut last.intent, intent) != intent;
-        is_change.then_some((gap, (organism, intent)))
+        Some((gap, Change::Intent(organism, intent)))
     }
 }
 
@@ -107,14 +172,9 @@ pub(super) struct Encoder {
 impl Encoder {
     /// Notes what organisms were told in one more step. Returns how many steps wait to be written.
     pub(super) fn note(&mut self, told: &Inputs) -> u32 {
-        let gone = self.told.iter().filter(|&(organism, _)| told.get(organism).is_none());
-        let changed = told.iter().filter(|&(organism, intent)| self.told.get(organism) != Some(intent));
-        let changes = gone.map(|(organism, _)| (organism, None));
-        let changes = changes.chain(changed.map(|(organism, intent)| (organism, Some(intent))));
         let before = self.pending.len();
-        self.pending.extend(changes.map(|change| (self.steps, change)));
+        self.pending.extend(Change::between(&self.told, told).into_iter().map(|change| (self.steps, change)));
         if self.pending.len() > before {
-            self.pending[before..].sort_unstable_by_key(|&(_, (organism, _))| organism);
             self.told.clone_from(told);
         }
         self.steps += 1;
@@ -147,6 +207,7 @@ impl Encoder {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Decoder {
     history: History,
+    told: Inputs,
 }
 
 impl Decoder {
@@ -157,8 +218,10 @@ impl Decoder {
         for delta in deltas {
             let (gap, change) = self.history.decode(delta)?;
             let step = done.checked_add(gap)?.checked_sub(1).filter(|&step| step < steps)?;
-            let is_next = |&(at, (organism, _)): &(u32, Change)| (at, organism) < (step, change.0);
-            changes.last().is_none_or(is_next).then(|| changes.push((step, change)))?;
+            let is_next = |(at, last): &(u32, Change)| (*at, last.subject()) < (step, change.subject());
+            (changes.last().is_none_or(is_next) && !change.is_in(&self.told)).then_some(())?;
+            change.apply(&mut self.told)?;
+            changes.push((step, change));
             done = step + 1;
         }
         let is_whole = steps > 0 && rest.is_empty();
@@ -188,6 +251,8 @@ mod tests {
         assert_eq!(read(3, &[(1, 4, Told::Nothing)]), None, "no change");
         assert_eq!(read(3, &[(1, 4, Told::Go { digests: true, by: [-1, 0] })]), None, "no number");
         assert_eq!(read(0, &[]), None, "no steps");
+        let acts = |actuation| Delta::Actuation(1, OrganismId { index: 4, generation: 0 }, Some(2), actuation);
+        let beats = |activation| Delta::Activation(1, OrganismId { index: 4, generation: 0 }, 0, activation);
         let steps = |changes, rest: &[u8]| {
             let content = postcard::to_stdvec(&Steps { count: 1, changes, digest: None }).unwrap();
             Decoder::default().record(&[&content, rest].concat())
@@ -195,5 +260,10 @@ mod tests {
         assert!(steps(vec![], &[]).is_some());
         assert_eq!(steps(vec![], &[0]), None, "more than its content");
         assert_eq!(steps(vec![Delta::Goal([1, 1])], &[]), None, "the same as nothing");
+        assert!(steps(vec![acts(Actuation::force(Vec2::X))], &[]).is_some() && steps(vec![beats(0.5)], &[]).is_some());
+        assert_eq!(steps(vec![acts(Actuation::force(Vec2::NAN))], &[]), None, "no force");
+        assert_eq!(steps(vec![acts(Actuation::torque(1.0))], &[]), None, "a torque on a node");
+        assert_eq!(steps(vec![acts(Actuation::default())], &[]), None, "no change");
+        assert_eq!(steps(vec![beats(2.0)], &[]), None, "no activation");
     }
 }

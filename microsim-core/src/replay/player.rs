@@ -72,11 +72,9 @@ impl Iterator for Player {
     /// follow will not be the recorded ones either.
     fn next(&mut self) -> Option<Self::Item> {
         let (record, step, mut change) = self.now.take().or_else(|| Some((self.records.next()?, 0, 0)))?;
-        while let Some(&(_, (organism, intent))) = record.changes.get(change).filter(|(at, _)| *at == step) {
-            match intent {
-                Some(intent) => self.told.set(organism, intent),
-                None => self.told.remove(organism),
-            }
+        while let Some(&(_, told)) = record.changes.get(change).filter(|(at, _)| *at == step) {
+            // The decoder has checked it.
+            let _ = told.apply(&mut self.told);
             change += 1;
         }
         self.run.step(&self.told);

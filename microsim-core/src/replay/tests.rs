@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::Rng;
+use crate::actuation::Actuation;
 use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use crate::scenario::{Built, Scenario, builtin};
@@ -51,6 +52,10 @@ fn wayward(rng: &mut Rng, told: &mut Inputs, organisms: &[OrganismId]) {
             0 => told.remove(organism),
             1 => told.set(organism, Intent::REST.digesting(rng.unit() < 0.5)),
             2..=4 => told.set(organism, Intent::toward(goal).unwrap().digesting(rng.unit() < 0.5)),
+            5 => told.actuate(organism, Actuation { torque: goal.y, ..Actuation::force(goal) }).unwrap(),
+            6 => told.actuate(organism, Actuation::default()).unwrap(),
+            7 => told.actuate_node(organism, rng.next_u32() % 9, Actuation::impulse(0.1 * goal)).unwrap(),
+            8 => told.activate(organism, rng.next_u32() % 2, rng.unit()).unwrap(),
             _ => {}
         }
     }

@@ -94,9 +94,7 @@ impl Built {
     /// Takes a step with these inputs, and the script's for organisms without one.
     pub fn step(&mut self, told: &Inputs) {
         let mut inputs = self.script.before_step(&mut self.world).clone();
-        for (organism, intent) in told.iter() {
-            inputs.set(organism, intent);
-        }
+        inputs.replace_with(told);
         self.world.step(&inputs);
     }
 

@@ -3,9 +3,10 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Event, Exchange, FleeParams, FluidBlockSpec,
-    Inputs, Intent, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement,
-    PursueParams, Refusal, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Event, Exchange, FieldKind, FleeParams,
+    FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle,
+    ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams, Refusal, Region,
+    RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -20,13 +21,15 @@ pub(super) fn world() -> World {
     steer(&mut world, chemical);
     cage(&mut world, chemical);
     roped(&mut world);
+    blow(&mut world);
     let cells = [(24.0, 30.0), (64.0, 30.0), (104.0, 30.0), (140.0, 30.0)].map(|(x, y)| cell(&mut world, x, y));
     let [eater, taker, toucher, divider] = cells;
     dine(&mut world, cells);
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
-    world.events = events(eater, divider, sensor);
+    let joint = join(&mut world, toucher, divider);
+    world.events = events(eater, divider, sensor, joint);
     world.move_obstacle(platform, Pose::translation(9.0, 4.0)).unwrap();
     let gone = cell(&mut world, 24.0, 55.0);
     world.remove(gone).unwrap();
@@ -75,11 +78,51 @@ fn cage(world: &mut World, chemical: ChemicalId) {
     world.spawn(&spec.into(), Placement::at(140.0, 75.0).steered_by(Controller::chemotaxis(nose))).unwrap();
 }
 
-/// A custom body.
+/// A joint of each kind, and a free place; returns the last one's handle.
+fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
+    let (length, max_force, frequency, damping_ratio) = (10.0, 1.0, 1.0, 1.0);
+    let kinds = [
+        JointKind::Pin,
+        JointKind::Distance { length },
+        JointKind::Weld,
+        JointKind::Rope { max_length: 90.0 },
+        JointKind::Spring { length, frequency, damping_ratio },
+        JointKind::mouse(max_force),
+        JointKind::LengthMotor { length, max_force },
+        JointKind::SpeedMotor { speed: 1.0, max_force },
+    ];
+    let ends = [JointEnd::Centre(other), JointEnd::Point(Vec2::splat(50.0))];
+    let node = JointEnd::Node { organism: one, node: 0 };
+    let spec = |(k, kind)| JointSpec::new(node, ends[k % 2], kind);
+    let joints: Vec<_> = kinds.into_iter().enumerate().map(|it| world.add_joint(spec(it)).unwrap()).collect();
+    let gone = world.add_joint(spec((0, JointKind::Weld))).unwrap();
+    world.remove_joint(gone).unwrap();
+    joints[7]
+}
+
+/// A force field of each kind, a region of each, and a free place.
+fn blow(world: &mut World) {
+    let centre = Vec2::splat(40.0);
+    let kinds = [
+        FieldKind::Uniform { acceleration: Vec2::ZERO },
+        FieldKind::Radial { centre, acceleration: 0.0 },
+        FieldKind::Vortex { centre, acceleration: 0.0 },
+    ];
+    let regions = [Region::All, Region::Circle { centre, radius: 5.0 }, Region::Box { low: Vec2::ZERO, high: centre }];
+    let fields = kinds.into_iter().zip(regions).map(|(kind, region)| ForceField { region, kind });
+    let fields: Vec<_> = fields.map(|field| world.add_field(field).unwrap()).collect();
+    let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();
+    world.remove_field(gone).unwrap();
+    assert_eq!(fields.len(), world.fields().count());
+}
+
+/// A custom body, with a muscle.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
-    builder.constraint(Rope { a, b, max_length: 3.0 });
+    let channel = builder.channel([1.0, 0.5]);
+    builder.muscle(channel, Rope { a, b, max_length: 3.0 });
+    builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
 }
@@ -132,7 +175,8 @@ fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
 }
 
 /// One of each kind.
-fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
+fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId, joint: JointId) -> Vec<Event> {
+    let between = [Some(a), None];
     let reason = Refusal::FurrowOpen;
     let contact = contact(a, Collider::Organism(b));
     vec![
@@ -149,6 +193,8 @@ fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId) -> Vec<Event> {
         Event::Divided { parent: a, daughter: b },
         Event::FusionRefused { organism: a, with: b, reason },
         Event::Fused { into: a, from: b },
+        Event::JointBroken { joint, between },
+        Event::JointEnded { joint, between },
         Event::Quarantined { organism: a },
         Event::ObstacleBlocked { obstacle },
         Event::SensorEntered { sensor: obstacle, organism: a, particle: Some(1) },

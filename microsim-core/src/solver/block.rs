@@ -2,6 +2,7 @@
 
 use super::constraint::{self, Constraint};
 use super::lanes::{LANES, Span, each, load};
+use super::muscle::{Muscle, runs};
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
@@ -20,13 +21,26 @@ pub(crate) struct Block {
     pub owner: [u32; LANES],
     /// Size of each instance relative to the template.
     pub scale: [f32; LANES],
+    /// Factor on the lengths of the muscles of each channel at the end of the step ...
+    pub contraction: Vec<[f32; LANES]>,
+    /// ... and at its beginning.
+    #[serde(skip)]
+    pub contraction_before: Vec<[f32; LANES]>,
 }
 
 impl Block {
     /// A block with eight empty lanes, its `slots * 8` particles appended to the store.
     pub(crate) fn new(template: u32, slots: usize, particles: &mut Particles) -> Self {
         let base = particles.extend(slots * LANES);
-        Self { template, slots: slots as u32, base, owner: [NO_OWNER; LANES], scale: [1.0; LANES] }
+        Self {
+            template,
+            slots: slots as u32,
+            base,
+            owner: [NO_OWNER; LANES],
+            scale: [1.0; LANES],
+            contraction: Vec::new(),
+            contraction_before: Vec::new(),
+        }
     }
 
     /// Particle of a slot in a lane.
@@ -51,6 +65,13 @@ impl Block {
     /// Where it lies in a chunk of the store that begins at `start`.
     fn span(&self, start: usize) -> Span<LANES> {
         Span { base: self.base - start as u32, scale: self.scale }
+    }
+
+    /// The same for the muscles of a channel, after a share of the step.
+    fn span_of(&self, channel: u32, share: f32, start: usize) -> Span<LANES> {
+        let (span, k) = (self.span(start), channel as usize);
+        let (from, to) = (self.contraction_before[k], self.contraction[k]);
+        Span { scale: each(|l| span.scale[l] * (from[l] + share * (to[l] - from[l]))), ..span }
     }
 }
 
@@ -92,12 +113,17 @@ impl<T> Batch<'_, T> {
         }
     }
 
-    /// Projects the template's constraints in all blocks.
+    /// Projects the template's constraints in all blocks, muscles with the lengths that they have after a share of the step.
     #[inline(always)]
-    pub(crate) fn project(&mut self, constraints: &[Constraint], h: f32) {
-        let live = self.blocks.iter().filter(|(block, _)| !block.is_empty());
-        let spans: Vec<_> = live.map(|(block, _)| block.span(self.start)).collect();
-        constraint::project(constraints, &spans, &mut self.stretch, h);
+    pub(crate) fn project(&mut self, constraints: &[Constraint], muscles: &[Muscle], share: f32, h: f32) {
+        for (run, channel) in runs(constraints.len(), muscles) {
+            let live = self.blocks.iter().filter(|(block, _)| !block.is_empty());
+            let spans: Vec<_> = match channel {
+                None => live.map(|(block, _)| block.span(self.start)).collect(),
+                Some(channel) => live.map(|(block, _)| block.span_of(channel, share, self.start)).collect(),
+            };
+            constraint::project(&constraints[run], &spans, &mut self.stretch, h);
+        }
     }
 }
 
@@ -152,6 +178,9 @@ mod tests {
         let mut block = Block::new(0, 5, &mut in_lanes);
         block.owner = [0; LANES];
         block.scale = [0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3];
+        block.contraction = vec![[1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3]];
+        block.contraction_before = block.contraction.clone();
+        let muscles = [Muscle { constraint: 2, channel: 0 }];
         let mut loose = vec![Particles::default(); LANES];
         for (lane, loose) in loose.iter_mut().enumerate() {
             for slot in 0..5 {
@@ -160,9 +189,18 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, 0.01);
-            for (p, scale) in loose.iter_mut().zip(block.scale) {
-                constraint::project(&constraints, &[Span { base: 0, scale: [scale] }], &mut p.columns(), 0.01);
+            batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, &muscles, 1.0, 0.01);
+            for (lane, p) in loose.iter_mut().enumerate() {
+                for (k, constraint) in constraints.iter().enumerate() {
+                    let contraction = if k == 2 { block.contraction[0][lane] } else { 1.0 };
+                    let scale = [block.scale[lane] * contraction];
+                    constraint::project(
+                        std::slice::from_ref(constraint),
+                        &[Span { base: 0, scale }],
+                        &mut p.columns(),
+                        0.01,
+                    );
+                }
             }
         }
         for (lane, loose) in loose.iter().enumerate() {

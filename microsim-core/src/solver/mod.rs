@@ -10,10 +10,13 @@ pub(crate) mod contact_record;
 pub(crate) mod contraction;
 pub(crate) mod drive;
 pub(crate) mod fluid;
+pub(crate) mod force;
 pub(crate) mod instruction_set;
 pub(crate) mod integrate;
+pub(crate) mod joint;
 pub(crate) mod lanes;
 pub(crate) mod membrane;
+pub(crate) mod muscle;
 pub(crate) mod obstacle;
 pub(crate) mod ring_contact;
 #[cfg(test)]

@@ -6,7 +6,8 @@
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;
 use crate::particle::{CollisionGroups, Material};
-use crate::solver::constraint::{self, Constraint, Distance, check_ring};
+use crate::solver::constraint::{Constraint, Distance, check_ring};
+use crate::solver::muscle::Muscle;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -96,6 +97,15 @@ impl Node {
     }
 }
 
+/// How a body moves towards a goal, when an intent or a controller gives it one: its nodes are accelerated towards a velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Propulsion {
+    /// Speed, units/s, 0 to 1000.
+    pub speed: f32,
+    /// Largest acceleration, units/s2, 0 to 1 000 000.
+    pub max_acceleration: f32,
+}
+
 /// A validated recipe of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "TemplateBuilder")]
@@ -103,6 +113,10 @@ pub struct Template {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
+    propulsion: Option<Propulsion>,
+    channels: Vec<[f32; 2]>,
+    /// By constraint.
+    muscles: Vec<Muscle>,
 }
 
 impl Template {
@@ -128,6 +142,23 @@ impl Template {
     #[must_use]
     pub fn outline(&self) -> &[u32] {
         &self.outline
+    }
+
+    /// How it moves towards a goal; `None` if it cannot.
+    #[must_use]
+    pub fn propulsion(&self) -> Option<Propulsion> {
+        self.propulsion
+    }
+
+    /// Its channels: the factors on the lengths of their muscles at rest and at full activation.
+    #[must_use]
+    pub fn channels(&self) -> &[[f32; 2]] {
+        &self.channels
+    }
+
+    /// Its muscles, in the order of its constraints.
+    pub(crate) fn muscles(&self) -> &[Muscle] {
+        &self.muscles
     }
 
     /// Farthest that a disc of it reaches from its place.
@@ -167,6 +198,9 @@ pub struct TemplateBuilder {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
+    propulsion: Option<Propulsion>,
+    channels: Vec<[f32; 2]>,
+    muscles: Vec<Muscle>,
 }
 
 impl TemplateBuilder {
@@ -207,9 +241,46 @@ impl TemplateBuilder {
         self
     }
 
+    /// Declares a channel and returns its number. Its muscles have `scale[0]` times their lengths at rest and `scale[1]` times at
+    /// full activation ([`crate::Inputs::activate`]), 0.1 to 10 each, and areas are scaled by its square.
+    ///
+    /// ```
+    /// use microsim_core::{Distance, Inputs, Node, Placement, Template, World, WorldConfig, glam::Vec2};
+    ///
+    /// let mut builder = Template::builder();
+    /// let [a, b] = [0.0, 4.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    /// let channel = builder.channel([1.0, 0.5]);
+    /// builder.muscle(channel, Distance { a, b, rest_length: 4.0, compliance: 0.0, damping: 0.0 });
+    /// let mut world = World::new(WorldConfig::default())?;
+    /// let fibre = world.add_template(builder.build()?);
+    /// let fibre = world.spawn_template(fibre, Placement::at(50.0, 50.0))?;
+    /// let mut inputs = Inputs::new();
+    /// inputs.activate(fibre, channel, 0.5)?;
+    /// (0..60).for_each(|_| world.step(&inputs));
+    /// let ends: Vec<Vec2> = world.view().organism(fibre).unwrap().particles().map(|node| node.position).collect();
+    /// assert!((ends[0].distance(ends[1]) - 3.0).abs() < 0.01);
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    pub fn channel(&mut self, scale: [f32; 2]) -> u32 {
+        self.channels.push(scale);
+        self.channels.len() as u32 - 1
+    }
+
+    /// Adds a constraint of any kind as a muscle of a channel.
+    pub fn muscle(&mut self, channel: u32, constraint: impl Into<Constraint>) -> &mut Self {
+        self.muscles.push(Muscle { constraint: self.constraints.len() as u32, channel });
+        self.constraint(constraint)
+    }
+
     /// Declares the outline: slots, counter-clockwise.
     pub fn outline(&mut self, outline: &[u32]) -> &mut Self {
         self.outline = outline.to_vec();
+        self
+    }
+
+    /// Lets it move towards the goal of an intent or a controller. Without it, it goes nowhere by itself.
+    pub fn propulsion(&mut self, propulsion: Propulsion) -> &mut Self {
+        self.propulsion = Some(propulsion);
         self
     }
 
@@ -222,7 +293,7 @@ impl TemplateBuilder {
     }
 
     fn check(self) -> Result<Template, Error> {
-        let Self { nodes, mut constraints, outline } = self;
+        let Self { nodes, constraints, outline, propulsion, channels, muscles } = self;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
@@ -232,12 +303,46 @@ impl TemplateBuilder {
         for (k, constraint) in constraints.iter().enumerate() {
             constraint.validate(nodes.len()).map_err(|error| error.within(&format!("constraints[{k}]")))?;
         }
-        constraint::sort(&mut constraints);
+        for (k, scale) in channels.iter().enumerate() {
+            in_range("rest", scale[0], 0.1, 10.0).map_err(|error| error.within(&format!("channels[{k}]")))?;
+            in_range("active", scale[1], 0.1, 10.0).map_err(|error| error.within(&format!("channels[{k}]")))?;
+        }
+        check_muscles(&muscles, constraints.len(), channels.len())?;
+        let (constraints, muscles) = in_order(constraints, &muscles);
         if !outline.is_empty() {
             check_ring("outline", &outline, nodes.len())?;
         }
-        Ok(Template { nodes, constraints, outline })
+        if let Some(Propulsion { speed, max_acceleration }) = propulsion {
+            in_range("propulsion.speed", speed, 0.0, 1000.0)?;
+            in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
+        }
+        Ok(Template { nodes, constraints, outline, propulsion, channels, muscles })
     }
+}
+
+/// Checks that muscles name different constraints, ascending, and channels that exist.
+fn check_muscles(muscles: &[Muscle], constraints: usize, channels: usize) -> Result<(), Error> {
+    let is_known = |muscle: &Muscle| (muscle.constraint as usize) < constraints && (muscle.channel as usize) < channels;
+    let is_ascending = muscles.is_sorted_by(|a, b| a.constraint < b.constraint);
+    if is_ascending && muscles.iter().all(is_known) {
+        return Ok(());
+    }
+    Err(Error::reference(
+        "muscles",
+        format!("one of the {channels} channels for each of the constraints that are muscles"),
+    ))
+}
+
+/// Constraints by kind, in the order of projection, those of one kind in their order; and the muscles among them.
+fn in_order(constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constraint>, Vec<Muscle>) {
+    let mut numbered: Vec<(u32, Constraint)> = (0..).zip(constraints).collect();
+    numbered.sort_by_key(|(_, constraint)| constraint.order());
+    let channel = |before: u32| muscles.iter().find(|muscle| muscle.constraint == before).map(|muscle| muscle.channel);
+    let found = (0..)
+        .zip(&numbered)
+        .filter_map(|(constraint, &(before, _))| channel(before).map(|channel| Muscle { constraint, channel }));
+    let muscles = found.collect();
+    (numbered.into_iter().map(|(_, constraint)| constraint).collect(), muscles)
 }
 
 #[cfg(test)]
@@ -277,6 +382,18 @@ mod tests {
     }
 
     #[test]
+    fn a_muscle_stays_one_when_constraints_are_sorted() {
+        let mut builder = two_nodes();
+        let [slow, fast] = [0.5, 0.8].map(|active| builder.channel([1.0, active]));
+        builder.muscle(fast, Rope { a: 0, b: 1, max_length: 3.0 }).link(0, 1, 0.0);
+        builder.muscle(slow, Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: 0.0 });
+        let template = builder.build().unwrap();
+        let muscle = |constraint, channel| Muscle { constraint, channel };
+        assert_eq!((template.muscles(), template.channels().len()), (&[muscle(1, slow), muscle(2, fast)][..], 2));
+        assert!(matches!(template.constraints()[2], Constraint::Rope(_)));
+    }
+
+    #[test]
     fn every_bad_input_is_refused_by_name() {
         let refuse = |change: &dyn Fn(&mut TemplateBuilder), field: &str| {
             let mut builder = two_nodes();
@@ -294,6 +411,12 @@ mod tests {
         let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
         refuse(&|b| _ = b.constraint(anchor), "constraints[0].max_length");
         refuse(&|b| _ = b.outline(&[0, 1]), "outline");
+        refuse(&|b| _ = b.channel([0.0, 1.0]), "channels[0].rest");
+        refuse(&|b| _ = b.channel([1.0, f32::NAN]), "channels[0].active");
+        refuse(&|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }), "muscles");
+        let propulsion = |speed, max_acceleration| Propulsion { speed, max_acceleration };
+        refuse(&|b| _ = b.propulsion(propulsion(-1.0, 0.0)), "propulsion.speed");
+        refuse(&|b| _ = b.propulsion(propulsion(1.0, f32::INFINITY)), "propulsion.max_acceleration");
         let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
         refuse(&|b| _ = b.constraint(area.clone()), "constraints[0].ring");
         assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));

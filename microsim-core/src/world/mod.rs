@@ -6,8 +6,12 @@ mod chemical;
 pub(crate) mod contact_report;
 pub(crate) mod contacts;
 mod controller;
+mod force_field;
+mod inputs;
+pub(crate) mod joint;
 pub(crate) mod measure;
 mod membrane;
+mod muscle;
 pub(crate) mod obstacle;
 mod occupancy;
 mod phagocytosis;
@@ -15,12 +19,14 @@ mod push;
 mod quarantine;
 pub(crate) mod query;
 mod scale;
+mod settings;
 mod spawn;
 pub(crate) mod state;
 mod vacancies;
 pub(crate) mod view;
 mod wake;
 
+use crate::arena::{Arena, Handle};
 use crate::chemical::Chemical;
 use crate::collision::broad_phase::BroadPhase;
 use crate::collision::exemptions::Exemptions;
@@ -30,6 +36,7 @@ use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::event::Event;
 use crate::float_environment::with_default_float_environment;
+use crate::force_field::ForceField;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::Organism;
@@ -43,11 +50,14 @@ use crate::solver::contact_record::ContactRecorder;
 use crate::solver::contraction::Contraction;
 use crate::solver::drive::{Drive, Tow};
 use crate::solver::fluid::{self, Fluid};
+use crate::solver::force::Forces;
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
+use crate::solver::joint::Joints;
 use crate::template::Template;
 use contact_report::ContactReports;
 use contacts::Touching;
 use glam::Vec2;
+use joint::JointRecord;
 use obstacle::sensor::Presences;
 use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
@@ -90,6 +100,8 @@ pub struct World {
     pub(crate) touching: Touching,
     pub(crate) events: Vec<Event>,
     pub(crate) guard: Guard,
+    pub(crate) joints: Arena<JointRecord>,
+    pub(crate) fields: Arena<ForceField>,
     pub(crate) obstacle_table: ObstacleTable,
     presences: Presences,
     contact_reports: ContactReports,
@@ -122,6 +134,10 @@ pub(crate) struct Scratch {
     pub drives: Vec<Drive>,
     pub tows: Vec<Tow>,
     pub contractions: Vec<Contraction>,
+    pub forces: Forces,
+    pub joints: Joints,
+    /// The handle of each of these joints.
+    pub joined: Vec<Handle>,
     pub impacts: Vec<Impact>,
     pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
@@ -150,6 +166,8 @@ impl Clone for World {
             touching,
             events,
             guard,
+            joints,
+            fields,
             obstacle_table,
             presences,
             contact_reports,
@@ -170,6 +188,8 @@ impl Clone for World {
         self.touching.clone_from(touching);
         self.events.clone_from(events);
         self.guard = *guard;
+        self.joints.clone_from(joints);
+        self.fields.clone_from(fields);
         self.obstacle_table.clone_from(obstacle_table);
         self.presences.clone_from(presences);
         self.contact_reports.clone_from(contact_reports);
@@ -211,6 +231,8 @@ impl World {
             events: Vec::new(),
             step_index: 0,
             guard: Guard::default(),
+            joints: Arena::default(),
+            fields: Arena::default(),
             // It holds a density, the fluid's at rest.
             scratch: with_default_float_environment(Scratch::default),
             dispatch: Dispatch::default(),

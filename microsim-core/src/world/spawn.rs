@@ -3,6 +3,7 @@
 use super::World;
 use super::occupancy::bounds_of;
 use super::vacancies::Vacancy;
+use crate::capability::Locomotion;
 use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
@@ -18,7 +19,7 @@ use crate::solver::block::Block;
 use crate::solver::fluid::{Fluid, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
-use crate::template::{Node, Role, Template};
+use crate::template::{Node, Propulsion, Role, Template};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
@@ -127,6 +128,8 @@ impl World {
             progress: Progress::default(),
             home: placement.at,
             is_quarantined: false,
+            gravity_scale: 1.0,
+            user_data: [0; 2],
         };
         Ok(self.organisms.insert(organism))
     }
@@ -188,6 +191,7 @@ impl World {
     /// Puts a body into a lane of a block of its template.
     fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
+        let at_rest: Vec<[f32; LANES]> = template.channels().iter().map(|&[rest, _]| [rest; LANES]).collect();
         let template = self.template_index(template);
         let Self { blocks, particles, scratch, .. } = self;
         let vacancies = &mut scratch.vacancies;
@@ -197,11 +201,17 @@ impl World {
             blocks.len() - 1
         });
         let block = &mut blocks[index];
+        if block.template != template || block.contraction.len() != at_rest.len() {
+            block.contraction.clone_from(&at_rest);
+        }
         block.template = template;
         vacancies.add(block, index);
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
+        for (contraction, rest) in block.contraction.iter_mut().zip(&at_rest) {
+            contraction[lane] = rest[lane];
+        }
         self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {
             self.particles.set(block.particle(slot, lane) as usize, particle);
@@ -254,7 +264,11 @@ impl Blueprint {
         let outline: Vec<Vec2> =
             template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         let area = crate::geometry::polygon::signed_area(&outline);
-        Self { template: Some(template), ..Self::of(Kind::Custom, area) }
+        let (locomotion, speed) = match template.propulsion() {
+            Some(Propulsion { speed, max_acceleration }) => (Locomotion::Propel { max_acceleration }, speed),
+            None => (Locomotion::None, 0.0),
+        };
+        Self { template: Some(template), locomotion, speed, ..Self::of(Kind::Custom, area) }
     }
 }
 

@@ -10,8 +10,9 @@ use choices::Choices;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    ChemicalId, ChemicalSpec, Collider, Error, Exchange, Inputs, InstructionSet, Intent, Measure, Node, Obstacle,
-    ObstacleId, ObstacleMotion, OrganismId, QueryFilter, Template, TemplateId, World,
+    Actuation, ChemicalId, ChemicalSpec, Collider, CollisionGroups, Error, Exchange, FieldId, FieldKind, ForceField,
+    Inputs, InstructionSet, Intent, JointEnd, JointId, JointKind, JointSpec, Measure, Node, Obstacle, ObstacleId,
+    ObstacleMotion, OrganismId, Propulsion, QueryFilter, Region, Rope, Template, TemplateId, World,
 };
 
 /// Most calls and steps of a sequence.
@@ -40,6 +41,8 @@ struct Sequence<'a> {
     obstacles: Vec<ObstacleId>,
     templates: Vec<TemplateId>,
     chemicals: Vec<ChemicalId>,
+    joints: Vec<JointId>,
+    fields: Vec<FieldId>,
     inputs: Inputs,
     tally: Tally,
 }
@@ -60,6 +63,8 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
         obstacles: Vec::new(),
         templates: Vec::new(),
         chemicals: Vec::new(),
+        joints: Vec::new(),
+        fields: Vec::new(),
         inputs: Inputs::new(),
         tally: Tally::default(),
     };
@@ -89,7 +94,7 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
 impl Sequence<'_> {
     /// One call, and its name.
     fn call(&mut self) -> (&'static str, Outcome) {
-        match self.choices.below(28) {
+        match self.choices.below(34) {
             0..=6 => ("spawn", self.spawn()),
             7..=12 => ("step", self.step()),
             13..=15 => ("input", self.with_handle(Self::input)),
@@ -104,6 +109,10 @@ impl Sequence<'_> {
             24 => ("queries", self.ask()),
             25 => ("push", self.with_handle(Self::push)),
             26 => ("set_exchange", self.with_handle(Self::set_exchange)),
+            27..=28 => ("actuate", self.with_handle(Self::actuate)),
+            29..=30 => ("joint", self.with_two_handles(Self::change_joint)),
+            31 => ("field", self.change_field()),
+            32 => ("setting", self.with_handle(Self::change_setting)),
             _ => match self.choices.below(8) {
                 which @ 0..=3 => ("set_instruction_set", self.set_instruction_set(which % 2 == 1)),
                 4..=5 => ("snapshot", self.write_and_read()),
@@ -178,6 +187,96 @@ impl Sequence<'_> {
     fn push(&mut self, id: OrganismId) -> Outcome {
         let velocity = Vec2::new(self.choices.number(-50.0, 50.0), self.choices.number(-50.0, 50.0));
         self.world.push(id, velocity)
+    }
+
+    fn vector(&mut self, most: f32) -> Vec2 {
+        Vec2::new(self.choices.number(-most, most), self.choices.number(-most, most))
+    }
+
+    fn actuate(&mut self, id: OrganismId) -> Outcome {
+        let node = self.choices.below(40) as u32;
+        let (force, impulse) = (Actuation::force(self.vector(500.0)), Actuation::impulse(self.vector(50.0)));
+        let target = Actuation::target(self.place());
+        match self.choices.below(7) {
+            0 => self.inputs.actuate(id, force),
+            1 => self.inputs.actuate(id, impulse),
+            2 => self.inputs.actuate(id, Actuation::torque(self.choices.number(-500.0, 500.0))),
+            3 => self.inputs.actuate(id, target),
+            4 => self.inputs.actuate_node(id, node, force),
+            5 => self.inputs.activate(id, node % 3, self.choices.number(0.0, 1.1)),
+            _ => {
+                self.inputs.clear();
+                self.world.check_inputs(&self.inputs)
+            }
+        }
+    }
+
+    fn joint_end(&mut self, id: OrganismId) -> JointEnd {
+        match self.choices.below(3) {
+            0 => JointEnd::Centre(id),
+            1 => JointEnd::Point(self.place()),
+            _ => JointEnd::Node { organism: id, node: self.choices.below(60) as u32 },
+        }
+    }
+
+    fn joint(&mut self, a: OrganismId, b: OrganismId) -> JointSpec {
+        let (a, b, c) = (self.joint_end(a), self.joint_end(b), &mut self.choices);
+        let (length, max_force) = (c.number(0.0, 20.0), c.number(0.0, 1000.0));
+        let (frequency, damping_ratio) = (c.number(0.1, 20.0), c.number(0.0, 2.0));
+        let kind = match c.below(8) {
+            0 => JointKind::Pin,
+            1 => JointKind::Distance { length },
+            2 => JointKind::Rope { max_length: length },
+            3 => JointKind::Spring { length, frequency, damping_ratio },
+            4 => JointKind::Mouse { frequency, damping_ratio, max_force },
+            5 => JointKind::LengthMotor { length, max_force },
+            6 => JointKind::SpeedMotor { speed: c.number(-30.0, 30.0), max_force },
+            _ => JointKind::Weld,
+        };
+        let spec = JointSpec::new(a, b, kind);
+        if c.flag() { spec.breaking_at(c.number(0.0, 1000.0)) } else { spec }
+    }
+
+    fn change_joint(&mut self, a: OrganismId, b: OrganismId) -> Outcome {
+        let (spec, count) = (self.joint(a, b), self.joints.len());
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_joint(self.joints[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_joint(self.joints[self.choices.below(count)], spec),
+            _ => self.world.add_joint(spec).map(|joint| self.joints.push(joint)),
+        }
+    }
+
+    fn change_field(&mut self) -> Outcome {
+        let (centre, acceleration, count) = (self.place(), self.choices.number(-200.0, 200.0), self.fields.len());
+        let kind = match self.choices.below(3) {
+            0 => FieldKind::Uniform { acceleration: self.vector(100.0) },
+            1 => FieldKind::Radial { centre, acceleration },
+            _ => FieldKind::Vortex { centre, acceleration },
+        };
+        let region = match self.choices.below(3) {
+            0 => Region::All,
+            1 => Region::Circle { centre, radius: self.choices.number(0.0, 40.0) },
+            _ => Region::Box { low: self.place(), high: centre },
+        };
+        let field = ForceField { region, kind };
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_field(self.fields[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_field(self.fields[self.choices.below(count)], field),
+            _ => self.world.add_field(field).map(|field| self.fields.push(field)),
+        }
+    }
+
+    fn change_setting(&mut self, id: OrganismId) -> Outcome {
+        let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
+        let gravity = self.vector(30.0);
+        match self.choices.below(6) {
+            0 => self.world.set_gravity(gravity),
+            1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
+            2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),
+            3 => self.world.set_gravity_scale(id, self.choices.number(-2.0, 3.0)),
+            4 => self.world.set_collision_groups(id, groups),
+            _ => self.world.set_user_data(id, u128::from(self.choices.byte()) << 90),
+        }
     }
 
     fn set_exchange(&mut self, id: OrganismId) -> Outcome {
@@ -261,6 +360,11 @@ impl Sequence<'_> {
         }
         for _ in 0..c.below(6) {
             builder.spring(c.below(7) as u32, c.below(7) as u32, c.number(0.0, 1e-3), c.number(0.0, 1.0));
+        }
+        if c.flag() {
+            let channel = builder.channel([c.number(0.5, 1.5), c.number(0.5, 1.5)]);
+            builder.muscle(channel, Rope { a: 0, b: c.below(3) as u32, max_length: c.number(1.0, 4.0) });
+            builder.propulsion(Propulsion { speed: c.number(1.0, 20.0), max_acceleration: c.number(1.0, 100.0) });
         }
         builder.build()
     }

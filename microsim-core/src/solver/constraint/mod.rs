@@ -81,6 +81,11 @@ impl Constraint {
         self.run(Borrow).links()
     }
 
+    /// Place of its kind in the order of projection.
+    pub(crate) fn order(&self) -> u8 {
+        self.run(Borrow).order()
+    }
+
     /// Checks its nodes and numbers; errors name the field.
     pub(crate) fn validate(&self, nodes: usize) -> Result<(), Error> {
         self.run(Borrow).validate(nodes)
@@ -124,11 +129,6 @@ pub(crate) fn project<const L: usize>(list: &[Constraint], spans: &[Span<L>], pa
     for constraint in list {
         constraint.run(Project { spans, particles: &mut particles, h });
     }
-}
-
-/// Sorts constraints by kind, in the order of projection; those of one kind stay in their order.
-pub(crate) fn sort(list: &mut [Constraint]) {
-    list.sort_by_key(|constraint| constraint.run(Borrow).order());
 }
 
 /// Checks that nodes are different and below a number.

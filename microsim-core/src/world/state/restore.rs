@@ -2,11 +2,13 @@
 //! ([`super::validate::structure`], [`super::validate::numbers`]).
 
 use super::validate;
+use crate::arena::Arena;
 use crate::chemical;
 use crate::collision::exemptions::Exemptions;
 use crate::collision::obstacle::Obstacle;
 use crate::config::WorldConfig;
 use crate::event::Event;
+use crate::force_field::ForceField;
 use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::particle::sleep::Sleep;
@@ -16,6 +18,7 @@ use crate::solver::fluid::Fluid;
 use crate::template::Template;
 use crate::world::contact_report::ContactReports;
 use crate::world::contacts::Touching;
+use crate::world::joint::JointRecord;
 use crate::world::obstacle::sensor::Presences;
 use crate::world::obstacle::table::ObstacleTable;
 use crate::world::{Guard, World};
@@ -37,6 +40,8 @@ pub(crate) struct WorldState {
     touching: Touching,
     events: Vec<Event>,
     guard: Guard,
+    joints: Arena<JointRecord>,
+    fields: Arena<ForceField>,
     obstacle_table: ObstacleTable,
     presences: Presences,
     contact_reports: ContactReports,
@@ -68,6 +73,8 @@ impl World {
         world.touching = state.touching;
         world.events = state.events;
         world.guard = state.guard;
+        world.joints = state.joints;
+        world.fields = state.fields;
         world.particles.restore_skipped()?;
         world.organisms.complete();
         validate::structure::check(&world)

@@ -1,6 +1,7 @@
 //! Anatomy: the constraints and contacts of a world, for a debug view.
 
 use super::View;
+use crate::id::JointId;
 use crate::organism::Organism;
 use crate::solver::constraint::Constraint;
 use glam::Vec2;
@@ -12,14 +13,17 @@ pub enum Bond<'a> {
     Constraint(&'a Constraint),
     /// A link of its membrane.
     Membrane,
+    /// A joint.
+    Joint(JointId),
 }
 
 impl<'a> View<'a> {
-    /// Every link of a membrane and of a constraint ([`Constraint::links`]), with the positions of its two ends.
+    /// Every link of a membrane and of a constraint ([`Constraint::links`]), and every joint, with the positions of its two ends.
     pub fn bonds(self) -> impl Iterator<Item = (Bond<'a>, [Vec2; 2])> + 'a {
         let organisms = self.world.organisms.iter();
         let bonds = organisms.flat_map(move |(_, organism)| self.bonds_of(organism));
-        bonds.map(move |(bond, ends)| (bond, ends.map(|i| self.position(i))))
+        let joints = self.world.joints().map(|joint| (Bond::Joint(joint.id), joint.ends));
+        bonds.map(move |(bond, ends)| (bond, ends.map(|i| self.position(i)))).chain(joints)
     }
 
     /// Pairs of particles that touched in the last step, as positions of their centres; for a link of a membrane that of its

@@ -1,6 +1,7 @@
 //! A read-only view for drawing and measuring.
 
 pub(crate) mod anatomy;
+mod mechanics;
 pub(crate) mod moment;
 
 use crate::behavior::crawl::{MembraneRegion, region};
@@ -162,6 +163,19 @@ impl<'a> OrganismView<'a> {
         pushed.collect()
     }
 
+    /// The embedder's number, see [`World::set_user_data`].
+    #[must_use]
+    pub fn user_data(self) -> u128 {
+        let [low, high] = self.organism.user_data;
+        u128::from(high) << 64 | u128::from(low)
+    }
+
+    /// Share of gravity that acts on it.
+    #[must_use]
+    pub fn gravity_scale(self) -> f32 {
+        self.organism.gravity_scale
+    }
+
     /// Its prey in the order of first contact, each with its phase; empty for organisms that are no engulfers.
     pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
         self.organism.meals().iter().map(|meal| (meal.prey, meal.phase))
@@ -253,7 +267,7 @@ impl<'a> OrganismView<'a> {
         match self.organism.locomotion {
             Locomotion::FrontPull { front } => Some(front as usize),
             Locomotion::Crawl { front_centre } => front_centre.map(|k| k as usize),
-            Locomotion::None | Locomotion::Tow { .. } => None,
+            Locomotion::None | Locomotion::Tow { .. } | Locomotion::Propel { .. } => None,
         }
     }
 

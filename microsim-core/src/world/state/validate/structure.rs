@@ -4,6 +4,7 @@
 use super::{Check, Subject, Violation};
 use crate::capability::Locomotion;
 use crate::error::Error;
+use crate::joint::JointEnd;
 use crate::organism::ring_surgery::LEAST_NODES;
 use crate::organism::{Organism, Phagosome, Storage};
 use crate::particle::NO_OWNER;
@@ -34,7 +35,35 @@ pub(in crate::world) fn check(world: &World) -> Check {
         claim(world, id.index, organism, cell, &mut owned)?;
     }
     check_fluids(world)?;
+    check_joints(world)?;
+    check_fields(world)?;
     check_particles(world, &owned)
+}
+
+/// Force fields have numbers in their ranges.
+fn check_fields(world: &World) -> Check {
+    let none = Subject::default();
+    none.must(world.fields.is_sound(), || "the free slots of force fields are not the empty ones".to_owned())?;
+    for ((k, _), field) in world.fields.iter() {
+        field.validate().map_err(|error| none.violation(format!("fields[{k}]: {error}")))?;
+    }
+    Ok(())
+}
+
+/// Joints have numbers in their ranges and particles that exist. The next step removes those that have lost an end.
+fn check_joints(world: &World) -> Check {
+    let none = Subject::default();
+    none.must(world.joints.is_sound(), || "the free slots of joints are not the empty ones".to_owned())?;
+    for ((k, _), joint) in world.joints.iter() {
+        joint.spec.validate().map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
+        none.must_range(&format!("length of joint {k}"), joint.length, 0.0, f32::MAX)?;
+        none.must_range(&format!("force of joint {k}"), joint.force, 0.0, f32::INFINITY)?;
+        let is_node = [joint.spec.a, joint.spec.b].map(|end| matches!(end, JointEnd::Node { .. }));
+        let is_found = joint.particles.map(|particle| particle.is_some());
+        let exist = joint.particles.iter().flatten().all(|&i| (i as usize) < world.particles.len());
+        none.must(is_node == is_found && exist, || format!("joint {k} holds a particle that it cannot hold"))?;
+    }
+    Ok(())
 }
 
 /// The free slots of organisms are exactly the empty ones.
@@ -60,8 +89,13 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
         none.must(fits, || {
             format!("block {k} lies at {first}, where {} slots of template {} do not", block.slots, block.template)
         })?;
+        let channels = template.map_or(0, |template| template.channels().len());
+        none.must(channels == block.contraction.len(), || format!("block {k} lacks the channels of its template"))?;
         for (lane, (&owner, &scale)) in block.owner.iter().zip(&block.scale).enumerate() {
             none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
+            for contraction in &block.contraction {
+                none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
+            }
             let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
             let place = holder.and_then(|organism| match organism.body {
                 Storage::Lane { block, first } => Some((block as usize, first)),
@@ -82,7 +116,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     let (nodes, membrane) = (organism.outline.len(), organism.body.membrane());
     let in_outline = |k: u32| (k as usize) < nodes;
     let can_move = match organism.locomotion {
-        Locomotion::None | Locomotion::Tow { .. } => true,
+        Locomotion::None | Locomotion::Tow { .. } | Locomotion::Propel { .. } => true,
         Locomotion::FrontPull { front } => in_outline(front),
         Locomotion::Crawl { front_centre } => membrane.is_some() && front_centre.is_none_or(in_outline),
     };
@@ -92,6 +126,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     let is_ring = |inner: &Phagosome| inner.ring.len() >= LEAST_NODES;
     let are_rings = (membrane.is_none() || nodes >= LEAST_NODES) && organism.phagosomes.iter().all(is_ring);
     cell.must(are_rings, || "a ring of too few nodes".to_owned())?;
+    cell.must_range("gravity scale", organism.gravity_scale, -100.0, 100.0)?;
     let fluids = world.fluids.len();
     let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
     cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;

@@ -1,0 +1,26 @@
+//! Actuation: inputs from outside become forces, and changes of velocity at once.
+
+use crate::actuation::Actuation;
+use crate::inputs::Inputs;
+use crate::organism::table::Organisms;
+use crate::particle::Particles;
+use crate::particle::mass_properties::MassProperties;
+use crate::solver::force::{self, Force, Forces};
+
+/// Turns what acts on organisms into the forces of a step of `dt` seconds; impulses act at once. Nothing acts on what is gone
+/// or frozen.
+pub(crate) fn actuate(organisms: &Organisms, inputs: &Inputs, particles: &mut Particles, forces: &mut Forces, dt: f32) {
+    for (id, node, actuation) in inputs.actuations() {
+        let Some(organism) = organisms.get(id).filter(|organism| !organism.is_quarantined) else { continue };
+        let on = node
+            .map_or_else(|| organism.particles().collect(), |node| organism.particle_of(node).into_iter().collect());
+        act(actuation, &on, particles, forces, dt);
+    }
+}
+
+fn act(actuation: Actuation, on: &Vec<u32>, particles: &mut Particles, forces: &mut Forces, dt: f32) {
+    let Some(body) = MassProperties::of(particles, on) else { return };
+    force::push(particles, on, actuation.impulse);
+    let velocity = actuation.target.map(|target| (target - body.position(particles)) / dt);
+    forces.add(on, Force { acceleration: actuation.force / body.mass, torque: actuation.torque, velocity });
+}

@@ -1,0 +1,239 @@
+//! Joints: two places are held at a length, by a spring, or with a limited force.
+//!
+//! `C = |b - a| - l`, one XPBD iteration per substep (see [`super::constraint::Distance`]), where a place is a point or the
+//! centre of mass of some particles, which moves with the inverse of their total mass. A spring of frequency `f` and damping
+//! ratio `z` has `k = w^2 / W`, `w = 2 pi f`, `W` the sum of inverse masses, and the damping time `2 z / w`. The multiplier
+//! over `h^2` is the force.
+
+use super::lanes::ratio;
+use crate::particle::Particles;
+use crate::particle::mass_properties::movable;
+use glam::Vec2;
+use std::f32::consts::TAU;
+use std::ops::Range;
+
+/// One end in a step.
+#[derive(Clone, Debug)]
+pub(crate) enum End {
+    /// Some of the particles of [`Joints`], and whether nothing can move them in this step.
+    Particles { range: Range<usize>, is_static: bool },
+    /// A place on the grid of origins, and the place relative to that.
+    Point { origin: Vec2, offset: Vec2 },
+}
+
+/// What holds the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Law {
+    /// Wanted length, units.
+    pub length: f32,
+    /// Speed at which the present length is to change, in place of a wanted length.
+    pub speed: Option<f32>,
+    /// Frequency, Hz, and damping ratio of a spring; `None` is rigid.
+    pub spring: Option<[f32; 2]>,
+    /// Whether it does nothing to what is nearer.
+    pub only_pulls: bool,
+    pub max_force: f32,
+    pub break_force: f32,
+}
+
+impl Law {
+    /// A rigid one that neither breaks nor gives way.
+    pub(crate) fn rigid(length: f32) -> Self {
+        let (max_force, break_force) = (f32::INFINITY, f32::INFINITY);
+        Self { length, speed: None, spring: None, only_pulls: false, max_force, break_force }
+    }
+}
+
+/// A joint in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    pub ends: [End; 2],
+    pub law: Law,
+    /// Largest force in a substep so far.
+    pub force: f32,
+    pub is_broken: bool,
+}
+
+/// The joints of a step, in the order of projection, and the particles of their ends.
+#[derive(Debug, Default)]
+pub(crate) struct Joints {
+    pub list: Vec<Joint>,
+    pub particles: Vec<u32>,
+}
+
+/// An end in a substep.
+struct Place {
+    origin: Vec2,
+    offset: Vec2,
+    /// Since the substep began.
+    moved: Vec2,
+    inv_mass: f32,
+}
+
+impl Joints {
+    pub(crate) fn clear(&mut self) {
+        self.list.clear();
+        self.particles.clear();
+    }
+
+    /// Projects each joint once, in a substep of `h` seconds.
+    pub(crate) fn project(&mut self, p: &mut Particles, h: f32) {
+        let Self { list, particles } = self;
+        for joint in list.iter_mut().filter(|joint| !joint.is_broken) {
+            joint.project(particles, p, h);
+        }
+    }
+}
+
+impl Joint {
+    fn project(&mut self, list: &[u32], p: &mut Particles, h: f32) {
+        let [a, b] = self.ends.each_ref().map(|end| end.place(list, p));
+        // A weight on a joint of 10 units stretches it by 4e-5 units in a substep, of which `f32` would lose a fiftieth.
+        let across = [0, 1].map(|k| f64::from(b.origin[k] - a.origin[k]) + f64::from(b.offset[k] - a.offset[k]));
+        let length = length_of(across);
+        let weight = a.inv_mass + b.inv_mass;
+        if length <= 0.0 || weight <= 0.0 {
+            return;
+        }
+        let normal = Vec2::from(across.map(|way| (way / length) as f32));
+        let opening = b.moved - a.moved;
+        let before = length_of([0, 1].map(|k| across[k] - f64::from(opening[k])));
+        let lambda = self.law.multiplier([before, length], normal.dot(opening), weight, h);
+        let force = lambda.abs() / (h * h);
+        self.is_broken = force > self.law.break_force;
+        self.force = if force > self.force { force } else { self.force };
+        if !self.is_broken {
+            self.ends[0].shift(normal * (-lambda * a.inv_mass), list, p);
+            self.ends[1].shift(normal * (lambda * b.inv_mass), list, p);
+        }
+    }
+}
+
+fn length_of([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+impl Law {
+    /// Multiplier for ends that were so far apart when the substep began, and are now, and have opened so far since.
+    fn multiplier(&self, [before, length]: [f64; 2], opening: f32, weight: f32, h: f32) -> f32 {
+        let wanted = self.speed.map_or(f64::from(self.length), |speed| before + f64::from(speed * h));
+        let error = (length - if wanted > 0.0 { wanted } else { 0.0 }) as f32;
+        if self.only_pulls && error <= 0.0 {
+            return 0.0;
+        }
+        let (alpha, gamma) = self.spring.map_or((0.0, 0.0), |[frequency, damping_ratio]| {
+            let omega = TAU * frequency;
+            (weight / (omega * omega * h * h), 2.0 * damping_ratio / (omega * h))
+        });
+        let lambda = ratio(-error - gamma * opening, (1.0 + gamma) * weight + alpha);
+        let most = self.max_force * h * h;
+        lambda.clamp(-most, most)
+    }
+}
+
+impl End {
+    fn place(&self, list: &[u32], p: &Particles) -> Place {
+        match self {
+            Self::Point { origin, offset } => {
+                Place { origin: *origin, offset: *offset, moved: Vec2::ZERO, inv_mass: 0.0 }
+            }
+            Self::Particles { range, is_static } => Place::of(&list[range.clone()], *is_static, p),
+        }
+    }
+
+    fn shift(&self, by: Vec2, list: &[u32], p: &mut Particles) {
+        let Self::Particles { range, is_static: false } = self else { return };
+        for &i in &list[range.clone()] {
+            if p.inv_mass[i as usize] > 0.0 {
+                super::contact::shift(p, i as usize, by);
+            }
+        }
+    }
+}
+
+impl Place {
+    /// Centre of mass of some particles; of a single one, its place.
+    fn of(list: &[u32], is_static: bool, p: &Particles) -> Self {
+        let reference = list[0] as usize;
+        let (mut mass, mut offset, mut moved) = (0.0, Vec2::ZERO, Vec2::ZERO);
+        for (i, m) in movable(p, list) {
+            mass += m;
+            offset += ((p.origin(i) - p.origin(reference)) + p.offset(i)) * m;
+            moved += super::contact::moved(p, i) * m;
+        }
+        let inv_mass = if is_static { 0.0 } else { ratio(1.0, mass) };
+        let (offset, moved) = if mass > 0.0 && list.len() > 1 {
+            (offset / mass, moved / mass)
+        } else {
+            (p.offset(reference), super::contact::moved(p, reference))
+        };
+        Self { origin: p.origin(reference), offset, moved, inv_mass }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_pair_laws, line, momentum};
+    use super::*;
+
+    const H: f32 = 0.01;
+
+    fn joints(law: Law) -> Joints {
+        let end = |k: usize| End::Particles { range: k..k + 1, is_static: false };
+        let joint = Joint { ends: [end(0), end(1)], law, force: 0.0, is_broken: false };
+        Joints { list: vec![joint], particles: vec![0, 1] }
+    }
+
+    #[test]
+    fn obeys_the_laws_of_a_pair_constraint() {
+        for spring in [None, Some([5.0, 0.0])] {
+            let law = Law { spring, ..Law::rigid(1.0) };
+            assert_pair_laws(&[0.5, 1.7], 1.0, |p| {
+                p.prev_x.clone_from(&p.x);
+                joints(law).project(p, H);
+            });
+        }
+    }
+
+    #[test]
+    fn a_rope_only_pulls() {
+        let law = Law { only_pulls: true, ..Law::rigid(1.0) };
+        let [mut slack, mut taut] = [0.5, 2.0].map(|length| line(length, [0.0, 1.0]));
+        joints(law).project(&mut slack, H);
+        joints(law).project(&mut taut, H);
+        assert_eq!((slack.x[1], taut.x[1]), (0.5, 1.0));
+    }
+
+    #[test]
+    fn a_force_is_limited_reported_and_breaks() {
+        let law = Law { max_force: 100.0, ..Law::rigid(1.0) };
+        let mut p = line(2.0, [0.0, 0.5]);
+        let mut limited = joints(law);
+        limited.project(&mut p, H);
+        // 100 * h^2 / 2.
+        assert!((p.x[1] - 1.995).abs() < 1e-6 && (limited.list[0].force - 100.0).abs() < 1e-3);
+        let mut breaking = joints(Law { break_force: 99.0, ..law });
+        let before = p.x.clone();
+        (0..2).for_each(|_| breaking.project(&mut p, H));
+        assert!(breaking.list[0].is_broken && p.x == before);
+    }
+
+    #[test]
+    fn a_motor_changes_the_length_at_its_speed_and_keeps_momentum() {
+        let mut p = line(2.0, [1.0, 0.5]);
+        let before = momentum(&p);
+        p.prev_x.clone_from(&p.x);
+        joints(Law { speed: Some(-10.0), ..Law::rigid(0.0) }).project(&mut p, H);
+        assert!((p.between(0, 1).x - 1.9).abs() < 1e-6 && (momentum(&p) - before).length() < 1e-6);
+    }
+
+    #[test]
+    fn the_centre_of_a_body_is_moved_as_a_whole() {
+        let mut p = line(2.0, [1.0, 0.5]);
+        let ends =
+            [End::Particles { range: 0..2, is_static: false }, End::Point { origin: Vec2::ZERO, offset: Vec2::Y }];
+        let joint = Joint { ends, law: Law::rigid(0.0), force: 0.0, is_broken: false };
+        Joints { list: vec![joint], particles: vec![0, 1] }.project(&mut p, H);
+        assert!((p.x[0] + 4.0 / 3.0).abs() < 1e-6 && (p.x[1] - 2.0 / 3.0).abs() < 1e-6 && p.y == [1.0, 1.0]);
+    }
+}

@@ -1,0 +1,94 @@
+//! Force fields of a world, and whom they keep awake.
+
+use super::World;
+use crate::error::Error;
+use crate::force_field::ForceField;
+use crate::id::FieldId;
+use glam::Vec2;
+
+impl World {
+    /// Adds a force field. It acts on every particle in its region, beside gravity; bodies in it stay awake.
+    ///
+    /// ```
+    /// # use microsim_core::{AgarSpec, FieldKind, ForceField, Inputs, Placement, Region, World, WorldConfig, glam::Vec2};
+    /// # let mut world = World::new(WorldConfig::default())?;
+    /// let ball = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0))?;
+    /// let region = Region::Circle { centre: Vec2::new(30.0, 30.0), radius: 10.0 };
+    /// let wind = world.add_field(ForceField { region, kind: FieldKind::Uniform { acceleration: Vec2::new(9.0, 0.0) } })?;
+    /// (0..60).for_each(|_| world.step(&Inputs::new()));
+    /// assert!(world.centroid(ball).unwrap().x > 33.0);
+    /// world.remove_field(wind)?;
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the number that is out of its range.
+    pub fn add_field(&mut self, field: ForceField) -> Result<FieldId, Error> {
+        field.validate()?;
+        Ok(FieldId::of(self.fields.insert(field)))
+    }
+
+    /// Replaces a force field by another one, under the same handle.
+    ///
+    /// # Errors
+    /// Names the number that is out of its range, and a handle that is stale.
+    pub fn set_field(&mut self, id: FieldId, field: ForceField) -> Result<(), Error> {
+        field.validate()?;
+        *self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))? = field;
+        Ok(())
+    }
+
+    /// Removes a force field.
+    ///
+    /// # Errors
+    /// When the handle is stale.
+    pub fn remove_field(&mut self, id: FieldId) -> Result<(), Error> {
+        self.fields.remove(id.handle()).map(drop).ok_or_else(|| Error::stale("field"))
+    }
+
+    /// All force fields, in a stable order.
+    pub fn fields(&self) -> impl Iterator<Item = (FieldId, &ForceField)> {
+        self.fields.iter().map(|(handle, field)| (FieldId::of(handle), field))
+    }
+
+    /// Acceleration by all force fields at a point, without gravity, units/s2.
+    #[must_use]
+    pub fn field_at(&self, point: Vec2) -> Vec2 {
+        self.fields.iter().map(|(_, field)| field.acceleration_at(point)).sum()
+    }
+
+    /// Wakes the bodies on which a field acts.
+    pub(crate) fn wake_up_in_fields(&mut self) {
+        if self.fields.is_empty() {
+            return;
+        }
+        for index in 0..self.blocks.len() {
+            let (block, steps) = (&self.blocks[index], self.config.steps_to_sleep());
+            let is_in_field = |lane| {
+                (0..block.slots).any(|slot| {
+                    let i = block.particle(slot, lane) as usize;
+                    self.particles.inv_mass[i] > 0.0 && self.field_at(self.particles.position(i)) != Vec2::ZERO
+                })
+            };
+            if self.sleep.is_at_rest(index as u32, steps)
+                && let Some(lane) = (0..block.owner.len()).find(|&lane| is_in_field(lane))
+            {
+                self.sleep.wake_up(index as u32, lane);
+            }
+        }
+    }
+
+    /// Accelerates what is in fields for a substep of `h` seconds.
+    pub(crate) fn apply_fields(&mut self, h: f32) {
+        if self.fields.is_empty() {
+            return;
+        }
+        for i in 0..self.particles.len() {
+            if self.particles.inv_mass[i] > 0.0 {
+                let change = self.field_at(self.particles.position(i)) * h;
+                self.particles.vx[i] += change.x;
+                self.particles.vy[i] += change.y;
+            }
+        }
+    }
+}

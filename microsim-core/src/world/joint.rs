@@ -1,0 +1,265 @@
+//! Joints between organisms and places of the world: they are made and removed at run time, wake who they join, and end when
+//! one of them goes.
+
+use super::World;
+use crate::error::Error;
+use crate::event::Event;
+use crate::id::{JointId, OrganismId};
+use crate::joint::{JointEnd, JointKind, JointSpec};
+use crate::organism::Organism;
+use crate::particle::mass_properties::{MassProperties, movable};
+use crate::solver::joint::{End, Joint, Law};
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// A joint, and what was found when it was made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct JointRecord {
+    pub spec: JointSpec,
+    /// The particle of each end that is a node.
+    pub particles: [Option<u32>; 2],
+    /// Distance of the ends then, units.
+    pub length: f32,
+    /// Largest force in a substep of the last step in which it was not asleep.
+    pub force: f32,
+}
+
+/// A joint, for reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointView {
+    /// Its handle.
+    pub id: JointId,
+    /// What it was made from.
+    pub spec: JointSpec,
+    /// Where its ends are, units.
+    pub ends: [Vec2; 2],
+    /// Largest force that it exerted in a substep of the last step in which it was not asleep.
+    pub force: f32,
+}
+
+impl World {
+    /// Joins two things. Bodies that are joined still collide ([`World::set_exempt`]), and wake each other.
+    ///
+    /// The joint ends with [`Event::JointEnded`] when an organism that it holds goes or is frozen, or a node of a cell goes to
+    /// another cell, and with [`Event::JointBroken`] when its force is exceeded.
+    ///
+    /// ```
+    /// # use microsim_core::{CoccusSpec, Inputs, JointEnd, JointKind, JointSpec, Placement, World, WorldConfig, glam::Vec2};
+    /// # let gravity = Vec2::new(0.0, -10.0);
+    /// # let mut world = World::new(WorldConfig { gravity, ..WorldConfig::default() })?;
+    /// let bob = world.spawn(&CoccusSpec::default().into(), Placement::at(50.0, 40.0))?;
+    /// let nail = JointEnd::Point(Vec2::new(50.0, 60.0));
+    /// let rope = JointKind::Rope { max_length: 21.0 };
+    /// let joint = world.add_joint(JointSpec::new(nail, JointEnd::Centre(bob), rope))?;
+    /// (0..300).for_each(|_| world.step(&Inputs::new()));
+    /// let [top, bottom] = world.joint(joint).unwrap().ends;
+    /// assert!((top.distance(bottom) - 21.0).abs() < 0.01);
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the number that is out of its range, the handle that is stale, the node that does not exist, or the end that cannot
+    /// be joined. Nothing is changed then.
+    pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
+        let record = self.joint_record(spec)?;
+        self.wake_up_joined(&spec);
+        Ok(JointId::of(self.joints.insert(record)))
+    }
+
+    /// Replaces a joint by another one, under the same handle: to move the place that it leads to, or to set a motor.
+    ///
+    /// # Errors
+    /// As for [`World::add_joint`], and when the handle is stale.
+    pub fn set_joint(&mut self, id: JointId, spec: JointSpec) -> Result<(), Error> {
+        let before = self.joints.get(id.handle()).map(|record| record.spec).ok_or_else(|| Error::stale("joint"))?;
+        let record = self.joint_record(spec)?;
+        self.wake_up_joined(&before);
+        self.wake_up_joined(&spec);
+        if let Some(joint) = self.joints.get_mut(id.handle()) {
+            *joint = record;
+        }
+        Ok(())
+    }
+
+    /// Removes a joint, without an event.
+    ///
+    /// # Errors
+    /// When the handle is stale.
+    pub fn remove_joint(&mut self, id: JointId) -> Result<(), Error> {
+        let record = self.joints.remove(id.handle()).ok_or_else(|| Error::stale("joint"))?;
+        self.wake_up_joined(&record.spec);
+        Ok(())
+    }
+
+    /// A joint; `None` for a stale handle, and when something that it holds is gone.
+    #[must_use]
+    pub fn joint(&self, id: JointId) -> Option<JointView> {
+        self.joint_view(id, self.joints.get(id.handle())?)
+    }
+
+    /// All joints, in a stable order.
+    pub fn joints(&self) -> impl Iterator<Item = JointView> + '_ {
+        self.joints.iter().filter_map(|(handle, record)| self.joint_view(JointId::of(handle), record))
+    }
+
+    fn joint_view(&self, id: JointId, record: &JointRecord) -> Option<JointView> {
+        let ends = [self.end_position(record, 0)?, self.end_position(record, 1)?];
+        Some(JointView { id, spec: record.spec, ends, force: record.force })
+    }
+
+    /// Checks a joint and finds what it holds.
+    fn joint_record(&self, spec: JointSpec) -> Result<JointRecord, Error> {
+        spec.validate()?;
+        let a = self.joined_particle(spec.a).map_err(|error| error.within("a"))?;
+        let b = self.joined_particle(spec.b).map_err(|error| error.within("b"))?;
+        let mut record = JointRecord { spec, particles: [a, b], length: 0.0, force: 0.0 };
+        let ends = [spec.a, spec.b].map(JointEnd::organism);
+        let is_same = a == b && ends[0] == ends[1];
+        if is_same || !(0..2).any(|k| self.end_particles(&record, k).is_some_and(|list| self.can_move(&list))) {
+            return Err(Error::unsupported("b", "another end than a; one of the two must be able to move"));
+        }
+        if let (Some(a), Some(b)) = (self.end_position(&record, 0), self.end_position(&record, 1)) {
+            record.length = a.distance(b);
+        }
+        Ok(record)
+    }
+
+    /// The particle of an end that is a node.
+    fn joined_particle(&self, end: JointEnd) -> Result<Option<u32>, Error> {
+        let Some(id) = end.organism() else { return Ok(None) };
+        self.organism_or_stale(id, "organism")?;
+        let Some(organism) = self.organisms.get(id).filter(|organism| !organism.is_quarantined) else {
+            return Err(Error::unsupported("organism", "an organism that is not frozen"));
+        };
+        let JointEnd::Node { node, .. } = end else { return Ok(None) };
+        let accepted = || format!("a node below {}", organism.particles().count());
+        organism.particle_of(node).map(Some).ok_or_else(|| Error::reference("node", accepted()))
+    }
+
+    fn can_move(&self, list: &[u32]) -> bool {
+        movable(&self.particles, list).next().is_some()
+    }
+
+    /// The particles of an end, none for a point; `None` if what it held is gone.
+    fn end_particles(&self, record: &JointRecord, k: usize) -> Option<Vec<u32>> {
+        let Some(id) = record.end(k).organism() else { return Some(Vec::new()) };
+        let organism = self.organisms.get(id).filter(|organism| !organism.is_quarantined)?;
+        match record.particles[k] {
+            Some(particle) => (self.particles.owner[particle as usize] == id.index).then(|| vec![particle]),
+            None => Some(organism.particles().collect()),
+        }
+    }
+
+    fn end_position(&self, record: &JointRecord, k: usize) -> Option<Vec2> {
+        if let JointEnd::Point(at) = record.end(k) {
+            return Some(at);
+        }
+        let list = self.end_particles(record, k)?;
+        let centre = MassProperties::of(&self.particles, &list).map(|body| body.position(&self.particles));
+        centre.or_else(|| list.first().map(|&i| self.particles.position(i as usize)))
+    }
+
+    fn wake_up_joined(&mut self, spec: &JointSpec) {
+        for id in [spec.a, spec.b].into_iter().filter_map(JointEnd::organism) {
+            self.wake_up(id);
+        }
+    }
+
+    /// Wakes who is joined to something that moves.
+    pub(crate) fn wake_up_joints(&mut self) {
+        let is_moving = |organism: &Organism, world: &Self| {
+            let lane = organism.body.lane(&world.blocks);
+            lane.is_none_or(|(block, lane)| world.sleep.is_moving(block as usize, lane))
+        };
+        let specs: Vec<JointSpec> = self.joints.iter().map(|(_, record)| record.spec).collect();
+        for spec in specs {
+            let organisms = [spec.a, spec.b].into_iter().filter_map(JointEnd::organism);
+            if organisms.filter_map(|id| self.organisms.get(id)).any(|organism| is_moving(organism, self)) {
+                self.wake_up_joined(&spec);
+            }
+        }
+    }
+
+    /// Hands the joints to the solver for a step: those of which an end is awake.
+    pub(crate) fn gather_joints(&mut self) {
+        let mut gathered = std::mem::take(&mut self.scratch.joints);
+        gathered.clear();
+        self.scratch.joined.clear();
+        for (handle, record) in self.joints.iter() {
+            let (Some(a), Some(b)) =
+                (self.end(record, 0, &mut gathered.particles), self.end(record, 1, &mut gathered.particles))
+            else {
+                continue;
+            };
+            let moves = |end: &End| matches!(end, End::Particles { is_static: false, .. });
+            if moves(&a) || moves(&b) {
+                self.scratch.joined.push(handle);
+                gathered.list.push(Joint { ends: [a, b], law: record.law(), force: 0.0, is_broken: false });
+            }
+        }
+        self.scratch.joints = gathered;
+    }
+
+    /// An end as the solver sees it. Its particles are added to a list.
+    fn end(&self, record: &JointRecord, k: usize, list: &mut Vec<u32>) -> Option<End> {
+        if let JointEnd::Point(at) = record.end(k) {
+            let origin = at.round();
+            return Some(End::Point { origin, offset: at - origin });
+        }
+        let (first, particles) = (list.len(), self.end_particles(record, k)?);
+        let organism = self.organisms.get(record.end(k).organism()?)?;
+        let is_asleep = organism.body.lane(&self.blocks).is_some_and(|(block, _)| self.sleep.is_asleep(block));
+        let is_static = is_asleep || !self.can_move(&particles);
+        list.extend(particles);
+        Some(End::Particles { range: first..list.len(), is_static })
+    }
+
+    /// Notes the forces of a step; removes what broke and what has lost somebody.
+    pub(crate) fn conclude_joints(&mut self) {
+        for (handle, solved) in self.scratch.joined.iter().zip(&self.scratch.joints.list) {
+            if let Some(record) = self.joints.get_mut(*handle) {
+                record.force = solved.force;
+            }
+            if solved.is_broken
+                && let Some(record) = self.joints.remove(*handle)
+            {
+                self.events.push(Event::JointBroken { joint: JointId::of(*handle), between: record.organisms() });
+            }
+        }
+        let is_lost = |record: &JointRecord| (0..2).any(|k| self.end_particles(record, k).is_none());
+        let lost: Vec<_> = self.joints.iter().filter(|(_, it)| is_lost(it)).map(|(handle, _)| handle).collect();
+        for handle in lost {
+            let Some(record) = self.joints.remove(handle) else { continue };
+            self.wake_up_joined(&record.spec);
+            self.events.push(Event::JointEnded { joint: JointId::of(handle), between: record.organisms() });
+        }
+    }
+}
+
+impl JointRecord {
+    fn end(&self, k: usize) -> JointEnd {
+        [self.spec.a, self.spec.b][k]
+    }
+
+    fn organisms(&self) -> [Option<OrganismId>; 2] {
+        [self.spec.a, self.spec.b].map(JointEnd::organism)
+    }
+
+    fn law(&self) -> Law {
+        let law = match self.spec.kind {
+            JointKind::Pin => Law::rigid(0.0),
+            JointKind::Distance { length } => Law::rigid(length),
+            JointKind::Weld => Law::rigid(self.length),
+            JointKind::Rope { max_length } => Law { only_pulls: true, ..Law::rigid(max_length) },
+            JointKind::Spring { length, frequency, damping_ratio } => {
+                Law { spring: Some([frequency, damping_ratio]), ..Law::rigid(length) }
+            }
+            JointKind::Mouse { frequency, damping_ratio, max_force } => {
+                Law { spring: Some([frequency, damping_ratio]), max_force, ..Law::rigid(0.0) }
+            }
+            JointKind::LengthMotor { length, max_force } => Law { max_force, ..Law::rigid(length) },
+            JointKind::SpeedMotor { speed, max_force } => Law { speed: Some(speed), max_force, ..Law::rigid(0.0) },
+        };
+        Law { break_force: self.spec.break_force, ..law }
+    }
+}

@@ -1,0 +1,238 @@
+//! Joints by the laws of mechanics, and what becomes of them.
+
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, OrganismId, Placement, Template, World,
+    WorldConfig,
+};
+use std::f32::consts::TAU;
+
+/// A room without drag.
+fn room(gravity: f32, substeps: u32) -> World {
+    let gravity = Vec2::new(0.0, -gravity);
+    World::new(WorldConfig { gravity, substeps, damping: 0.0, max_speed: 100.0, ..WorldConfig::default() }).unwrap()
+}
+
+/// A disc of this mass.
+fn disc(world: &mut World, at: Vec2, mass: f32) -> OrganismId {
+    let mut builder = Template::builder();
+    builder.node(Node::disc(Vec2::ZERO, mass, 0.5));
+    let template = world.add_template(builder.build().unwrap());
+    world.spawn_template(template, Placement::at(at.x, at.y)).unwrap()
+}
+
+fn node(organism: OrganismId) -> JointEnd {
+    JointEnd::Node { organism, node: 0 }
+}
+
+fn join(world: &mut World, a: JointEnd, b: JointEnd, kind: JointKind) -> JointId {
+    world.add_joint(JointSpec::new(a, b, kind)).unwrap()
+}
+
+fn run(world: &mut World, seconds: f32) {
+    (0..(seconds * 60.0 + 0.5) as u32).for_each(|_| world.step(&Inputs::new()));
+}
+
+fn at(world: &World, id: OrganismId) -> Vec2 {
+    world.centroid(id).unwrap()
+}
+
+/// Mean time between two passages of a coordinate through a value in one direction.
+fn period(world: &mut World, seconds: f32, coordinate: impl Fn(&World) -> f32) -> f32 {
+    let (mut before, mut passages) = (coordinate(world), Vec::new());
+    for step in 1..=(seconds * 60.0) as u32 {
+        world.step(&Inputs::new());
+        let now = coordinate(world);
+        if before < 0.0 && now >= 0.0 {
+            passages.push((step as f32 - now / (now - before)) / 60.0);
+        }
+        before = now;
+    }
+    (passages.last().unwrap() - passages[0]) / (passages.len() - 1) as f32
+}
+
+#[test]
+fn a_pendulum_has_its_period() {
+    for substeps in [4, 8, 32] {
+        let mut world = room(10.0, substeps);
+        let bob = disc(&mut world, Vec2::new(81.0, 30.0), 2.0);
+        let nail = JointEnd::Point(Vec2::new(80.0, 50.0));
+        let length = Vec2::new(1.0, 20.0).length();
+        join(&mut world, nail, node(bob), JointKind::Distance { length });
+        let found = period(&mut world, 30.0, |world| at(world, bob).x - 80.0);
+        let expected = TAU * (length / 10.0).sqrt();
+        assert!((found / expected - 1.0).abs() < 0.01, "{substeps}: {found} instead of {expected}");
+    }
+}
+
+#[test]
+fn a_spring_has_its_frequency_with_the_masses_of_both() {
+    for (substeps, frequency) in [(2, 1.0), (8, 1.0), (8, 3.0), (32, 3.0)] {
+        let mut world = room(0.0, substeps);
+        let [a, b] = [76.0, 84.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0 + (x - 76.0) / 4.0));
+        join(&mut world, node(a), node(b), JointKind::Spring { length: 7.0, frequency, damping_ratio: 0.0 });
+        let found = period(&mut world, 6.0, |world| at(world, b).x - at(world, a).x - 7.0);
+        assert!((found * frequency - 1.0).abs() < 0.02, "{substeps}: {found} s at {frequency} Hz");
+        let (x, y) = (at(&world, a), at(&world, b));
+        assert!(((x + 3.0 * y) / 4.0 - Vec2::new(82.0, 45.0)).length() < 1e-3, "momentum");
+    }
+}
+
+#[test]
+fn a_critically_damped_spring_does_not_swing() {
+    let mut world = room(0.0, 8);
+    let body = disc(&mut world, Vec2::new(84.0, 45.0), 3.0);
+    let place = JointEnd::Point(Vec2::new(80.0, 45.0));
+    join(&mut world, place, node(body), JointKind::Spring { length: 2.0, frequency: 2.0, damping_ratio: 1.0 });
+    for _ in 0..120 {
+        world.step(&Inputs::new());
+        assert!(at(&world, body).x > 81.99);
+    }
+    assert!((at(&world, body).x - 82.0).abs() < 0.01);
+}
+
+#[test]
+fn a_hanging_weight_has_its_force_and_breaks_what_is_weaker() {
+    let hang = |break_force: f32| {
+        let mut world = room(10.0, 8);
+        let body = disc(&mut world, Vec2::new(80.0, 40.0), 3.0);
+        let nail = JointEnd::Point(Vec2::new(80.0, 50.0));
+        let spec = JointSpec::new(nail, JointEnd::Centre(body), JointKind::Rope { max_length: 10.0 });
+        let joint = world.add_joint(spec.breaking_at(break_force)).unwrap();
+        let mut broken = Vec::new();
+        for _ in 0..60 {
+            world.step(&Inputs::new());
+            broken.extend(world.events().iter().copied());
+        }
+        world.validate().unwrap();
+        (world.joint(joint).map(|joint| joint.force), broken, joint, body)
+    };
+    let (force, events, ..) = hang(31.0);
+    assert!((force.unwrap() - 30.0).abs() < 0.3 && events.is_empty(), "{force:?} {events:?}");
+    let (force, events, joint, body) = hang(29.0);
+    assert_eq!((force, &events[..1]), (None, &[Event::JointBroken { joint, between: [None, Some(body)] }][..]));
+}
+
+#[test]
+fn a_mouse_pulls_with_a_limited_force_and_follows_when_it_can() {
+    let mut world = room(10.0, 8);
+    let body = disc(&mut world, Vec2::new(80.0, 40.0), 2.0);
+    let spec =
+        |y: f32, force: f32| JointSpec::new(JointEnd::Point(Vec2::new(80.0, y)), node(body), JointKind::mouse(force));
+    let joint = world.add_joint(spec(50.0, 10.0)).unwrap();
+    run(&mut world, 1.0);
+    assert!(at(&world, body).y < 38.0, "ten do not lift twenty");
+    world.set_joint(joint, spec(45.0, 200.0)).unwrap();
+    run(&mut world, 2.0);
+    assert!((at(&world, body).y - 45.0).abs() < 0.1, "{}", at(&world, body));
+}
+
+#[test]
+fn motors_reach_their_length_and_speed_with_a_limited_force() {
+    let mut world = room(0.0, 8);
+    let body = disc(&mut world, Vec2::new(70.0, 45.0), 2.0);
+    let place = JointEnd::Point(Vec2::new(60.0, 45.0));
+    let joint = join(&mut world, place, node(body), JointKind::SpeedMotor { speed: 4.0, max_force: 1e6 });
+    run(&mut world, 1.0);
+    assert!((at(&world, body).x - 74.0).abs() < 0.1, "{}", at(&world, body));
+    let motor = |max_force: f32| JointSpec::new(place, node(body), JointKind::LengthMotor { length: 20.0, max_force });
+    world.set_joint(joint, motor(1e6)).unwrap();
+    run(&mut world, 1.0);
+    assert!((at(&world, body).x - 80.0).abs() < 0.01, "{}", at(&world, body));
+    let mut world = room(0.0, 8);
+    let body = disc(&mut world, Vec2::new(70.0, 45.0), 2.0);
+    join(&mut world, place, node(body), JointKind::SpeedMotor { speed: 50.0, max_force: 8.0 });
+    run(&mut world, 1.0);
+    assert!((at(&world, body).x - 72.0).abs() < 0.05, "half of 8 / 2: {}", at(&world, body));
+}
+
+#[test]
+fn a_chain_of_joints_holds_two_bodies_together_and_keeps_their_momentum() {
+    let mut world = room(0.0, 8);
+    let bodies: Vec<_> = (0u8..6).map(|k| disc(&mut world, Vec2::new(60.0 + 2.0 * f32::from(k), 45.0), 1.0)).collect();
+    for pair in bodies.windows(2) {
+        join(&mut world, node(pair[0]), node(pair[1]), JointKind::Weld);
+    }
+    world.push(bodies[0], Vec2::new(0.0, 12.0)).unwrap();
+    run(&mut world, 1.0);
+    let velocity: Vec2 = bodies.iter().map(|&id| world.view().organism(id).unwrap().velocity()).sum();
+    assert!((velocity - Vec2::new(0.0, 12.0)).length() < 0.01, "{velocity}");
+    for joint in world.joints() {
+        assert!((joint.ends[0].distance(joint.ends[1]) - 2.0).abs() < 0.02);
+    }
+}
+
+#[test]
+fn a_joint_ends_with_an_event_when_a_partner_goes() {
+    let mut world = room(0.0, 8);
+    let [a, b] = [70.0, 80.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0));
+    let joint = join(&mut world, JointEnd::Centre(a), node(b), JointKind::Weld);
+    run(&mut world, 1.0);
+    world.remove(b).unwrap();
+    world.validate().unwrap();
+    assert!(world.joint(joint).is_none());
+    world.step(&Inputs::new());
+    assert_eq!(world.events(), [Event::JointEnded { joint, between: [Some(a), Some(b)] }]);
+    world.step(&Inputs::new());
+    assert!(world.events().is_empty());
+    assert_eq!(world.remove_joint(joint).unwrap_err().field(), "joint");
+}
+
+#[test]
+fn what_moves_wakes_what_it_is_joined_to_and_what_rests_sleeps() {
+    let mut world = room(0.0, 8);
+    let [a, b] = [60.0, 80.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0));
+    // A block of its own for each: eight of one template sleep together.
+    let mut builder = Template::builder();
+    builder.node(Node::disc(Vec2::ZERO, 7.0, 0.4));
+    let template = world.add_template(builder.build().unwrap());
+    let c = world.spawn_template(template, Placement::at(100.0, 45.0)).unwrap();
+    join(&mut world, node(b), node(c), JointKind::Rope { max_length: 20.0 });
+    run(&mut world, 2.0);
+    let rests = |world: &World, id| world.view().organism(id).unwrap().is_at_rest();
+    assert!([a, b, c].iter().all(|&id| rests(&world, id)));
+    world.push(b, Vec2::new(-4.0, 0.0)).unwrap();
+    run(&mut world, 0.5);
+    assert!(at(&world, c).x < 99.9 && !rests(&world, c), "{}", at(&world, c));
+}
+
+#[test]
+fn everything_that_cannot_be_joined_is_refused_by_name_and_changes_nothing() {
+    let mut world = room(0.0, 8);
+    let [a, gone] = [60.0, 80.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0));
+    world.remove(gone).unwrap();
+    let place = JointEnd::Point(Vec2::ZERO);
+    let digest = world.digest();
+    let mut refused =
+        |a, b| world.add_joint(JointSpec::new(a, b, JointKind::Pin)).map_err(|error: Error| error.field().to_owned());
+    assert_eq!(refused(node(gone), place), Err("a.organism".to_owned()));
+    assert_eq!(refused(place, JointEnd::Node { organism: a, node: 1 }), Err("b.node".to_owned()));
+    assert_eq!(refused(place, JointEnd::Point(Vec2::ONE)), Err("b".to_owned()));
+    assert_eq!(refused(node(a), node(a)), Err("b".to_owned()));
+    assert_eq!(refused(node(a), JointEnd::Point(Vec2::NAN)), Err("b.x".to_owned()));
+    assert_eq!(world.digest(), digest);
+}
+
+#[test]
+fn clones_and_snapshots_have_the_same_joints_and_future() {
+    let mut world = room(10.0, 8);
+    let [a, b] = [78.0, 81.0].map(|x| disc(&mut world, Vec2::new(x, 30.0), 1.0));
+    let nail = JointEnd::Point(Vec2::new(80.0, 50.0));
+    join(&mut world, nail, node(a), JointKind::Rope { max_length: 21.0 });
+    join(
+        &mut world,
+        node(a),
+        JointEnd::Centre(b),
+        JointKind::Spring { length: 2.0, frequency: 2.0, damping_ratio: 0.1 },
+    );
+    run(&mut world, 0.5);
+    let mut others = vec![world.clone()];
+    #[cfg(feature = "snapshot")]
+    others.push(World::from_snapshot(&world.to_snapshot().unwrap()).unwrap());
+    run(&mut world, 0.5);
+    for mut other in others {
+        run(&mut other, 0.5);
+        assert_eq!(other.first_difference(&world), None);
+        assert!(other.joints().eq(world.joints()));
+    }
+}
