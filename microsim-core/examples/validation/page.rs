@@ -1,0 +1,49 @@
+//! The page in Markdown.
+
+use super::experiments::plot::number;
+use super::experiments::{Experiment, Outcome, Row};
+use std::fmt::Write;
+
+pub(crate) const INTRODUCTION: &str = "\
+# Validation
+
+The core against published results. Each row is run on the committed code, at the default step of 1/60 s and 8 substeps where
+nothing else is said; short forms of most are in `tests/validation.rs`. The page and its plots are written by
+
+```sh
+cargo run --release -p microsim-core --features scenario --example validation -- docs/validation > docs/validation.md
+```
+
+and one section by the same command with its name behind the folder. *Accepted* is what counts as agreement; where a result is
+missed, the section says why.
+";
+
+pub(crate) const REFINEMENT: &str = "\
+## Refinement
+
+`refinement`. What shorter steps and more substeps change: speed after a second of free fall against `g t`; way in 20 s, units, and
+area against `radii` of a cell that nobody drives; the same of one that is driven for 4 s; when prey is taken in in the scenarios
+`absorb-agar` and `absorb-rigid` with seeds 1 and 2, and what breaks there, if anything does. A substep shorter than 0.2 ms is
+refused.
+
+";
+
+/// A section: what is done, and its rows.
+pub(crate) fn section(experiment: &Experiment, outcome: &Outcome) -> String {
+    let Experiment { name, title, source, words, .. } = experiment;
+    let mut text = format!("## {title}\n\n`{name}`. {words}\n\nSource: {source}.\n\n");
+    text += "| what | published | ours | accepted | |\n|---|---|---|---|---|\n";
+    for row in &outcome.rows {
+        let Row { what, published, ours, accepted: [least, most] } = row;
+        let verdict = if row.agrees() { "agrees" } else { "**missed**" };
+        let (ours, least, most) = (number(*ours), number(*least), number(*most));
+        let _ = writeln!(text, "| {what} | {published} | {ours} | {least} to {most} | {verdict} |");
+    }
+    if !outcome.rows.iter().all(Row::agrees) {
+        let _ = writeln!(text, "\nMissed: {}", outcome.cause);
+    }
+    if outcome.plot.is_some() {
+        let _ = writeln!(text, "\n![{title}](validation/{name}.svg)");
+    }
+    text
+}
