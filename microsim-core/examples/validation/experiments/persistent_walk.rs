@@ -18,13 +18,13 @@ fn measure() -> Result<Outcome, Error> {
     for [persistence, speed] in [[2.0, 3.0], [0.3, 10.0f32]] {
         let walk = Controller::persistent_walk(PersistentWalkParams { persistence });
         let spec = BacillusSpec { speed, ..BacillusSpec::default() };
-        let tracks = tracks(&spec.into(), &walk, 2.0 + 10.1 * persistence)?;
+        let tracks = tracks(&spec.into(), &walk, 2.0 + 40.1 * persistence)?;
         for periods in [0.5, 1.0, 2.0, 5.0, 10.0f32] {
             let [p, s, t] = [persistence, speed, periods * persistence].map(f64::from);
             let expected = 2.0 * s * s * p * (t - p * (1.0 - (-t / p).exp()));
             let ours = mean_squared_displacement(&tracks, 2.0, periods * persistence);
             let what = format!("mean squared displacement after {periods} P, P {persistence} s, S {speed} µm/s, µm²");
-            rows.push(Row::near(what, expected, 0.08, ours));
+            rows.push(Row::near(what, expected, 0.05, ours));
         }
     }
     let cause = "A rod turns no faster than its head pulls it around, so its path is straighter than its controller's.";

@@ -22,6 +22,6 @@ fn measure() -> Result<Outcome, Error> {
     let expected = f64::from(spec.speed).powi(2) * run * run / (2.0 * (1.0 - cosine) * (run + tumble));
     let tracks = tracks(&spec.into(), &Controller::run_and_tumble(params), 122.5)?;
     let [short, long] = [5.0, 10.0].map(|time| mean_squared_displacement(&tracks, 2.0, time));
-    let rows = vec![Row::near("effective diffusion coefficient, µm²/s", expected, 0.1, (long - short) / (4.0 * 5.0))];
+    let rows = vec![Row::near("effective diffusion coefficient, µm²/s", expected, 0.05, (long - short) / (4.0 * 5.0))];
     Ok(Outcome { rows, ..Outcome::default() })
 }
