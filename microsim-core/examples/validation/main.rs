@@ -22,16 +22,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     std::fs::create_dir_all(folder)?;
     let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
-    if names.is_empty() {
-        println!("{}", page::INTRODUCTION);
-    }
+    let mut sections = Vec::new();
     for experiment in ALL.iter().filter(|experiment| is_asked(experiment.name)) {
         let outcome = (experiment.run)()?;
         if let Some(plot) = &outcome.plot {
             std::fs::write(Path::new(folder).join(experiment.name).with_extension("svg"), plot.svg())?;
         }
-        println!("{}", page::section(experiment, &outcome));
+        sections.push((experiment, outcome));
     }
+    if names.is_empty() {
+        println!("{}\n{}", page::INTRODUCTION, page::summary(&sections));
+    }
+    sections.iter().for_each(|(experiment, outcome)| println!("{}", page::section(experiment, outcome)));
     if is_asked("refinement") {
         println!("{}{}", page::REFINEMENT, refinement::table(2).join("\n"));
     }

@@ -14,8 +14,8 @@ nothing else is said; short forms of most are in `tests/validation.rs`. The page
 cargo run --release -p microsim-core --features scenario --example validation -- docs/validation > docs/validation.md
 ```
 
-and one section by the same command with its name behind the folder. *Accepted* is what counts as agreement; where a result is
-missed, the section says why.
+and a section by the same command with the experiment's name behind the folder, for example `docs/validation pendulum`. *Accepted*
+is what counts as agreement; where a result is missed, the section says why.
 ";
 
 pub(crate) const REFINEMENT: &str = "\
@@ -27,6 +27,17 @@ area against `radii` of a cell that nobody drives; the same of one that is drive
 refused.
 
 ";
+
+/// How many rows of each experiment agree.
+pub(crate) fn summary(sections: &[(&Experiment, Outcome)]) -> String {
+    let mut text = "| experiment | rows | agree |\n|---|---|---|\n".to_owned();
+    for (Experiment { name, title, .. }, Outcome { rows, .. }) in sections {
+        let anchor = title.to_lowercase().replace(' ', "-").replace(|c: char| !c.is_alphanumeric() && c != '-', "");
+        let agree = rows.iter().filter(|row| row.agrees()).count();
+        let _ = writeln!(text, "| [{title}](#{anchor}), `{name}` | {} | {agree} |", rows.len());
+    }
+    text + "| [Refinement](#refinement), `refinement` | | |\n"
+}
 
 /// A section: what is done, and its rows.
 pub(crate) fn section(experiment: &Experiment, outcome: &Outcome) -> String {
