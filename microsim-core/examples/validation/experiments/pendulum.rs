@@ -51,6 +51,12 @@ fn period(angles: &[[f64; 2]]) -> f64 {
     crossings[1] - crossings[0]
 }
 
+/// Time and angle of the turns on one side, degrees.
+fn turns(angles: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let is_turn = |three: &&[[f64; 2]]| three[1][1] > 0.0 && three[1][1] > three[0][1] && three[1][1] >= three[2][1];
+    angles.windows(3).filter(is_turn).map(|three| [three[1][0], three[1][1] * 180.0 / PI]).collect()
+}
+
 /// Share of the first amplitude that a swing has in its last period.
 pub(crate) fn amplitude_kept(angles: &[[f64; 2]]) -> f64 {
     let end = angles[angles.len() - 1][0];
@@ -85,13 +91,12 @@ fn measure() -> Result<Outcome, Error> {
         let what = format!("share of 10° kept after 20 periods, {substeps} substeps");
         rows.push(Row::near(what, law(time), 0.02, amplitude_kept(&angles)));
         let envelope = (0..=60).map(|k| [f64::from(k), 10.0 * law(f64::from(k))]).collect();
-        let degrees = angles.iter().map(|&[t, angle]| [t, angle * 180.0 / PI]).collect();
-        curves.push(Curve::line(format!("{substeps} substeps"), degrees));
-        curves.push(Curve::line(format!("law of implicit Euler, {substeps} substeps"), envelope));
+        curves.push(Curve::dots(format!("turns, {substeps} substeps"), turns(&angles)));
+        curves.push(Curve::line(format!("implicit Euler, {substeps} substeps"), envelope));
     }
     Ok(Outcome {
         rows,
-        plot: Some(Plot { axes: ["time, s", "angle, degrees"], is_logarithmic: false, curves }),
+        plot: Some(Plot { axes: ["time, s", "amplitude, degrees"], is_logarithmic: false, curves }),
         ..Outcome::default()
     })
 }

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-const SIZE: [f64; 2] = [560.0, 340.0];
-/// Left, top, right, bottom.
-const MARGIN: [f64; 4] = [64.0, 16.0, 16.0, 48.0];
+const SIZE: [f64; 2] = [720.0, 340.0];
+/// Left, top, right with the legend, bottom.
+const MARGIN: [f64; 4] = [72.0, 16.0, 216.0, 48.0];
 /// Colours that are told apart by most people with colour blindness (Okabe and Ito 2008).
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#555555"];
-const TICKS: usize = 5;
+/// Most steps between the marks of a linear axis.
+const STEPS: f64 = 6.0;
 
 /// Curves over common axes.
 pub(crate) struct Plot {
@@ -46,9 +47,8 @@ impl Plot {
         for ((k, curve), colour) in self.curves.iter().enumerate().zip(COLOURS.iter().cycle()) {
             draw_curve(&mut svg, curve, colour, &|point: &[f64; 2]| [0, 1].map(|k| axes[k].place(point[k])));
             let y = MARGIN[1] + 16.0 * (k as f64 + 1.0);
-            let x = width - MARGIN[2] - 8.0;
-            let _ =
-                writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"end\" fill=\"{colour}\">{}</text>", curve.label);
+            let x = width - MARGIN[2] + 12.0;
+            let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" fill=\"{colour}\">{}</text>", curve.label);
         }
         svg + "</svg>\n"
     }
@@ -56,23 +56,22 @@ impl Plot {
     /// The axis of one coordinate, over all that is drawn.
     fn axis(&self, k: usize) -> Axis {
         let values = self.curves.iter().flat_map(|curve| curve.points.iter().map(|point| point[k]));
-        let values: Vec<f64> = values.map(|value| if self.is_logarithmic { value.log10() } else { value }).collect();
-        let low = values.iter().fold(f64::INFINITY, |low, &value| low.min(value));
-        let high = values.iter().fold(f64::NEG_INFINITY, |high, &value| high.max(value));
-        let low = if !self.is_logarithmic && low > 0.0 && low < 0.5 * high { 0.0 } else { low };
+        let [low, high] =
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        let ticks = if self.is_logarithmic { logarithmic_ticks(low, high) } else { linear_ticks(low, high) };
         let screen = if k == 0 { [MARGIN[0], SIZE[0] - MARGIN[2]] } else { [SIZE[1] - MARGIN[3], MARGIN[1]] };
-        Axis { range: [low, high], screen, is_logarithmic: self.is_logarithmic }
+        Axis { ticks, screen, is_logarithmic: self.is_logarithmic }
     }
 
     fn draw_axes(&self, svg: &mut String, axes: &[Axis; 2]) {
         let ([left, right], [bottom, top]) = (axes[0].screen, axes[1].screen);
         let _ = writeln!(svg, "<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"black\"/>");
-        for [at, value] in axes[0].ticks() {
-            let y = bottom + 16.0;
+        for &value in &axes[0].ticks {
+            let (at, y) = (axes[0].place(value), bottom + 16.0);
             let _ = writeln!(svg, "<text x=\"{at:.1}\" y=\"{y}\" text-anchor=\"middle\">{}</text>", number(value));
         }
-        for [at, value] in axes[1].ticks() {
-            let (x, y) = (left - 6.0, at + 4.0);
+        for &value in &axes[1].ticks {
+            let (x, y) = (left - 6.0, axes[1].place(value) + 4.0);
             let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y:.1}\" text-anchor=\"end\">{}</text>", number(value));
         }
         let (middle, below) = (0.5 * (left + right), bottom + 36.0);
@@ -85,26 +84,38 @@ impl Plot {
 
 /// Where values lie on the picture.
 struct Axis {
-    /// Of what is drawn; of its logarithms where the axis is logarithmic.
-    range: [f64; 2],
+    /// Values with a mark; the first and the last are the ends.
+    ticks: Vec<f64>,
     screen: [f64; 2],
     is_logarithmic: bool,
 }
 
 impl Axis {
     fn place(&self, value: f64) -> f64 {
-        let value = if self.is_logarithmic { value.log10() } else { value };
-        let [low, high] = self.range;
-        self.screen[0] + (self.screen[1] - self.screen[0]) * (value - low) / (high - low)
+        let along = |value: f64| if self.is_logarithmic { value.log10() } else { value };
+        let [low, high] = [self.ticks[0], self.ticks[self.ticks.len() - 1]].map(along);
+        self.screen[0] + (self.screen[1] - self.screen[0]) * (along(value) - low) / (high - low)
     }
+}
 
-    /// Places and values of its ticks.
-    fn ticks(&self) -> Vec<[f64; 2]> {
-        let [low, high] = self.range;
-        let tick = |k: usize| low + (high - low) * k as f64 / TICKS as f64;
-        let value = |k: usize| if self.is_logarithmic { 10f64.powf(tick(k)) } else { tick(k) };
-        (0..=TICKS).map(|k| [self.place(value(k)), value(k)]).collect()
-    }
+/// Multiples of a round number that enclose a range.
+fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
+    let low = if low > 0.0 && low < 0.5 * high { 0.0 } else { low };
+    let power = 10f64.powf(((high - low) / STEPS).log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
+    let step = steps.into_iter().find(|step| STEPS * step >= high - low).unwrap_or(steps[3]);
+    let [first, last] = [(low / step).floor() as i64, (high / step).ceil() as i64];
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// Powers of ten that enclose a range; over two of them and less also 2 and 5 times each.
+fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
+    let [first, last] = [low.log10().floor() as i32, high.log10().ceil() as i32];
+    let factors: &[f64] = if last - first > 2 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let all: Vec<f64> = (first..=last).flat_map(|k| factors.iter().map(move |factor| factor * 10f64.powi(k))).collect();
+    let from = all.iter().rposition(|&tick| tick <= low).unwrap_or(0);
+    let to = all.iter().position(|&tick| tick >= high).unwrap_or(all.len() - 1);
+    all[from..=to].to_vec()
 }
 
 fn draw_curve(svg: &mut String, curve: &Curve, colour: &str, place: &dyn Fn(&[f64; 2]) -> [f64; 2]) {

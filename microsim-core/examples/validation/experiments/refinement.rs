@@ -9,21 +9,20 @@ use microsim_core::{
     AmoeboidCellSpec, Error, Event, Inputs, Intent, Measure, OrganismId, Placement, World, WorldConfig,
 };
 
-const STEPS: [f32; 4] = [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0, 0.001];
+const STEPS: [(&str, f32); 4] = [("1/30", 1.0 / 30.0), ("1/60", 1.0 / 60.0), ("1/240", 1.0 / 240.0), ("0.001", 0.001)];
 const SUBSTEPS: [u32; 6] = [1, 4, 8, 16, 32, 64];
 
 /// A row for each step and number of substeps.
 pub(crate) fn table(seeds: u64) -> Vec<String> {
     let header = "| step, s | substeps | free fall | way at rest, area | driven: way, area | agar taken in, s | rigid cell taken in, s |";
     let mut table = vec![header.to_owned(), "|---|---|---|---|---|---|---|".to_owned()];
-    let cells = STEPS.iter().flat_map(|&dt| SUBSTEPS.map(|substeps| Stepping { dt, substeps }));
-    table.extend(cells.map(|stepping| {
-        let Stepping { dt, substeps } = stepping;
-        row(stepping, seeds).map_or_else(
-            |refusal| format!("| {dt:.4} | {substeps} | refused: {refusal} | | | | |"),
-            |cells| format!("| {dt:.4} | {substeps} | {cells} |"),
-        )
-    }));
+    for (name, dt) in STEPS {
+        for substeps in SUBSTEPS {
+            let measured = row(Stepping { dt, substeps }, seeds);
+            let cells = measured.unwrap_or_else(|refusal| format!("refused: {refusal} | | | |"));
+            table.push(format!("| {name} | {substeps} | {cells} |"));
+        }
+    }
     table
 }
 
