@@ -8,8 +8,8 @@ mod experiments;
 
 use experiments::scene::Stepping;
 use experiments::{ALL, angle_of_repose, free_fall, granular_energy, refinement, restitution};
+use microsim_core::WorldConfig;
 use microsim_core::glam::Vec2;
-use microsim_core::{World, WorldConfig};
 
 /// Steps and substeps in which results are to be the same.
 const STEPPINGS: [Stepping; 4] = [
@@ -42,7 +42,7 @@ fn momentum_is_kept_by_an_impact() {
 
 #[test]
 fn free_fall_is_right_in_any_step() {
-    for stepping in STEPPINGS.into_iter().chain([(1.0 / 30.0, 1), (1.0 / 60.0, 64), (0.1, 64)].map(stepping)) {
+    for stepping in STEPPINGS.into_iter().chain([(1.0 / 30.0, 2), (1.0 / 60.0, 64), (0.1, 64)].map(stepping)) {
         let [speed, way] = free_fall::fall(stepping).unwrap();
         assert!((speed / 10.0 - 1.0).abs() < 1e-4, "{speed}");
         let euler = 5.0 * (1.0 + stepping.substep());
@@ -64,11 +64,16 @@ fn a_cell_that_nobody_drives_stays_where_it_is_and_as_large_as_its_radii_say() {
 }
 
 #[test]
-fn substeps_that_are_too_short_are_refused_with_field_and_range() {
-    let refusal = World::new(WorldConfig { dt: 0.001, substeps: 6, ..WorldConfig::default() }).unwrap_err();
-    assert_eq!(refusal.field(), "substeps");
-    let message = refusal.to_string();
-    assert!(message.contains("substeps") && message.contains("0.0002 s"), "{message}");
+fn substeps_that_are_too_short_or_too_long_are_refused_with_field_and_range() {
+    for (dt, least, most) in [(0.001, 1, 5), (1.0 / 60.0, 1, 64), (1.0 / 30.0, 2, 64), (0.1, 6, 64)] {
+        for (substeps, is_accepted) in [(least - 1, false), (least, true), (most, true), (most + 1, false)] {
+            let config = WorldConfig { dt, substeps, ..WorldConfig::default() };
+            let refused = config.validate().err().map(|refusal| (refusal.field().to_owned(), refusal.to_string()));
+            assert_eq!(refused.is_none(), is_accepted, "{substeps} of {dt} s: {refused:?}");
+            let names_range = |message: &str| message.contains(" 1 to ") || message.contains("0.0002 to 0.017 s");
+            assert!(refused.is_none_or(|(field, message)| field == "substeps" && names_range(&message)));
+        }
+    }
 }
 
 #[test]

@@ -23,8 +23,8 @@ pub(crate) const REFINEMENT: &str = "\
 
 `refinement`. What shorter steps and more substeps change: speed after a second of free fall against `g t`; way in 20 s, units, and
 area against `radii` of a cell that nobody drives; the same of one that is driven for 4 s; when prey is taken in in the scenarios
-`absorb-agar` and `absorb-rigid` with seeds 1 and 2, and what breaks there, if anything does. A substep shorter than 0.2 ms is
-refused.
+`absorb-agar` and `absorb-rigid` with seeds 1 and 2, and what breaks there, if anything does. Substeps shorter than 0.2 ms or
+longer than 17 ms are refused. Prey that is released is taken in at the next try.
 
 ";
 

@@ -24,7 +24,7 @@ pub(crate) fn fall(stepping: Stepping) -> Result<[f64; 2], Error> {
 
 fn measure() -> Result<Outcome, Error> {
     let mut rows = Vec::new();
-    for (dt, substeps) in [(1.0 / 30.0, 1), (1.0 / 60.0, 8), (1.0 / 60.0, 64), (0.001, 1), (0.001, 5)] {
+    for (dt, substeps) in [(1.0 / 30.0, 2), (1.0 / 60.0, 8), (1.0 / 60.0, 64), (0.001, 1), (0.001, 5)] {
         let stepping = Stepping { dt, substeps };
         let [speed, way] = fall(stepping)?;
         let name = format!("{dt:.4} s, {substeps} substeps");
