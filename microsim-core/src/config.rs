@@ -10,6 +10,8 @@ const UNPROTECTED: f32 = 15.0;
 /// Shortest substep, s: in shorter ones the corrections of a membrane that changes exceed the speed limit, and discs get through
 /// it.
 const SHORTEST_SUBSTEP: f32 = 0.0002;
+/// Longest substep, s: in longer ones the lips of a cup and what they push move so far that discs get through the membrane.
+const LONGEST_SUBSTEP: f32 = 0.017;
 
 /// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
 const SLEEP_SPEED: f32 = 0.02;
@@ -23,7 +25,7 @@ pub struct WorldConfig {
     pub size: Vec2,
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
-    /// Substeps per step, 1 to 64, each at least 0.0002 s long. More are stiffer and cost proportionally; below 6 jams stretch
+    /// Substeps per step, 1 to 64, each 0.0002 to 0.017 s long. More are stiffer and cost proportionally; below 6 jams stretch
     /// visibly, and with 1 a membrane under an absurd load may leak.
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
@@ -75,10 +77,10 @@ impl WorldConfig {
         in_range("size.y", self.size.y, 1.0, Self::MAX_SIZE)?;
         in_range("dt", self.dt, 0.001, 0.1)?;
         count_in_range("substeps", self.substeps, 1, 64)?;
-        let most = (self.dt / SHORTEST_SUBSTEP) as u32;
-        if self.substeps > most {
-            let accepted =
-                format!("at most {most} of a step of {} s: a substep of {SHORTEST_SUBSTEP} s or longer", self.dt);
+        let [least, most] = [(self.dt / LONGEST_SUBSTEP).ceil() as u32, (self.dt / SHORTEST_SUBSTEP) as u32];
+        if !(least..=most).contains(&self.substeps) {
+            let range = format!("substeps of {SHORTEST_SUBSTEP} to {LONGEST_SUBSTEP} s");
+            let accepted = format!("{least} to {most} of a step of {} s: {range}", self.dt);
             return Err(out_of_range("substeps", f64::from(self.substeps), accepted));
         }
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;

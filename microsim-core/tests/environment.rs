@@ -121,7 +121,7 @@ fn t50_walls_hold_at_the_extremes_of_every_setting() {
         size: Vec2::splat(20.0),
         gravity: Vec2::new(1000.0, -1000.0),
         dt: 0.1,
-        substeps: 1,
+        substeps: 6,
         max_speed: 1000.0,
         ..WorldConfig::default()
     };

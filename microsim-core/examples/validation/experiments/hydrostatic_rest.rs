@@ -1,0 +1,56 @@
+//! Fluid that comes to rest.
+
+use super::scene::{GRAVITY, Stepping, particles, run, value_at};
+use super::{Experiment, Outcome, Row};
+use microsim_core::glam::Vec2;
+use microsim_core::{Error, FluidBlockSpec, FluidParams, Placement, World, WorldConfig};
+
+pub(crate) const EXPERIMENT: Experiment = Experiment {
+    name: "hydrostatic_rest",
+    title: "Hydrostatic rest",
+    source: "Stevin 1586, De Beghinselen des Waterwichts: still water is level, and its density is that of rest at any depth",
+    words: "A column as in the dam break collapses in a closed room of twice its width and comes to rest, with a viscosity of \
+            8 1/s and little drag.",
+    run: measure,
+};
+
+fn measure() -> Result<Outcome, Error> {
+    let room = Stepping::DEFAULT.room(Vec2::new(40.0, 60.0), GRAVITY);
+    let mut world = World::new(WorldConfig { damping: 0.2, ..room })?;
+    let fluid = FluidParams { viscosity: 8.0, ..FluidParams::default() };
+    let size = Vec2::new(20.0, 40.0);
+    let column = world.spawn(&FluidBlockSpec { size, fluid }.into(), Placement::at(10.0, 20.0))?;
+    run(&mut world, 40.0);
+    let at_rest = particles(&world, column);
+    let count = at_rest.len() as f64;
+    let level = |left: f32| {
+        let mut heights: Vec<f64> = at_rest
+            .iter()
+            .filter(|p| p.position.x > left && p.position.x < left + 4.0)
+            .map(|p| f64::from(p.position.y) + 0.5)
+            .collect();
+        heights.sort_by(f64::total_cmp);
+        let ranks: Vec<[f64; 2]> = heights.iter().enumerate().map(|(k, y)| [k as f64, *y]).collect();
+        value_at(&ranks, 0.97 * ranks.len() as f64)
+    };
+    let levels: Vec<f64> = (0..10u8).map(|k| level(4.0 * f32::from(k))).collect();
+    let mean = levels.iter().sum::<f64>() / 10.0;
+    let spread = levels.iter().map(|level| (level - mean).abs()).fold(0.0, f64::max);
+    let speed = at_rest.iter().map(|p| f64::from(p.velocity.length_squared())).sum::<f64>() / count;
+    let compression = f64::from(world.quality().fluid_compression_mean);
+    let free_fall = f64::from(2.0 * GRAVITY * 20.0).sqrt();
+    Ok(Outcome {
+        rows: vec![
+            Row::near("mean level: area over width, units", count * 0.75f64.sqrt() / 40.0, 0.05, mean),
+            Row::between("largest difference of the level, units of one spacing", "0", [0.0, 1.0], spread),
+            Row::between(
+                "speed at rest over that of a fall from the level",
+                "0",
+                [0.0, 0.01],
+                speed.sqrt() / free_fall,
+            ),
+            Row::between("mean compression", "0", [0.0, 0.03], compression),
+        ],
+        ..Outcome::default()
+    })
+}

@@ -1,0 +1,55 @@
+//! A spring of 1 Hz.
+
+use super::scene::{Stepping, last_particle, run_observed};
+use super::{Experiment, Outcome, Row};
+use microsim_core::glam::Vec2;
+use microsim_core::{Error, Node, Placement, Template, World};
+use std::f64::consts::TAU;
+
+pub(crate) const EXPERIMENT: Experiment = Experiment {
+    name: "spring",
+    title: "Spring of 1 Hz",
+    source: "Hooke 1678; damping of implicit Euler: Hairer and Wanner 1996, Solving Ordinary Differential Equations II, IV.3",
+    words: "A mass on an undamped spring, stretched by a tenth, for ten periods. The integrator keeps `exp(-omega² h t / 2)` \
+            of the amplitude.",
+    run: measure,
+};
+
+/// Angular frequency, 1/s.
+pub(crate) const FREQUENCY: f64 = TAU;
+const LENGTH: f32 = 5.0;
+const STRETCH: f32 = 0.5;
+
+/// Share of the amplitude in the last of so many periods.
+pub(crate) fn amplitude_kept(stepping: Stepping, periods: f32) -> Result<f64, Error> {
+    let mut world = World::new(stepping.room(Vec2::splat(20.0), 0.0))?;
+    let mut builder = Template::builder();
+    let fixed = builder.node(Node::fixed(Vec2::ZERO));
+    let mass = builder.node(Node::disc(Vec2::new(LENGTH + STRETCH, 0.0), 1.0, 0.5));
+    let compliance = (1.0 / (FREQUENCY * FREQUENCY)) as f32;
+    builder.constraint(microsim_core::Distance { a: fixed, b: mass, rest_length: LENGTH, compliance, damping: 0.0 });
+    let template = world.add_template(builder.build()?);
+    let spring = world.spawn_template(template, Placement::at(10.0, 10.0))?;
+    let mut farthest: f32 = 0.0;
+    run_observed(&mut world, periods, |world| {
+        if world.time() > f64::from(periods) - 1.0 {
+            farthest = farthest.max(last_particle(world, spring).position.x - 10.0 - LENGTH);
+        }
+    });
+    Ok(f64::from(farthest / STRETCH))
+}
+
+/// What implicit Euler keeps of an amplitude until the last period's turn, which it is read from.
+pub(crate) fn law(stepping: Stepping, periods: f64) -> f64 {
+    (-FREQUENCY * FREQUENCY * stepping.substep() * (periods - 1.0) / 2.0).exp()
+}
+
+fn measure() -> Result<Outcome, Error> {
+    let mut rows = Vec::new();
+    for substeps in [8, 16, 64] {
+        let stepping = Stepping::of_substeps(substeps);
+        let what = format!("share of the amplitude kept, {substeps} substeps");
+        rows.push(Row::near(what, law(stepping, 10.0), 0.02, amplitude_kept(stepping, 10.0)?));
+    }
+    Ok(Outcome { rows, ..Outcome::default() })
+}

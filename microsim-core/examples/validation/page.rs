@@ -1,0 +1,60 @@
+//! The page in Markdown.
+
+use super::experiments::plot::number;
+use super::experiments::{Experiment, Outcome, Row};
+use std::fmt::Write;
+
+pub(crate) const INTRODUCTION: &str = "\
+# Validation
+
+The core against published results. Each row is run on the committed code, at the default step of 1/60 s and 8 substeps where
+nothing else is said; short forms of most are in `tests/validation.rs`. The page and its plots are written by
+
+```sh
+cargo run --release -p microsim-core --features scenario --example validation -- docs/validation > docs/validation.md
+```
+
+and a section by the same command with the experiment's name behind the folder, for example `docs/validation pendulum`. *Accepted*
+is what counts as agreement; where a result is missed, the section says why.
+";
+
+pub(crate) const REFINEMENT: &str = "\
+## Refinement
+
+`refinement`. What shorter steps and more substeps change: speed after a second of free fall against `g t`; way in 20 s, units, and
+area against `radii` of a cell that nobody drives; the same of one that is driven for 4 s; when prey is taken in in the scenarios
+`absorb-agar` and `absorb-rigid` with seeds 1 and 2, and what breaks there, if anything does. Substeps shorter than 0.2 ms or
+longer than 17 ms are refused. Prey that is released is taken in at the next try.
+
+";
+
+/// How many rows of each experiment agree.
+pub(crate) fn summary(sections: &[(&Experiment, Outcome)]) -> String {
+    let mut text = "| experiment | rows | agree |\n|---|---|---|\n".to_owned();
+    for (Experiment { name, title, .. }, Outcome { rows, .. }) in sections {
+        let anchor = title.to_lowercase().replace(' ', "-").replace(|c: char| !c.is_alphanumeric() && c != '-', "");
+        let agree = rows.iter().filter(|row| row.agrees()).count();
+        let _ = writeln!(text, "| [{title}](#{anchor}), `{name}` | {} | {agree} |", rows.len());
+    }
+    text + "| [Refinement](#refinement), `refinement` | | |\n"
+}
+
+/// A section: what is done, and its rows.
+pub(crate) fn section(experiment: &Experiment, outcome: &Outcome) -> String {
+    let Experiment { name, title, source, words, .. } = experiment;
+    let mut text = format!("## {title}\n\n`{name}`. {words}\n\nSource: {source}.\n\n");
+    text += "| what | published | ours | accepted | |\n|---|---|---|---|---|\n";
+    for row in &outcome.rows {
+        let Row { what, published, ours, accepted: [least, most] } = row;
+        let verdict = if row.agrees() { "agrees" } else { "**missed**" };
+        let (ours, least, most) = (number(*ours), number(*least), number(*most));
+        let _ = writeln!(text, "| {what} | {published} | {ours} | {least} to {most} | {verdict} |");
+    }
+    if !outcome.rows.iter().all(Row::agrees) {
+        let _ = writeln!(text, "\nMissed: {}", outcome.cause);
+    }
+    if outcome.plot.is_some() {
+        let _ = writeln!(text, "\n![{title}](validation/{name}.svg)");
+    }
+    text
+}

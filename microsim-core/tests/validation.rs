@@ -1,0 +1,105 @@
+//! Short forms of the experiments of docs/validation.md.
+#![cfg(feature = "scenario")]
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+
+#[allow(dead_code, reason = "the page uses the rest")]
+#[path = "../examples/validation/experiments/mod.rs"]
+mod experiments;
+
+use experiments::scene::Stepping;
+use experiments::{ALL, angle_of_repose, free_fall, granular_energy, refinement, restitution};
+use microsim_core::WorldConfig;
+use microsim_core::glam::Vec2;
+
+/// Steps and substeps in which results are to be the same.
+const STEPPINGS: [Stepping; 4] = [
+    Stepping::DEFAULT,
+    Stepping { dt: 1.0 / 60.0, substeps: 32 },
+    Stepping { dt: 1.0 / 240.0, substeps: 8 },
+    Stepping { dt: 0.001, substeps: 5 },
+];
+
+#[test]
+fn what_takes_little_time_agrees_with_what_is_published() {
+    let names = ["pendulum", "spring", "catenary", "coulomb", "drag", "convergence", "point_source", "dam_break"];
+    for name in names {
+        let experiment = ALL.iter().find(|experiment| experiment.name == name).unwrap();
+        for row in (experiment.run)().unwrap().rows {
+            assert!(row.agrees(), "{name}, {}: {} is not in {:?}", row.what, row.ours, row.accepted);
+        }
+    }
+}
+
+#[test]
+fn momentum_is_kept_by_an_impact() {
+    for masses in [[1.0, 1.0], [10.0, 1.0], [1.0, 10.0]] {
+        for e in [0.0, 0.5] {
+            let kept = restitution::momentum_kept(masses, e).unwrap();
+            assert!((kept - 1.0).abs() < 1e-3, "{masses:?}, e {e}: {kept}");
+        }
+    }
+}
+
+#[test]
+fn free_fall_is_right_in_any_step() {
+    for stepping in STEPPINGS.into_iter().chain([(1.0 / 30.0, 2), (1.0 / 60.0, 64), (0.1, 64)].map(stepping)) {
+        let [speed, way] = free_fall::fall(stepping).unwrap();
+        assert!((speed / 10.0 - 1.0).abs() < 1e-4, "{speed}");
+        let euler = 5.0 * (1.0 + stepping.substep());
+        assert!((way / euler - 1.0).abs() < 1e-3, "{way} instead of {euler}");
+    }
+}
+
+fn stepping((dt, substeps): (f32, u32)) -> Stepping {
+    Stepping { dt, substeps }
+}
+
+#[test]
+fn a_cell_that_nobody_drives_stays_where_it_is_and_as_large_as_its_radii_say() {
+    for stepping in STEPPINGS {
+        let refinement::Rest { way, area: [low, high] } = refinement::rest(stepping, 2.0).unwrap();
+        assert!(way < 0.2, "{way} units in substeps of {} s", stepping.substep());
+        assert!(low > -0.02 && high < 0.02, "{low} to {high} in substeps of {} s", stepping.substep());
+    }
+}
+
+#[test]
+fn substeps_that_are_too_short_or_too_long_are_refused_with_field_and_range() {
+    for (dt, least, most) in [(0.001, 1, 5), (1.0 / 60.0, 1, 64), (1.0 / 30.0, 2, 64), (0.1, 6, 64)] {
+        for (substeps, is_accepted) in [(least - 1, false), (least, true), (most, true), (most + 1, false)] {
+            let config = WorldConfig { dt, substeps, ..WorldConfig::default() };
+            let refused = config.validate().err().map(|refusal| (refusal.field().to_owned(), refusal.to_string()));
+            assert_eq!(refused.is_none(), is_accepted, "{substeps} of {dt} s: {refused:?}");
+            let names_range = |message: &str| message.contains(" 1 to ") || message.contains("0.0002 to 0.017 s");
+            assert!(refused.is_none_or(|(field, message)| field == "substeps" && names_range(&message)));
+        }
+    }
+}
+
+#[test]
+fn agar_is_taken_in_whatever_the_step() {
+    for stepping in &STEPPINGS[..3] {
+        let absorption = refinement::absorb("absorb-agar", 1, *stepping);
+        assert!(absorption.ingested.is_some() && absorption.flaws.is_empty(), "{}: {absorption}", stepping.substep());
+    }
+}
+
+#[test]
+fn grains_make_no_energy() {
+    for friction in [0.0, 0.5] {
+        let energies = granular_energy::energy(Vec2::new(40.0, 60.0), friction, 6.0).unwrap();
+        let most = energies.iter().fold(0.0, |most: f64, [_, energy]| most.max(*energy));
+        assert!(most <= 1.0, "friction {friction}: {most}");
+        // Grains that overlap under a blow give back what they took.
+        let rise = granular_energy::largest_rise(&energies);
+        assert!(rise < 0.02, "friction {friction}: rises by {rise}");
+    }
+}
+
+#[test]
+fn a_heap_stands_by_friction_and_spreads_without_it() {
+    let angle = |friction: f32| angle_of_repose::heap(20.0, friction, 10.0).unwrap().1;
+    let (rough, smooth) = (angle(0.5), angle(0.0));
+    assert!(rough > 20.0 && rough < 40.0, "{rough} degrees");
+    assert!(smooth < 3.0, "{smooth} degrees");
+}
