@@ -150,7 +150,7 @@ impl Scenery {
         let is_lower = std::mem::replace(&mut self.step, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. RenderQuality is {} now; see the settings.", QUALITY_STEPS[lower].0))
+            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", QUALITY_STEPS[lower].0))
     }
 
     /// Puts automatic effort back to the best quality.

@@ -95,6 +95,11 @@ function connectButtons() {
         };
         button.onpointerup = button.onpointercancel = () => held.delete(hold);
         button.oncontextmenu = (event) => event.preventDefault();
+        // The keyboard stays with the game; keys on a button that has it still press it.
+        button.onmousedown = (event) => event.preventDefault();
+        button.onclick = (event) => {
+            if (event.detail === 0) pressed.push(hold ?? press);
+        };
     }
 }
 
@@ -133,3 +138,4 @@ if (document.createElement("canvas").getContext("webgl2") === null) {
     }
 }
 globalThis.microsim = { digest, linkTo };
+navigator.serviceWorker?.register("offline.js").catch(() => {}); // Without it the page needs the network, and nothing else.
