@@ -112,6 +112,12 @@ function download(name, bytes) {
     return true;
 }
 
+const fingers = matchMedia("(pointer: coarse)");
+
+function showButtons(areWanted) {
+    element("buttons").hidden = !(areWanted && fingers.matches);
+}
+
 function hasFloatTargets() {
     const extension = gl.getExtension("EXT_color_buffer_float") ?? gl.getExtension("EXT_color_buffer_half_float");
     return extension && address.get("floats") !== "no" ? encode("") : null;
@@ -120,6 +126,7 @@ function hasFloatTargets() {
 const answers = {
     "arguments": () => encode(words.join("\n")),
     "asked": () => encode(question),
+    "covered height": () => encode(String(element("buttons").offsetHeight)),
     "dropped": () => encode(dropped.splice(0).join("\n")),
     "file": (name) => files.get(name) ?? null,
     "float targets": hasFloatTargets,
@@ -132,9 +139,11 @@ const answers = {
 const orders = {
     "download": download,
     "fail": (_, bytes) => fail(new TextDecoder().decode(bytes)),
+    "hide buttons": () => showButtons(false),
     "keep": keep,
     "print": (_, bytes) => console.log(new TextDecoder().decode(bytes)),
     "rename": rename,
+    "show buttons": () => showButtons(true),
 };
 
 let found = new Uint8Array();

@@ -85,7 +85,6 @@ const lastScenario = () => [...files.keys()].findLast((name) => name.endsWith(".
 
 /** Buttons for fingers. */
 function connectButtons() {
-    element("buttons").hidden = !matchMedia("(pointer: coarse)").matches;
     for (const button of document.querySelectorAll("#buttons button")) {
         const { hold, press } = button.dataset;
         button.onpointerdown = (event) => {
@@ -101,6 +100,13 @@ function connectButtons() {
             if (event.detail === 0) pressed.push(hold ?? press);
         };
     }
+}
+
+/** A touch that the system takes away ends; the loader leaves it held. */
+function connectTouches() {
+    canvasElement.addEventListener("touchcancel", (event) => {
+        for (const { identifier } of event.changedTouches) wasm_exports.touch(SAPP_EVENTTYPE_TOUCHES_ENDED, identifier, 0, 0);
+    });
 }
 
 function connectKeys() {
@@ -125,6 +131,7 @@ watch();
 connectFiles();
 connectLinks();
 connectButtons();
+connectTouches();
 connectKeys();
 if (document.createElement("canvas").getContext("webgl2") === null) {
     fail("This browser has no WebGL 2, or it is switched off.");

@@ -78,6 +78,15 @@ pub fn screen_buttons() -> ScreenButtons {
     ScreenButtons::default()
 }
 
+/// Nothing: there are no buttons on the screen to show or hide.
+pub fn show_buttons(_: bool) {}
+
+/// Height at the lower edge that buttons cover, drawing units.
+#[must_use]
+pub fn covered_height() -> f32 {
+    0.0
+}
+
 /// Whether every context of this version of OpenGL can draw into floats of 16 bits.
 #[must_use]
 pub fn has_float_targets(version: &str) -> bool {

@@ -73,6 +73,17 @@ pub fn screen_buttons() -> ScreenButtons {
     ScreenButtons { held: lines("held"), pressed: lines("pressed") }
 }
 
+/// Shows the page's buttons, on devices that have no keys, or hides them.
+pub fn show_buttons(are_wanted: bool) {
+    host::tell(if are_wanted { "show buttons" } else { "hide buttons" }, "", &[]);
+}
+
+/// Height at the lower edge that buttons cover, drawing units; 0 if there are none.
+#[must_use]
+pub fn covered_height() -> f32 {
+    lines("covered height").concat().parse().unwrap_or(0.0)
+}
+
 /// Whether the page's context can draw into floats of 16 bits; its version does not say.
 #[must_use]
 pub fn has_float_targets(_: &str) -> bool {
