@@ -297,7 +297,7 @@ async function offline() {
 async function mistakes() {
     const before = complaints.length;
     for (const [address, expected] of [["?scenario=nonsense", "no built-in scenario"], ["?size=1x1", "not a size"],
-        ["#scenario=nonsense", "rror"]]) {
+        ["#scenario=nonsense", "the link is damaged"]]) {
         const page = await profile();
         await page.goto(root + address);
         await page.locator("#failure").waitFor({ timeout: 30_000 });

@@ -23,7 +23,10 @@ function counted(response) {
 /** Files of the address as the command line names them. */
 async function readLink() {
     const words = [];
-    for (const [kind, bytes] of await linked()) {
+    const found = await linked().catch((error) => {
+        throw new Error(`the link is damaged: ${error.message}`);
+    });
+    for (const [kind, bytes] of found) {
         const [name, word] = kind === "replay" ? ["linked.replay", "--replay=linked.replay"] : ["linked.toml", "linked.toml"];
         files.set(name, bytes);
         words.push(word);
@@ -141,7 +144,7 @@ if (document.createElement("canvas").getContext("webgl2") === null) {
         await load("game.wasm");
         requestAnimationFrame(() => (element("loading").hidden = true));
     } catch (error) {
-        fail(String(error));
+        fail(error.message);
     }
 }
 globalThis.microsim = { digest, linkTo };
