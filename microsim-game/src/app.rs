@@ -3,6 +3,7 @@
 use crate::input::device::Device;
 use crate::input::script::InputScript;
 use crate::input::{Action, Input};
+use crate::platform;
 use crate::scene_source::SceneSource;
 use crate::screen::context::{AppContext, Asked};
 use crate::screen::stack::Stack;
@@ -11,11 +12,10 @@ use crate::shot::Shot;
 use crate::stage::Stage;
 use crate::timings::Timings;
 use crate::viewer::Pace;
-use macroquad::time::get_frame_time;
 use macroquad::window::{clear_background, next_frame, screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use microsim_core::glam::Vec2;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time of a frame whose length must not depend on the machine, s.
 const EXACT_FRAME: f32 = 1.0 / 60.0;
@@ -57,6 +57,8 @@ pub struct App {
     shot: Shot,
     frame: u32,
     is_full: bool,
+    /// When this frame began.
+    began: Duration,
     /// What input and steps took in the last frame, s.
     updating: f32,
     timings: Timings,
@@ -71,7 +73,8 @@ impl App {
         context.asked = options.asked;
         let screens = Stack::new(first, &mut context);
         let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
-        Self { screens, context, device, options, shot, frame: 0, is_full: false, updating: 0.0, timings }
+        let began = platform::now();
+        Self { screens, context, device, options, shot, frame: 0, is_full: false, began, updating: 0.0, timings }
     }
 
     /// Runs until the player leaves or all frames have been shown.
@@ -80,34 +83,35 @@ impl App {
     /// When a planned picture cannot be written.
     pub async fn run(mut self) -> Result<(), String> {
         loop {
-            let began = Instant::now();
             let input = self.begin_frame();
             if !self.update(&input) {
                 break;
             }
-            let updated = Instant::now();
-            self.updating = (updated - began).as_secs_f32();
+            let updated = platform::now();
+            self.updating = (updated - self.began).as_secs_f32();
             self.frame += 1;
             let is_last = self.options.frames.is_some_and(|frames| self.frame >= frames);
             self.show(is_last)?;
-            let drawn = Instant::now();
+            let drawn = platform::now();
             if is_last {
                 break;
             }
             next_frame().await;
             let submitting = self.context.scenery.take_submitting();
-            self.timings.add([updated - began, drawn - updated - submitting, drawn.elapsed() + submitting]);
+            let waited = platform::now() - drawn;
+            self.timings.add([updated - self.began, drawn - updated - submitting, waited + submitting]);
             self.rest();
         }
         if self.options.timings {
-            eprintln!("{}", self.timings);
+            platform::print(&self.timings.to_string());
         }
         Ok(())
     }
 
     fn begin_frame(&mut self) -> Input {
         let is_exact = self.options.is_exact();
-        let elapsed = if is_exact { EXACT_FRAME } else { get_frame_time().max(0.0) };
+        let last = std::mem::replace(&mut self.began, platform::now());
+        let elapsed = if is_exact { EXACT_FRAME } else { (self.began - last).as_secs_f32() };
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
@@ -137,6 +141,7 @@ impl App {
         if self.screens.is_empty() {
             return false;
         }
+        platform::show_buttons(self.screens.is_scene());
         if let Some(stage) = self.open_dropped(input) {
             self.screens.go(Next::Show(MainScreen::Simulation(Box::new(stage))), &mut self.context);
         }
@@ -218,7 +223,7 @@ impl App {
     fn rest(&self) {
         let elapsed = self.context.pace.elapsed;
         if !self.options.is_exact() && elapsed < SHORTEST_FRAME {
-            std::thread::sleep(Duration::from_secs_f32(SHORTEST_FRAME - elapsed));
+            platform::rest(Duration::from_secs_f32(SHORTEST_FRAME - elapsed));
         }
     }
 }

@@ -33,6 +33,9 @@ pub struct Args {
     /// Play the same round every time
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Watch a round that was recorded, such as last-game.replay
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["play", "scenes", "overrides", "seed"])]
+    pub replay: Option<PathBuf>,
     /// Write a PNG of the last frame and exit; takes exactly one step in each frame
     #[arg(long, value_name = "FILE")]
     pub screenshot: Option<PathBuf>,
@@ -117,6 +120,7 @@ mod tests {
 
     #[test]
     fn mistakes_are_refused_with_exit_code_2() {
+        assert!(parsed("--replay a.replay --play").is_err() && args("--replay a.replay").replay.is_some());
         let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1"];
         let words = ["--wrong", "--set x", "--set =1", "--optics x", "--quality x"];
         for line in numbers.into_iter().chain(words) {

@@ -9,7 +9,7 @@
 //!               +--> hud, ui                                   (what lies above it)
 //! ```
 //!
-//! Only [`convert`] knows both the core's vectors and macroquad's.
+//! Only [`platform`] knows whether this is a desktop or a page in a browser, and only [`convert`] knows both the core's vectors and macroquad's.
 
 pub mod app;
 pub mod args;
@@ -20,6 +20,9 @@ pub mod draw;
 pub mod hud;
 pub mod input;
 pub mod microscope;
+#[cfg(target_arch = "wasm32")]
+mod page;
+pub mod platform;
 pub mod rules;
 pub mod scene_source;
 pub mod scenery;
@@ -36,12 +39,13 @@ use app::{App, RunOptions};
 use args::Args;
 use clap::Parser;
 use input::script::InputScript;
+use microsim_core::replay::Replay;
 use rules::game::GameChoice;
+use rules::round::Round;
 use scene_source::SceneSource;
 use screen::MainScreen;
 use screen::context::{AppContext, Asked};
 use stage::Stage;
-use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
 use store::files::PlayerFolder;
@@ -53,13 +57,12 @@ const BAD_REQUEST: u8 = 2;
 /// The scenario of the game.
 const GAME: &str = "game";
 
-/// Runs the program with these arguments, the first of which is its name.
-pub fn launch(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let args = match Args::try_parse_from(arguments) {
+/// Runs the program with the arguments that the platform has for it.
+pub fn launch() -> ExitCode {
+    let args = match Args::try_parse_from(platform::arguments()) {
         Ok(args) => args,
         Err(answer) => {
-            // Ignored: standard output may be closed.
-            let _ = answer.print();
+            platform::answer(&answer);
             return if answer.use_stderr() { BAD_REQUEST.into() } else { ExitCode::SUCCESS };
         }
     };
@@ -76,7 +79,7 @@ pub fn launch(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// When there is no display, or the picture cannot be written.
 pub fn show(stage: Stage, options: RunOptions) -> Result<(), String> {
     let game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
-    Start { first: MainScreen::Simulation(Box::new(stage)), game, files: Vec::new(), options }.run()
+    Start { first: MainScreen::Simulation(Box::new(stage)), game, files: Vec::new(), record: None, options }.run()
 }
 
 /// Everything that is needed to open the window.
@@ -84,6 +87,8 @@ struct Start {
     first: MainScreen,
     game: GameChoice,
     files: Vec<SceneSource>,
+    /// A recorded round to watch, in place of the last one.
+    record: Option<Vec<u8>>,
     options: RunOptions,
 }
 
@@ -98,6 +103,7 @@ impl Start {
             asked: Asked { sight: args.sight, effort: args.effort },
             timings: args.timings,
         };
+        let record = args.replay.as_deref().map(read_replay).transpose()?;
         let Args { scenes, play, overrides, seed, .. } = args;
         let files = scenes.iter().filter(|scene| matches!(scene, SceneSource::File(_))).cloned().collect();
         let named = scenes.into_iter().next();
@@ -111,21 +117,27 @@ impl Start {
             named => {
                 game = GameChoice { source: named.unwrap_or(game.source), overrides, seed };
                 game.round(1)?;
-                if play { MainScreen::Round } else { MainScreen::Title }
+                match record {
+                    Some(_) => MainScreen::Replay,
+                    None if play => MainScreen::Round,
+                    None => MainScreen::Title,
+                }
             }
         };
-        Ok(Self { first, game, files, options })
+        Ok(Self { first, game, files, record, options })
     }
 
     fn run(self) -> Result<(), String> {
-        let Self { first, game, files, options } = self;
+        let Self { first, game, files, record, options } = self;
         let folder = if options.is_exact() { PlayerFolder::nowhere() } else { PlayerFolder::of_the_platform() };
         let title = match &first {
             MainScreen::Simulation(stage) => format!("microsim - {}", stage.name()),
             _ => "microsim".to_owned(),
         };
         window::open(&title, options.size, async move || {
-            App::new(first, AppContext::new(folder, game, files), options).run().await
+            let mut context = AppContext::new(folder, game, files);
+            context.last_game = record.or(context.last_game);
+            App::new(first, context, options).run().await
         })
     }
 }
@@ -139,13 +151,19 @@ fn take_seed(args: &mut Args) -> Result<(), String> {
     Ok(())
 }
 
+fn read_replay(path: &Path) -> Result<Vec<u8>, String> {
+    let bytes = platform::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let round = Replay::read(&bytes).map_err(|error| error.to_string()).and_then(|replay| Round::again(&replay));
+    round.map(|_| bytes).map_err(|problem| format!("{}: {problem}", path.display()))
+}
+
 fn read_script(path: &Path) -> Result<InputScript, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let text = SceneSource::File(path.to_owned()).text()?;
     InputScript::parse(&text).map_err(|problem| format!("{}: {problem}", path.display()))
 }
 
 fn fail(problem: &str, code: u8) -> ExitCode {
-    eprintln!("microsim-game: {problem}");
+    platform::fail(problem);
     ExitCode::from(code)
 }
 
@@ -172,7 +190,14 @@ mod tests {
         assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));
         let (first, game) = start("--play --seed 3 --set game.time=10").unwrap();
         assert!(matches!(first, MainScreen::Round) && game.seed == Some(3) && game.time() == Some(10.0));
-        for line in ["nonsense", "--play empty", "demo --set a=1", "--script /nonexistent"] {
+        for line in [
+            "nonsense",
+            "--play empty",
+            "demo --set a=1",
+            "--script /nonexistent",
+            "--replay /nonexistent",
+            "--replay Cargo.toml",
+        ] {
             assert!(start(line).is_err(), "{line}");
         }
     }

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    microsim_game::launch(std::env::args_os())
+    microsim_game::launch()
 }

@@ -1,9 +1,9 @@
 //! Where the scenario of a scene comes from.
 
+use crate::platform;
 use microsim_core::scenario;
-use std::fmt;
-use std::fs;
 use std::path::PathBuf;
+use std::{fmt, io};
 
 /// Where the scenario of a scene comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,9 @@ impl SceneSource {
     pub fn text(&self) -> Result<String, String> {
         match self {
             Self::File(path) => {
-                fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+                let text = platform::read(path).map(String::from_utf8);
+                let text = text.and_then(|text| text.map_err(|_| io::Error::other("it is no text in UTF-8")));
+                text.map_err(|error| format!("cannot read {}: {error}", path.display()))
             }
             Self::Builtin(name) => scenario::builtin(name).map(|found| found.text.to_owned()).ok_or_else(|| {
                 let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();

@@ -2,12 +2,13 @@
 
 use crate::draw::{Painter, SceneFrame};
 use crate::microscope::{RenderQuality, Renderer};
+use crate::platform;
 use crate::viewer::Pace;
 use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use serde::{Deserialize, Serialize};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Frame times above which frames are slow, and far too slow, s.
 const SLOW_FRAME: f32 = 0.04;
@@ -149,7 +150,7 @@ impl Scenery {
         let is_lower = std::mem::replace(&mut self.step, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. RenderQuality is {} now; see the settings.", QUALITY_STEPS[lower].0))
+            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", QUALITY_STEPS[lower].0))
     }
 
     /// Puts automatic effort back to the best quality.
@@ -187,9 +188,9 @@ impl Scenery {
         let field = Field { centre: frame.camera.centre(), width, pixels: [pixels.x as u32, pixels.y as u32] };
         let microscope = Microscope { optics, film: Film::DIGITAL };
         let Ok(recipe) = renderer.recipe(frame.view, field, microscope, quality) else { return false };
-        let began = Instant::now();
+        let began = platform::now();
         let picture = renderer.draw(&recipe);
-        self.submitting += began.elapsed();
+        self.submitting += platform::now() - began;
         renderer.show(&picture, 0.0, 0.0, screen.x, screen.y);
         true
     }

@@ -1,6 +1,7 @@
 //! Pictures: drawn into a target of their own, because reading the window back gives black pictures on some systems.
 
 use crate::convert;
+use crate::platform;
 use macroquad::camera::{Camera2D, set_camera, set_default_camera};
 use macroquad::color::WHITE;
 use macroquad::texture::{DrawTextureParams, RenderTarget, draw_texture_ex, render_target};
@@ -51,13 +52,13 @@ fn upright(bytes: &[u8], (width, _): (u32, u32)) -> Vec<u8> {
 }
 
 fn write_png(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> io::Result<()> {
-    let file = io::BufWriter::new(std::fs::File::create(path)?);
-    let mut encoder = png::Encoder::new(file, width, height);
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);
     encoder.write_header()?.write_image_data(pixels)?;
-    Ok(())
+    platform::write(path, &file)
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use crate::camera::Camera;
 use crate::clock::FixedStep;
-use macroquad::time::get_time;
+use crate::platform;
 use microsim_core::glam::Vec2;
 use microsim_core::{Moment, OrganismId, View, World};
 
 /// Steps are given up when they have taken this much of a frame, s.
-const STEP_BUDGET: f64 = 0.03;
+const STEP_BUDGET: f32 = 0.03;
 /// Zoom factor per second that a key is held, and per notch of the wheel.
 const KEY_ZOOM: f32 = 3.0;
 const WHEEL_ZOOM: f32 = 1.12;
@@ -53,10 +53,10 @@ impl Viewer {
             return;
         }
         self.clock.feed(pace.elapsed * speed);
-        let start = get_time();
+        let start = platform::now();
         while self.clock.take() {
             self.step(scene, &mut step);
-            if get_time() - start > STEP_BUDGET {
+            if (platform::now() - start).as_secs_f32() > STEP_BUDGET {
                 self.clock.drop_backlog();
             }
         }
@@ -65,9 +65,9 @@ impl Viewer {
 
     /// Takes one step.
     pub fn step<S>(&mut self, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {
-        let began = get_time();
+        let began = platform::now();
         let world = step(scene);
-        let took = (get_time() - began) as f32 * 1000.0;
+        let took = (platform::now() - began).as_secs_f32() * 1000.0;
         self.step_ms += (took - self.step_ms) * if self.step_ms > 0.0 { 0.1 } else { 1.0 };
         self.before = std::mem::replace(&mut self.after, world.moment());
         self.alpha = 1.0;

@@ -1,15 +1,13 @@
-//! Opening a window, with a plain answer when that is not possible.
+//! The window.
 
-use macroquad::miniquad::conf::{Conf, Platform};
-use std::panic::{self, AssertUnwindSafe};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use crate::platform;
+use macroquad::miniquad::conf::{Conf, Platform, WebGLVersion};
 
 /// Vertices and indices of one draw call. Each call keeps a buffer of this size, so bigger is not better.
 pub(crate) const CALL_VERTICES: usize = 16_384;
 pub(crate) const CALL_INDICES: usize = 49_152;
 
-/// Opens a window, runs `start` on it and returns when that ends.
+/// Opens a window and runs `start` on it. Returns when that ends; in a browser at once.
 ///
 /// # Errors
 /// What the program itself reports, or that there is no window.
@@ -18,54 +16,18 @@ pub(crate) fn open(
     (width, height): (u32, u32),
     start: impl AsyncFnOnce() -> Result<(), String> + 'static,
 ) -> Result<(), String> {
-    let is_open = Arc::new(AtomicBool::new(false));
-    let outcome = Arc::new(Mutex::new(Ok(())));
     let conf = macroquad::conf::Conf {
         miniquad_conf: Conf {
             window_title: title.to_owned(),
             window_width: width as i32,
             window_height: height as i32,
             high_dpi: true,
-            platform: Platform { swap_interval: Some(1), ..Platform::default() },
+            platform: Platform { swap_interval: Some(1), webgl_version: WebGLVersion::WebGL2, ..Platform::default() },
             ..Conf::default()
         },
         draw_call_vertex_capacity: CALL_VERTICES,
         draw_call_index_capacity: CALL_INDICES,
         ..macroquad::conf::Conf::default()
     };
-    silence_panics_until(Arc::clone(&is_open));
-    let (opened, ended) = (Arc::clone(&is_open), Arc::clone(&outcome));
-    let program = async move {
-        opened.store(true, Ordering::Relaxed);
-        let result = start().await;
-        if let Ok(mut ended) = ended.lock() {
-            *ended = result;
-        }
-    };
-    // Without a display miniquad panics, in places that depend on what is missing.
-    let run = panic::catch_unwind(AssertUnwindSafe(|| macroquad::Window::from_config(conf, program)));
-    match run {
-        Err(cause) if is_open.load(Ordering::Relaxed) => panic::resume_unwind(cause),
-        Ok(()) if is_open.load(Ordering::Relaxed) => {
-            outcome.lock().map_or(Ok(()), |mut end| std::mem::replace(&mut *end, Ok(())))
-        }
-        _ => Err(NO_WINDOW.to_owned()),
-    }
-}
-
-const NO_WINDOW: &str = "\
-cannot open a window.
-A display and OpenGL are needed. On Linux: is DISPLAY set, and are the libraries there?
-  apt-get install libx11-6 libxi6 libxkbcommon0 libgl1 libgl1-mesa-dri
-Without a screen, a virtual one will do:
-  xvfb-run -a -s '-screen 0 1280x720x24' microsim-game demo --screenshot demo.png";
-
-/// Keeps panics silent until the window is open: what is missing is said in plain words instead.
-fn silence_panics_until(is_open: Arc<AtomicBool>) {
-    let usual = panic::take_hook();
-    panic::set_hook(Box::new(move |info| {
-        if is_open.load(Ordering::Relaxed) {
-            usual(info);
-        }
-    }));
+    platform::run(conf, async move { start().await })
 }

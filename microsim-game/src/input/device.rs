@@ -3,8 +3,9 @@
 use super::keys::Keys;
 use super::{Action, Input, Move};
 use crate::convert;
+use crate::platform;
 use macroquad::input::{
-    KeyCode, MouseButton, get_dropped_files, get_last_key_pressed, is_key_down, is_key_pressed, is_mouse_button_down,
+    KeyCode, MouseButton, get_last_key_pressed, is_key_down, is_key_pressed, is_mouse_button_down,
     is_mouse_button_pressed, mouse_position, mouse_wheel, utils,
 };
 use macroquad::miniquad;
@@ -30,6 +31,9 @@ impl Device {
         let cursor = convert::point(mouse_position());
         let has_moved = std::mem::replace(&mut self.cursor, cursor) != cursor;
         let all = || Action::ALL.into_iter();
+        let buttons = platform::screen_buttons();
+        let is_in = |names: &[String], name: &str| names.iter().any(|other| other == name);
+        let button_step = Move::ALL.into_iter().find(|(_, name)| is_in(&buttons.pressed, name)).map(|(step, _)| step);
         let mut focus = Focus::default();
         utils::repeat_all_miniquad_input(&mut focus, self.subscriber);
         Input {
@@ -39,11 +43,13 @@ impl Device {
             is_clicked: is_mouse_button_pressed(MouseButton::Left),
             // A notch is 1 on some systems and 120 on others.
             wheel: mouse_wheel().1.clamp(-1.0, 1.0),
-            held: all().filter(|&action| is_key_down(keys.of(action))).collect(),
-            pressed: all().filter(|&action| is_key_pressed(keys.of(action))).collect(),
-            step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step),
+            held: all().filter(|&action| is_key_down(keys.of(action)) || is_in(&buttons.held, action.name())).collect(),
+            pressed: all()
+                .filter(|&action| is_key_pressed(keys.of(action)) || is_in(&buttons.pressed, action.name()))
+                .collect(),
+            step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step).or(button_step),
             key: get_last_key_pressed(),
-            dropped: get_dropped_files().into_iter().filter_map(|file| file.path).collect(),
+            dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,
         }
     }

@@ -16,6 +16,7 @@
 mod pipelines;
 mod targets;
 
+use crate::platform;
 use macroquad::color::WHITE;
 use macroquad::math::vec2;
 use macroquad::miniquad::{BufferId, BufferSource, BufferType, BufferUsage, PassAction, RenderingBackend, TextureId};
@@ -77,7 +78,7 @@ impl Renderer {
     /// What the graphics driver says of a program that it does not take.
     pub fn new() -> Result<Self, String> {
         let card = card();
-        Self::with_precision(if has_float_targets(&card.info().gl_version_string) {
+        Self::with_precision(if platform::has_float_targets(&card.info().gl_version_string) {
             Precision::Float
         } else {
             Precision::Bytes
@@ -234,12 +235,6 @@ fn buffers(card: &mut dyn RenderingBackend, [vertices, indices]: [usize; 2]) -> 
     ]
 }
 
-/// Whether every context of this version can draw into floats of 16 bits.
-fn has_float_targets(version: &str) -> bool {
-    let is_small = ["OpenGL ES 2", "OpenGL ES 3.0", "OpenGL ES 3.1"].iter().any(|old| version.starts_with(old));
-    !(is_small || version.starts_with('2') || version.contains("WebGL"))
-}
-
 /// The graphics card behind macroquad, after its pending commands.
 #[expect(unsafe_code, reason = "macroquad has no other way to what lies below it")]
 fn card() -> &'static mut dyn RenderingBackend {
@@ -248,17 +243,4 @@ fn card() -> &'static mut dyn RenderingBackend {
     let mut gl = unsafe { get_internal_gl() };
     gl.flush();
     gl.quad_context
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_contexts_draw_into_bytes() {
-        assert!(
-            has_float_targets("4.5 (Compatibility Profile) Mesa 22.3.6") && has_float_targets("OpenGL ES 3.2 Mesa")
-        );
-        assert!(["OpenGL ES 2.0", "WebGL 1.0", "2.1 Mesa"].iter().all(|version| !has_float_targets(version)));
-    }
 }

@@ -36,6 +36,11 @@ pub trait Screen: fmt::Debug {
         false
     }
 
+    /// Whether it shows a scene that keys act on, and not a menu.
+    fn is_scene(&self) -> bool {
+        false
+    }
+
     /// Whether leaving it would lose something: a round that is being played.
     fn is_at_stake(&self) -> bool {
         false

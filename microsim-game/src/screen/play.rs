@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::{Next, Overlay, Paused, Screen};
 use crate::hud::{self, Status, marks};
 use crate::input::{Action, Input, Move};
+use crate::platform;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
 use crate::viewer::{Viewer, first_view};
@@ -91,15 +92,15 @@ impl Play {
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
     }
 
-    fn advice(&self, hints: &Hints, context: &AppContext) -> Option<String> {
-        let key = context.settings.keys.label(Action::Consume);
+    fn advice(&self, hints: &Hints, key: &str, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
         if self.round.is_replay() {
             None
         } else if hints.can_digest() && self.round.referee().score() == 0 {
             Some(format!("Hold {key} to digest what you have taken in"))
         } else if time < ADVICE_TIME {
-            Some("Hold the left mouse button to crawl. Push your front against food.".to_owned())
+            let what = if has_buttons { "a finger on the picture" } else { "the left mouse button" };
+            Some(format!("Hold {what} to crawl. Push your front against food."))
         } else {
             None
         }
@@ -130,9 +131,11 @@ impl Screen for Play {
             return;
         }
         let hints = Hints::of(view, self.round.player());
-        let (key, time) = (context.settings.keys.label(Action::Consume), context.motion());
+        let covered = platform::covered_height();
+        let key = if covered > 0.0 { "Digest".to_owned() } else { context.settings.keys.label(Action::Consume) };
+        let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };
-        let advice = self.advice(&hints, context);
+        let advice = self.advice(&hints, &key, covered > 0.0);
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
         marks::draw_held(pen, &style, &mut taken, &hints.held);
@@ -147,8 +150,12 @@ impl Screen for Play {
         let time = [referee.time_left(), referee.game().time];
         hud::draw_status(pen, &Status { score: referee.score(), time, is_calm: context.settings.reduced_motion, note });
         if let Some(advice) = advice {
-            hud::draw_advice(pen, &advice);
+            hud::draw_advice(pen, &advice, covered);
         }
+    }
+
+    fn is_scene(&self) -> bool {
+        true
     }
 
     fn name(&self) -> String {

@@ -43,6 +43,12 @@ impl Stack {
         self.screens.last().is_some_and(|screen| screen.waits_for_key())
     }
 
+    /// Whether the topmost screen shows a scene.
+    #[must_use]
+    pub fn is_scene(&self) -> bool {
+        self.screens.last().is_some_and(|screen| screen.is_scene())
+    }
+
     /// Whether leaving the screens would lose a round.
     #[must_use]
     pub fn is_at_stake(&self) -> bool {

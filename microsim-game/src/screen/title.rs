@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::{MainScreen, Next, Overlay, Screen};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
+use crate::platform;
 use crate::rules::bot::{Bot, Policy};
 use crate::stage::Stage;
 use crate::ui::font::{TITLE, TextSize};
@@ -35,6 +36,7 @@ struct Backdrop {
 /// Where an item of the menu leads.
 type Target = fn() -> Next;
 
+/// What the menu offers; the last item only where the program can end of itself.
 const ITEMS: [(&str, Target); 6] = [
     ("Play", || Next::Show(MainScreen::Round)),
     ("Simulation", || Next::Open(Overlay::Pick)),
@@ -47,8 +49,9 @@ const ITEMS: [(&str, Target); 6] = [
 impl Title {
     /// The title, with its backdrop at the beginning.
     pub(super) fn new(context: &AppContext) -> Self {
-        let items = ITEMS.map(|(label, _)| MenuItem::new(label));
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items.into()) }
+        let items = if platform::CAN_QUIT { &ITEMS[..] } else { &ITEMS[..ITEMS.len() - 1] };
+        let items = items.iter().map(|&(label, _)| MenuItem::new(label)).collect();
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items) }
     }
 }
 
@@ -86,7 +89,7 @@ impl Screen for Title {
                 self.backdrop = Backdrop::new(context.pen.screen());
             }
         }
-        if input.step == Some(Move::Back) {
+        if platform::CAN_QUIT && input.step == Some(Move::Back) {
             return Next::Quit;
         }
         match self.menu.update(input, &MenuLayout::title(&context.pen)) {

@@ -1,27 +1,25 @@
-//! Files that are never half written: the new text goes to a file of its own, which then takes the old one's name.
+//! What is kept by name, as text that people can read. Damaged values are put aside, never overwritten.
 
-use directories::ProjectDirs;
+use crate::platform::Storage;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::{fs, process};
+use std::io;
 
-/// A folder with files.
+/// The player's settings, scores and last game.
 #[derive(Clone, Debug)]
-pub struct PlayerFolder(Option<PathBuf>);
+pub struct PlayerFolder(Option<Storage>);
 
 impl PlayerFolder {
-    /// The player's own folder; without one, nothing is kept.
+    /// The player's own; where the platform has no place for it, nothing is kept.
     #[must_use]
     pub fn of_the_platform() -> Self {
-        Self(ProjectDirs::from("", "", "microsim").map(|dirs| dirs.config_dir().to_owned()))
+        Self(Storage::of_the_player())
     }
 
-    /// A folder of choice; it is made when something is first kept in it.
+    /// A place of choice.
     #[must_use]
-    pub fn at(folder: &Path) -> Self {
-        Self(Some(folder.to_owned()))
+    pub fn at(storage: Storage) -> Self {
+        Self(Some(storage))
     }
 
     /// Keeps nothing, for pictures that must come out the same everywhere.
@@ -30,30 +28,29 @@ impl PlayerFolder {
         Self(None)
     }
 
-    /// Reads a file. An unreadable one is renamed and reported, and the default is used.
+    /// Reads a value. An unreadable one is renamed and reported, and the default is used.
     pub fn load<T: DeserializeOwned + Default>(&self, name: &str) -> (T, Option<String>) {
-        let Some(path) = self.0.as_ref().map(|folder| folder.join(name)) else { return (T::default(), None) };
-        let text = match fs::read_to_string(&path) {
+        let Some(storage) = &self.0 else { return (T::default(), None) };
+        let bytes = match storage.read(name) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return (T::default(), None),
-            text => text.map_err(|error| error.to_string()),
+            bytes => bytes.map_err(|error| error.to_string()),
         };
-        let first_line = |error: toml::de::Error| error.message().lines().next().unwrap_or_default().to_owned();
-        match text.and_then(|text| toml::from_str(&text).map_err(first_line)) {
+        match bytes.and_then(|bytes| parse(&bytes)) {
             Ok(value) => (value, None),
             Err(problem) => {
-                let kept = put_aside(&path).map_or(String::new(), |aside| format!("; kept as {}", aside.display()));
+                let kept = put_aside(storage, name).map_or(String::new(), |aside| format!("; kept as {aside}"));
                 (T::default(), Some(format!("{name} makes no sense: {problem}{kept}")))
             }
         }
     }
 
-    /// What is in a file, if it can be read.
+    /// What is kept under a name, if it can be read.
     #[must_use]
     pub fn read(&self, name: &str) -> Option<Vec<u8>> {
-        fs::read(self.0.as_ref()?.join(name)).ok()
+        self.0.as_ref()?.read(name).ok()
     }
 
-    /// Writes a value for [`PlayerFolder::load`].
+    /// Keeps a value for [`PlayerFolder::load`].
     ///
     /// # Errors
     /// See [`PlayerFolder::write`].
@@ -61,38 +58,36 @@ impl PlayerFolder {
         self.write(name, toml::to_string(value).map_err(io::Error::other)?.as_bytes())
     }
 
-    /// Writes a file, wholly or not at all.
+    /// Keeps bytes, wholly or not at all.
     ///
     /// # Errors
-    /// When the folder or the file cannot be written; the old file is as it was then.
+    /// When they cannot be kept; what was kept before is as it was then.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let Some(folder) = &self.0 else { return Ok(()) };
-        fs::create_dir_all(folder)?;
-        let fresh = folder.join(format!("{name}.{}.new", process::id()));
-        let written = fs::File::create(&fresh).and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        });
-        let result = written.and_then(|()| fs::rename(&fresh, folder.join(name)));
-        if result.is_err() {
-            let _ = fs::remove_file(&fresh);
-        }
-        result
+        self.0.as_ref().map_or(Ok(()), |storage| storage.write(name, bytes))
     }
 }
 
-/// Gives a file a name that no file has yet, so that it is not overwritten.
-fn put_aside(path: &Path) -> io::Result<PathBuf> {
-    let numbered = (2..).map(|number| path.with_extension(format!("broken-{number}")));
-    let mut names = [path.with_extension("broken")].into_iter().chain(numbered);
-    let aside = names.find(|name| !name.exists()).ok_or(io::ErrorKind::AlreadyExists)?;
-    fs::rename(path, &aside).map(|()| aside)
+/// A value, or in one line why there is none.
+fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+    toml::from_str(text).map_err(|error| error.message().lines().next().unwrap_or_default().to_owned())
+}
+
+/// Gives a value a name that none has yet, so that it is not overwritten. Returns where it is then.
+fn put_aside(storage: &Storage, name: &str) -> io::Result<String> {
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let numbered = (2..).map(|number| format!("{stem}.broken-{number}"));
+    let mut names = [format!("{stem}.broken")].into_iter().chain(numbered);
+    let aside = names.find(|name| !storage.has(name)).ok_or(io::ErrorKind::AlreadyExists)?;
+    storage.rename(name, &aside).map(|()| storage.place(&aside))
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use std::collections::BTreeMap;
+    use std::path::PathBuf;
+    use std::{fs, process};
 
     type Table = BTreeMap<String, u32>;
 
@@ -102,7 +97,7 @@ pub(crate) mod tests {
     impl Folder {
         pub(crate) fn new(name: &str) -> (Self, PlayerFolder) {
             let path = std::env::temp_dir().join(format!("microsim-{name}-{}", process::id()));
-            let store = PlayerFolder::at(&path);
+            let store = PlayerFolder::at(Storage::at(&path));
             (Self(path), store)
         }
     }

@@ -173,6 +173,10 @@ impl Screen for Sandbox {
         }
     }
 
+    fn is_scene(&self) -> bool {
+        true
+    }
+
     fn name(&self) -> String {
         format!("{}-{}", self.stage.name(), self.stage.world().step_index())
     }

@@ -1,0 +1,115 @@
+//! A desktop: files, a command line, standard error.
+
+mod storage;
+mod window;
+
+pub use storage::Storage;
+pub(crate) use window::run;
+
+use super::ScreenButtons;
+use macroquad::input::get_dropped_files;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+use std::{fs, io};
+
+/// Whether the program can end of itself.
+pub const CAN_QUIT: bool = true;
+
+/// The command line; the first word is the program's name.
+pub fn arguments() -> impl Iterator<Item = OsString> {
+    std::env::args_os()
+}
+
+/// Answers a command line that asks for help or cannot be understood.
+pub fn answer(answer: &clap::Error) {
+    // Ignored: standard output may be closed.
+    let _ = answer.print();
+}
+
+/// Says why the program ends.
+pub fn fail(problem: &str) {
+    eprintln!("microsim-game: {problem}");
+}
+
+/// Says something to whoever started the program.
+pub fn print(text: &str) {
+    eprintln!("{text}");
+}
+
+/// Time since some moment; it never goes back.
+#[must_use]
+pub fn now() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed()
+}
+
+/// Waits.
+pub fn rest(time: Duration) {
+    std::thread::sleep(time);
+}
+
+/// What is in a file that the player has named or dropped.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    fs::read(path)
+}
+
+/// Writes a file for the player.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fs::write(path, bytes)
+}
+
+/// Files that were dropped on the window in this frame.
+#[must_use]
+pub fn dropped_files() -> Vec<PathBuf> {
+    get_dropped_files().into_iter().filter_map(|file| file.path).collect()
+}
+
+/// None: there are keys.
+#[must_use]
+pub fn screen_buttons() -> ScreenButtons {
+    ScreenButtons::default()
+}
+
+/// Nothing: there are no buttons on the screen to show or hide.
+pub fn show_buttons(_: bool) {}
+
+/// Height at the lower edge that buttons cover, drawing units.
+#[must_use]
+pub fn covered_height() -> f32 {
+    0.0
+}
+
+/// Whether every context of this version of OpenGL can draw into floats of 16 bits.
+#[must_use]
+pub fn has_float_targets(version: &str) -> bool {
+    let is_small = ["OpenGL ES 2", "OpenGL ES 3.0", "OpenGL ES 3.1"].iter().any(|old| version.starts_with(old));
+    !(is_small || version.starts_with('2') || version.contains("WebGL"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_contexts_draw_into_bytes() {
+        assert!(
+            has_float_targets("4.5 (Compatibility Profile) Mesa 22.3.6") && has_float_targets("OpenGL ES 3.2 Mesa")
+        );
+        assert!(["OpenGL ES 2.0", "WebGL 1.0", "2.1 Mesa"].iter().all(|version| !has_float_targets(version)));
+    }
+
+    #[test]
+    fn time_does_not_go_back() {
+        let earlier = now();
+        rest(Duration::from_millis(2));
+        assert!(now() - earlier >= Duration::from_millis(2));
+    }
+}

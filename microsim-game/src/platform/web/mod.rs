@@ -1,0 +1,115 @@
+//! A page in a browser: the address in place of a command line, downloads, values in its own storage.
+
+mod host;
+mod storage;
+
+pub use storage::Storage;
+
+use super::ScreenButtons;
+use macroquad::conf::Conf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{io, panic};
+
+/// Whether the program can end of itself: a page is closed.
+pub const CAN_QUIT: bool = false;
+
+/// The command line that the page's address stands for; the first word is the program's name.
+pub fn arguments() -> impl Iterator<Item = OsString> {
+    lines("arguments").into_iter().map(OsString::from)
+}
+
+/// Shows an answer to an address that cannot be understood.
+pub fn answer(answer: &clap::Error) {
+    fail(&answer.to_string());
+}
+
+/// Shows on the page why the program ends.
+pub fn fail(problem: &str) {
+    host::tell("fail", "", problem.as_bytes());
+}
+
+/// Writes to the browser's console.
+pub fn print(text: &str) {
+    host::tell("print", "", text.as_bytes());
+}
+
+/// Time since the page began; it never goes back.
+#[must_use]
+pub fn now() -> Duration {
+    Duration::from_nanos((host::now() * 1e6) as u64)
+}
+
+/// Nothing: a page waits for the screen.
+pub fn rest(_: Duration) {}
+
+/// What is in a file that the player has picked or dropped, or that came with the address.
+///
+/// # Errors
+/// When there is none of this name.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    host::ask("file", &path.to_string_lossy()).ok_or(io::ErrorKind::NotFound.into())
+}
+
+/// Gives the player a file, as a download.
+///
+/// # Errors
+/// When the page does not take it.
+pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let is_taken = host::tell("download", &path.to_string_lossy(), bytes);
+    is_taken.then_some(()).ok_or_else(|| io::Error::other("the page refuses the download"))
+}
+
+/// Files that were picked or dropped since they were last asked for.
+#[must_use]
+pub fn dropped_files() -> Vec<PathBuf> {
+    lines("dropped").into_iter().map(PathBuf::from).collect()
+}
+
+/// What the buttons of the page say.
+#[must_use]
+pub fn screen_buttons() -> ScreenButtons {
+    ScreenButtons { held: lines("held"), pressed: lines("pressed") }
+}
+
+/// Shows the page's buttons, on devices that have no keys, or hides them.
+pub fn show_buttons(are_wanted: bool) {
+    host::tell(if are_wanted { "show buttons" } else { "hide buttons" }, "", &[]);
+}
+
+/// Height at the lower edge that buttons cover, drawing units; 0 if there are none.
+#[must_use]
+pub fn covered_height() -> f32 {
+    lines("covered height").concat().parse().unwrap_or(0.0)
+}
+
+/// Whether the page's context can draw into floats of 16 bits; its version does not say.
+#[must_use]
+pub fn has_float_targets(_: &str) -> bool {
+    host::ask("float targets", "").is_some()
+}
+
+/// Has the page call the program for every frame.
+///
+/// # Errors
+/// None: the program's own are shown on the page.
+pub(crate) fn run(conf: Conf, program: impl Future<Output = Result<(), String>> + 'static) -> Result<(), String> {
+    panic::set_hook(Box::new(|info| fail(&info.to_string())));
+    macroquad::Window::from_config(conf, async move {
+        if let Err(problem) = program.await {
+            fail(&problem);
+        }
+    });
+    Ok(())
+}
+
+/// A text that the page has for the asking.
+pub(crate) fn asked() -> String {
+    lines("asked").concat()
+}
+
+fn lines(what: &str) -> Vec<String> {
+    let text = host::ask(what, "").and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default();
+    text.split('\n').filter(|line| !line.is_empty()).map(str::to_owned).collect()
+}

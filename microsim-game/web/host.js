@@ -1,0 +1,169 @@
+// What the game asks of the page, and what it tells it: the functions of `src/platform/web`.
+
+const STORE = "microsim/";
+const LONGEST_FILE = 16 << 20;
+
+const encode = (text) => new TextEncoder().encode(text);
+const element = (id) => document.getElementById(id);
+
+/** Files by name that were picked, dropped or part of the address. */
+export const files = new Map();
+/** Names of buttons that are held, and of those pressed since the game last asked. */
+export const held = new Set(), pressed = [];
+
+const dropped = [];
+const address = new URLSearchParams(location.search);
+const words = ["microsim-game"];
+let question = "";
+
+/** Shows why the game cannot go on. */
+export function fail(problem) {
+    console.error(problem);
+    element("loading").hidden = true;
+    element("problem").textContent ||= problem;
+    element("failure").hidden = false;
+}
+
+/** Hands files to the game as if they were dropped on its window. */
+export async function give(list) {
+    for (const file of list) {
+        if (file.size <= LONGEST_FILE) {
+            files.set(file.name, new Uint8Array(await file.arrayBuffer()));
+            dropped.push(file.name);
+        }
+    }
+}
+
+/** Adds to the command line what the address says: `?scenario=hunt&seed=7` is `hunt --seed=7`. */
+export function readAddress(linked) {
+    for (const [name, value] of address) {
+        if (name === "scenario") words.push(value);
+        else if (name !== "floats") words.push(value === "" ? `--${name}` : `--${name}=${value}`);
+    }
+    words.push(...linked);
+}
+
+/** A value that is kept, as base64; null if there is none. */
+export function kept(name) {
+    try {
+        return localStorage.getItem(STORE + name);
+    } catch {
+        return null;
+    }
+}
+
+/** Digest of a scene after some steps, as hexadecimal digits. */
+export function digest(scene, steps) {
+    question = scene;
+    return BigInt.asUintN(64, wasm_exports.microsim_digest(steps)).toString(16).padStart(16, "0");
+}
+
+function toBase64(bytes) {
+    let text = "";
+    for (const byte of bytes) text += String.fromCharCode(byte);
+    return btoa(text);
+}
+
+const fromBase64 = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+
+function storageWorks() {
+    try {
+        localStorage.setItem(STORE, "");
+        localStorage.removeItem(STORE);
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+function readKept(name) {
+    const value = kept(name);
+    if (value === null) return null;
+    try {
+        return fromBase64(value);
+    } catch {
+        return encode(value); // Not base64: damaged, which the game finds out.
+    }
+}
+
+function keep(name, bytes) {
+    try {
+        localStorage.setItem(STORE + name, toBase64(bytes));
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+function rename(name, other) {
+    const value = kept(name);
+    if (value === null) return false;
+    localStorage.setItem(STORE + new TextDecoder().decode(other), value);
+    localStorage.removeItem(STORE + name);
+    return true;
+}
+
+function download(name, bytes) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([bytes]));
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    return true;
+}
+
+const fingers = matchMedia("(pointer: coarse)");
+
+function showButtons(areWanted) {
+    element("buttons").hidden = !(areWanted && fingers.matches);
+}
+
+function hasFloatTargets() {
+    const extension = gl.getExtension("EXT_color_buffer_float") ?? gl.getExtension("EXT_color_buffer_half_float");
+    return extension && address.get("floats") !== "no" ? encode("") : null;
+}
+
+const answers = {
+    "arguments": () => encode(words.join("\n")),
+    "asked": () => encode(question),
+    "covered height": () => encode(String(element("buttons").offsetHeight)),
+    "dropped": () => encode(dropped.splice(0).join("\n")),
+    "file": (name) => files.get(name) ?? null,
+    "float targets": hasFloatTargets,
+    "has storage": () => (storageWorks() ? encode("") : null),
+    "held": () => encode([...held].join("\n")),
+    "kept": readKept,
+    "pressed": () => encode(pressed.splice(0).join("\n")),
+};
+
+const orders = {
+    "download": download,
+    "fail": (_, bytes) => fail(new TextDecoder().decode(bytes)),
+    "hide buttons": () => showButtons(false),
+    "keep": keep,
+    "print": (_, bytes) => console.log(new TextDecoder().decode(bytes)),
+    "rename": rename,
+    "show buttons": () => showButtons(true),
+};
+
+let found = new Uint8Array();
+const bytesAt = (at, length) => new Uint8Array(wasm_memory.buffer, at, length).slice();
+const textAt = (at, length) => new TextDecoder().decode(bytesAt(at, length));
+
+/** Functions that the program imports; the loader's own are there already. */
+export const functions = {
+    microsim_now: () => performance.now(),
+    microsim_ask(what, whatLength, name, nameLength) {
+        found = answers[textAt(what, whatLength)](textAt(name, nameLength));
+        return found === null ? -1 : found.length;
+    },
+    microsim_take: (to) => new Uint8Array(wasm_memory.buffer).set(found, to),
+    microsim_tell(what, whatLength, name, nameLength, bytes, length) {
+        return orders[textAt(what, whatLength)](textAt(name, nameLength), bytesAt(bytes, length)) ? 1 : 0;
+    },
+    // The loader asks for the canvas alone, which hides the buttons, and lets a refusal become an error.
+    sapp_set_fullscreen(isWanted) {
+        const change = isWanted ? document.documentElement.requestFullscreen?.() : document.exitFullscreen?.();
+        change?.catch(() => {});
+    },
+};

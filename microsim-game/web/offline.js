@@ -1,0 +1,21 @@
+// Keeps the page for when there is no network. `@VERSION@` is a hash of all files: another version is another cache.
+
+const CACHE = "microsim-@VERSION@";
+const FILES = ["./", "start.js", "host.js", "link.js", "gl.js", "style.css", "game.wasm", "manifest.webmanifest", "icon-192.png"];
+
+addEventListener("install", (event) => {
+    skipWaiting();
+    event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)));
+});
+
+addEventListener("activate", (event) => {
+    const isOld = (name) => name.startsWith("microsim-") && name !== CACHE;
+    event.waitUntil(caches.keys().then((names) => Promise.all(names.filter(isOld).map((name) => caches.delete(name)))));
+});
+
+addEventListener("fetch", (event) => {
+    if (event.request.method !== "GET") return;
+    event.respondWith(caches.open(CACHE)
+        .then((cache) => cache.match(event.request, { ignoreSearch: true }))
+        .then((kept) => kept ?? fetch(event.request)));
+});
