@@ -94,3 +94,8 @@ fn in_stretches(start: &World, steps: u64, mut timed: impl FnMut(&mut World) -> 
         sum + timed(&mut world)
     })
 }
+
+/// The examples of the workspace's README, compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

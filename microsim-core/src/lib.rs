@@ -27,6 +27,8 @@
 //! uses rayon's current pool) and no global state. Stepping
 //! cannot fail; everything handed in is checked when it is handed in. Equal configuration, seed and inputs give equal
 //! bits on every platform ([`World::digest`]).
+//!
+//! Types are in modules by theme; [`prelude`] has what most programs need, and each can be had from the root of the crate too.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact"))]
 
@@ -72,71 +74,142 @@ mod template;
 mod walk;
 mod world;
 
-pub use actuation::Actuation;
-pub use behavior::crawl::MembraneRegion;
-pub use capability::controller::Controller;
-pub use capability::controller::avoidance::{Avoidance, AvoidanceParams};
-pub use capability::controller::brownian::{Brownian, BrownianParams};
-pub use capability::controller::chemotaxis::{Chemotaxis, ChemotaxisParams};
-pub use capability::controller::flee::{Flee, FleeParams};
-pub use capability::controller::patrol::Patrol;
-pub use capability::controller::persistent_walk::{PersistentWalk, PersistentWalkParams};
-pub use capability::controller::pursue::{Pursue, PursueParams};
-pub use capability::controller::ram::Ram;
-pub use capability::controller::run_and_tumble::{RunAndTumble, RunAndTumbleParams};
-pub use capability::controller::thrash::Thrash;
-pub use capability::controller::wander::Wander;
-pub use capability::division::DivisionParams;
-pub use capability::exchange::Exchange;
-pub use capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
-pub use chemical::{Chemical, ChemicalSpec};
-pub use collider::{Collider, ContactPoint, Wall};
-pub use collision::obstacle::{Obstacle, ObstacleMotion};
-pub use config::WorldConfig;
-pub use error::{Error, ErrorKind};
-pub use event::{Event, Refusal};
-pub use float_environment::with_default_float_environment;
-pub use force_field::{FieldKind, ForceField, Region};
-pub use id::{ChemicalId, FieldId, JointId, ObstacleId, OrganismId, TemplateId};
-pub use inputs::{Inputs, Intent};
-pub use joint::{JointEnd, JointKind, JointSpec};
-pub use kind::Kind;
-pub use organism::agar::AgarSpec;
-pub use organism::amoeboid_cell::AmoeboidCellSpec;
-pub use organism::bacillus::BacillusSpec;
-pub use organism::coccus::CoccusSpec;
-pub use organism::fluid_block::FluidBlockSpec;
-pub use organism::platelet::PlateletSpec;
-pub use organism::probe::ProbeSpec;
-pub use organism::red_cell::RedCellSpec;
-pub use organism::rigid_cell::RigidCellSpec;
-pub use organism::{OrganismSpec, Placement, SpecTable};
-pub use particle::{CollisionGroups, Material};
-pub use rng::Rng;
-pub use solver::constraint::*;
-pub use solver::fluid::{FluidMode, FluidParams};
-pub use solver::instruction_set::InstructionSet;
-pub use spec_field::{FieldValue, FieldVisitor, SpecField};
-pub use step::Phase;
-pub use template::{Node, Propulsion, Role, Template, TemplateBuilder};
-pub use world::World;
-pub use world::contact_report::ContactReporting;
-pub use world::joint::JointView;
-pub use world::measure::Measure;
-pub use world::measure::census::Census;
-pub use world::measure::membrane_quality::{CrawlQuality, MembraneQuality};
-pub use world::measure::quality::Quality;
-pub use world::query::{NearestPoint, Queries, QueryFilter, RayHit};
-pub use world::state::difference::Difference;
-pub use world::state::validate::Violation;
-pub use world::view::anatomy::Bond;
-pub use world::view::moment::Moment;
-pub use world::view::{OrganismView, ParticleView, View};
-
 pub use {glam, parry2d};
 
-/// The READMEs' examples, compiled and run with the tests.
+#[doc(hidden)]
+pub use {
+    bodies::*, contacts::*, controllers::*, measures::*, media::*, obstacles::*, organisms::*, queries::*,
+    simulation::*, views::*,
+};
+
+/// What most programs need: `use microsim_core::prelude::*;`.
+///
+/// ```
+/// use microsim_core::prelude::*;
+///
+/// let mut world = World::new(WorldConfig { gravity: Vec2::new(0.0, -10.0), ..WorldConfig::default() })?;
+/// world.add_obstacle(Obstacle::new(SharedShape::cuboid(20.0, 1.0), Pose::translation(40.0, 10.0)))?;
+/// let ball = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 20.0))?;
+/// (0..120).for_each(|_| world.step(&Inputs::new()));
+/// assert!((world.centroid(ball).unwrap().y - 12.0).abs() < 0.1);
+/// # Ok::<(), Error>(())
+/// ```
+pub mod prelude {
+    pub use crate::bodies::{CollisionGroups, Material, Node, Template, TemplateId};
+    pub use crate::contacts::{Collider, ContactPoint, Event, Wall};
+    pub use crate::controllers::Controller;
+    pub use crate::obstacles::{Obstacle, ObstacleId, ObstacleMotion};
+    pub use crate::organisms::{
+        AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, FluidBlockSpec, Kind, OrganismId, OrganismSpec,
+        Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec,
+    };
+    pub use crate::queries::QueryFilter;
+    pub use crate::simulation::{Error, Inputs, Intent, World, WorldConfig};
+    pub use crate::views::{OrganismView, View};
+    pub use glam::Vec2;
+    pub use parry2d::math::Pose;
+    pub use parry2d::shape::SharedShape;
+}
+
+/// The world: settings, inputs, steps, errors, and comparing two of them.
+pub mod simulation {
+    pub use crate::config::WorldConfig;
+    pub use crate::error::{Error, ErrorKind};
+    pub use crate::inputs::{Inputs, Intent};
+    pub use crate::rng::Rng;
+    pub use crate::solver::instruction_set::InstructionSet;
+    pub use crate::step::Phase;
+    pub use crate::world::World;
+    pub use crate::world::state::difference::Difference;
+    pub use crate::world::state::validate::Violation;
+}
+
+/// The library's organisms: specs, and what they can do.
+pub mod organisms {
+    pub use crate::behavior::crawl::MembraneRegion;
+    pub use crate::capability::division::DivisionParams;
+    pub use crate::capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
+    pub use crate::id::OrganismId;
+    pub use crate::kind::Kind;
+    pub use crate::organism::agar::AgarSpec;
+    pub use crate::organism::amoeboid_cell::AmoeboidCellSpec;
+    pub use crate::organism::bacillus::BacillusSpec;
+    pub use crate::organism::coccus::CoccusSpec;
+    pub use crate::organism::fluid_block::FluidBlockSpec;
+    pub use crate::organism::platelet::PlateletSpec;
+    pub use crate::organism::probe::ProbeSpec;
+    pub use crate::organism::red_cell::RedCellSpec;
+    pub use crate::organism::rigid_cell::RigidCellSpec;
+    pub use crate::organism::{OrganismSpec, Placement, SpecTable};
+    pub use crate::spec_field::{FieldValue, FieldVisitor, SpecField};
+}
+
+/// Controllers: what organisms want when nobody tells them.
+pub mod controllers {
+    pub use crate::capability::controller::Controller;
+    pub use crate::capability::controller::avoidance::{Avoidance, AvoidanceParams};
+    pub use crate::capability::controller::brownian::{Brownian, BrownianParams};
+    pub use crate::capability::controller::chemotaxis::{Chemotaxis, ChemotaxisParams};
+    pub use crate::capability::controller::flee::{Flee, FleeParams};
+    pub use crate::capability::controller::patrol::Patrol;
+    pub use crate::capability::controller::persistent_walk::{PersistentWalk, PersistentWalkParams};
+    pub use crate::capability::controller::pursue::{Pursue, PursueParams};
+    pub use crate::capability::controller::ram::Ram;
+    pub use crate::capability::controller::run_and_tumble::{RunAndTumble, RunAndTumbleParams};
+    pub use crate::capability::controller::thrash::Thrash;
+    pub use crate::capability::controller::wander::Wander;
+}
+
+/// Bodies of your own: templates of nodes and constraints, materials, collision groups.
+pub mod bodies {
+    pub use crate::id::TemplateId;
+    pub use crate::particle::{CollisionGroups, Material};
+    pub use crate::solver::constraint::*;
+    pub use crate::template::{Node, Role, Template, TemplateBuilder};
+}
+
+/// What organisms are in: fluids and chemicals.
+pub mod media {
+    pub use crate::capability::exchange::Exchange;
+    pub use crate::chemical::{Chemical, ChemicalSpec};
+    pub use crate::id::ChemicalId;
+    pub use crate::solver::fluid::{FluidMode, FluidParams};
+}
+
+/// Obstacles: fixed, moved, one-way, sensors.
+pub mod obstacles {
+    pub use crate::collision::obstacle::{Obstacle, ObstacleMotion};
+    pub use crate::id::ObstacleId;
+}
+
+/// Events, and reports of contacts.
+pub mod contacts {
+    pub use crate::collider::{Collider, ContactPoint, Wall};
+    pub use crate::event::{Event, Refusal};
+    pub use crate::world::contact_report::ContactReporting;
+}
+
+/// Queries: rays, shape casts, nearest points, overlaps.
+pub mod queries {
+    pub use crate::world::query::{NearestPoint, Queries, QueryFilter, RayHit};
+}
+
+/// Reading a world for pictures.
+pub mod views {
+    pub use crate::world::view::anatomy::Bond;
+    pub use crate::world::view::moment::Moment;
+    pub use crate::world::view::{OrganismView, ParticleView, View};
+}
+
+/// Measures of a world.
+pub mod measures {
+    pub use crate::world::measure::Measure;
+    pub use crate::world::measure::census::Census;
+    pub use crate::world::measure::membrane_quality::{CrawlQuality, MembraneQuality};
+    pub use crate::world::measure::quality::Quality;
+}
+
+/// The README's examples, compiled and run with the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-#[doc = include_str!("../../README.md")]
 struct Readme;

@@ -157,7 +157,7 @@ fn check_casts(world: &World, origin: Vec2, direction: Vec2, length: f32, radius
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
 
     #[test]
     fn rays_and_discs_meet_what_marching_along_them_meets(

@@ -44,6 +44,7 @@ impl State {
 
 impl ObstacleTable {
     /// Number of places, empty ones included.
+    #[cfg(feature = "snapshot")]
     pub(crate) fn len(&self) -> usize {
         self.slots.len()
     }

@@ -348,5 +348,21 @@ fn meets(ray: &Ray, obstacle: &Obstacle) -> Option<f32> {
     let (at, ball) = (Pose::from_translation(ray.origin), Ball::new(ray.radius));
     let shape = obstacle.shape.0.as_ref();
     let hit = cast_shapes(&at, ray.direction, &ball, &obstacle.pose, Vec2::ZERO, shape, options);
-    hit.ok().flatten().map(|hit| hit.time_of_impact)
+    hit.ok().flatten().map(|hit| refined(ray, obstacle, hit.time_of_impact))
+}
+
+/// A distance at which a disc nearly touches an obstacle, corrected along the surface's normal (Newton's method): that of a
+/// large shape is off by a hundredth of a unit.
+fn refined(ray: &Ray, obstacle: &Obstacle, mut distance: f32) -> f32 {
+    for _ in 0..4 {
+        let centre = ray.point_at(distance);
+        let (surface, is_inside) = obstacle.nearest(centre);
+        let gap = (centre - surface).length();
+        let approach = -(centre - surface).dot(ray.direction);
+        if is_inside || approach <= 0.01 * gap {
+            break;
+        }
+        distance = (distance + (gap - ray.radius) * gap / approach).clamp(0.0, ray.length);
+    }
+    distance
 }
