@@ -12,13 +12,15 @@ use crate::solver::force::{self, Force, Forces};
 pub(crate) fn actuate(organisms: &Organisms, inputs: &Inputs, particles: &mut Particles, forces: &mut Forces, dt: f32) {
     for (id, node, actuation) in inputs.actuations() {
         let Some(organism) = organisms.get(id).filter(|organism| !organism.is_quarantined) else { continue };
-        let on = node
-            .map_or_else(|| organism.particles().collect(), |node| organism.particle_of(node).into_iter().collect());
+        let on: Vec<u32> = match node {
+            None => organism.particles().collect(),
+            Some(node) => organism.particle_of(node).into_iter().collect(),
+        };
         act(actuation, &on, particles, forces, dt);
     }
 }
 
-fn act(actuation: Actuation, on: &Vec<u32>, particles: &mut Particles, forces: &mut Forces, dt: f32) {
+fn act(actuation: Actuation, on: &[u32], particles: &mut Particles, forces: &mut Forces, dt: f32) {
     let Some(body) = MassProperties::of(particles, on) else { return };
     force::push(particles, on, actuation.impulse);
     let velocity = actuation.target.map(|target| (target - body.position(particles)) / dt);

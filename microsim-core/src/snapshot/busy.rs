@@ -93,7 +93,11 @@ fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
     ];
     let ends = [JointEnd::Centre(other), JointEnd::Point(Vec2::splat(50.0))];
     let node = JointEnd::Node { organism: one, node: 0 };
-    let spec = |(k, kind)| JointSpec::new(node, ends[k % 2], kind);
+    // Each kind of end on either side.
+    let spec = |(k, kind): (usize, JointKind)| {
+        let (a, b) = if k < 4 { (node, ends[k % 2]) } else { (ends[k % 2], node) };
+        JointSpec::new(a, b, kind)
+    };
     let joints: Vec<_> = kinds.into_iter().enumerate().map(|it| world.add_joint(spec(it)).unwrap()).collect();
     let gone = world.add_joint(spec((0, JointKind::Weld))).unwrap();
     world.remove_joint(gone).unwrap();
@@ -176,7 +180,7 @@ fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
 
 /// One of each kind.
 fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId, joint: JointId) -> Vec<Event> {
-    let between = [Some(a), None];
+    let between = [Some(a), Some(b)];
     let reason = Refusal::FurrowOpen;
     let contact = contact(a, Collider::Organism(b));
     vec![

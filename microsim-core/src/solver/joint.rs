@@ -92,7 +92,8 @@ impl Joint {
         let across = [0, 1].map(|k| f64::from(b.origin[k] - a.origin[k]) + f64::from(b.offset[k] - a.offset[k]));
         let length = length_of(across);
         let weight = a.inv_mass + b.inv_mass;
-        if length <= 0.0 || weight <= 0.0 {
+        // What is no longer finite harms nobody else.
+        if !(length > 0.0 && length < f64::INFINITY && weight > 0.0) {
             return;
         }
         let normal = Vec2::from(across.map(|way| (way / length) as f32));

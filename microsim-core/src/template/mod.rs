@@ -334,14 +334,18 @@ fn check_muscles(muscles: &[Muscle], constraints: usize, channels: usize) -> Res
 }
 
 /// Constraints by kind, in the order of projection, those of one kind in their order; and the muscles among them.
-fn in_order(constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constraint>, Vec<Muscle>) {
+fn in_order(mut constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constraint>, Vec<Muscle>) {
+    if muscles.is_empty() {
+        constraints.sort_by_key(Constraint::order);
+        return (constraints, Vec::new());
+    }
     let mut numbered: Vec<(u32, Constraint)> = (0..).zip(constraints).collect();
     numbered.sort_by_key(|(_, constraint)| constraint.order());
-    let channel = |before: u32| muscles.iter().find(|muscle| muscle.constraint == before).map(|muscle| muscle.channel);
-    let found = (0..)
-        .zip(&numbered)
-        .filter_map(|(constraint, &(before, _))| channel(before).map(|channel| Muscle { constraint, channel }));
-    let muscles = found.collect();
+    let muscle = |(constraint, &(before, _)): (u32, &(u32, Constraint))| {
+        let k = muscles.binary_search_by_key(&before, |muscle| muscle.constraint).ok()?;
+        Some(Muscle { constraint, channel: muscles[k].channel })
+    };
+    let muscles = (0..).zip(&numbered).filter_map(muscle).collect();
     (numbered.into_iter().map(|(_, constraint)| constraint).collect(), muscles)
 }
 

@@ -206,7 +206,8 @@ impl World {
             let origin = at.round();
             return Some(End::Point { origin, offset: at - origin });
         }
-        let (first, particles) = (list.len(), self.end_particles(record, k)?);
+        let particles = self.end_particles(record, k).filter(|particles| !particles.is_empty())?;
+        let first = list.len();
         let organism = self.organisms.get(record.end(k).organism()?)?;
         let is_asleep = organism.body.lane(&self.blocks).is_some_and(|(block, _)| self.sleep.is_asleep(block));
         let is_static = is_asleep || !self.can_move(&particles);

@@ -37,16 +37,12 @@ impl World {
         channels.map(of_channel).collect()
     }
 
-    /// Scale of the lengths of each constraint of an organism, in their order.
-    pub(in crate::world) fn scales_of(&self, organism: &Organism) -> Vec<f32> {
-        let mut scales = vec![self.scale_of(organism); self.constraints_of(organism).len()];
-        if let Storage::Lane { block, first } = organism.body {
-            let block = &self.blocks[block as usize];
-            for muscle in self.templates[block.template as usize].muscles() {
-                scales[muscle.constraint as usize] *=
-                    block.contraction[muscle.channel as usize][(first - block.base) as usize];
-            }
-        }
-        scales
+    /// Factor on the lengths of a constraint of an organism: 1, but for muscles.
+    pub(in crate::world) fn contraction_of(&self, organism: &Organism, constraint: u32) -> f32 {
+        let Storage::Lane { block, first } = organism.body else { return 1.0 };
+        let block = &self.blocks[block as usize];
+        let muscles = self.templates[block.template as usize].muscles();
+        let found = muscles.binary_search_by_key(&constraint, |muscle| muscle.constraint);
+        found.map_or(1.0, |k| block.contraction[muscles[k].channel as usize][(first - block.base) as usize])
     }
 }

@@ -142,13 +142,14 @@ impl World {
 
     /// Relative error of each rigid link between neighbours of a templated outline, positive when stretched.
     fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
-        let scales = self.scales_of(organism);
+        let scale = self.scale_of(organism);
         let is_outline = |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
-        self.constraints_of(organism).iter().zip(scales).filter_map(move |(constraint, scale)| {
+        self.constraints_of(organism).iter().zip(0..).filter_map(move |(constraint, k)| {
             let Constraint::Distance(c) = constraint else { return None };
             let (a, b) = (organism.body.particle(c.a) as usize, organism.body.particle(c.b) as usize);
             let is_ring_link = is_outline(c.a) && is_outline(c.b) && c.rest_length > 0.0;
-            is_ring_link.then(|| self.particles.between(a, b).length() / (c.rest_length * scale) - 1.0)
+            let rest_length = || c.rest_length * scale * self.contraction_of(organism, k);
+            is_ring_link.then(|| self.particles.between(a, b).length() / rest_length() - 1.0)
         })
     }
 

@@ -50,6 +50,7 @@ fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colo
 fn stroke(bond: Bond<'_>) -> (f32, Color) {
     match bond {
         Bond::Membrane => (1.6, HALO),
+        Bond::Joint(_) => (1.6, READY),
         Bond::Constraint(Constraint::Anchor(_)) => (2.0, WAIT),
         Bond::Constraint(Constraint::Rope(_)) => (0.6, fade(WAIT, 0.6)),
         Bond::Constraint(Constraint::MinDistance(_) | Constraint::Area(_)) => (0.6, fade(HALO, 0.3)),
@@ -95,7 +96,7 @@ fn draw_legend(pen: &mut Pen) {
     let entries = [
         "circle: particle",
         "thin: distance, rope",
-        "bold: anchor, membrane",
+        "bold: anchor, membrane, joint",
         "square: front  bar: rear",
         "dot: left  ring: right",
         "tint: chemical",
