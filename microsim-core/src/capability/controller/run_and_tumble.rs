@@ -96,17 +96,17 @@ impl RunAndTumble {
         }
         if self.tumble_left > 0.0 {
             self.tumble_left -= dt;
-            if self.tumble_left > 0.5 * dt {
+            if self.tumble_left > 0.0 {
                 return Some(senses.with_velocity(Vec2::ZERO));
             }
             self.begin_run(rng);
         }
         let part = dt / (self.params.run * stretch);
         self.run_left -= part;
-        // Rounded to steps, so that runs are neither longer nor shorter on average.
+        // Rounded to steps, runs and tumbles are neither longer nor shorter on average.
         if self.run_left <= 0.5 * part {
-            self.tumble_left = self.params.tumble * rng.exponential();
-            if self.tumble_left < 0.5 * dt {
+            self.tumble_left = self.params.tumble * rng.exponential() + 0.5 * dt;
+            if self.tumble_left < dt {
                 self.begin_run(rng);
             }
         }
