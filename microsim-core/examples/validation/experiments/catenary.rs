@@ -8,7 +8,7 @@ use microsim_core::{Error, Node, Placement, Template, World, WorldConfig};
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "catenary",
     title: "Catenary",
-    source: "Jakob Bernoulli, Huygens, Leibniz 1691, Acta Eruditorum: `y = a cosh(x / a)`",
+    source: "Leibniz, Huygens and Johann Bernoulli 1691, Acta Eruditorum: `y = a cosh(x / a)`",
     words: "A chain of 40 rigid links hangs between two points at 0.6 of its length, and comes to rest by drag. A rigid link \
             gives way by `h²` times its load: shorter substeps are stiffer.",
     run: measure,

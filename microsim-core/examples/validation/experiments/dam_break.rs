@@ -10,7 +10,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "dam_break",
     title: "Dam break",
     source: "Martin and Moyce 1952, Phil. Trans. R. Soc. A 244, 312, columns twice as high as wide; numbers of the wider one as \
-             tabulated in the literature, of the narrower one our reading of figure 3",
+             they are tabulated in later work, of the narrower one readings of figure 3",
     words: "A column of 20 x 40 spacings without viscosity, default step. Times are `T = t sqrt(2 g / a)` for the front and \
             `t sqrt(g / a)` for the height at the wall, lengths in widths `a` and heights `2 a`. The front is where 99.5 % of \
             the particles are behind.",

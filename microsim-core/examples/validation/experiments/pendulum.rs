@@ -41,8 +41,8 @@ pub(crate) fn swing(stepping: Stepping, amplitude: f64, seconds: f32) -> Result<
     Ok(angles)
 }
 
-/// First full period of a swing, s.
-fn period(angles: &[[f64; 2]]) -> f64 {
+/// First full period of an oscillation, s.
+pub(crate) fn period(angles: &[[f64; 2]]) -> f64 {
     let crossings: Vec<f64> = angles
         .windows(2)
         .filter(|pair| pair[0][1] < 0.0 && pair[1][1] >= 0.0)

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "point_source",
     title: "Point source of a chemical",
-    source: "Carslaw and Jaeger 1959, Conduction of Heat in Solids, 10.4 with decay: `K0(r / sqrt(D / k)) q / (2 pi D)`",
+    source: "Carslaw and Jaeger 1959, Conduction of Heat in Solids, chapter 10; with decay, in the plane: `K0(r / sqrt(D / k)) q / (2 pi D)`",
     words: "A disc in the middle of a room of ten ranges secretes for ten lifetimes. Cells of the grid are 2 units wide.",
     run: measure,
 };

@@ -1,9 +1,9 @@
 //! A spring of 1 Hz.
 
 use super::scene::{Stepping, last_particle, run_observed};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Outcome, Row, pendulum};
 use microsim_core::glam::Vec2;
-use microsim_core::{Error, Node, Placement, Template, World};
+use microsim_core::{Distance, Error, Node, Placement, Template, World};
 use std::f64::consts::TAU;
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
@@ -20,23 +20,29 @@ pub(crate) const FREQUENCY: f64 = TAU;
 const LENGTH: f32 = 5.0;
 const STRETCH: f32 = 0.5;
 
-/// Share of the amplitude in the last of so many periods.
-pub(crate) fn amplitude_kept(stepping: Stepping, periods: f32) -> Result<f64, Error> {
+/// Time and stretch of the spring after each step, for so many periods.
+fn oscillation(stepping: Stepping, periods: f32) -> Result<Vec<[f64; 2]>, Error> {
     let mut world = World::new(stepping.room(Vec2::splat(20.0), 0.0))?;
     let mut builder = Template::builder();
     let fixed = builder.node(Node::fixed(Vec2::ZERO));
     let mass = builder.node(Node::disc(Vec2::new(LENGTH + STRETCH, 0.0), 1.0, 0.5));
     let compliance = (1.0 / (FREQUENCY * FREQUENCY)) as f32;
-    builder.constraint(microsim_core::Distance { a: fixed, b: mass, rest_length: LENGTH, compliance, damping: 0.0 });
+    builder.constraint(Distance { a: fixed, b: mass, rest_length: LENGTH, compliance, damping: 0.0 });
     let template = world.add_template(builder.build()?);
     let spring = world.spawn_template(template, Placement::at(10.0, 10.0))?;
-    let mut farthest: f32 = 0.0;
+    let mut stretches = Vec::new();
     run_observed(&mut world, periods, |world| {
-        if world.time() > f64::from(periods) - 1.0 {
-            farthest = farthest.max(last_particle(world, spring).position.x - 10.0 - LENGTH);
-        }
+        let stretch = last_particle(world, spring).position.x - 10.0 - LENGTH;
+        stretches.push([world.time(), f64::from(stretch)]);
     });
-    Ok(f64::from(farthest / STRETCH))
+    Ok(stretches)
+}
+
+/// Share of the amplitude in the last of so many periods.
+pub(crate) fn amplitude_kept(stepping: Stepping, periods: f32) -> Result<f64, Error> {
+    let stretches = oscillation(stepping, periods)?;
+    let last = stretches.iter().filter(|[t, _]| *t > f64::from(periods) - 1.0);
+    Ok(last.fold(0.0, |most: f64, [_, stretch]| most.max(*stretch)) / f64::from(STRETCH))
 }
 
 /// What implicit Euler keeps of an amplitude until the last period's turn, which it is read from.
@@ -49,6 +55,8 @@ fn measure() -> Result<Outcome, Error> {
     for substeps in [8, 16, 64] {
         let stepping = Stepping::of_substeps(substeps);
         let what = format!("share of the amplitude kept, {substeps} substeps");
+        let period = pendulum::period(&oscillation(stepping, 3.0)?);
+        rows.push(Row::near(format!("period, {substeps} substeps, s"), 1.0, 0.005, period));
         rows.push(Row::near(what, law(stepping, 10.0), 0.02, amplitude_kept(stepping, 10.0)?));
     }
     Ok(Outcome { rows, ..Outcome::default() })
