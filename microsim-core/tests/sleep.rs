@@ -50,16 +50,19 @@ fn nothing_sleeps_where_nothing_may() {
     assert!(!platelets.iter().any(|&id| are_at_rest(&world, &[id])));
 }
 
-/// How far platelets are from where they would be without sleep, after a probe has passed through them.
+/// How far platelets are from where they would be without sleep when a probe has got into them, and checks that it passes
+/// without an overlap. After that the two runs part: in a crowd, small differences grow.
 fn apart_after_a_probe(from: Vec2, to: Vec2, rest: u32) -> f32 {
     let swept = |sleeps: bool| {
         let (mut world, platelets) = field(WorldConfig { sleeps, ..WorldConfig::default() });
         run(&mut world, &Inputs::new(), rest);
         assert_eq!(are_at_rest(&world, &platelets), sleeps && rest > 100);
         probe(&mut world, from, to);
-        run(&mut world, &Inputs::new(), 600);
+        run(&mut world, &Inputs::new(), 240);
+        let places = platelets.iter().map(|&id| world.centroid(id).unwrap()).collect::<Vec<_>>();
+        run(&mut world, &Inputs::new(), 360);
         assert!(world.quality().penetration_max < 0.5, "{:?}", world.quality());
-        platelets.iter().map(|&id| world.centroid(id).unwrap()).collect::<Vec<_>>()
+        places
     };
     let apart = swept(true).into_iter().zip(swept(false)).map(|(a, b)| (a - b).length());
     apart.fold(0.0, f32::max)
@@ -71,8 +74,7 @@ proptest! {
     #[test]
     fn sleepers_wake_before_anything_reaches_them(y in 36.0f32..60.0, to in 36.0f32..60.0, rest in 200u32..260) {
         let apart = apart_after_a_probe(Vec2::new(40.0, y), Vec2::new(90.0, to), rest);
-        // Without any sleep, runs differ by up to 0.8 when the probe comes a few steps later.
-        prop_assert!(apart < 1.5, "a platelet is {apart} away from where it would be");
+        prop_assert!(apart < 0.5, "a platelet is {apart} away from where it would be");
     }
 }
 

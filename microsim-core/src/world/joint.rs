@@ -4,6 +4,7 @@
 use super::World;
 use crate::error::Error;
 use crate::event::Event;
+use crate::float_environment::with_default_float_environment;
 use crate::id::{JointId, OrganismId};
 use crate::joint::{JointEnd, JointKind, JointSpec};
 use crate::organism::Organism;
@@ -61,7 +62,7 @@ impl World {
     /// Names the number that is out of its range, the handle that is stale, the node that does not exist, or the end that cannot
     /// be joined. Nothing is changed then.
     pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
-        let record = self.joint_record(spec)?;
+        let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&spec);
         Ok(JointId::of(self.joints.insert(record)))
     }
@@ -72,7 +73,7 @@ impl World {
     /// As for [`World::add_joint`], and when the handle is stale.
     pub fn set_joint(&mut self, id: JointId, spec: JointSpec) -> Result<(), Error> {
         let before = self.joints.get(id.handle()).map(|record| record.spec).ok_or_else(|| Error::stale("joint"))?;
-        let record = self.joint_record(spec)?;
+        let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&before);
         self.wake_up_joined(&spec);
         if let Some(joint) = self.joints.get_mut(id.handle()) {

@@ -3,6 +3,7 @@
 use super::{World, obstacle};
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Storage};
 use crate::particle::CollisionGroups;
@@ -45,6 +46,11 @@ impl World {
     /// When it is not finite or out of its range.
     pub fn set_max_speed(&mut self, max_speed: f32) -> Result<(), Error> {
         self.change_config(|config| config.max_speed = max_speed)?;
+        with_default_float_environment(|| self.enforce_speed_limit());
+        Ok(())
+    }
+
+    fn enforce_speed_limit(&mut self) {
         // Walls are as thick as the limit asks for.
         for (wall, thick) in self.obstacles.iter_mut().zip(obstacle::walls(&self.config)) {
             *wall = thick;
@@ -54,7 +60,6 @@ impl World {
             let Vec2 { x, y } = self.particles.velocity(i).clamp_length_max(limit);
             (self.particles.vx[i], self.particles.vy[i]) = (x, y);
         }
-        Ok(())
     }
 
     fn change_config(&mut self, change: impl FnOnce(&mut WorldConfig)) -> Result<(), Error> {
