@@ -1,4 +1,4 @@
-//! Bacillus: a rod-shaped bacterium, such as *Escherichia coli*: three discs in a line, of which the first pulls the others.
+//! Bacillus: a rod-shaped bacterium, such as *Escherichia coli*: three discs in a line that are moved as a whole, the first ahead.
 //!
 //! ```text
 //!     (o)(o)(o)->      1.5 radii apart, rigidly linked
