@@ -1,6 +1,6 @@
 //! Obstacles that live: moved, replaced, disabled and removed; one-way platforms; sensors.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
-#[path = "common/mod.rs"]
 mod common;
 
 use common::run;
@@ -278,7 +278,7 @@ fn busy() -> (World, [ObstacleId; 3]) {
 fn tick(world: &mut World, [lift, press, _]: [ObstacleId; 3], step: u32) {
     let angle = 0.4 * (step as f32 / 40.0).sin();
     world.move_obstacle(lift, Pose::new(Vec2::new(40.0, 10.0 + step as f32 * 0.05), angle)).unwrap();
-    if step % 50 == 0 {
+    if step.is_multiple_of(50) {
         world.move_obstacle(press, Pose::translation(100.0, 2.0)).unwrap();
     }
     world.step(&Inputs::new());

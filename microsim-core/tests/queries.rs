@@ -1,6 +1,6 @@
 //! Queries against brute force: before the first step, after spawning, motion and removal.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
-#[path = "common/mod.rs"]
 mod common;
 
 use common::run;

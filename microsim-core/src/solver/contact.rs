@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default())
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default());
         });
     }
 

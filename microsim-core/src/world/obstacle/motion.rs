@@ -21,6 +21,21 @@ impl World {
     /// `max_speed * dt / substeps`; an obstacle that is moved should be thicker than twice that less the diameter of the
     /// smallest disc, 0.17 units less the diameter with the default settings.
     ///
+    /// ```
+    /// use microsim_core::prelude::*;
+    ///
+    /// let mut world = World::new(WorldConfig { gravity: Vec2::new(0.0, -10.0), ..WorldConfig::default() })?;
+    /// let bar = Obstacle::new(SharedShape::cuboid(10.0, 1.0), Pose::translation(40.0, 10.0));
+    /// let lift = world.add_obstacle(Obstacle { motion: ObstacleMotion::Push, ..bar })?;
+    /// let rider = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 12.0))?;
+    /// for step in 0..120 {
+    ///     world.move_obstacle(lift, Pose::translation(40.0, 10.0 + 0.05 * step as f32))?;
+    ///     world.step(&Inputs::new());
+    /// }
+    /// assert!((world.centroid(rider).unwrap().y - 18.0).abs() < 0.2);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// When the handle is stale, the obstacle is fixed or disabled, the target is not finite, or more than a quarter turn away.
     pub fn move_obstacle(&mut self, id: ObstacleId, target: Pose) -> Result<(), Error> {

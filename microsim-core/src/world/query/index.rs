@@ -150,7 +150,7 @@ mod tests {
     fn discs(rng: &mut Rng) -> Vec<Disc> {
         let disc = |index: u32| {
             let at = Vec2::new(rng.range(-3.0, 83.0), rng.range(-3.0, 43.0));
-            let radius = if index % 40 == 0 { rng.range(3.0, 8.0) } else { rng.range(0.0, 0.8) };
+            let radius = if index.is_multiple_of(40) { rng.range(3.0, 8.0) } else { rng.range(0.0, 0.8) };
             Disc { at, radius, index }
         };
         (0..400).map(disc).collect()

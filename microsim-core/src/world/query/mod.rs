@@ -77,18 +77,17 @@ impl World {
     #[must_use]
     pub fn queries(&self) -> Queries<'_> {
         let p = &self.particles;
-        let (mut discs, mut outlined) = (Vec::with_capacity(p.live_count()), Vec::new());
-        for (id, organism) in self.organisms.iter() {
-            let mut bounds = Aabb::new_invalid();
-            for index in organism.particles() {
-                let (i, at) = (index as usize, p.position(index as usize));
-                bounds.take_point(at);
-                if p.groups[i].memberships != 0 && at.is_finite() {
-                    discs.push(Disc { at, radius: p.radius[i], index });
-                }
+        let mut discs = Vec::with_capacity(p.live_count());
+        let mut bounds = vec![Aabb::new_invalid(); self.organisms.slot_count() as usize];
+        for i in p.live() {
+            let at = p.position(i);
+            bounds[p.owner[i] as usize].take_point(at);
+            if p.groups[i].memberships != 0 && at.is_finite() {
+                discs.push(Disc { at, radius: p.radius[i], index: i as u32 });
             }
-            outlined.extend((!organism.outline.is_empty()).then_some((id, bounds)));
         }
+        let outlined = self.organisms.iter().filter(|(_, organism)| !organism.outline.is_empty());
+        let outlined = outlined.map(|(id, _)| (id, bounds[id.index as usize])).collect();
         let obstacles = (0..).zip(self.obstacles.iter()).filter(|(_, obstacle)| obstacle.is_enabled);
         let known = |(k, obstacle): (u32, _)| Some((self.collider_at(k)?, obstacle));
         let obstacles = obstacles.filter_map(known).map(|(collider, obstacle)| (collider, obstacle, obstacle.aabb()));
