@@ -90,7 +90,7 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
             format!("block {k} lies at {first}, where {} slots of template {} do not", block.slots, block.template)
         })?;
         let channels = template.map_or(0, |template| template.channels().len());
-        none.must(channels == block.contraction.len(), || format!("block {k} lacks the channels of its template"))?;
+        none.must(channels == block.contraction.len(), || format!("block {k} has not the channels of its template"))?;
         for (lane, (&owner, &scale)) in block.owner.iter().zip(&block.scale).enumerate() {
             none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
             for contraction in &block.contraction {

@@ -1,9 +1,10 @@
 //! Each kind of damage is found, and named.
 
 use crate::particle::sleep::Sleep;
+use crate::world::joint::JointRecord;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Exchange, FluidBlockSpec, Inputs, Placement,
-    PlateletSpec, World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Exchange, FieldKind, FluidBlockSpec, ForceField,
+    Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Region, World, WorldConfig, glam::Vec2,
 };
 
 /// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
@@ -93,6 +94,36 @@ fn damage_to_organisms_is_found() {
     finds(|w| w.particles.next_in_ring[0] = 5, "linked to another");
     finds(|w| w.exemptions.set(0, 9, true), "0 and 9 are exempt");
     finds(|w| w.exemptions.open_gate(&[1], 2), "gates open for");
+}
+
+#[test]
+fn damage_to_joints_fields_and_muscles_is_found() {
+    let joint = |w: &mut World, change: &dyn Fn(&mut JointRecord)| {
+        let organism = w.organisms().next().unwrap();
+        let ends = [JointEnd::Node { organism, node: 0 }, JointEnd::Point(Vec2::ZERO)];
+        let id = w.add_joint(JointSpec::new(ends[0], ends[1], JointKind::Weld)).unwrap();
+        change(w.joints.get_mut(id.handle()).unwrap());
+    };
+    finds(|w| joint(w, &|joint| joint.length = f32::NAN), "length of joint 0 is NaN");
+    finds(|w| joint(w, &|joint| joint.particles[0] = Some(1 << 20)), "joint 0 holds a particle");
+    finds(|w| joint(w, &|joint| joint.particles[0] = None), "joint 0 holds a particle");
+    finds(|w| joint(w, &|joint| joint.spec.break_force = -1.0), "joints[0]: `break_force`");
+    let wind = |acceleration| ForceField { region: Region::All, kind: FieldKind::Uniform { acceleration } };
+    finds(
+        |w| {
+            let id = w.add_field(wind(Vec2::ZERO)).unwrap();
+            *w.fields.get_mut(id.handle()).unwrap() = wind(Vec2::NAN);
+        },
+        "fields[0]: `kind.acceleration.x`",
+    );
+    finds(|w| w.blocks[0].contraction.push([1.0; 8]), "has not the channels of its template");
+    finds(
+        |w| {
+            let id = w.organisms().next().unwrap();
+            w.organisms.get_mut(id).unwrap().gravity_scale = f32::NAN;
+        },
+        "gravity scale is NaN",
+    );
 }
 
 #[test]
