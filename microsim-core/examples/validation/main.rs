@@ -15,11 +15,18 @@ use experiments::{ALL, refinement};
 use std::error::Error;
 use std::path::Path;
 
+/// Name of the table that compares steps.
+const REFINEMENT: &str = "refinement";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let [folder, names @ ..] = args.as_slice() else {
         return Err("usage: validation FOLDER [NAME ...]".into());
     };
+    let is_known = |name: &String| name == REFINEMENT || ALL.iter().any(|experiment| experiment.name == name);
+    if let Some(unknown) = names.iter().find(|name| !is_known(name)) {
+        return Err(format!("no experiment `{unknown}`").into());
+    }
     std::fs::create_dir_all(folder)?;
     let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
     let mut sections = Vec::new();
@@ -34,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{}\n{}", page::INTRODUCTION, page::summary(&sections));
     }
     sections.iter().for_each(|(experiment, outcome)| println!("{}", page::section(experiment, outcome)));
-    if is_asked("refinement") {
+    if is_asked(REFINEMENT) {
         println!("{}{}", page::REFINEMENT, refinement::table(2).join("\n"));
     }
     Ok(())

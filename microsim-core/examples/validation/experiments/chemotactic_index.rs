@@ -14,7 +14,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     title: "Chemotactic index against K",
     source: "Zigmond 1977, J. Cell Biol. 75, 606: neutrophils orient best where the concentration is about the dissociation \
              constant K, and less well at both ends",
-    words: "A cell in a gradient of about 5 % over its length; the index is the way up the gradient over the length of the \
+    words: "A cell in a gradient of about 3 % over its length, at a step of 1/30 s; the index is the way up the gradient over the length of the \
             path, a mean of six seeds of 20 s. The published curve has its peak near K; the bounds are ours.",
     run: measure,
 };
@@ -66,11 +66,9 @@ fn measure() -> Result<Outcome, Error> {
     ];
     let decades = points.iter().map(|[c, index]| [c.log10(), *index]).collect();
     let axes = ["log10 of concentration over K", "chemotactic index"];
-    let cause = "The noise of a reading is a given share of the mean occupancy, however few receptors that is, so a cell finds its \
-                 way far below K.";
     Ok(Outcome {
         rows,
-        cause,
         plot: Some(Plot { axes, is_logarithmic: false, curves: vec![Curve::line("ours", decades)] }),
+        ..Outcome::default()
     })
 }
