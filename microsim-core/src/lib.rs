@@ -115,6 +115,7 @@ pub mod prelude {
 pub mod simulation {
     pub use crate::config::WorldConfig;
     pub use crate::error::{Error, ErrorKind};
+    pub use crate::float_environment::with_default_float_environment;
     pub use crate::inputs::{Inputs, Intent};
     pub use crate::rng::Rng;
     pub use crate::solver::instruction_set::InstructionSet;
