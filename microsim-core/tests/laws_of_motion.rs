@@ -72,6 +72,9 @@ fn probe(speed: f32) -> OrganismSpec {
     ProbeSpec { speed, ..ProbeSpec::default() }.into()
 }
 
+/// A world, two parameters of a model and a kind of given speed.
+type Case<'a> = (&'a WorldConfig, f32, f32, fn(f32) -> OrganismSpec);
+
 fn assert_near(measured: f64, law: f64, what: &str) {
     let error = measured / law - 1.0;
     println!("{what}: {measured:.4}, law {law:.4}, {:+.1} %", 100.0 * error);
@@ -87,7 +90,7 @@ fn fuerth(persistence: f32, speed: f32, time: f32) -> f64 {
 #[test]
 fn bodies_on_a_persistent_walk_spread_as_fuerth_says() {
     let [usual, slow, fast, viscous] = worlds();
-    let cases: [(&WorldConfig, f32, f32, fn(f32) -> OrganismSpec); 8] = [
+    let cases: [Case<'_>; 8] = [
         (&usual, 2.0, 3.0, bacillus),
         (&usual, 0.3, 10.0, bacillus),
         (&usual, 5.0, 1.0, coccus),
@@ -112,7 +115,7 @@ fn bodies_on_a_persistent_walk_spread_as_fuerth_says() {
 #[test]
 fn bodies_that_are_kicked_diffuse_as_einstein_says() {
     let [usual, slow, fast, viscous] = worlds();
-    let cases: [(&WorldConfig, f32, f32, fn(f32) -> OrganismSpec); 7] = [
+    let cases: [Case<'_>; 7] = [
         (&usual, 0.46, 0.1, coccus),
         (&usual, 0.1, 0.05, bacillus),
         (&usual, 10.0, 0.5, coccus),
