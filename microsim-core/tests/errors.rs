@@ -5,10 +5,11 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec, ContactReporting,
-    Controller, Distance, Error, ErrorKind, Exchange, FleeParams, FluidBlockSpec, FluidParams, Intent, MinDistance,
-    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec,
-    RedCellSpec, RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
+    Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec,
+    CollisionGroups, ContactReporting, Controller, Distance, Error, ErrorKind, Exchange, FieldId, FieldKind,
+    FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec,
+    MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec,
+    ProbeSpec, RedCellSpec, Region, RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -53,6 +54,30 @@ impl Room {
         self.world.spawn_template(id, Placement::at(20.0, 20.0)).unwrap_err()
     }
 
+    /// What is wrong with inputs.
+    fn refuse(&self, tell: fn(&mut Inputs, &Self)) -> Error {
+        let mut inputs = Inputs::new();
+        tell(&mut inputs, self);
+        self.world.check_inputs(&inputs).unwrap_err()
+    }
+
+    /// A joint of the agar with the corner.
+    fn joint(&self, kind: JointKind) -> JointSpec {
+        JointSpec::new(JointEnd::Centre(self.agar), JointEnd::Point(Vec2::ZERO), kind)
+    }
+
+    fn stale_joint(&mut self) -> JointId {
+        let joint = self.world.add_joint(self.joint(JointKind::Weld)).unwrap();
+        self.world.remove_joint(joint).unwrap();
+        joint
+    }
+
+    fn stale_field(&mut self) -> FieldId {
+        let field = self.world.add_field(circle(1.0)).unwrap();
+        self.world.remove_field(field).unwrap();
+        field
+    }
+
     fn chemical(&mut self) -> ChemicalId {
         self.world.add_chemical(ChemicalSpec::default()).unwrap()
     }
@@ -74,6 +99,11 @@ impl Room {
         let id = single(&mut self.world);
         self.world.spawn_template(id, placement).unwrap_err()
     }
+}
+
+fn circle(radius: f32) -> ForceField {
+    let (region, acceleration) = (Region::Circle { centre: Vec2::ONE, radius }, Vec2::X);
+    ForceField { region, kind: FieldKind::Uniform { acceleration } }
 }
 
 /// A template of one disc.
@@ -207,6 +237,36 @@ const CASES: &[Case] = &[
     ("World::push", "OutOfRange", "velocity.y", |r| r.world.push(r.cell, Vec2::new(0.0, f32::NAN)).unwrap_err()),
     ("World::add_obstacle", "OutOfRange", "pose.translation.x", |r| r.world.add_obstacle(obstacle(SharedShape::ball(1.0), f32::NAN)).unwrap_err()),
     ("World::add_obstacle", "Unsupported", "shape", |r| r.world.add_obstacle(obstacle(SharedShape::ball(f32::NAN), 9.0)).unwrap_err()),
+    ("Actuation::validate", "OutOfRange", "torque", |_| Actuation::torque(f32::NAN).validate().unwrap_err()),
+    ("Inputs::actuate", "OutOfRange", "force.x", |r| Inputs::new().actuate(r.cell, Actuation::force(Vec2::NAN)).unwrap_err()),
+    ("Inputs::actuate_node", "OutOfRange", "impulse.y", |r| Inputs::new().actuate_node(r.cell, 0, Actuation::impulse(Vec2::Y * 2e9)).unwrap_err()),
+    ("Inputs::actuate_node", "Unsupported", "torque", |r| Inputs::new().actuate_node(r.cell, 0, Actuation::torque(1.0)).unwrap_err()),
+    ("Inputs::activate", "OutOfRange", "activation", |r| Inputs::new().activate(r.cell, 0, -0.5).unwrap_err()),
+    ("World::check_inputs", "Stale", "intent.organism", |r| r.refuse(|inputs, r| inputs.set(r.stale, Intent::REST))),
+    ("World::check_inputs", "Unsupported", "intent.goal", |r| r.refuse(|inputs, r| inputs.set(r.agar, Intent::toward(Vec2::ZERO).unwrap()))),
+    ("World::check_inputs", "BadReference", "actuation.node", |r| r.refuse(|inputs, r| inputs.actuate_node(r.agar, 1, Actuation::force(Vec2::X)).unwrap())),
+    ("World::check_inputs", "BadReference", "activation.channel", |r| r.refuse(|inputs, r| inputs.activate(r.agar, 0, 1.0).unwrap())),
+    ("TemplateBuilder::build", "BadReference", "muscles", |_| build(|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }))),
+    ("TemplateBuilder::build", "OutOfRange", "channels[0].active", |_| build(|b| _ = b.channel([1.0, 0.0]))),
+    ("JointSpec::validate", "OutOfRange", "kind.max_force", |r| r.joint(JointKind::mouse(-1.0)).validate().unwrap_err()),
+    ("World::add_joint", "OutOfRange", "kind.length", |r| r.world.add_joint(r.joint(JointKind::Distance { length: f32::NAN })).unwrap_err()),
+    ("World::add_joint", "Stale", "a.organism", |r| r.world.add_joint(JointSpec { a: JointEnd::Centre(r.stale), ..r.joint(JointKind::Pin) }).unwrap_err()),
+    ("World::add_joint", "BadReference", "a.node", |r| r.world.add_joint(JointSpec { a: JointEnd::Node { organism: r.agar, node: 1 }, ..r.joint(JointKind::Pin) }).unwrap_err()),
+    ("World::add_joint", "Unsupported", "b", |r| r.world.add_joint(JointSpec { a: JointEnd::Point(Vec2::ONE), ..r.joint(JointKind::Pin) }).unwrap_err()),
+    ("World::set_joint", "Stale", "joint", |r| { let joint = r.stale_joint(); r.world.set_joint(joint, r.joint(JointKind::Pin)).unwrap_err() }),
+    ("World::remove_joint", "Stale", "joint", |r| { let joint = r.stale_joint(); r.world.remove_joint(joint).unwrap_err() }),
+    ("ForceField::validate", "OutOfRange", "region.radius", |_| circle(-1.0).validate().unwrap_err()),
+    ("World::add_field", "OutOfRange", "region.radius", |r| r.world.add_field(circle(f32::NAN)).unwrap_err()),
+    ("World::set_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.set_field(field, circle(1.0)).unwrap_err() }),
+    ("World::remove_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.remove_field(field).unwrap_err() }),
+    ("World::set_gravity", "OutOfRange", "gravity.y", |r| r.world.set_gravity(Vec2::new(0.0, 2000.0)).unwrap_err()),
+    ("World::set_damping", "OutOfRange", "damping", |r| r.world.set_damping(-1.0).unwrap_err()),
+    ("World::set_max_speed", "OutOfRange", "max_speed", |r| r.world.set_max_speed(0.0).unwrap_err()),
+    ("World::set_gravity_scale", "Stale", "organism", |r| r.world.set_gravity_scale(r.stale, 1.0).unwrap_err()),
+    ("World::set_gravity_scale", "OutOfRange", "scale", |r| r.world.set_gravity_scale(r.cell, f32::NAN).unwrap_err()),
+    ("World::set_user_data", "Stale", "organism", |r| r.world.set_user_data(r.stale, 1).unwrap_err()),
+    ("World::set_collision_groups", "Stale", "organism", |r| r.world.set_collision_groups(r.stale, CollisionGroups::ALL).unwrap_err()),
+    ("World::set_collision_groups", "Unsupported", "organism", |r| r.world.set_collision_groups(r.cell, CollisionGroups::ALL).unwrap_err()),
     ("World::add_obstacle", "Overlap", "pose", |r| r.world.add_obstacle(obstacle(SharedShape::ball(40.0), 40.0)).unwrap_err()),
     ("World::add_obstacle", "OutOfRange", "one_way", |r| r.world.add_obstacle(Obstacle { one_way: Some(Vec2::ZERO), ..ball(9.0) }).unwrap_err()),
     ("World::add_obstacle", "OutOfRange", "pose.rotation", |r| {

@@ -45,10 +45,10 @@ impl World {
     /// another cell, and with [`Event::JointBroken`] when its force is exceeded.
     ///
     /// ```
-    /// # use microsim_core::{CoccusSpec, Inputs, JointEnd, JointKind, JointSpec, Placement, World, WorldConfig, glam::Vec2};
+    /// # use microsim_core::{AgarSpec, Inputs, JointEnd, JointKind, JointSpec, Placement, World, WorldConfig, glam::Vec2};
     /// # let gravity = Vec2::new(0.0, -10.0);
     /// # let mut world = World::new(WorldConfig { gravity, ..WorldConfig::default() })?;
-    /// let bob = world.spawn(&CoccusSpec::default().into(), Placement::at(50.0, 40.0))?;
+    /// let bob = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 40.0))?;
     /// let nail = JointEnd::Point(Vec2::new(50.0, 60.0));
     /// let rope = JointKind::Rope { max_length: 21.0 };
     /// let joint = world.add_joint(JointSpec::new(nail, JointEnd::Centre(bob), rope))?;
