@@ -91,7 +91,7 @@ pub struct World {
     pub(crate) guard: Guard,
     pub(crate) obstacle_table: ObstacleTable,
     presences: Presences,
-    contact_reports: ContactReports,
+    pub(crate) contact_reports: ContactReports,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
