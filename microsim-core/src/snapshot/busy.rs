@@ -30,6 +30,11 @@ pub(super) fn world() -> World {
     world.fuse(taker, divider).unwrap();
     let joint = join(&mut world, toucher, divider);
     world.events = events(eater, divider, sensor, joint);
+    let partners = colliders(divider, sensor);
+    let reports = &mut world.contact_reports;
+    reports.points = partners.map(|partner| contact(eater, partner)).to_vec();
+    reports.surfaces = partners.map(|partner| (eater, partner)).to_vec();
+    reports.hits.clone_from(&reports.surfaces);
     world.move_obstacle(platform, Pose::translation(9.0, 4.0)).unwrap();
     let gone = cell(&mut world, 24.0, 55.0);
     world.remove(gone).unwrap();
@@ -57,9 +62,6 @@ fn steer(world: &mut World, chemical: ChemicalId) {
         Controller::flee(FleeParams::default(), Controller::Still),
         Controller::pursue(PursueParams::default(), Controller::Still),
     ];
-    // One that never stops at a wall.
-    let to_wall = Controller::patrol(vec![Vec2::new(170.0, 65.0)], true);
-    world.spawn(&CoccusSpec::default().into(), Placement::at(157.0, 65.0).steered_by(to_wall)).unwrap();
     let place = |k: usize| Placement::at(10.0 + 10.0 * k as f32, 70.0);
     let mut spawn = |(k, controller): (usize, Controller)| {
         world.spawn(&CoccusSpec::default().into(), place(k).steered_by(controller)).unwrap()
@@ -167,10 +169,16 @@ fn obstacles(world: &mut World) -> [ObstacleId; 2] {
     let platform = Obstacle { motion: ObstacleMotion::Push, one_way: Some(Vec2::Y), ..ball(4.0, 4.0) };
     let platform = world.add_obstacle(platform).unwrap();
     let still = world.add_obstacle(Obstacle { motion: ObstacleMotion::Stop, ..ball(4.0, 86.0) }).unwrap();
-    let gone = world.add_obstacle(ball(150.0, 4.0)).unwrap();
-    world.remove_obstacle(gone).unwrap();
+    // The place of one of them is used again.
+    let gone = [4.0, 9.0].map(|y| world.add_obstacle(ball(150.0, y)).unwrap());
+    gone.into_iter().for_each(|id| world.remove_obstacle(id).unwrap());
     world.set_obstacle_enabled(still, false).unwrap();
     [sensor, platform]
+}
+
+/// One of each kind.
+fn colliders(organism: OrganismId, obstacle: ObstacleId) -> [Collider; 3] {
+    [Collider::Organism(organism), Collider::Obstacle(obstacle), Collider::Wall(Wall::Top)]
 }
 
 fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
@@ -182,8 +190,15 @@ fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
 fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId, joint: JointId) -> Vec<Event> {
     let between = [Some(a), Some(b)];
     let reason = Refusal::FurrowOpen;
-    let contact = contact(a, Collider::Organism(b));
-    vec![
+    let of_contacts = colliders(b, obstacle).into_iter().flat_map(|collider| {
+        let (began, ended) = (Event::TouchBegan { organism: a, collider }, Event::TouchEnded { organism: a, collider });
+        [began, ended, Event::Hit { contact: contact(a, collider) }]
+    });
+    let of_sensors = [None, Some(1)].into_iter().flat_map(|particle| {
+        let entered = Event::SensorEntered { sensor: obstacle, organism: a, particle };
+        [entered, Event::SensorLeft { sensor: obstacle, organism: a, particle }]
+    });
+    let others = [
         Event::ContactBegan { a, b },
         Event::ContactEnded { a, b },
         Event::FrontSwitched { organism: a },
@@ -201,10 +216,6 @@ fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId, joint: JointId) ->
         Event::JointEnded { joint, between },
         Event::Quarantined { organism: a },
         Event::ObstacleBlocked { obstacle },
-        Event::SensorEntered { sensor: obstacle, organism: a, particle: Some(1) },
-        Event::SensorLeft { sensor: obstacle, organism: a, particle: None },
-        Event::TouchBegan { organism: a, collider: Collider::Obstacle(obstacle) },
-        Event::TouchEnded { organism: a, collider: Collider::Wall(Wall::Top) },
-        Event::Hit { contact },
-    ]
+    ];
+    others.into_iter().chain(of_contacts).chain(of_sensors).collect()
 }

@@ -22,11 +22,11 @@ pub struct ContactReporting {
 pub(crate) struct ContactReports {
     reporting: Option<ContactReporting>,
     /// By organism, partner and nodes.
-    points: Vec<ContactPoint>,
+    pub(crate) points: Vec<ContactPoint>,
     /// Organisms and the obstacles and walls that they touched, sorted.
-    surfaces: Vec<(OrganismId, Collider)>,
+    pub(crate) surfaces: Vec<(OrganismId, Collider)>,
     /// Organisms and what they hit, sorted.
-    hits: Vec<(OrganismId, Collider)>,
+    pub(crate) hits: Vec<(OrganismId, Collider)>,
 }
 
 impl World {

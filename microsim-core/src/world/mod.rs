@@ -104,7 +104,7 @@ pub struct World {
     pub(crate) fields: Arena<ForceField>,
     pub(crate) obstacle_table: ObstacleTable,
     presences: Presences,
-    contact_reports: ContactReports,
+    pub(crate) contact_reports: ContactReports,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
