@@ -77,7 +77,7 @@ impl WorldConfig {
         in_range("size.y", self.size.y, 1.0, Self::MAX_SIZE)?;
         in_range("dt", self.dt, 0.001, 0.1)?;
         count_in_range("substeps", self.substeps, 1, 64)?;
-        let [least, most] = [(self.dt / LONGEST_SUBSTEP).ceil() as u32, (self.dt / SHORTEST_SUBSTEP) as u32];
+        let [least, most] = [(self.dt / LONGEST_SUBSTEP).ceil() as u32, ((self.dt / SHORTEST_SUBSTEP) as u32).min(64)];
         if !(least..=most).contains(&self.substeps) {
             let range = format!("substeps of {SHORTEST_SUBSTEP} to {LONGEST_SUBSTEP} s");
             let accepted = format!("{least} to {most} of a step of {} s: {range}", self.dt);
