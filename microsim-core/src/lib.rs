@@ -78,8 +78,8 @@ pub use {glam, parry2d};
 
 #[doc(hidden)]
 pub use {
-    bodies::*, contacts::*, controllers::*, measures::*, media::*, obstacles::*, organisms::*, queries::*,
-    simulation::*, views::*,
+    bodies::*, contacts::*, controllers::*, forces::*, joints::*, measures::*, media::*, obstacles::*, organisms::*,
+    queries::*, simulation::*, views::*,
 };
 
 /// What most programs need: `use microsim_core::prelude::*;`.
@@ -98,6 +98,8 @@ pub mod prelude {
     pub use crate::bodies::{CollisionGroups, Material, Node, Template, TemplateId};
     pub use crate::contacts::{Collider, ContactPoint, Event, Wall};
     pub use crate::controllers::Controller;
+    pub use crate::forces::{Actuation, ForceField};
+    pub use crate::joints::{JointEnd, JointId, JointKind, JointSpec};
     pub use crate::obstacles::{Obstacle, ObstacleId, ObstacleMotion};
     pub use crate::organisms::{
         AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, FluidBlockSpec, Kind, OrganismId, OrganismSpec,
@@ -166,7 +168,21 @@ pub mod bodies {
     pub use crate::id::TemplateId;
     pub use crate::particle::{CollisionGroups, Material};
     pub use crate::solver::constraint::*;
-    pub use crate::template::{Node, Role, Template, TemplateBuilder};
+    pub use crate::template::{Node, Propulsion, Role, Template, TemplateBuilder};
+}
+
+/// Forces on organisms and nodes, for a step or in a region.
+pub mod forces {
+    pub use crate::actuation::Actuation;
+    pub use crate::force_field::{FieldKind, ForceField, Region};
+    pub use crate::id::FieldId;
+}
+
+/// Joints between nodes, organisms and places.
+pub mod joints {
+    pub use crate::id::JointId;
+    pub use crate::joint::{JointEnd, JointKind, JointSpec};
+    pub use crate::world::joint::JointView;
 }
 
 /// What organisms are in: fluids and chemicals.

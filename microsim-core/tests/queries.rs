@@ -148,7 +148,7 @@ fn check_casts(world: &World, origin: Vec2, direction: Vec2, length: f32, radius
             }
         }
         (None, Some((_, at))) => {
-            prop_assert!(length - at < 0.02 || is_graze(origin + direction * at), "missed at {at}")
+            prop_assert!(length - at < 0.02 || is_graze(origin + direction * at), "missed at {at}");
         }
         (Some(found), None) => prop_assert!(is_graze(origin + direction * found.distance), "{found:?}"),
         (None, None) => {}
