@@ -51,7 +51,7 @@ fn cell(world: &mut World, x: f32, y: f32) -> OrganismId {
 fn steer(world: &mut World, chemical: ChemicalId) {
     let run = RunAndTumbleParams { chemical: Some(chemical), ..RunAndTumbleParams::default() };
     let controllers = [
-        Controller::wander([0.1, 0.2], 0.3),
+        Controller::wander([0.1, 0.2], 0.0),
         Controller::patrol(vec![Vec2::splat(9.0), Vec2::splat(60.0)], true),
         Controller::thrash(0.2, 0.5),
         Controller::ram(0.3, 0.3, 12.0),
