@@ -16,7 +16,8 @@ pub(crate) struct Arena<T> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Slot<T> {
     generation: u32,
-    value: Option<T>,
+    /// In a box: a file cannot ask for much memory with many empty slots.
+    value: Option<Box<T>>,
 }
 
 impl<T> Default for Arena<T> {
@@ -32,7 +33,7 @@ impl<T> Arena<T> {
             self.slots.len() as u32 - 1
         });
         let slot = &mut self.slots[index as usize];
-        slot.value = Some(value);
+        slot.value = Some(Box::new(value));
         (index, slot.generation)
     }
 
@@ -41,20 +42,20 @@ impl<T> Arena<T> {
         let value = slot.value.take()?;
         slot.generation = generation.wrapping_add(1);
         self.free.push(index);
-        Some(value)
+        Some(*value)
     }
 
     pub(crate) fn get(&self, (index, generation): Handle) -> Option<&T> {
-        self.slots.get(index as usize).filter(|slot| slot.generation == generation)?.value.as_ref()
+        self.slots.get(index as usize).filter(|slot| slot.generation == generation)?.value.as_deref()
     }
 
     pub(crate) fn get_mut(&mut self, (index, generation): Handle) -> Option<&mut T> {
-        self.slots.get_mut(index as usize).filter(|slot| slot.generation == generation)?.value.as_mut()
+        self.slots.get_mut(index as usize).filter(|slot| slot.generation == generation)?.value.as_deref_mut()
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Handle, &T)> {
         let slots = self.slots.iter().zip(0..);
-        slots.filter_map(|(slot, index)| slot.value.as_ref().map(|value| ((index, slot.generation), value)))
+        slots.filter_map(|(slot, index)| slot.value.as_deref().map(|value| ((index, slot.generation), value)))
     }
 
     pub(crate) fn is_empty(&self) -> bool {

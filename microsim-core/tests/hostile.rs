@@ -18,7 +18,7 @@ const TIMES: usize = 40;
 
 /// What an empty world writes ends with a zero for each of these, most of them lengths of lists; and the fewest bytes that
 /// an element of the list takes.
-const END: [(&str, usize); 14] = [
+const END: [(&str, usize); 24] = [
     ("particles.free", 1),
     ("organisms.slots", 2),
     ("organisms.free", 1),
@@ -32,7 +32,17 @@ const END: [(&str, usize); 14] = [
     ("events", 5),
     ("guard.wrong_side", 0),
     ("guard.net_fired", 0),
-    ("obstacle_digests", 1),
+    ("joints.slots", 2),
+    ("joints.free", 1),
+    ("fields.slots", 2),
+    ("fields.free", 1),
+    ("obstacle_table.slots", 2),
+    ("obstacle_table.free", 1),
+    ("presences", 5),
+    ("contact_reports.reporting", 0),
+    ("contact_reports.points", 30),
+    ("contact_reports.surfaces", 4),
+    ("contact_reports.hits", 4),
 ];
 
 /// A length as it is written.

@@ -321,3 +321,17 @@ fn numbers_that_make_no_sense_find_nothing() {
     assert!(queries.overlap_box(at, far, &filter).is_empty() && queries.overlap_polygon(&[at, at], &filter).is_empty());
     assert!(World::new(WorldConfig::default()).unwrap().queries().nearest(at, 1.0, &filter).is_none());
 }
+
+#[test]
+fn the_normal_of_a_wall_is_its_own_however_the_ray_comes() {
+    let world = World::new(WorldConfig { size: Vec2::new(50.0, 30.0), ..WorldConfig::default() }).unwrap();
+    let queries = world.queries();
+    for (from, to) in
+        [([40.85083, 22.617188], [13.143311, 28.59375]), ([3.0, 4.0], [31.0, 29.0]), ([9.1, 2.3], [9.2, 8.0])]
+    {
+        let (from, to) = (Vec2::from(from), Vec2::from(to));
+        let hit = queries.cast_ray(from, to - from, 200.0, &QueryFilter::default()).unwrap();
+        assert_eq!(hit.collider, Collider::Wall(Wall::Top));
+        assert!((hit.normal + Vec2::Y).length() < 1e-5, "{hit:?}");
+    }
+}

@@ -142,6 +142,7 @@ impl World {
         table: table::ObstacleTable,
         obstacles: Vec<Obstacle>,
     ) -> Result<(), String> {
+        table.check_free()?;
         let (mut read, mut count) = (obstacles.into_iter(), 0);
         for index in 0..table.len() as u32 {
             let is_there = table.id_at(index).is_some();

@@ -20,8 +20,8 @@ pub(crate) struct ObstacleTable {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Slot {
     generation: u32,
-    /// `None` after removal.
-    state: Option<State>,
+    /// `None` after removal. In a box: a file cannot ask for much memory with many empty slots.
+    state: Option<Box<State>>,
 }
 
 /// State of an obstacle.
@@ -36,9 +36,9 @@ struct State {
 }
 
 impl State {
-    fn of(obstacle: &Obstacle) -> Self {
+    fn of(obstacle: &Obstacle) -> Box<Self> {
         let (pose, surface) = (record(&obstacle.pose), Surface::of(obstacle));
-        Self { shape: digest(obstacle), pose, surface, target: None }
+        Box::new(Self { shape: digest(obstacle), pose, surface, target: None })
     }
 }
 
@@ -124,6 +124,21 @@ impl ObstacleTable {
         self.slots.iter().zip(0..).filter(move |(slot, _)| is_moving(slot)).map(|(_, index)| index)
     }
 
+    /// Checks that empty places are listed once.
+    ///
+    /// # Errors
+    /// Says what is wrong.
+    pub(super) fn check_free(&self) -> Result<(), String> {
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        let is_empty = |slot: &Slot| slot.state.is_none() && slot.generation < u32::MAX;
+        let empty = self.slots.iter().zip(0..).filter(|(slot, _)| is_empty(slot)).map(|(_, index)| index);
+        if !empty.eq(free) {
+            return Err("the free places of obstacles are not the empty ones".to_owned());
+        }
+        Ok(())
+    }
+
     /// Checks that empty places are listed once, that targets are poses, and that these are the obstacles.
     ///
     /// # Errors
@@ -133,13 +148,7 @@ impl ObstacleTable {
         if count != slots {
             return Err(format!("{slots} places for {count} obstacles"));
         }
-        let mut free = self.free.clone();
-        free.sort_unstable();
-        let is_empty = |slot: &Slot| slot.state.is_none() && slot.generation < u32::MAX;
-        let empty = self.slots.iter().zip(0..).filter(|(slot, _)| is_empty(slot)).map(|(_, index)| index);
-        if !empty.eq(free) {
-            return Err("the free places of obstacles are not the empty ones".to_owned());
-        }
+        self.check_free()?;
         for (k, (slot, obstacle)) in self.slots.iter().zip(obstacles).enumerate() {
             let Some(state) = &slot.state else { continue };
             let is_target =
@@ -147,7 +156,7 @@ impl ObstacleTable {
             if !state.target.is_none_or(is_target) {
                 return Err(format!("obstacle {k} has no place as its target"));
             }
-            if Digest::of(state) != Digest::of(&State { target: state.target, ..State::of(obstacle) }) {
+            if Digest::of(state) != Digest::of(&State { target: state.target, ..*State::of(obstacle) }) {
                 return Err(format!("obstacle {k} differs from its record"));
             }
         }

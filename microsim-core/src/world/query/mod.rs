@@ -284,11 +284,11 @@ impl<'w> Queries<'w> {
             if !distance.contains_local_point(ray.origin) || !may_enter(&ray, &start) {
                 return None;
             }
-            let distance = meets(&ray, obstacle)?;
+            let (distance, along) = meets(&ray, obstacle)?;
             let centre = ray.point_at(distance);
             let (surface, is_inside) = obstacle.nearest(centre);
             let begins_inside = distance == 0.0 && (is_inside || (centre - surface).length() < ray.radius);
-            let away = if is_inside { surface - centre } else { centre - surface };
+            let away = along.unwrap_or(if is_inside { surface - centre } else { centre - surface });
             // On the surface itself the way out is the way back.
             let away = away.try_normalize().filter(|away| away.dot(ray.direction) < 0.0).unwrap_or(-ray.direction);
             let normal = if begins_inside { Vec2::ZERO } else { away };
@@ -333,21 +333,22 @@ fn may_enter(ray: &Ray, aabb: &Aabb) -> bool {
     aabb.clip_ray_parameters(&ray).is_some()
 }
 
-/// How far along a ray an obstacle is met.
-fn meets(ray: &Ray, obstacle: &Obstacle) -> Option<f32> {
+/// How far along a ray an obstacle is met, and for a line the normal of its surface there.
+fn meets(ray: &Ray, obstacle: &Obstacle) -> Option<(f32, Option<Vec2>)> {
     if ray.radius == 0.0 {
         let line = parry2d::query::Ray::new(ray.origin, ray.direction);
-        return obstacle.shape.cast_ray(&obstacle.pose, &line, ray.length, true);
+        let hit = obstacle.shape.cast_ray_and_get_normal(&obstacle.pose, &line, ray.length, true)?;
+        return Some((hit.time_of_impact, Some(hit.normal)));
     }
     let (surface, is_inside) = obstacle.nearest(ray.origin);
     if is_inside || (ray.origin - surface).length() <= ray.radius {
-        return Some(0.0);
+        return Some((0.0, None));
     }
     let options = ShapeCastOptions { max_time_of_impact: ray.length, ..ShapeCastOptions::default() };
     let (at, ball) = (Pose::from_translation(ray.origin), Ball::new(ray.radius));
     let shape = obstacle.shape.0.as_ref();
     let hit = cast_shapes(&at, ray.direction, &ball, &obstacle.pose, Vec2::ZERO, shape, options);
-    hit.ok().flatten().map(|hit| refined(ray, obstacle, hit.time_of_impact))
+    hit.ok().flatten().map(|hit| (refined(ray, obstacle, hit.time_of_impact), None))
 }
 
 /// A distance at which a disc nearly touches an obstacle, corrected along the surface's normal (Newton's method): that of a
