@@ -43,7 +43,7 @@ impl World {
     /// Sets the speed limit, see [`WorldConfig::max_speed`]. What is faster is slowed down at once. Wakes nothing.
     ///
     /// # Errors
-    /// When it is not finite or out of its range.
+    /// When it is not finite or out of its range, or an organism that walks at random could not follow its law.
     pub fn set_max_speed(&mut self, max_speed: f32) -> Result<(), Error> {
         self.change_config(|config| config.max_speed = max_speed)?;
         with_default_float_environment(|| self.enforce_speed_limit());
@@ -66,6 +66,8 @@ impl World {
         let mut config = self.config.clone();
         change(&mut config);
         config.validate()?;
+        let mut organisms = self.organisms.iter().map(|(_, organism)| organism);
+        organisms.try_for_each(|o| o.controller.check_body(&o.locomotion, o.speed, &config))?;
         self.config = config;
         Ok(())
     }
@@ -204,6 +206,20 @@ mod tests {
             world.validate().unwrap();
         }
         assert_eq!(world.set_max_speed(0.0).unwrap_err().field(), "max_speed");
+    }
+
+    #[test]
+    fn a_speed_limit_that_a_random_walk_cannot_have_is_refused() {
+        use crate::{BacillusSpec, Controller};
+        let mut world = room();
+        let walk = Controller::run_and_tumble(crate::RunAndTumbleParams::default());
+        let spec = BacillusSpec { speed: 18.0, ..BacillusSpec::default() };
+        let id = world.spawn(&spec.into(), Placement { controller: walk, ..Placement::at(30.0, 30.0) }).unwrap();
+        assert_eq!(world.set_max_speed(12.0).unwrap_err().field(), "speed");
+        assert_eq!(*world.config(), *room().config());
+        world.set_controller(id, Controller::Still).unwrap();
+        world.set_max_speed(12.0).unwrap();
+        world.validate().unwrap();
     }
 
     #[test]
