@@ -116,26 +116,37 @@ pub(crate) fn catch_strays(
     }
     let mut count = 0;
     for contact in rings.of_ring(place) {
-        let position = p.position(contact.particle as usize);
-        let is_on_wrong_side = match contact.side {
-            Side::Inside => !contains_point(outline, position),
-            Side::Outside => contains_point(outline, position),
-            Side::Either => false,
-        };
-        if is_on_wrong_side {
+        if is_across(contact, outline, p) {
             count += 1;
-            return_to_side(contact, ring, p);
+            return_to_side(contact, ring, outline, p);
         }
     }
     count
 }
 
-/// Moves a disc to its own side of the link of a whole ring that is nearest to it.
-fn return_to_side(contact: &RingContact, ring: Ring<'_>, p: &mut Particles) {
+/// Whether a ray finds a disc on the wrong side of a whole ring.
+fn is_across(contact: &RingContact, outline: &[Vec2], p: &Particles) -> bool {
+    let is_inside = contains_point(outline, p.position(contact.particle as usize));
+    match contact.side {
+        Side::Inside => !is_inside,
+        Side::Outside => is_inside,
+        Side::Either => false,
+    }
+}
+
+/// Moves a disc to its own side of the link of a whole ring that is nearest to it; where the ring is folded, closer to the link.
+fn return_to_side(contact: &RingContact, ring: Ring<'_>, outline: &[Vec2], p: &mut Particles) {
     let links: Vec<Link> = (0..ring.nodes.len()).map(|k| ring.link(k)).collect();
     let Some((_, relation)) = nearest_link(contact, &links, p) else { return };
-    let standoff = STANDOFF * contact.radius_sum;
-    shift(p, contact.particle as usize, -relation.away + to_own_side(contact.side, &relation) * standoff);
+    let (i, to) = (contact.particle as usize, to_own_side(contact.side, &relation));
+    shift(p, i, -relation.away);
+    let on_link = p.position(i);
+    for share in [1.0, 1.0 / 8.0, 1.0 / 64.0] {
+        shift(p, i, on_link + to * (share * STANDOFF * contact.radius_sum) - p.position(i));
+        if !is_across(contact, outline, p) {
+            return;
+        }
+    }
 }
 
 /// Whether a disc is on the wrong side of the link nearest to it, of those that were found: farther than the contact distance,
@@ -348,6 +359,17 @@ mod tests {
         p.inv_mass[4] = 1e-4;
         project(&mut contacts, &mut p);
         assert!(p.position(4).y < -0.3 - 0.01, "{}", p.position(4));
+    }
+
+    #[test]
+    fn a_disc_is_returned_into_a_fold_that_is_thinner_than_the_standoff() {
+        let fold = [[0.0, 0.0], [6.0, 0.0], [6.0, 0.06], [0.0, 0.06]].map(Vec2::from);
+        for y in [-0.3, -0.01, 0.07, 0.4] {
+            let (mut p, contacts, nodes) = scene(&fold, Vec2::new(3.0, y), 0);
+            let ring = Ring { owner: 0, nodes: &nodes, holds: None };
+            assert_eq!(catch_strays(ring, 0, &fold, &contacts, &mut p), 1);
+            assert!(contains_point(&fold, p.position(4)), "{}", p.position(4));
+        }
     }
 
     proptest! {
