@@ -4,12 +4,12 @@
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
 
-use super::Contact;
 use super::aabb::Aabb;
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
+use super::{Contact, Mobility};
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
@@ -34,6 +34,8 @@ pub(super) struct BodyProxy {
     slack: f32,
     /// Whether it was above the sleep speed in the last step.
     is_moving: bool,
+    /// Whether constraints link its discs.
+    is_linked: bool,
     discs: Range<usize>,
 }
 
@@ -99,7 +101,7 @@ impl Bodies {
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
         let (aabb, first) = (disc.aabb(), self.discs.len());
         let (lane, slack, is_moving, discs) = (0, 0.0, true, first..first + 1);
-        self.found.push(BodyProxy { aabb, owner, block: NO_BLOCK, lane, slack, is_moving, discs });
+        self.found.push(BodyProxy { aabb, owner, block: NO_BLOCK, lane, slack, is_moving, is_linked: false, discs });
         self.discs.push(disc);
         self.aabbs.push(aabb);
     }
@@ -155,9 +157,9 @@ impl Bodies {
         let between = |a: &BodyProxy, b: &BodyProxy, near: &mut Vec<Disc>, found: &mut Vec<Contact>| {
             let slack = a.slack + b.slack;
             if a.aabb.shrunk(slack).overlaps(b.aabb)
-                && let Some(asleep) = filter.asleep(a, b)
+                && let Some(mobility) = filter.mobility(a, b)
             {
-                self.pairs_between(a, b, slack, near, |a, b| found.extend(filter.contact(a, b, asleep)));
+                self.pairs_between(a, b, slack, near, |a, b| found.extend(filter.contact(a, b, mobility)));
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
@@ -191,12 +193,12 @@ impl Bodies {
                 continue;
             }
             for other in self.in_box(body.aabb.low(), body.aabb.high()) {
-                let Some(asleep) = filter.asleep(body, other) else { continue };
+                let Some(mobility) = filter.mobility(body, other) else { continue };
                 let is_lifted = other.block != NO_BLOCK && margins.remaining(other.block, other.lane).is_infinite();
                 let slack = if is_lifted { 0.0 } else { other.slack };
                 self.pairs_between(body, other, slack, &mut near, |a, b| {
                     if !a.is_within(b, body.slack + slack) {
-                        found.extend(filter.contact(a, b, asleep));
+                        found.extend(filter.contact(a, b, mobility));
                     }
                 });
             }
@@ -269,7 +271,8 @@ impl Portion<'_> {
                     let owner = particles.owner[self.discs[first].index as usize];
                     let (is_moving, slack) = (sleep.is_moving(index, lane), limits.slack(*margin));
                     let discs = self.first_disc + first..self.first_disc + end;
-                    bodies.push(BodyProxy { aabb, owner, block: index as u32, lane, slack, is_moving, discs });
+                    let (block, is_linked) = (index as u32, block.slots > 1);
+                    bodies.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, discs });
                 }
             }
         }
@@ -278,18 +281,23 @@ impl Portion<'_> {
 }
 
 impl PairFilter<'_> {
-    /// Which of two bodies sleep, if they collide at all.
-    fn asleep(self, a: &BodyProxy, b: &BodyProxy) -> Option<[bool; 2]> {
-        let asleep = [a, b].map(|body| self.sleep.is_asleep(body.block));
-        let collide = asleep != [true; 2] && a.owner != b.owner && !self.exemptions.contains(a.owner, b.owner);
-        collide.then_some(asleep)
+    /// How two bodies give way, if they collide at all.
+    fn mobility(self, a: &BodyProxy, b: &BodyProxy) -> Option<[Mobility; 2]> {
+        let mobility = [a, b].map(|body| match body.is_linked {
+            _ if self.sleep.is_asleep(body.block) => Mobility::Asleep,
+            true => Mobility::Linked,
+            false => Mobility::Single,
+        });
+        let sleep = mobility == [Mobility::Asleep; 2];
+        let collide = !sleep && a.owner != b.owner && !self.exemptions.contains(a.owner, b.owner);
+        collide.then_some(mobility)
     }
 
     /// The contact of a disc of one with a disc of the other, if they collide; neither is in fluid or a ring.
-    fn contact(self, a: &Disc, b: &Disc, asleep: [bool; 2]) -> Option<Contact> {
+    fn contact(self, a: &Disc, b: &Disc, mobility: [Mobility; 2]) -> Option<Contact> {
         let (p, i, j) = (self.particles, a.index as usize, b.index as usize);
         let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
-        collide.then(|| Contact { asleep, ..Contact::new(p, i, j) })
+        collide.then(|| Contact::new(p, i, j, mobility))
     }
 }
 

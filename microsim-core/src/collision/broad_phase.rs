@@ -15,7 +15,7 @@ use super::obstacle::Obstacle;
 use super::obstacle_path::ObstaclePath;
 use super::ring::{Containment, Ring, RingContacts, RingQuery};
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
-use super::{Contact, Contacts, ObstacleContact};
+use super::{Contact, Contacts, Mobility, ObstacleContact};
 use crate::parallel;
 use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
@@ -197,7 +197,8 @@ impl BroadPhase {
 fn contact(a: &Disc, b: &Disc, input: SearchInput<'_>) -> Option<Contact> {
     let (p, i, j) = (input.particles, a.index as usize, b.index as usize);
     let is_for_rings = !input.rings.is_empty() && is_for_rings(p, i, j);
-    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j))
+    let mobility = |i: usize| if p.next_in_ring[i] == NO_OWNER { Mobility::Single } else { Mobility::Linked };
+    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j, [i, j].map(mobility)))
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.

@@ -15,6 +15,17 @@ pub(crate) mod uniform_grid;
 use crate::particle::{Material, Particles};
 use glam::Vec2;
 
+/// How a side of a contact gives way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mobility {
+    /// Not at all.
+    Asleep,
+    /// A disc on its own.
+    Single,
+    /// With others that it is linked to.
+    Linked,
+}
+
 /// Two discs near enough that they may touch during the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
@@ -27,12 +38,12 @@ pub(crate) struct Contact {
     pub restitution: f32,
     /// Touched in any substep since the pair was found.
     pub touched: bool,
-    /// Which of the two is asleep; not both are.
-    pub asleep: [bool; 2],
+    /// Of `i` and of `j`; not both are asleep.
+    pub mobility: [Mobility; 2],
 }
 
 impl Contact {
-    pub(crate) fn new(p: &Particles, i: usize, j: usize) -> Self {
+    pub(crate) fn new(p: &Particles, i: usize, j: usize, mobility: [Mobility; 2]) -> Self {
         let (friction, restitution) = combine(p.material[i], p.material[j]);
         Self {
             i: i as u32,
@@ -42,7 +53,7 @@ impl Contact {
             friction,
             restitution,
             touched: false,
-            asleep: [false; 2],
+            mobility,
         }
     }
 }

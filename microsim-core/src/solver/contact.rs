@@ -6,13 +6,13 @@
 
 use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
-use crate::collision::Contact;
+use crate::collision::{Contact, Mobility};
 use crate::particle::Particles;
 use glam::Vec2;
 
-/// In a contact one side counts as at most so many times as heavy as the other: a heavier disc would crush a light ring,
-/// and what stands behind it, faster than a substep's iterations can pass the load on. Momentum is kept below this ratio;
-/// above it the heavy side feels more than it should. What cannot move at all stays so.
+/// On a disc that is linked to others another one counts as at most so many times as heavy: a heavier disc would stretch the links
+/// faster than a substep's iterations can pass the load on. Momentum is kept below this ratio; above it the heavy side
+/// feels more than it should. What cannot move at all stays so.
 const HEAVIEST: f32 = 30.0;
 
 /// An impact of this substep that has to bounce.
@@ -84,10 +84,13 @@ fn separate(
 /// Inverse masses with which the two press on each other.
 fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
     let (wi, wj) = (p.inv_mass[c.i as usize], p.inv_mass[c.j as usize]);
-    match c.asleep {
-        [true, _] => (0.0, wj),
-        [_, true] => (wi, 0.0),
-        _ => (no_heavier(wi, wj), no_heavier(wj, wi)),
+    match c.mobility {
+        [Mobility::Asleep, _] => (0.0, wj),
+        [_, Mobility::Asleep] => (wi, 0.0),
+        [a, b] => (
+            if b == Mobility::Linked { no_heavier(wi, wj) } else { wi },
+            if a == Mobility::Linked { no_heavier(wj, wi) } else { wj },
+        ),
     }
 }
 
@@ -116,9 +119,9 @@ pub(crate) fn moved(p: &Particles, i: usize) -> Vec2 {
 impl Impact {
     /// An impact of two discs, if they approach each other; what sleeps is as if it were static.
     fn of(c: &Contact, normal: Vec2, p: &Particles) -> Option<Self> {
-        match c.asleep {
-            [true, _] => return Self::on_surface(p, c.j, -normal, c.restitution, Vec2::ZERO),
-            [_, true] => return Self::on_surface(p, c.i, normal, c.restitution, Vec2::ZERO),
+        match c.mobility {
+            [Mobility::Asleep, _] => return Self::on_surface(p, c.j, -normal, c.restitution, Vec2::ZERO),
+            [_, Mobility::Asleep] => return Self::on_surface(p, c.i, normal, c.restitution, Vec2::ZERO),
             _ => {}
         }
         let approach = (p.velocity(c.j as usize) - p.velocity(c.i as usize)).dot(normal);
@@ -158,7 +161,7 @@ mod tests {
     use super::*;
 
     fn touching(friction: f32, restitution: f32) -> Contact {
-        Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1) }
+        Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1, [Mobility::Single; 2]) }
     }
 
     #[test]
@@ -166,6 +169,21 @@ mod tests {
         assert_pair_laws(&[0.6], 1.0, |p| {
             project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default());
         });
+    }
+
+    #[test]
+    fn a_heavy_disc_presses_with_all_its_mass_unless_on_a_linked_one() {
+        for (ratio, mobility, counted) in
+            [(10.0, Mobility::Linked, 10.0), (1e3, Mobility::Single, 1e3), (1e3, Mobility::Linked, 30.0)]
+        {
+            let mut p = line(0.6, [1.0, 1.0 / ratio]);
+            let before = momentum(&p);
+            let mut contact = Contact { mobility: [mobility, Mobility::Single], ..touching(0.0, 0.0) };
+            project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default());
+            assert!((p.x[0] + 0.4 * counted / (1.0 + counted)).abs() < 1e-6, "ratio {ratio}, {mobility:?}: {}", p.x[0]);
+            let error = (momentum(&p) - before).length();
+            assert_eq!(error < 1e-6 * ratio, counted == ratio, "ratio {ratio}, {mobility:?}: {error}");
+        }
     }
 
     #[test]

@@ -137,13 +137,10 @@ impl Engulfer {
         let heads_for_it = encounter.heading.is_some_and(|cosine| cosine >= self.params.heading_cosine);
         let is_absorbable = match encounter.class {
             PreyClass::Simple | PreyClass::Bacterium => encounter.contacts > 0,
-            PreyClass::Soft => {
-                encounter.contacts >= self.params.soft_prey_contacts
-                    && encounter.size_ratio >= self.params.size_ratio
-                    && !self.slot_is_taken()
-            }
+            PreyClass::Soft => encounter.contacts >= self.params.soft_prey_contacts && !self.slot_is_taken(),
         };
-        heads_for_it && is_absorbable && !self.is_locked()
+        let is_small = encounter.size_ratio >= self.params.size_ratio;
+        heads_for_it && is_absorbable && is_small && !self.is_locked()
     }
 
     /// Advances meals in phase `Touching` by `dt`: adds new ones, removes those whose conditions fail, and starts the ingestion
@@ -226,12 +223,14 @@ mod tests {
     }
 
     #[test]
-    fn t37_t38_t42_soft_prey_needs_contacts_and_size_and_agar_does_not() {
-        let few = |class| Encounter { contacts: 1, size_ratio: 0.1, ..encounter(1, class) };
+    fn t37_t38_t42_soft_prey_needs_contacts_and_all_prey_is_small() {
+        let few = |class| Encounter { contacts: 1, ..encounter(1, class) };
         assert!(steps_until_ingestion(few(PreyClass::Simple)).is_some());
         assert_eq!(steps_until_ingestion(few(PreyClass::Soft)), None);
-        let only_small = Encounter { size_ratio: 1.99, ..encounter(1, PreyClass::Soft) };
-        assert_eq!(steps_until_ingestion(only_small), None);
+        for class in [PreyClass::Simple, PreyClass::Bacterium, PreyClass::Soft] {
+            let too_large = Encounter { size_ratio: 1.99, ..encounter(1, class) };
+            assert_eq!(steps_until_ingestion(too_large), None, "{class:?}");
+        }
         assert!(steps_until_ingestion(encounter(1, PreyClass::Soft)).is_some());
     }
 

@@ -28,7 +28,8 @@ pub struct PhagocytosisParams {
     pub heading_cosine: f32,
     /// Contacts of soft prey with the front that are needed at once, 1 to 100.
     pub soft_prey_contacts: u32,
-    /// Area of the engulfer's cytoplasm over the prey's area when spawned that soft prey needs at least, 0.1 to 1000.
+    /// Area of the engulfer's cytoplasm over the prey's area when spawned, at least, for prey of every kind, 0.1
+    /// to 1000.
     pub size_ratio: f32,
     /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn to
     /// the side where its centre is, and after as much time again put there. Soft prey has shrunk to its scale after a fixed
@@ -90,7 +91,7 @@ impl PhagocytosisParams {
         visit(field("heading_cosine", words), Number(&mut self.heading_cosine, [-1.0, 1.0]));
         let words = "Contacts of soft prey with the front that are needed at once.";
         visit(field("soft_prey_contacts", words), Count(&mut self.soft_prey_contacts, [1, 100]));
-        let words = "Least area of its cytoplasm over the area of soft prey.";
+        let words = "Least area of its cytoplasm over the area of its prey.";
         visit(field("size_ratio", words), Number(&mut self.size_ratio, [0.1, 1000.0]));
         let words = "Time after which prey that is still outside is let go, s.";
         visit(field("time_limit", words), Number(&mut self.time_limit, [0.1, 60.0]));

@@ -188,7 +188,7 @@ impl<'a> OrganismView<'a> {
     }
 
     /// Area of its cytoplasm, square units: the sum of its particles' areas (seed, 3.3.1), which decides with
-    /// [`PhagocytosisParams::size_ratio`] how large soft prey may be.
+    /// [`PhagocytosisParams::size_ratio`] how large prey may be.
     #[must_use]
     pub fn cytoplasm_area(self) -> f32 {
         self.view.world.engulfer_area(self.organism)
