@@ -4,9 +4,10 @@ use crate::capability::controller::Controller;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Where and how an organism is put into the world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
     /// Its centre, units from the room's lower left corner.
     pub at: Vec2,

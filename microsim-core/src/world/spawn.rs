@@ -1,6 +1,7 @@
 //! Spawning and removing organisms. Everything is checked before anything changes.
 
 use super::World;
+use super::change::WorldChange;
 use super::occupancy::bounds_of;
 use super::vacancies::Vacancy;
 use crate::capability::Locomotion;
@@ -33,7 +34,10 @@ impl World {
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
     /// what is already there, or when the world would hold too many particles. Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
-        with_default_float_environment(|| self.spawn_blueprint(spec.blueprint()?, placement))
+        let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
+        let id = with_default_float_environment(spawn)?;
+        self.changed(|| WorldChange::Spawn(Box::new((spec.clone(), placement))));
+        Ok(id)
     }
 
     /// Puts an instance of a custom template into the world.
@@ -41,9 +45,12 @@ impl World {
     /// # Errors
     /// As for [`World::spawn`], and when the template is not one of this world's.
     pub fn spawn_template(&mut self, template: TemplateId, placement: Placement) -> Result<OrganismId, Error> {
-        let template = self.templates.get(template.0 as usize).cloned();
-        let template = template.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
-        with_default_float_environment(|| self.spawn_blueprint(Blueprint::custom(template), placement))
+        let known = self.templates.get(template.0 as usize).cloned();
+        let known = known.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
+        let spawn = || self.spawn_blueprint(Blueprint::custom(known), placement.clone());
+        let id = with_default_float_environment(spawn)?;
+        self.changed(|| WorldChange::SpawnTemplate(template.0, Box::new(placement)));
+        Ok(id)
     }
 
     /// Removes an organism. Prey that it holds is released and returns to its full size.
@@ -71,6 +78,7 @@ impl World {
             Storage::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
         organism.fluid_particles.into_iter().for_each(|i| self.particles.remove(i));
+        self.changed(|| WorldChange::Remove(id));
         Ok(())
     }
 
