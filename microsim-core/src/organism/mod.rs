@@ -21,6 +21,7 @@ pub(crate) mod table;
 pub(crate) use blueprint::{Blueprint, FluidPlan};
 pub(crate) use living::{Organism, Phagosome};
 pub use placement::Placement;
+pub(crate) use placement::TOUCHING;
 pub use spec::SpecTable;
 pub(crate) use storage::Storage;
 

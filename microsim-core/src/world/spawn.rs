@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
-use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage};
+use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage, TOUCHING};
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
@@ -23,9 +23,6 @@ use crate::solver::membrane::Membrane;
 use crate::template::{Node, Propulsion, Role, Template};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
-
-/// Overlap of two discs that is allowed at spawning, as a share of the sum of their radii: neighbours may touch.
-const OVERLAP_TOLERANCE: f32 = 0.02;
 
 impl World {
     /// Puts an organism into the world.
@@ -97,7 +94,7 @@ impl World {
         let scale = blueprint.scale * placement.scale;
         let id = self.organisms.next_id();
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
-        self.check_place(&planned)?;
+        self.check_place(&planned, if has_outline { TOUCHING } else { placement.overlap })?;
         self.note_place(id.index, bounds_of(discs(&planned)));
 
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
@@ -142,8 +139,8 @@ impl World {
         Ok(self.organisms.insert(organism))
     }
 
-    /// Checks that planned discs lie inside the walls and overlap nothing.
-    fn check_place(&mut self, planned: &[Particle]) -> Result<(), Error> {
+    /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share.
+    fn check_place(&mut self, planned: &[Particle], share: f32) -> Result<(), Error> {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
         for p in planned {
@@ -154,19 +151,19 @@ impl World {
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
             }
         }
-        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>()) {
+        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>(), share) {
             return Err(Error::new(ErrorKind::Overlap { with }, "at"));
         }
         Ok(())
     }
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
-    fn overlap(&mut self, planned: &[Particle]) -> Option<String> {
+    fn overlap(&mut self, planned: &[Particle], share: f32) -> Option<String> {
         if self.solid_obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = bounds_of(discs(planned));
-        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds))?;
+        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds, share))?;
         self.with_its_place(self.organisms.id_at(hit)?)
     }
 
@@ -184,13 +181,14 @@ impl World {
     }
 
     /// Whether an organism overlaps discs within these bounds.
-    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
+    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
         let p = &self.particles;
+        let share = if organism.outline.is_empty() { share } else { TOUCHING };
         organism.particles().map(|i| i as usize).any(|i| {
             let near = bounds.loosened(p.radius[i]);
             near.contains_local_point(p.position(i))
                 && discs.iter().any(|disc| {
-                    let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
+                    let reach = (disc.radius + p.radius[i]) * (1.0 - share);
                     disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
                 })
         })
@@ -317,7 +315,7 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
 fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
     let (surface, is_inside) = obstacle.nearest(disc.position());
     let gap = (disc.position() - surface).length();
-    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
+    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - TOUCHING))
 }
 
 /// Places and radii of planned particles.
