@@ -6,7 +6,7 @@
 mod toy;
 
 use microsim_core::{Distance, MinDistance, prelude::*};
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::PI;
 
 const NODES: u8 = 15;
 /// Time of a beat, s, and the share of it in which the bell contracts.
@@ -32,9 +32,9 @@ fn main() -> Result<(), Error> {
             inputs.activate(id, 0, activation)?;
             let jelly = world.view().organism(id);
             let up = Vec2::from_angle(jelly.and_then(OrganismView::angle).unwrap_or(0.0) + 0.5 * PI);
-            let lean = jelly.map_or(0.0, |jelly| -80.0 * up.perp_dot(Vec2::Y) - 10.0 * jelly.angular_velocity());
+            let upright = jelly.map_or(0.0, |jelly| 150.0 * up.perp_dot(Vec2::Y) - 60.0 * jelly.angular_velocity());
             let force = if contracts { up * THRUST } else { Vec2::ZERO };
-            inputs.actuate(id, Actuation { force, torque: -lean.clamp(-80.0, 80.0), ..Actuation::default() })?;
+            inputs.actuate(id, Actuation { force, torque: upright, ..Actuation::default() })?;
         }
         Ok(())
     });
@@ -44,11 +44,8 @@ fn main() -> Result<(), Error> {
 /// An arch of discs. Muscles draw its halves together; what is not a muscle keeps its length and its curvature.
 fn bell() -> Result<Template, Error> {
     let mut builder = Template::builder();
-    let corner = |k: u8| {
-        let angle = PI * (0.5 - TAU / 20.0 + f32::from(k) * (0.5 + TAU / 10.0) / f32::from(NODES - 1));
-        5.0 * Vec2::from_angle(angle + 0.25 * PI - TAU / 40.0 * PI)
-    };
-    let arch: Vec<u32> = (0..NODES).map(|k| builder.node(Node::disc(corner(k), 0.5, 0.5))).collect();
+    let corner = |k: u8| 5.0 * Vec2::from_angle(PI * (1.2 * f32::from(k) / f32::from(NODES - 1) - 0.1));
+    let arch: Vec<u32> = (0..NODES).map(|k| builder.node(Node::disc(corner(k), 0.5, 0.65))).collect();
     for pair in arch.windows(2) {
         builder.link(pair[0], pair[1], 0.0);
     }

@@ -12,11 +12,12 @@ use std::f32::consts::TAU;
 const PLANKS: u8 = 24;
 const PITCH: f32 = 2.0;
 const SPOKES: u8 = 14;
-const TORQUE: f32 = 900.0;
+const TORQUE: f32 = 150.0;
 
 fn main() -> Result<(), Error> {
     let gravity = Vec2::new(0.0, -20.0);
-    let mut world = World::new(WorldConfig { size: Vec2::new(96.0, 54.0), gravity, ..WorldConfig::default() })?;
+    let size = Vec2::new(96.0, 54.0);
+    let mut world = World::new(WorldConfig { size, gravity, damping: 0.1, max_speed: 80.0, ..WorldConfig::default() })?;
     for x in [12.0, 84.0] {
         let cliff = SharedShape::cuboid(12.0, 10.0);
         world.add_obstacle(Obstacle::new(cliff, Pose::translation(x, 10.0)))?;

@@ -12,11 +12,11 @@ const CELLS: usize = 60;
 
 fn main() -> Result<(), Error> {
     let mut world = World::new(WorldConfig { size: SIZE, damping: 1.0, ..WorldConfig::default() })?;
-    for y in [-14.0, SIZE.y + 14.0] {
+    for y in [-10.0, SIZE.y + 10.0] {
         let bulge = SharedShape::ball(27.0);
         world.add_obstacle(Obstacle::new(bulge, Pose::translation(0.5 * SIZE.x, y)))?;
     }
-    let acceleration = Vec2::new(25.0, 0.0);
+    let acceleration = Vec2::new(40.0, 0.0);
     world.add_field(ForceField { region: Region::All, kind: FieldKind::Uniform { acceleration } })?;
     let outlet = Obstacle::new(SharedShape::cuboid(2.0, SIZE.y), Pose::translation(SIZE.x, 0.0));
     let outlet = world.add_obstacle(Obstacle { is_sensor: true, ..outlet })?;
@@ -35,9 +35,10 @@ fn main() -> Result<(), Error> {
                 0 => PlateletSpec { radius: 1.2, ..PlateletSpec::default() }.into(),
                 _ => RedCellSpec::default().into(),
             };
-            let place = Placement::at(6.0, rng.range(6.0, SIZE.y - 6.0)).turned(rng.range(0.0, 3.0));
-            // Where there is no room for it, it comes later.
-            let _ = world.spawn(&spec, place);
+            let at = Vec2::new(6.0, rng.range(6.0, SIZE.y - 6.0));
+            if world.queries().overlap_disc(at, 4.5, &QueryFilter::default()).is_empty() {
+                world.spawn(&spec, Placement::at(at.x, at.y))?;
+            }
         }
         Ok(())
     });

@@ -16,7 +16,7 @@ const FRAMES: u32 = 300;
 const MOST_STEPS: u32 = 4;
 
 /// Opens a window on a world. `act` sets the inputs of each step, and may change the world before it.
-pub fn run(title: &str, world: World, act: impl FnMut(&mut World, &mut Inputs) -> Result<(), Error> + 'static) {
+pub(crate) fn run(title: &str, world: World, act: impl FnMut(&mut World, &mut Inputs) -> Result<(), Error> + 'static) {
     let size = world.config().size;
     let conf = Conf {
         window_title: title.to_owned(),
@@ -59,7 +59,7 @@ async fn play(
 /// The room upright and whole, obstacles, organisms and joints.
 fn paint(view: View<'_>) {
     let size = view.world().config().size;
-    let zoom = Pair::new(2.0 / size.x, 2.0 / size.y);
+    let zoom = Pair::new(2.0 / size.x, -2.0 / size.y);
     camera::set_camera(&Camera2D { target: pair(0.5 * size), zoom, ..Camera2D::default() });
     let layers = [DrawingLayer::Room, DrawingLayer::Obstacles, DrawingLayer::Organisms];
     draw(view, [Vec2::ZERO, size], &layers).iter().for_each(item);
