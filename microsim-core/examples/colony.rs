@@ -92,7 +92,7 @@ fn divide(world: &mut World, rod: TemplateId, cell: &Cell, number: u128, rng: &m
     let offset = along * (0.5 * SHORTEST + RADIUS);
     let mut daughter = |at: Vec2| {
         let angle = along.to_angle() + rng.range(-0.02, 0.02);
-        born(world, rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.1), number, rng)
+        born(world, rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.5), number, rng)
     };
     Ok([daughter(centre - offset)?, daughter(centre + offset)?])
 }

@@ -293,7 +293,7 @@ fn what_is_spawned_with_an_overlap_is_pushed_apart() {
     let first = world.spawn(&pellet, Placement::at(40.0, 40.0)).unwrap();
     let near = Placement::at(41.85, 40.0);
     assert_eq!(world.spawn(&pellet, near.clone()).unwrap_err().field(), "at");
-    assert_eq!(world.spawn(&pellet, near.clone().overlapping(0.2)).unwrap_err().field(), "overlap");
+    assert_eq!(world.spawn(&pellet, near.clone().overlapping(0.6)).unwrap_err().field(), "overlap");
     let second = world.spawn(&pellet, near.overlapping(0.1)).unwrap();
     let apart = |world: &World| world.centroid(first).unwrap().distance(world.centroid(second).unwrap());
     assert!(apart(&world) < 1.86);

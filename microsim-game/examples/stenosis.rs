@@ -1,6 +1,6 @@
 //! Blood in a narrowed vessel: `cargo run --release -p microsim-game --example stenosis [FILE.png]`.
 //!
-//! Red cells and platelets are driven by a field. What comes to the right end goes, and comes in again at the left one.
+//! Red cells and cocci are driven by a field. What comes to the right end goes, and comes in again at the left one.
 
 mod toy;
 
@@ -32,7 +32,7 @@ fn main() -> Result<(), Error> {
         }
         if world.organisms().count() < CELLS && world.step_index() % 6 == 0 {
             let spec: OrganismSpec = match rng.next_u32() % 4 {
-                0 => PlateletSpec { radius: 1.2, ..PlateletSpec::default() }.into(),
+                0 => CoccusSpec { radius: 1.0, speed: 0.0, ..CoccusSpec::default() }.into(),
                 _ => RedCellSpec::default().into(),
             };
             let at = Vec2::new(6.0, rng.range(6.0, SIZE.y - 6.0));

@@ -20,7 +20,7 @@ pub struct Placement {
     pub scale: f32,
     /// What steers it when no input does.
     pub controller: Controller,
-    /// How far its discs may overlap those of others, as a share of the sum of both radii, 0 to 0.1: for what is spawned among
+    /// How far its discs may overlap those of others, as a share of the sum of both radii, 0 to 0.5: for what is spawned among
     /// others that press. Contacts push them apart in the next step; where nothing holds them they fly apart, at up to the speed
     /// limit. Organisms with an outline are spawned, and overlapped, by 0.02 at most.
     pub overlap: f32,
@@ -66,7 +66,7 @@ impl Placement {
         in_range("at.y", self.at.y, -1e5, 1e5)?;
         in_range("angle", self.angle, -1000.0, 1000.0)?;
         in_range("scale", self.scale, 0.01, 100.0)?;
-        in_range("overlap", self.overlap, 0.0, 0.1)?;
+        in_range("overlap", self.overlap, 0.0, 0.5)?;
         self.controller.validate().map_err(|error| error.within("controller"))
     }
 
