@@ -4,6 +4,7 @@
 //! exponentially, and a rod that has become long enough for two is replaced by two, which have its number as their mother's.
 //!
 //! `cargo run --release -p microsim-core --example colony`
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "measures time, outside the world")]
 
 use microsim_core::prelude::*;
 use microsim_core::{Distance, Rng};
@@ -84,14 +85,12 @@ fn born(world: &mut World, rod: TemplateId, at: Placement, mother: u128, rng: &m
 
 /// Two rods in the place of one. Neighbours that press on it may overlap them at first.
 fn divide(world: &mut World, rod: TemplateId, cell: &Cell, number: u128, rng: &mut Rng) -> Result<[Cell; 2], Error> {
-    let ends: Vec<Vec2> =
-        world.view().organism(cell.id).into_iter().flat_map(|rod| rod.particles()).map(|disc| disc.position).collect();
-    let (tail, head) = (ends[0], ends[ends.len() - 1]);
-    let (centre, along) = (0.5 * (tail + head), (head - tail).normalize_or_zero());
+    let mother = world.view().organism(cell.id);
+    let (centre, angle) = mother.map_or((Vec2::ZERO, 0.0), |rod| (rod.centroid(), rod.angle().unwrap_or(0.0)));
     world.remove(cell.id)?;
-    let offset = along * (0.5 * SHORTEST + RADIUS);
+    let offset = Vec2::from_angle(angle) * (0.5 * SHORTEST + RADIUS);
     let mut daughter = |at: Vec2| {
-        let angle = along.to_angle() + rng.range(-0.02, 0.02);
+        let angle = angle + rng.range(-0.02, 0.02);
         born(world, rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.5), number, rng)
     };
     Ok([daughter(centre - offset)?, daughter(centre + offset)?])

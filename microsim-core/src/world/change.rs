@@ -105,38 +105,40 @@ impl World {
 impl WorldChange {
     /// Makes the change again; `None` if the world refuses it.
     pub(crate) fn apply(&self, world: &mut World) -> Option<()> {
-        use WorldChange as C;
         match self.clone() {
-            C::AddTemplate(template) => drop(world.add_template(*template)),
-            C::Spawn(spawned) => drop(world.spawn(&spawned.0, spawned.1).ok()?),
-            C::SpawnTemplate(template, at) => drop(world.spawn_template(crate::id::TemplateId(template), *at).ok()?),
-            C::Remove(id) => world.remove(id).ok()?,
-            C::SetExempt([a, b], is_exempt) => world.set_exempt(a, b, is_exempt).ok()?,
-            C::SetController(id, controller) => world.set_controller(id, *controller).ok()?,
-            C::SetGravityScale(id, scale) => world.set_gravity_scale(id, scale).ok()?,
-            C::SetUserData(id, [low, high]) => {
+            Self::AddTemplate(template) => drop(world.add_template(*template)),
+            Self::Spawn(spawned) => drop(world.spawn(&spawned.0, spawned.1).ok()?),
+            Self::SpawnTemplate(template, at) => drop(world.spawn_template(crate::id::TemplateId(template), *at).ok()?),
+            Self::Remove(id) => world.remove(id).ok()?,
+            Self::SetExempt([a, b], is_exempt) => world.set_exempt(a, b, is_exempt).ok()?,
+            Self::SetController(id, controller) => world.set_controller(id, *controller).ok()?,
+            Self::SetGravityScale(id, scale) => world.set_gravity_scale(id, scale).ok()?,
+            Self::SetUserData(id, [low, high]) => {
                 world.set_user_data(id, u128::from(low) | (u128::from(high) << 64)).ok()?;
             }
-            C::SetCollisionGroups(id, groups) => world.set_collision_groups(id, groups).ok()?,
-            C::Push(id, velocity) => world.push(id, velocity).ok()?,
-            C::Grow(id, nodes, particles) => world.grow(id, nodes, particles).ok()?,
-            C::Order(id, order) => world.give_order(id, order).ok()?,
-            C::AddChemical(spec) => drop(world.add_chemical(spec).ok()?),
-            C::SetExchange(id, exchange) => world.set_exchange(id, exchange).ok()?,
-            obstacle @ (C::AddObstacle(_) | C::SetObstacle(..) | C::MoveObstacle(..) | C::RemoveObstacle(_)) => {
+            Self::SetCollisionGroups(id, groups) => world.set_collision_groups(id, groups).ok()?,
+            Self::Push(id, velocity) => world.push(id, velocity).ok()?,
+            Self::Grow(id, nodes, particles) => world.grow(id, nodes, particles).ok()?,
+            Self::Order(id, order) => world.give_order(id, order).ok()?,
+            Self::AddChemical(spec) => drop(world.add_chemical(spec).ok()?),
+            Self::SetExchange(id, exchange) => world.set_exchange(id, exchange).ok()?,
+            obstacle @ (Self::AddObstacle(_)
+            | Self::SetObstacle(..)
+            | Self::MoveObstacle(..)
+            | Self::RemoveObstacle(_)) => {
                 obstacle.apply_to_obstacle(world)?;
             }
-            C::AddJoint(spec) => drop(world.add_joint(spec).ok()?),
-            C::SetJoint(id, spec) => world.set_joint(id, spec).ok()?,
-            C::RemoveJoint(id) => world.remove_joint(id).ok()?,
-            C::AddField(field) => drop(world.add_field(field).ok()?),
-            C::SetField(id, field) => world.set_field(id, field).ok()?,
-            C::RemoveField(id) => world.remove_field(id).ok()?,
-            C::SetGravity(gravity) => world.set_gravity(gravity).ok()?,
-            C::SetDamping(damping) => world.set_damping(damping).ok()?,
-            C::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,
-            C::SetContactReporting(reporting) => world.set_contact_reporting(reporting).ok()?,
-            C::Unrecordable => return None,
+            Self::AddJoint(spec) => drop(world.add_joint(spec).ok()?),
+            Self::SetJoint(id, spec) => world.set_joint(id, spec).ok()?,
+            Self::RemoveJoint(id) => world.remove_joint(id).ok()?,
+            Self::AddField(field) => drop(world.add_field(field).ok()?),
+            Self::SetField(id, field) => world.set_field(id, field).ok()?,
+            Self::RemoveField(id) => world.remove_field(id).ok()?,
+            Self::SetGravity(gravity) => world.set_gravity(gravity).ok()?,
+            Self::SetDamping(damping) => world.set_damping(damping).ok()?,
+            Self::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,
+            Self::SetContactReporting(reporting) => world.set_contact_reporting(reporting).ok()?,
+            Self::Unrecordable => return None,
         }
         Some(())
     }
