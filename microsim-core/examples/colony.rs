@@ -4,8 +4,9 @@
 //! exponentially, and a rod that has become long enough for two is replaced by two, which have its number as their mother's.
 //!
 //! `cargo run --release -p microsim-core --example colony`
-#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "measures time, outside the world")]
+#![allow(clippy::disallowed_types, reason = "measures time, outside the world")]
 
+use microsim_core::geometry::ring::unit_vector;
 use microsim_core::prelude::*;
 use microsim_core::{Distance, Rng};
 use std::time::Instant;
@@ -88,7 +89,7 @@ fn divide(world: &mut World, rod: TemplateId, cell: &Cell, number: u128, rng: &m
     let mother = world.view().organism(cell.id);
     let (centre, angle) = mother.map_or((Vec2::ZERO, 0.0), |rod| (rod.centroid(), rod.angle().unwrap_or(0.0)));
     world.remove(cell.id)?;
-    let offset = Vec2::from_angle(angle) * (0.5 * SHORTEST + RADIUS);
+    let offset = unit_vector(angle) * (0.5 * SHORTEST + RADIUS);
     let mut daughter = |at: Vec2| {
         let angle = angle + rng.range(-0.02, 0.02);
         born(world, rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.5), number, rng)

@@ -1,5 +1,6 @@
 //! Joints by the laws of mechanics, and what becomes of them.
 
+use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
@@ -278,7 +279,7 @@ fn a_wheel_is_driven_by_an_obstacle_that_turns() {
         let angle = step as f32 * TAU / 240.0;
         world.move_obstacle(hub, Pose::new(Vec2::new(50.0, 50.0), angle)).unwrap();
         world.step(&Inputs::new());
-        let wanted = Vec2::new(50.0, 50.0) + 3.0 * Vec2::from_angle(angle);
+        let wanted = Vec2::new(50.0, 50.0) + 3.0 * unit_vector(angle);
         assert!(at(&world, rim).distance(wanted) < 0.01, "{} {wanted}", at(&world, rim));
     }
 }
