@@ -13,6 +13,8 @@ use crate::joint::JointSpec;
 use crate::organism::{OrganismSpec, Placement};
 use crate::particle::CollisionGroups;
 use crate::template::Template;
+#[cfg(all(feature = "scenario", feature = "snapshot"))]
+use crate::{collision::obstacle_record::pose_of, id::TemplateId};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -108,7 +110,7 @@ impl WorldChange {
         match self.clone() {
             Self::AddTemplate(template) => drop(world.add_template(*template)),
             Self::Spawn(spawned) => drop(world.spawn(&spawned.0, spawned.1).ok()?),
-            Self::SpawnTemplate(template, at) => drop(world.spawn_template(crate::id::TemplateId(template), *at).ok()?),
+            Self::SpawnTemplate(template, at) => drop(world.spawn_template(TemplateId(template), *at).ok()?),
             Self::Remove(id) => world.remove(id).ok()?,
             Self::SetExempt([a, b], is_exempt) => world.set_exempt(a, b, is_exempt).ok()?,
             Self::SetController(id, controller) => world.set_controller(id, *controller).ok()?,
@@ -119,15 +121,18 @@ impl WorldChange {
             Self::SetCollisionGroups(id, groups) => world.set_collision_groups(id, groups).ok()?,
             Self::Push(id, velocity) => world.push(id, velocity).ok()?,
             Self::Grow(id, nodes, particles) => world.grow(id, nodes, particles).ok()?,
+            // The direction of a furrow was normalised when it was given.
+            Self::Order(_, Order::Divide { axis: Some(axis) }) if !axis.is_normalized() => return None,
             Self::Order(id, order) => world.give_order(id, order).ok()?,
             Self::AddChemical(spec) => drop(world.add_chemical(spec).ok()?),
             Self::SetExchange(id, exchange) => world.set_exchange(id, exchange).ok()?,
-            obstacle @ (Self::AddObstacle(_)
-            | Self::SetObstacle(..)
-            | Self::MoveObstacle(..)
-            | Self::RemoveObstacle(_)) => {
-                obstacle.apply_to_obstacle(world)?;
+            Self::AddObstacle(record) => drop(world.add_obstacle(record.restore()?).ok()?),
+            Self::SetObstacle(id, record) => {
+                let obstacle = record.restore()?;
+                world.change_obstacle(id, |place| *place = obstacle).ok()?;
             }
+            Self::MoveObstacle(id, target) => world.move_obstacle(id, pose_of(target)?).ok()?,
+            Self::RemoveObstacle(id) => world.remove_obstacle(id).ok()?,
             Self::AddJoint(spec) => drop(world.add_joint(spec).ok()?),
             Self::SetJoint(id, spec) => world.set_joint(id, spec).ok()?,
             Self::RemoveJoint(id) => world.remove_joint(id).ok()?,
@@ -139,22 +144,6 @@ impl WorldChange {
             Self::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,
             Self::SetContactReporting(reporting) => world.set_contact_reporting(reporting).ok()?,
             Self::Unrecordable => return None,
-        }
-        Some(())
-    }
-
-    fn apply_to_obstacle(self, world: &mut World) -> Option<()> {
-        match self {
-            Self::AddObstacle(record) => drop(world.add_obstacle(record.restore()?).ok()?),
-            Self::SetObstacle(id, record) => {
-                let obstacle = record.restore()?;
-                world.change_obstacle(id, |place| *place = obstacle).ok()?;
-            }
-            Self::MoveObstacle(id, target) => {
-                world.move_obstacle(id, crate::collision::obstacle_record::pose_of(target)?).ok()?;
-            }
-            Self::RemoveObstacle(id) => world.remove_obstacle(id).ok()?,
-            _ => return None,
         }
         Some(())
     }
