@@ -37,6 +37,10 @@ const ROOM: &str = "
     at = [30.0, 15.0]
     name = \"two\"
     controller = \"idle\"
+    [[spawn]]
+    of = \"pellet\"
+    at = [36.0, 4.0]
+    from = 0.6
     [[command]]
     of = \"two\"
     at = 0.3

@@ -94,10 +94,7 @@ impl Scenario {
 impl Built {
     /// Takes a step with these inputs, and the script's for organisms without one.
     pub fn step(&mut self, told: &Inputs) {
-        // A replay has the script, and so needs no record of what that does.
-        self.world.record_changes(false);
         let mut inputs = self.script.before_step(&mut self.world).clone();
-        self.world.record_changes(true);
         inputs.replace_with(told);
         self.world.step(&inputs);
     }

@@ -89,9 +89,9 @@ impl Changes {
 
 impl World {
     /// Starts or stops noting what is changed by other calls than steps, so that a replay repeats it. The world of a built
-    /// scenario notes changes, but for those that its script makes.
-    pub fn record_changes(&mut self, is_recording: bool) {
-        self.changes.is_recording = is_recording;
+    /// scenario notes changes, but for those that its script makes. Returns whether they were noted before.
+    pub fn record_changes(&mut self, is_recording: bool) -> bool {
+        std::mem::replace(&mut self.changes.is_recording, is_recording)
     }
 
     /// To be called after every change from outside: what was made for queries is out of date.
