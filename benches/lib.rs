@@ -99,3 +99,8 @@ fn in_stretches(start: &World, steps: u64, mut timed: impl FnMut(&mut World) -> 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The examples of the guide for embedders.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/embedding.md")]
+struct Embedding;

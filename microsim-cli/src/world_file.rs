@@ -95,6 +95,7 @@ pub(crate) fn lost(replay: &Replay, path: &Path) -> Option<String> {
     let path = path.display();
     match replay.ending() {
         Ending::Complete => None,
+        Ending::Unrecordable => Some(format!("{path}: ends before a change that cannot be recorded")),
         Ending::CutOff => Some(format!("{path}: cut off, played to its last whole record")),
         Ending::Damaged { at } => Some(format!("{path}: damaged at byte {at}, played to the last whole record")),
     }

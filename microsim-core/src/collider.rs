@@ -1,4 +1,4 @@
-//! What can be touched: organisms, obstacles and walls; and where two of them touch.
+//! What can be touched: organisms, obstacles and walls; where two of them touch, and what is reported of that.
 
 use crate::id::{ObstacleId, OrganismId};
 use glam::Vec2;
@@ -45,6 +45,13 @@ impl Collider {
     pub fn obstacle(self) -> Option<ObstacleId> {
         if let Self::Obstacle(id) = self { Some(id) } else { None }
     }
+}
+
+/// What is reported of contacts, besides that organisms begin and cease to touch each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactReporting {
+    /// Speed of approach from which on a contact is a hit, units/s, 0 to 1 000 000; without it nothing is.
+    pub hit_speed: Option<f32>,
 }
 
 /// Where a disc of an organism touched something in a step.

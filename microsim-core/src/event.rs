@@ -104,14 +104,14 @@ pub enum Event {
     JointBroken {
         /// The joint; the handle is stale.
         joint: JointId,
-        /// Whom it joined; `None` for a place of the world.
+        /// Whom it joined; `None` for a place of the world or of an obstacle.
         between: [Option<OrganismId>; 2],
     },
-    /// Something that a joint held is gone or frozen.
+    /// Something that a joint held is gone or frozen, or is an obstacle that is disabled.
     JointEnded {
         /// The joint; the handle is stale.
         joint: JointId,
-        /// Whom it joined; `None` for a place of the world. Handles may be stale.
+        /// Whom it joined; `None` for a place of the world or of an obstacle. Handles may be stale.
         between: [Option<OrganismId>; 2],
     },
     /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.

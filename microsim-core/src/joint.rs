@@ -1,7 +1,7 @@
 //! Joints as plain data: what is joined, and how.
 
 use crate::error::{Error, in_range};
-use crate::id::OrganismId;
+use crate::id::{ObstacleId, OrganismId};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,13 @@ pub enum JointEnd {
     Centre(OrganismId),
     /// A place of the world, coordinates within ±100 000.
     Point(Vec2),
+    /// A place of an obstacle, which it takes along when it moves, and which nothing pulls from it.
+    Obstacle {
+        /// The obstacle; it has to be enabled.
+        obstacle: ObstacleId,
+        /// The place in the obstacle's own frame, coordinates within ±100 000.
+        at: Vec2,
+    },
 }
 
 /// What a joint does. Lengths are 0 to 100 000 units.
@@ -113,7 +120,7 @@ impl JointSpec {
     /// Names the first one out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         for (end, name) in [(self.a, "a"), (self.b, "b")] {
-            if let JointEnd::Point(at) = end {
+            if let JointEnd::Point(at) | JointEnd::Obstacle { at, .. } = end {
                 in_range("x", at.x, -LONGEST, LONGEST).map_err(|error| error.within(name))?;
                 in_range("y", at.y, -LONGEST, LONGEST).map_err(|error| error.within(name))?;
             }
@@ -164,13 +171,18 @@ impl JointKind {
 }
 
 impl JointEnd {
-    /// The organism that it holds; `None` for a place of the world.
+    /// The organism that it holds; `None` for a place of the world or of an obstacle.
     #[must_use]
     pub fn organism(self) -> Option<OrganismId> {
         match self {
             Self::Node { organism, .. } | Self::Centre(organism) => Some(organism),
-            Self::Point(_) => None,
+            Self::Point(_) | Self::Obstacle { .. } => None,
         }
+    }
+
+    /// The obstacle that it holds, and the place there.
+    pub(crate) fn obstacle(self) -> Option<(ObstacleId, Vec2)> {
+        if let Self::Obstacle { obstacle, at } = self { Some((obstacle, at)) } else { None }
     }
 }
 

@@ -201,9 +201,8 @@ pub mod obstacles {
 
 /// Events, and reports of contacts.
 pub mod contacts {
-    pub use crate::collider::{Collider, ContactPoint, Wall};
+    pub use crate::collider::{Collider, ContactPoint, ContactReporting, Wall};
     pub use crate::event::{Event, Refusal};
-    pub use crate::world::contact_report::ContactReporting;
 }
 
 /// Queries: rays, shape casts, nearest points, overlaps.

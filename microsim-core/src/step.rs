@@ -93,7 +93,9 @@ impl World {
 
 fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase)) {
     world.events.clear();
+    world.changes.begin_step();
     world.scratch.occupancy.clear();
+    world.scratch.query_index.clear();
     world.begin_contact_reports();
     serial(world, |world| steer(world, inputs));
     world.contract_muscles(inputs);
@@ -115,6 +117,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
         finished(Phase::ProjectFluids);
+        world.advance_obstacles();
         project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
@@ -132,6 +135,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     finished(Phase::DiffuseChemicals);
     conclude(world);
     finished(Phase::Conclude);
+    world.changes.end_step();
     world.step_index += 1;
 }
 
@@ -200,7 +204,7 @@ fn project_fluids(world: &mut World, h: f32) {
 }
 
 fn project_constraints(world: &mut World, h: f32, substep: u32) {
-    let World { config, particles, templates, blocks, sleep, organisms, scratch, dispatch, .. } = world;
+    let World { config, particles, templates, blocks, sleep, organisms, obstacles, scratch, dispatch, .. } = world;
     let share = (substep + 1) as f32 / config.substeps as f32;
     let margins = scratch.broad_phase.margins.blocks_mut();
     let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
@@ -228,6 +232,7 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
         membrane.project(ring, particles, h);
     }
     contraction::project(&scratch.contractions, particles, h);
+    scratch.joints.follow(obstacles, &mut scratch.obstacle_paths);
     scratch.joints.project(particles, h);
 }
 
@@ -238,7 +243,6 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
-    world.advance_obstacles();
     let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());

@@ -9,8 +9,8 @@ use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Collider, Controller, ErrorKind, Event, FluidBlockSpec, Inputs, Kind, Material, Node,
-    Obstacle, OrganismId, Placement, PlateletSpec, ProbeSpec, QueryFilter, RigidCellSpec, Role, Template, World,
-    WorldConfig,
+    Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, QueryFilter, RigidCellSpec, Role, Template,
+    World, WorldConfig,
 };
 
 fn room() -> World {
@@ -284,4 +284,25 @@ fn a_slope_holds_what_is_rough_and_lets_slide_what_is_smooth() {
     };
     assert!(slide(0.0) > 5.0, "{}", slide(0.0));
     assert!(slide(1.0) < 0.2, "{}", slide(1.0));
+}
+
+#[test]
+fn what_is_spawned_with_an_overlap_is_pushed_apart() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let pellet = OrganismSpec::from(AgarSpec { radius: 1.0, ..AgarSpec::default() });
+    let first = world.spawn(&pellet, Placement::at(40.0, 40.0)).unwrap();
+    let near = Placement::at(41.85, 40.0);
+    assert_eq!(world.spawn(&pellet, near.clone()).unwrap_err().field(), "at");
+    assert_eq!(world.spawn(&pellet, near.clone().overlapping(0.6)).unwrap_err().field(), "overlap");
+    let second = world.spawn(&pellet, near.overlapping(0.1)).unwrap();
+    let apart = |world: &World| world.centroid(first).unwrap().distance(world.centroid(second).unwrap());
+    assert!(apart(&world) < 1.86);
+    world.step(&Inputs::new());
+    assert!(apart(&world) > 1.99, "{}", apart(&world));
+    // A cell could be entered, and an obstacle too: they keep to a touch.
+    let cell = OrganismSpec::from(AmoeboidCellSpec::default());
+    assert_eq!(world.spawn(&cell, Placement::at(46.0, 40.0).overlapping(0.1)).unwrap_err().field(), "at");
+    world.add_obstacle(Obstacle::new(SharedShape::ball(2.0), Pose::translation(80.0, 40.0))).unwrap();
+    let inside = Placement::at(82.9, 40.0).overlapping(0.1);
+    assert_eq!(world.spawn(&pellet, inside).unwrap_err().field(), "at");
 }

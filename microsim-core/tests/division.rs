@@ -181,6 +181,20 @@ fn both_lobes_live_on_with_random_numbers_of_their_own() {
 }
 
 #[test]
+fn a_default_cell_is_never_refused() {
+    let (mut world, cell) = room_with(AmoeboidCellSpec::default(), CENTRE.x, CENTRE.y);
+    for turn in 0..10 {
+        let mut other = world.clone();
+        other.divide_along(cell, unit_vector(turn as f32)).unwrap();
+        run(&mut other, &Inputs::new(), 1);
+        assert!(other.events().contains(&Event::DivisionBegan { organism: cell }), "turn {turn}: {:?}", other.events());
+        run(&mut world, &toward(cell, CENTRE + 30.0 * unit_vector(2.4 * turn as f32)), 25);
+    }
+    world.divide(cell).unwrap();
+    assert!(matches!(finish(&mut world, "while it crawls"), Some(Event::Divided { .. })));
+}
+
+#[test]
 fn a_given_axis_is_obeyed() {
     for angle in [0.0, 0.9, 2.0] {
         let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());

@@ -1,9 +1,11 @@
 //! Joints by the laws of mechanics, and what becomes of them.
 
+use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, OrganismId, Placement, Template, World,
-    WorldConfig,
+    Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion,
+    OrganismId, Placement, Template, World, WorldConfig,
 };
 use std::f32::consts::TAU;
 
@@ -235,4 +237,74 @@ fn clones_and_snapshots_have_the_same_joints_and_future() {
         assert_eq!(other.first_difference(&world), None);
         assert!(other.joints().eq(world.joints()));
     }
+}
+
+/// A kinematic bar at a place.
+fn bar(world: &mut World, at: Vec2) -> ObstacleId {
+    let shape = SharedShape::cuboid(2.0, 0.5);
+    let motion = ObstacleMotion::Push;
+    world.add_obstacle(Obstacle { motion, ..Obstacle::new(shape, Pose::translation(at.x, at.y)) }).unwrap()
+}
+
+#[test]
+fn a_weight_hangs_on_an_obstacle_and_goes_where_that_goes() {
+    let mut world = room(10.0, 8);
+    let crane = bar(&mut world, Vec2::new(50.0, 60.0));
+    let weight = disc(&mut world, Vec2::new(50.0, 50.0), 2.0);
+    let end = JointEnd::Obstacle { obstacle: crane, at: Vec2::new(0.0, -0.5) };
+    let rope = join(&mut world, end, node(weight), JointKind::Rope { max_length: 9.5 });
+    run(&mut world, 5.0);
+    assert!((world.joint(rope).unwrap().force - 20.0).abs() < 0.2, "{:?}", world.joint(rope));
+    for step in 1..=600 {
+        world.move_obstacle(crane, Pose::translation(50.0 + 0.02 * step as f32, 60.0 + 0.01 * step as f32)).unwrap();
+        world.step(&Inputs::new());
+        let view = world.joint(rope).unwrap();
+        assert!(view.ends[0].distance(view.ends[1]) < 9.51, "{view:?}");
+    }
+    assert!((at(&world, weight).x - 62.0).abs() < 1.0 && (at(&world, weight).y - 56.0).abs() < 0.2);
+    // Put elsewhere at once, it draws the weight after it, even if that was asleep.
+    world.set_obstacle_pose(crane, Pose::translation(62.0, 70.0)).unwrap();
+    run(&mut world, 2.0);
+    assert!((at(&world, weight).y - 60.0).abs() < 0.2, "{}", at(&world, weight));
+}
+
+#[test]
+fn a_wheel_is_driven_by_an_obstacle_that_turns() {
+    let mut world = room(0.0, 8);
+    let hub = bar(&mut world, Vec2::new(50.0, 50.0));
+    let rim = disc(&mut world, Vec2::new(53.0, 50.0), 1.0);
+    let end = JointEnd::Obstacle { obstacle: hub, at: Vec2::new(3.0, 0.0) };
+    join(&mut world, end, node(rim), JointKind::Pin);
+    for step in 1..=120 {
+        let angle = step as f32 * TAU / 240.0;
+        world.move_obstacle(hub, Pose::new(Vec2::new(50.0, 50.0), angle)).unwrap();
+        world.step(&Inputs::new());
+        let wanted = Vec2::new(50.0, 50.0) + 3.0 * unit_vector(angle);
+        assert!(at(&world, rim).distance(wanted) < 0.01, "{} {wanted}", at(&world, rim));
+    }
+}
+
+#[test]
+fn a_joint_ends_with_its_obstacle_and_needs_one_that_is_there() {
+    let mut world = room(10.0, 8);
+    let [kept, gone] = [40.0, 60.0].map(|x| bar(&mut world, Vec2::new(x, 60.0)));
+    let weight = disc(&mut world, Vec2::new(50.0, 50.0), 2.0);
+    let spec = |obstacle| {
+        let end = JointEnd::Obstacle { obstacle, at: Vec2::ZERO };
+        JointSpec::new(node(weight), end, JointKind::Rope { max_length: 20.0 })
+    };
+    let joints = [kept, gone].map(|obstacle| world.add_joint(spec(obstacle)).unwrap());
+    run(&mut world, 0.5);
+    world.remove_obstacle(gone).unwrap();
+    world.step(&Inputs::new());
+    let ended = |joint| Event::JointEnded { joint, between: [Some(weight), None] };
+    assert_eq!(world.events(), [ended(joints[1])]);
+    assert_eq!(world.add_joint(spec(gone)).unwrap_err().field(), "b.obstacle");
+    world.set_obstacle_enabled(kept, false).unwrap();
+    assert_eq!(world.add_joint(spec(kept)).unwrap_err().field(), "b.obstacle");
+    world.step(&Inputs::new());
+    assert_eq!(world.events(), [ended(joints[0])]);
+    assert_eq!(world.joints().count(), 0);
+    run(&mut world, 0.5);
+    assert!(at(&world, weight).y < 49.0, "it falls");
 }

@@ -179,3 +179,32 @@ fn is_within(path: &[String], prefix: &str) -> bool {
     let prefix: Vec<&str> = prefix.split("::").collect();
     path.len() >= prefix.len() && path.iter().zip(prefix).all(|(a, b)| a == b)
 }
+
+/// Functions that change a world and are recorded under another name, or that change no result.
+const RECORDED_OTHERWISE: &[&str] = &[
+    "divide",
+    "divide_along",
+    "fuse",
+    "set_obstacle_pose",
+    "set_obstacle_shape",
+    "set_obstacle_enabled",
+    "set_instruction_set",
+    "record_changes",
+];
+
+#[test]
+fn a_replay_repeats_every_change_from_outside() {
+    let sources = of_the_core();
+    let change = sources.iter().find(|source| source.path == Path::new("world/change.rs")).unwrap();
+    let mut seen = 0;
+    for source in sources.iter().filter(|source| source.module() == "world") {
+        for window in source.tokens.windows(7) {
+            let text: Vec<&str> = window.iter().map(|token| token.text.as_str()).collect();
+            let ["pub", "fn", name, "(", "&", "mut", "self"] = text[..] else { continue };
+            let is_repeated = !change.lines_with(&format!("world.{name}")).is_empty();
+            assert!(is_repeated || RECORDED_OTHERWISE.contains(&name), "`World::{name}` is not in world/change.rs");
+            seen += 1;
+        }
+    }
+    assert!(seen > 30, "{seen}");
+}

@@ -41,6 +41,7 @@ pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
             table.row("digest", format!("every {} steps", replay.interval()));
             let ending = match replay.ending() {
                 Ending::Complete => "it is complete".to_owned(),
+                Ending::Unrecordable => "it ends before a change that cannot be recorded".to_owned(),
                 Ending::CutOff => "it was cut off".to_owned(),
                 Ending::Damaged { at } => format!("it is damaged at byte {at}"),
             };

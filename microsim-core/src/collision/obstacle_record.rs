@@ -10,7 +10,7 @@ use parry2d::shape::{PolylineFlags, SharedShape, Triangle, TypedShape};
 use serde::{Deserialize, Serialize};
 
 /// An obstacle.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ObstacleRecord {
     shape: ShapeRecords,
     pose: PoseRecord,
@@ -18,7 +18,7 @@ pub(crate) struct ObstacleRecord {
 }
 
 /// All of an obstacle but its shape and its place.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
     material: Material,
     groups: CollisionGroups,
@@ -32,14 +32,14 @@ pub(crate) struct Surface {
 pub(crate) type PoseRecord = (Vec2, [f32; 2]);
 
 /// A shape, or the shapes that it consists of.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum ShapeRecords {
     One(ShapeRecord),
     Several(Vec<(PoseRecord, ShapeRecord)>),
 }
 
 /// A shape that is no collection.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum ShapeRecord {
     Ball(f32),
     /// Half extents and the radius of the border.

@@ -8,9 +8,10 @@ use crate::kind::Kind;
 use crate::look::{Look, Matter, Profile, RoundLook, Texture};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use serde::{Deserialize, Serialize};
 
 /// A small disc to be eaten.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AgarSpec {
     /// Radius, units, 0.1 to 20.
     pub radius: f32,

@@ -15,6 +15,7 @@ use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Template};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Distance of neighbouring discs, in radii: with their ends, a rod 2.5 times as long as wide.
 const SPACING: f32 = 1.5;
@@ -22,7 +23,7 @@ const SPACING: f32 = 1.5;
 const THRUST: f32 = 200.0;
 
 /// A rod-shaped bacterium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BacillusSpec {
     /// Half its width, units, 0.1 to 20. *Escherichia coli*: 0.4.
     pub radius: f32,

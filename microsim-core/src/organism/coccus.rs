@@ -9,12 +9,13 @@ use crate::kind::Kind;
 use crate::look::{Look, Matter, RoundLook};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use serde::{Deserialize, Serialize};
 
 /// Largest acceleration of what jostles it, units/s2: it is light, so a push stops it at once.
 const JOSTLE: f32 = 50.0;
 
 /// A small round bacterium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoccusSpec {
     /// Radius, units, 0.1 to 20. *Staphylococcus*: 0.4 to 0.5.
     pub radius: f32,

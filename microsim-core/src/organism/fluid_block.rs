@@ -9,9 +9,10 @@ use crate::solver::fluid::FluidParams;
 use crate::spec_field::FieldValue::Vector;
 use crate::spec_field::{FieldVisitor, check, required};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// A rectangle of fluid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FluidBlockSpec {
     /// Width and height, units, 0.1 to 20 000 each.
     pub size: Vec2,

@@ -21,18 +21,20 @@ pub(crate) mod table;
 pub(crate) use blueprint::{Blueprint, FluidPlan};
 pub(crate) use living::{Organism, Phagosome};
 pub use placement::Placement;
+pub(crate) use placement::TOUCHING;
 pub use spec::SpecTable;
 pub(crate) use storage::Storage;
 
 use crate::kind::Kind;
 use crate::look::Look;
+use serde::{Deserialize, Serialize};
 use spec::Spec;
 
 /// Declares [`OrganismSpec`]. A macro, because nothing else writes a variant, its conversion and its arms in one line.
 macro_rules! organisms {
     ($($kind:ident: $spec:ty;)*) => {
         /// Any organism, as plain data.
-        #[derive(Clone, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[non_exhaustive]
         pub enum OrganismSpec {
             $(#[doc = concat!("See [`", stringify!($spec), "`].")] $kind($spec),)*

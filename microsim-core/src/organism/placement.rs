@@ -4,9 +4,13 @@ use crate::capability::controller::Controller;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Overlap of two discs that always is allowed, as a share of the sum of their radii: neighbours may touch.
+pub(crate) const TOUCHING: f32 = 0.02;
 
 /// Where and how an organism is put into the world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
     /// Its centre, units from the room's lower left corner.
     pub at: Vec2,
@@ -16,13 +20,17 @@ pub struct Placement {
     pub scale: f32,
     /// What steers it when no input does.
     pub controller: Controller,
+    /// How far its discs may overlap those of others, as a share of the sum of both radii, 0 to 0.5: for what is spawned among
+    /// others that press. Contacts push them apart in the next step; where nothing holds them they fly apart, at up to the speed
+    /// limit. Organisms with an outline are spawned, and overlapped, by 0.02 at most.
+    pub overlap: f32,
 }
 
 impl Placement {
     /// At this place, unturned, in its own size, steered by inputs only.
     #[must_use]
     pub fn at(x: f32, y: f32) -> Self {
-        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller: Controller::Still }
+        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller: Controller::Still, overlap: TOUCHING }
     }
 
     /// The same with another controller.
@@ -46,11 +54,19 @@ impl Placement {
         self
     }
 
+    /// The same, allowing an overlap with others, who are pushed apart, see [`Placement::overlap`].
+    #[must_use]
+    pub fn overlapping(mut self, share: f32) -> Self {
+        self.overlap = share;
+        self
+    }
+
     pub(crate) fn validate(&self) -> Result<(), Error> {
         in_range("at.x", self.at.x, -1e5, 1e5)?;
         in_range("at.y", self.at.y, -1e5, 1e5)?;
         in_range("angle", self.angle, -1000.0, 1000.0)?;
         in_range("scale", self.scale, 0.01, 100.0)?;
+        in_range("overlap", self.overlap, 0.0, 0.5)?;
         self.controller.validate().map_err(|error| error.within("controller"))
     }
 

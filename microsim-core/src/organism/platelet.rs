@@ -20,6 +20,7 @@ use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Share of a satellite's radius that stays free between ring and interlayer.
 const INTERLAYER_GAP: f32 = 0.1;
@@ -28,7 +29,7 @@ const INTERLAYER_GAP: f32 = 0.1;
 const FOLD_LIMIT: f32 = 1.6;
 
 /// A soft obstacle on a rope.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlateletSpec {
     /// Outer radius, units, 0.2 to 100.
     pub radius: f32,

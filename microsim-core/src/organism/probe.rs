@@ -8,9 +8,10 @@ use crate::kind::Kind;
 use crate::look::{Look, Matter, RoundLook};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use serde::{Deserialize, Serialize};
 
 /// A heavy disc that is driven.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeSpec {
     /// Radius, units, 0.1 to 100.
     pub radius: f32,

@@ -24,13 +24,14 @@ use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Satellites that a chord skips, and the share of its rest length that it never goes below: no fold in the ring.
 const CHORD: usize = 3;
 const FOLD_LIMIT: f32 = 0.55;
 
 /// A red blood cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RedCellSpec {
     /// Radius at rest, units, 0.5 to 100. A human one: 3.75.
     pub radius: f32,

@@ -5,6 +5,7 @@ use super::Record;
 use crate::actuation::Actuation;
 use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
+use crate::world::change::WorldChange;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -166,12 +167,14 @@ pub(super) struct Encoder {
     history: History,
     told: Inputs,
     pending: Vec<(u32, Change)>,
+    world: Vec<(u32, WorldChange)>,
     steps: u32,
 }
 
 impl Encoder {
-    /// Notes what organisms were told in one more step. Returns how many steps wait to be written.
-    pub(super) fn note(&mut self, told: &Inputs) -> u32 {
+    /// Notes what was done to the world before one more step, and what organisms were told in it. Returns how many steps wait to be written.
+    pub(super) fn note(&mut self, world: &[WorldChange], told: &Inputs) -> u32 {
+        self.world.extend(world.iter().map(|change| (self.steps, change.clone())));
         let before = self.pending.len();
         self.pending.extend(Change::between(&self.told, told).into_iter().map(|change| (self.steps, change)));
         if self.pending.len() > before {
@@ -187,7 +190,14 @@ impl Encoder {
 
     /// Whether something has changed in the steps that wait.
     pub(super) fn has_changes(&self) -> bool {
-        !self.pending.is_empty()
+        !(self.pending.is_empty() && self.world.is_empty())
+    }
+
+    /// What was done to the world in the steps that wait, as the content of a chunk, if anything was.
+    pub(super) fn write_world(&mut self) -> Option<Vec<u8>> {
+        let world = std::mem::take(&mut self.world);
+        // Into memory this cannot fail.
+        (!world.is_empty()).then(|| postcard::to_stdvec(&world).unwrap_or_default())
     }
 
     /// The steps that wait, as the content of a chunk.
@@ -212,7 +222,7 @@ pub(super) struct Decoder {
 
 impl Decoder {
     /// The record that a chunk holds; `None` if no encoder writes such a chunk.
-    pub(super) fn record(&mut self, content: &[u8]) -> Option<Record> {
+    pub(super) fn record(&mut self, content: &[u8], world: Vec<(u32, WorldChange)>) -> Option<Record> {
         let (Steps { count: steps, changes: deltas, digest }, rest) = postcard::take_from_bytes(content).ok()?;
         let (mut changes, mut done) = (Vec::new(), 0u32);
         for delta in deltas {
@@ -224,9 +234,16 @@ impl Decoder {
             changes.push((step, change));
             done = step + 1;
         }
-        let is_whole = steps > 0 && rest.is_empty();
-        is_whole.then(|| Record { steps, changes, digest: digest.map(u64::from_le_bytes) })
+        let is_whole = steps > 0 && rest.is_empty() && world.last().is_none_or(|(step, _)| *step < steps);
+        is_whole.then(|| Record { steps, changes, world, digest: digest.map(u64::from_le_bytes) })
     }
+}
+
+/// What was done to the world in the steps of a chunk; `None` if no encoder writes such a content.
+pub(super) fn world_changes(content: &[u8]) -> Option<Vec<(u32, WorldChange)>> {
+    let (changes, rest): (Vec<(u32, WorldChange)>, _) = postcard::take_from_bytes(content).ok()?;
+    let is_sound = rest.is_empty() && !changes.is_empty() && changes.is_sorted_by_key(|(step, _)| *step);
+    is_sound.then_some(changes)
 }
 
 #[cfg(test)]
@@ -237,7 +254,7 @@ mod tests {
     fn read(count: u32, changes: &[(u32, u32, Told)]) -> Option<Record> {
         let delta = |&(gap, index, told): &_| Delta::Other(gap, OrganismId { index, generation: 0 }, told);
         let steps = Steps { count, changes: changes.iter().map(delta).collect(), digest: None };
-        Decoder::default().record(&postcard::to_stdvec(&steps).unwrap())
+        Decoder::default().record(&postcard::to_stdvec(&steps).unwrap(), Vec::new())
     }
 
     #[test]
@@ -255,7 +272,7 @@ mod tests {
         let beats = |activation| Delta::Activation(1, OrganismId { index: 4, generation: 0 }, 0, activation);
         let steps = |changes, rest: &[u8]| {
             let content = postcard::to_stdvec(&Steps { count: 1, changes, digest: None }).unwrap();
-            Decoder::default().record(&[&content, rest].concat())
+            Decoder::default().record(&[&content, rest].concat(), Vec::new())
         };
         assert!(steps(vec![], &[]).is_some());
         assert_eq!(steps(vec![], &[0]), None, "more than its content");

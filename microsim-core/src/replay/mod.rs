@@ -1,7 +1,12 @@
-//! Replays: a scenario and what its organisms were told, step by step, with digests to check against.
+//! Replays: a scenario, what its organisms were told, step by step, and what else was changed, with digests to check against.
 //!
 //! A file is a header and then one chunk for every few steps, each with its length and checksum, so that it can be written
 //! as the run goes on, and what there is of it can be played wherever it was cut off.
+//!
+//! All that a program does to the world by the functions of [`World`](crate::World) is recorded with the step before which it was
+//! done: spawning, obstacles, joints, fields, settings. Two things are not: a world that is put in the place of another one,
+//! which is noticed when the replay is played; and an obstacle of a shape that cannot be written, see
+//! [`World::to_snapshot`](crate::World::to_snapshot), before which the replay ends with [`Ending::Unrecordable`].
 //!
 //! ```
 //! use microsim_core::replay::{Recorder, Replay, Player};
@@ -15,6 +20,9 @@
 //! let mut inputs = Inputs::new();
 //! for step in 0..20 {
 //!     inputs.set(player, Intent::toward(Vec2::new(step as f32, 10.0))?);
+//!     if step == 10 {
+//!         run.world.set_gravity(Vec2::new(0.0, -10.0))?;
+//!     }
 //!     run.step(&inputs);
 //!     file.extend(recorder.step(&inputs, &run.world));
 //! }
@@ -34,6 +42,7 @@ mod player;
 mod recorder;
 
 use crate::scenario::Origin;
+use crate::world::change::WorldChange;
 use changes::{Change, Decoder};
 use chunk::{ChunkError, ChunkReader};
 pub use player::{Mismatch, Player};
@@ -50,6 +59,10 @@ const VERSION: u32 = 2;
 const HEADER: u8 = 0;
 const STEPS: u8 = 1;
 const END: u8 = 2;
+/// What was done to the world in the steps of the next chunk.
+const WORLD: u8 = 3;
+/// Something was done that cannot be recorded.
+const UNRECORDABLE: u8 = 4;
 
 /// What was recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +88,8 @@ struct Record {
     steps: u32,
     /// What changed before a step, counted from the first one of the record; ascending.
     changes: Vec<(u32, Change)>,
+    /// What was done to the world before a step, in this order.
+    world: Vec<(u32, WorldChange)>,
     /// Of the world after the last step.
     digest: Option<u64>,
 }
@@ -84,6 +99,8 @@ struct Record {
 pub enum Ending {
     /// As its recorder finished it.
     Complete,
+    /// Before a step in which the world was changed by something that cannot be recorded.
+    Unrecordable,
     /// Within a chunk, or without the last one: it was cut off, or its recorder did not get to finish it.
     CutOff,
     /// With something that no recorder writes.
@@ -135,17 +152,22 @@ impl Replay {
             Some(Ok((HEADER, content))) => postcard::from_bytes(content).map_err(|_| ReplayError::NoHeader)?,
             _ => return Err(ReplayError::NoHeader),
         };
-        let (mut records, mut decoder) = (Vec::new(), Decoder::default());
+        let (mut records, mut decoder, mut world) = (Vec::new(), Decoder::default(), Vec::new());
         let ending = loop {
             let at = chunks.place();
             match chunks.next() {
                 None => break Ending::CutOff,
                 Some(Err(ChunkError::CutOff)) => break Ending::CutOff,
-                Some(Ok((STEPS, content))) => match decoder.record(content) {
+                Some(Ok((WORLD, content))) if world.is_empty() => match changes::world_changes(content) {
+                    Some(read) => world = read,
+                    None => break Ending::Damaged { at },
+                },
+                Some(Ok((STEPS, content))) => match decoder.record(content, std::mem::take(&mut world)) {
                     Some(record) => records.push(record),
                     None => break Ending::Damaged { at },
                 },
                 Some(Ok((END, []))) if chunks.is_at_end() => break Ending::Complete,
+                Some(Ok((UNRECORDABLE, []))) if chunks.is_at_end() => break Ending::Unrecordable,
                 Some(Ok(_) | Err(ChunkError::Damaged)) => break Ending::Damaged { at },
             }
         };

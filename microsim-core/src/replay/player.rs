@@ -12,8 +12,17 @@ pub struct Player {
     run: Built,
     told: Inputs,
     records: std::vec::IntoIter<Record>,
-    /// What is left of the present record: steps already taken, changes to come.
-    now: Option<(Record, u32, usize)>,
+    /// The present record, if there is more of it to come.
+    now: Option<Progress>,
+}
+
+/// A record, and what was played of it.
+#[derive(Clone, Debug)]
+struct Progress {
+    record: Record,
+    steps: u32,
+    changes: usize,
+    world: usize,
 }
 
 /// A world that is not what it was when it was recorded.
@@ -65,24 +74,39 @@ impl Player {
     }
 }
 
+impl Progress {
+    /// Does what was done before the next step.
+    fn change(&mut self, world: &mut World, told: &mut Inputs) {
+        let step = self.steps;
+        while let Some((_, change)) = self.record.world.get(self.world).filter(|(at, _)| *at == step) {
+            // What a world refuses was not done to the recorded one: the next digest differs.
+            let _ = change.apply(world);
+            self.world += 1;
+        }
+        while let Some((_, change)) = self.record.changes.get(self.changes).filter(|(at, _)| *at == step) {
+            // The decoder has checked it.
+            let _ = change.apply(told);
+            self.changes += 1;
+        }
+    }
+}
+
 impl Iterator for Player {
     type Item = Result<(), Mismatch>;
 
     /// Takes one step; an error where its digest is not the recorded one. One can go on after that, but the digests that
     /// follow will not be the recorded ones either.
     fn next(&mut self) -> Option<Self::Item> {
-        let (record, step, mut change) = self.now.take().or_else(|| Some((self.records.next()?, 0, 0)))?;
-        while let Some(&(_, told)) = record.changes.get(change).filter(|(at, _)| *at == step) {
-            // The decoder has checked it.
-            let _ = told.apply(&mut self.told);
-            change += 1;
-        }
+        let begin = |record| Progress { record, steps: 0, changes: 0, world: 0 };
+        let mut now = self.now.take().or_else(|| self.records.next().map(begin))?;
+        now.change(&mut self.run.world, &mut self.told);
         self.run.step(&self.told);
-        if step + 1 < record.steps {
-            self.now = Some((record, step + 1, change));
+        now.steps += 1;
+        if now.steps < now.record.steps {
+            self.now = Some(now);
             return Some(Ok(()));
         }
-        let Some(recorded) = record.digest else { return Some(Ok(())) };
+        let Some(recorded) = now.record.digest else { return Some(Ok(())) };
         let (step, found) = (self.run.world.step_index(), self.run.world.digest());
         Some(if found == recorded { Ok(()) } else { Err(Mismatch { step, recorded, found }) })
     }

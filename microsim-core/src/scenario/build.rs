@@ -57,6 +57,7 @@ impl Scenario {
         built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())
             .with_spawners(spawners);
         context.finish()?;
+        built.world.record_changes(true);
         Ok(built)
     }
 

@@ -111,7 +111,8 @@ pub(super) fn draw(group: &Group, rng: &mut Rng) -> (f32, f32) {
 pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
     let extent = group.prototype.extent(scale);
     let (spec, scale) = group.prototype.scaled(scale);
-    let placement = Placement { at, angle, scale, controller: group.controller.clone() };
+    let controller = group.controller.clone();
+    let placement = Placement { angle, scale, controller, ..Placement::at(at.x, at.y) };
     Placed { spec, placement, extent }
 }
 

@@ -84,7 +84,10 @@ impl Script {
     /// Does what is due before the world's next step, and returns the inputs for it. Organisms that have been told where
     /// to go, to rest or to digest no longer follow their controllers.
     pub fn before_step(&mut self, world: &mut World) -> &Inputs {
+        // A replay has the script, and so needs no record of what that does.
+        let is_recording = world.record_changes(false);
         with_default_float_environment(|| self.do_what_is_due(world));
+        world.record_changes(is_recording);
         &self.inputs
     }
 

@@ -6,6 +6,8 @@
 //! over `h^2` is the force.
 
 use super::lanes::ratio;
+use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_path::{ObstaclePath, path_of};
 use crate::particle::Particles;
 use crate::particle::mass_properties::movable;
 use glam::Vec2;
@@ -17,8 +19,8 @@ use std::ops::Range;
 pub(crate) enum End {
     /// Some of the particles of [`Joints`], and whether nothing can move them in this step.
     Particles { range: Range<usize>, is_static: bool },
-    /// A place on the grid of origins, and the place relative to that.
-    Point { origin: Vec2, offset: Vec2 },
+    /// A place on the grid of origins, the place relative to that, and how far it has moved in the substep.
+    Point { origin: Vec2, offset: Vec2, moved: Vec2 },
 }
 
 /// What holds the ends.
@@ -54,11 +56,24 @@ pub(crate) struct Joint {
     pub is_broken: bool,
 }
 
-/// The joints of a step, in the order of projection, and the particles of their ends.
+/// An end at a place of an obstacle.
+#[derive(Clone, Debug)]
+pub(crate) struct Held {
+    /// Which joint and which of its ends.
+    pub joint: usize,
+    pub end: usize,
+    /// Index among all obstacles.
+    pub obstacle: u32,
+    /// In the obstacle's frame.
+    pub at: Vec2,
+}
+
+/// The joints of a step, in the order of projection, the particles of their ends, and the ends that obstacles hold.
 #[derive(Debug, Default)]
 pub(crate) struct Joints {
     pub list: Vec<Joint>,
     pub particles: Vec<u32>,
+    pub held: Vec<Held>,
 }
 
 /// An end in a substep.
@@ -74,11 +89,21 @@ impl Joints {
     pub(crate) fn clear(&mut self) {
         self.list.clear();
         self.particles.clear();
+        self.held.clear();
+    }
+
+    /// Takes the ends that obstacles hold to where these are at the end of the substep.
+    pub(crate) fn follow(&mut self, obstacles: &[Obstacle], paths: &mut [ObstaclePath]) {
+        for held in &self.held {
+            let at = obstacles[held.obstacle as usize].pose.transform_point(held.at);
+            let moved = path_of(paths, held.obstacle).map_or(Vec2::ZERO, |path| path.displacement(at));
+            self.list[held.joint].ends[held.end] = End::place(at, moved);
+        }
     }
 
     /// Projects each joint once, in a substep of `h` seconds.
     pub(crate) fn project(&mut self, p: &mut Particles, h: f32) {
-        let Self { list, particles } = self;
+        let Self { list, particles, .. } = self;
         for joint in list.iter_mut().filter(|joint| !joint.is_broken) {
             joint.project(particles, p, h);
         }
@@ -87,7 +112,7 @@ impl Joints {
 
 impl Joint {
     fn project(&mut self, list: &[u32], p: &mut Particles, h: f32) {
-        let [a, b] = self.ends.each_ref().map(|end| end.place(list, p));
+        let [a, b] = self.ends.each_ref().map(|end| end.present(list, p));
         // A weight on a joint of 10 units stretches it by 4e-5 units in a substep, of which `f32` would lose a fiftieth.
         let across = [0, 1].map(|k| f64::from(b.origin[k] - a.origin[k]) + f64::from(b.offset[k] - a.offset[k]));
         let length = length_of(across);
@@ -133,12 +158,16 @@ impl Law {
 }
 
 impl End {
-    fn place(&self, list: &[u32], p: &Particles) -> Place {
-        match self {
-            Self::Point { origin, offset } => {
-                Place { origin: *origin, offset: *offset, moved: Vec2::ZERO, inv_mass: 0.0 }
-            }
-            Self::Particles { range, is_static } => Place::of(&list[range.clone()], *is_static, p),
+    /// A place that has moved so far in the substep.
+    pub(crate) fn place(at: Vec2, moved: Vec2) -> Self {
+        let origin = at.round();
+        Self::Point { origin, offset: at - origin, moved }
+    }
+
+    fn present(&self, list: &[u32], p: &Particles) -> Place {
+        match *self {
+            Self::Point { origin, offset, moved } => Place { origin, offset, moved, inv_mass: 0.0 },
+            Self::Particles { ref range, is_static } => Place::of(&list[range.clone()], is_static, p),
         }
     }
 
@@ -182,7 +211,7 @@ mod tests {
     fn joints(law: Law) -> Joints {
         let end = |k: usize| End::Particles { range: k..k + 1, is_static: false };
         let joint = Joint { ends: [end(0), end(1)], law, force: 0.0, is_broken: false };
-        Joints { list: vec![joint], particles: vec![0, 1] }
+        Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }
     }
 
     #[test]
@@ -231,10 +260,9 @@ mod tests {
     #[test]
     fn the_centre_of_a_body_is_moved_as_a_whole() {
         let mut p = line(2.0, [1.0, 0.5]);
-        let ends =
-            [End::Particles { range: 0..2, is_static: false }, End::Point { origin: Vec2::ZERO, offset: Vec2::Y }];
+        let ends = [End::Particles { range: 0..2, is_static: false }, End::place(Vec2::Y, Vec2::ZERO)];
         let joint = Joint { ends, law: Law::rigid(0.0), force: 0.0, is_broken: false };
-        Joints { list: vec![joint], particles: vec![0, 1] }.project(&mut p, H);
+        Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }.project(&mut p, H);
         assert!((p.x[0] + 4.0 / 3.0).abs() < 1e-6 && (p.x[1] - 2.0 / 3.0).abs() < 1e-6 && p.y == [1.0, 1.0]);
     }
 }

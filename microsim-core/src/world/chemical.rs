@@ -1,6 +1,7 @@
 //! Chemicals, and which organisms secrete and take them up.
 
 use super::World;
+use super::change::WorldChange;
 use crate::capability::exchange::Exchange;
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::error::{Error, ErrorKind};
@@ -13,7 +14,9 @@ impl World {
     /// # Errors
     /// Names the field out of its range, which may depend on the room and the time step.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
-        with_default_float_environment(|| self.insert_chemical(spec))
+        let id = with_default_float_environment(|| self.insert_chemical(spec))?;
+        self.changed(|| WorldChange::AddChemical(spec));
+        Ok(id)
     }
 
     fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
@@ -35,6 +38,7 @@ impl World {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         organism.exchanges.retain(|other| other.chemical != exchange.chemical);
         organism.exchanges.push(exchange);
+        self.changed(|| WorldChange::SetExchange(id, exchange));
         Ok(())
     }
 

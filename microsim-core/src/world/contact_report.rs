@@ -2,20 +2,14 @@
 //! walls; hits.
 
 use super::World;
+use super::change::WorldChange;
 use super::obstacle::WALLS;
-use crate::collider::{Collider, ContactPoint, Wall};
+use crate::collider::{Collider, ContactPoint, ContactReporting, Wall};
 use crate::error::{Error, in_range};
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::solver::contact_record::{ContactRecord, Touched};
 use serde::{Deserialize, Serialize};
-
-/// What is reported of contacts, besides that organisms begin and cease to touch each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactReporting {
-    /// Speed of approach from which on a contact is a hit, units/s, 0 to 1 000 000; without it nothing is.
-    pub hit_speed: Option<f32>,
-}
 
 /// What was reported in the last step.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -58,6 +52,7 @@ impl World {
             *reports = ContactReports::default();
         }
         reports.reporting = reporting;
+        self.changed(|| WorldChange::SetContactReporting(reporting));
         Ok(())
     }
 

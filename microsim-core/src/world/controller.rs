@@ -1,6 +1,7 @@
 //! Controllers that change while the world runs.
 
 use super::World;
+use super::change::WorldChange;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::error::Error;
@@ -20,8 +21,9 @@ impl World {
             self.check_controller(&controller, &organism.locomotion, organism.speed, !organism.outline.is_empty())?;
         }
         if let Some(organism) = self.organisms.get_mut(id) {
-            organism.controller = controller;
+            organism.controller = controller.clone();
         }
+        self.changed(|| WorldChange::SetController(id, Box::new(controller)));
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Force fields of a world, and whom they keep awake.
 
 use super::World;
+use super::change::WorldChange;
 use crate::error::Error;
 use crate::force_field::ForceField;
 use crate::id::FieldId;
@@ -25,7 +26,9 @@ impl World {
     /// Names the number that is out of its range.
     pub fn add_field(&mut self, field: ForceField) -> Result<FieldId, Error> {
         field.validate()?;
-        Ok(FieldId::of(self.fields.insert(field)))
+        let id = FieldId::of(self.fields.insert(field));
+        self.changed(|| WorldChange::AddField(field));
+        Ok(id)
     }
 
     /// Replaces a force field by another one, under the same handle.
@@ -35,6 +38,7 @@ impl World {
     pub fn set_field(&mut self, id: FieldId, field: ForceField) -> Result<(), Error> {
         field.validate()?;
         *self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))? = field;
+        self.changed(|| WorldChange::SetField(id, field));
         Ok(())
     }
 
@@ -43,7 +47,9 @@ impl World {
     /// # Errors
     /// When the handle is stale.
     pub fn remove_field(&mut self, id: FieldId) -> Result<(), Error> {
-        self.fields.remove(id.handle()).map(drop).ok_or_else(|| Error::stale("field"))
+        self.fields.remove(id.handle()).ok_or_else(|| Error::stale("field"))?;
+        self.changed(|| WorldChange::RemoveField(id));
+        Ok(())
     }
 
     /// All force fields, in a stable order.

@@ -1,15 +1,17 @@
-//! Joints between organisms and places of the world: they are made and removed at run time, wake who they join, and end when
+//! Joints between organisms, obstacles and places of the world: they are made and removed at run time, wake who they join, and end when
 //! one of them goes.
 
 use super::World;
+use super::change::WorldChange;
+use super::obstacle::WALLS;
 use crate::error::Error;
 use crate::event::Event;
 use crate::float_environment::with_default_float_environment;
-use crate::id::{JointId, OrganismId};
+use crate::id::{JointId, ObstacleId, OrganismId};
 use crate::joint::{JointEnd, JointKind, JointSpec};
 use crate::organism::Organism;
 use crate::particle::mass_properties::{MassProperties, movable};
-use crate::solver::joint::{End, Joint, Law};
+use crate::solver::joint::{End, Held, Joint, Law};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -41,8 +43,8 @@ pub struct JointView {
 impl World {
     /// Joins two things. Bodies that are joined still collide ([`World::set_exempt`]), and wake each other.
     ///
-    /// The joint ends with [`Event::JointEnded`] when an organism that it holds goes or is frozen, or a node of a cell goes to
-    /// another cell, and with [`Event::JointBroken`] when its force is exceeded.
+    /// The joint ends with [`Event::JointEnded`] when an organism that it holds goes or is frozen, a node of a cell goes to
+    /// another cell, or an obstacle that it holds is removed or disabled, and with [`Event::JointBroken`] when its force is exceeded.
     ///
     /// ```
     /// # use microsim_core::{AgarSpec, Inputs, JointEnd, JointKind, JointSpec, Placement, World, WorldConfig, glam::Vec2};
@@ -64,7 +66,9 @@ impl World {
     pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
         let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&spec);
-        Ok(JointId::of(self.joints.insert(record)))
+        let id = JointId::of(self.joints.insert(record));
+        self.changed(|| WorldChange::AddJoint(spec));
+        Ok(id)
     }
 
     /// Replaces a joint by another one, under the same handle: to move the place that it leads to, or to set a motor.
@@ -79,6 +83,7 @@ impl World {
         if let Some(joint) = self.joints.get_mut(id.handle()) {
             *joint = record;
         }
+        self.changed(|| WorldChange::SetJoint(id, spec));
         Ok(())
     }
 
@@ -89,6 +94,7 @@ impl World {
     pub fn remove_joint(&mut self, id: JointId) -> Result<(), Error> {
         let record = self.joints.remove(id.handle()).ok_or_else(|| Error::stale("joint"))?;
         self.wake_up_joined(&record.spec);
+        self.changed(|| WorldChange::RemoveJoint(id));
         Ok(())
     }
 
@@ -127,6 +133,9 @@ impl World {
 
     /// The particle of an end that is a node.
     fn joined_particle(&self, end: JointEnd) -> Result<Option<u32>, Error> {
+        if let Some((id, _)) = end.obstacle() {
+            return self.check_joined_obstacle(id).map(|()| None);
+        }
         let Some(id) = end.organism() else { return Ok(None) };
         self.organism_or_stale(id, "organism")?;
         let Some(organism) = self.organisms.get(id).filter(|organism| !organism.is_quarantined) else {
@@ -137,12 +146,21 @@ impl World {
         organism.particle_of(node).map(Some).ok_or_else(|| Error::reference("node", accepted()))
     }
 
+    fn check_joined_obstacle(&self, id: ObstacleId) -> Result<(), Error> {
+        let obstacle = self.obstacle(id).ok_or_else(|| Error::stale("obstacle"))?;
+        let refused = || Error::unsupported("obstacle", "an obstacle that is enabled");
+        obstacle.is_enabled.then_some(()).ok_or_else(refused)
+    }
+
     fn can_move(&self, list: &[u32]) -> bool {
         movable(&self.particles, list).next().is_some()
     }
 
-    /// The particles of an end, none for a point; `None` if what it held is gone.
+    /// The particles of an end, none for a place; `None` if what it held is gone.
     fn end_particles(&self, record: &JointRecord, k: usize) -> Option<Vec<u32>> {
+        if let Some((id, _)) = record.end(k).obstacle() {
+            return self.check_joined_obstacle(id).ok().map(|()| Vec::new());
+        }
         let Some(id) = record.end(k).organism() else { return Some(Vec::new()) };
         let organism = self.organisms.get(id).filter(|organism| !organism.is_quarantined)?;
         match record.particles[k] {
@@ -152,8 +170,10 @@ impl World {
     }
 
     fn end_position(&self, record: &JointRecord, k: usize) -> Option<Vec2> {
-        if let JointEnd::Point(at) = record.end(k) {
-            return Some(at);
+        match record.end(k) {
+            JointEnd::Point(at) => return Some(at),
+            JointEnd::Obstacle { obstacle, at } => return Some(self.obstacle(obstacle)?.pose.transform_point(at)),
+            JointEnd::Node { .. } | JointEnd::Centre(_) => {}
         }
         let list = self.end_particles(record, k)?;
         let centre = MassProperties::of(&self.particles, &list).map(|body| body.position(&self.particles));
@@ -166,6 +186,15 @@ impl World {
         }
     }
 
+    /// Wakes who is joined to an obstacle.
+    pub(in crate::world) fn wake_up_joined_to(&mut self, obstacle: ObstacleId) {
+        let specs: Vec<JointSpec> = self.joints.iter().map(|(_, record)| record.spec).collect();
+        let holds = |end: JointEnd| end.obstacle().is_some_and(|(id, _)| id == obstacle);
+        for spec in specs.into_iter().filter(|spec| holds(spec.a) || holds(spec.b)) {
+            self.wake_up_joined(&spec);
+        }
+    }
+
     /// Wakes who is joined to something that moves.
     pub(crate) fn wake_up_joints(&mut self) {
         let is_moving = |organism: &Organism, world: &Self| {
@@ -175,7 +204,10 @@ impl World {
         let specs: Vec<JointSpec> = self.joints.iter().map(|(_, record)| record.spec).collect();
         for spec in specs {
             let organisms = [spec.a, spec.b].into_iter().filter_map(JointEnd::organism);
-            if organisms.filter_map(|id| self.organisms.get(id)).any(|organism| is_moving(organism, self)) {
+            let mut obstacles = [spec.a, spec.b].into_iter().filter_map(JointEnd::obstacle);
+            let is_carried = obstacles.any(|(id, _)| self.obstacle_target(id).is_some());
+            let mut organisms = organisms.filter_map(|id| self.organisms.get(id));
+            if is_carried || organisms.any(|organism| is_moving(organism, self)) {
                 self.wake_up_joined(&spec);
             }
         }
@@ -195,6 +227,14 @@ impl World {
             let moves = |end: &End| matches!(end, End::Particles { is_static: false, .. });
             if moves(&a) || moves(&b) {
                 self.scratch.joined.push(handle);
+                let held = [record.spec.a, record.spec.b].map(JointEnd::obstacle).into_iter().enumerate();
+                let held = held.filter_map(|(end, held)| Some((end, held?)));
+                gathered.held.extend(held.map(|(end, (id, at))| Held {
+                    joint: gathered.list.len(),
+                    end,
+                    obstacle: id.index + WALLS as u32,
+                    at,
+                }));
                 gathered.list.push(Joint { ends: [a, b], law: record.law(), force: 0.0, is_broken: false });
             }
         }
@@ -203,9 +243,8 @@ impl World {
 
     /// An end as the solver sees it. Its particles are added to a list.
     fn end(&self, record: &JointRecord, k: usize, list: &mut Vec<u32>) -> Option<End> {
-        if let JointEnd::Point(at) = record.end(k) {
-            let origin = at.round();
-            return Some(End::Point { origin, offset: at - origin });
+        if record.end(k).organism().is_none() {
+            return self.end_position(record, k).map(|at| End::place(at, Vec2::ZERO));
         }
         let particles = self.end_particles(record, k).filter(|particles| !particles.is_empty())?;
         let first = list.len();

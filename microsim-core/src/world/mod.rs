@@ -2,6 +2,7 @@
 //! ([`phagocytosis`]), division, fusion and growth ([`membrane`]), [`measure`]s, the [`view`], digest and validation
 //! ([`state`]).
 
+pub(crate) mod change;
 mod chemical;
 pub(crate) mod contact_report;
 pub(crate) mod contacts;
@@ -54,6 +55,7 @@ use crate::solver::force::Forces;
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::solver::joint::Joints;
 use crate::template::Template;
+use change::{Changes, WorldChange};
 use contact_report::ContactReports;
 use contacts::Touching;
 use glam::Vec2;
@@ -61,6 +63,7 @@ use joint::JointRecord;
 use obstacle::sensor::Presences;
 use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
+use query::QueryIndex;
 use serde::{Deserialize, Serialize};
 use vacancies::Vacancies;
 
@@ -109,6 +112,8 @@ pub struct World {
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
     #[serde(skip)]
+    pub(crate) changes: Changes,
+    #[serde(skip)]
     pub(crate) scratch: Scratch,
     #[serde(skip)]
     pub(crate) dispatch: Dispatch,
@@ -142,6 +147,7 @@ pub(crate) struct Scratch {
     pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,
+    pub query_index: QueryIndex,
 }
 
 impl Clone for World {
@@ -172,6 +178,7 @@ impl Clone for World {
             presences,
             contact_reports,
             obstacles,
+            changes,
             scratch,
             dispatch,
         } = source;
@@ -194,9 +201,11 @@ impl Clone for World {
         self.presences.clone_from(presences);
         self.contact_reports.clone_from(contact_reports);
         self.obstacles.clone_from(obstacles);
+        self.changes.clone_from(changes);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
         self.scratch.occupancy.clear();
         self.scratch.vacancies.clear();
+        self.scratch.query_index.clear();
         self.dispatch = *dispatch;
     }
 }
@@ -233,6 +242,7 @@ impl World {
             guard: Guard::default(),
             joints: Arena::default(),
             fields: Arena::default(),
+            changes: Changes::default(),
             // It holds a density, the fluid's at rest.
             scratch: with_default_float_environment(Scratch::default),
             dispatch: Dispatch::default(),
@@ -270,7 +280,13 @@ impl World {
 
     /// Adds a template for custom bodies, see [`World::spawn_template`].
     pub fn add_template(&mut self, template: Template) -> TemplateId {
-        TemplateId(self.template_index(template))
+        let count = self.templates.len();
+        let index = self.template_index(template);
+        if self.templates.len() > count {
+            let added = self.templates[count].clone();
+            self.changed(|| WorldChange::AddTemplate(Box::new(added)));
+        }
+        TemplateId(index)
     }
 
     /// Index of an equal template, added if there is none.
@@ -295,6 +311,7 @@ impl World {
         self.exemptions.set(a.index, b.index, is_exempt);
         self.wake_up(a);
         self.wake_up(b);
+        self.changed(|| WorldChange::SetExempt([a, b], is_exempt));
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Pushing an organism: a change of its velocity.
 
 use super::World;
+use super::change::WorldChange;
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
@@ -13,7 +14,9 @@ impl World {
     /// # Errors
     /// When the handle is stale, or a coordinate is not finite or beyond ±1000 units/s. Nothing is changed then.
     pub fn push(&mut self, id: OrganismId, velocity: Vec2) -> Result<(), Error> {
-        with_default_float_environment(|| self.add_velocity(id, velocity))
+        with_default_float_environment(|| self.add_velocity(id, velocity))?;
+        self.changed(|| WorldChange::Push(id, velocity));
+        Ok(())
     }
 
     fn add_velocity(&mut self, id: OrganismId, velocity: Vec2) -> Result<(), Error> {

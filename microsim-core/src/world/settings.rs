@@ -1,5 +1,6 @@
 //! Settings that change while the world runs: the world's own, and those of single organisms.
 
+use super::change::WorldChange;
 use super::{World, obstacle};
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
@@ -29,6 +30,7 @@ impl World {
     pub fn set_gravity(&mut self, gravity: Vec2) -> Result<(), Error> {
         self.change_config(|config| config.gravity = gravity)?;
         self.sleep.wake_all();
+        self.changed(|| WorldChange::SetGravity(gravity));
         Ok(())
     }
 
@@ -37,7 +39,9 @@ impl World {
     /// # Errors
     /// When it is not finite or out of its range.
     pub fn set_damping(&mut self, damping: f32) -> Result<(), Error> {
-        self.change_config(|config| config.damping = damping)
+        self.change_config(|config| config.damping = damping)?;
+        self.changed(|| WorldChange::SetDamping(damping));
+        Ok(())
     }
 
     /// Sets the speed limit, see [`WorldConfig::max_speed`]. What is faster is slowed down at once. Wakes nothing.
@@ -47,6 +51,7 @@ impl World {
     pub fn set_max_speed(&mut self, max_speed: f32) -> Result<(), Error> {
         self.change_config(|config| config.max_speed = max_speed)?;
         with_default_float_environment(|| self.enforce_speed_limit());
+        self.changed(|| WorldChange::SetMaxSpeed(max_speed));
         Ok(())
     }
 
@@ -83,6 +88,7 @@ impl World {
         self.organisms.set_gravity_scale(id, scale);
         self.wake_up(id);
         self.wake_up_touching(id);
+        self.changed(|| WorldChange::SetGravityScale(id, scale));
         Ok(())
     }
 
@@ -92,7 +98,9 @@ impl World {
     /// When the handle is stale.
     pub fn set_user_data(&mut self, id: OrganismId, data: u128) -> Result<(), Error> {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::stale("organism"))?;
-        organism.user_data = [data as u64, (data >> 64) as u64];
+        let halves = [data as u64, (data >> 64) as u64];
+        organism.user_data = halves;
+        self.changed(|| WorldChange::SetUserData(id, halves));
         Ok(())
     }
 
@@ -120,6 +128,7 @@ impl World {
         discs.into_iter().for_each(|i| self.particles.groups[i] = groups);
         self.wake_up(id);
         self.wake_up_touching(id);
+        self.changed(|| WorldChange::SetCollisionGroups(id, groups));
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Spawning and removing organisms. Everything is checked before anything changes.
 
 use super::World;
+use super::change::WorldChange;
 use super::occupancy::bounds_of;
 use super::vacancies::Vacancy;
 use crate::capability::Locomotion;
@@ -12,7 +13,7 @@ use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
-use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage};
+use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage, TOUCHING};
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
@@ -23,9 +24,6 @@ use crate::template::{Node, Propulsion, Role, Template};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
-/// Overlap of two discs that is allowed at spawning, as a share of the sum of their radii: neighbours may touch.
-const OVERLAP_TOLERANCE: f32 = 0.02;
-
 impl World {
     /// Puts an organism into the world.
     ///
@@ -33,7 +31,10 @@ impl World {
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
     /// what is already there, or when the world would hold too many particles. Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
-        with_default_float_environment(|| self.spawn_blueprint(spec.blueprint()?, placement))
+        let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
+        let id = with_default_float_environment(spawn)?;
+        self.changed(|| WorldChange::Spawn(Box::new((spec.clone(), placement))));
+        Ok(id)
     }
 
     /// Puts an instance of a custom template into the world.
@@ -41,9 +42,12 @@ impl World {
     /// # Errors
     /// As for [`World::spawn`], and when the template is not one of this world's.
     pub fn spawn_template(&mut self, template: TemplateId, placement: Placement) -> Result<OrganismId, Error> {
-        let template = self.templates.get(template.0 as usize).cloned();
-        let template = template.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
-        with_default_float_environment(|| self.spawn_blueprint(Blueprint::custom(template), placement))
+        let known = self.templates.get(template.0 as usize).cloned();
+        let known = known.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
+        let spawn = || self.spawn_blueprint(Blueprint::custom(known), placement.clone());
+        let id = with_default_float_environment(spawn)?;
+        self.changed(|| WorldChange::SpawnTemplate(template.0, Box::new(placement)));
+        Ok(id)
     }
 
     /// Removes an organism. Prey that it holds is released and returns to its full size.
@@ -71,6 +75,7 @@ impl World {
             Storage::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
         organism.fluid_particles.into_iter().for_each(|i| self.particles.remove(i));
+        self.changed(|| WorldChange::Remove(id));
         Ok(())
     }
 
@@ -89,7 +94,7 @@ impl World {
         let scale = blueprint.scale * placement.scale;
         let id = self.organisms.next_id();
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
-        self.check_place(&planned)?;
+        self.check_place(&planned, if has_outline { TOUCHING } else { placement.overlap })?;
         self.note_place(id.index, bounds_of(discs(&planned)));
 
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
@@ -134,8 +139,8 @@ impl World {
         Ok(self.organisms.insert(organism))
     }
 
-    /// Checks that planned discs lie inside the walls and overlap nothing.
-    fn check_place(&mut self, planned: &[Particle]) -> Result<(), Error> {
+    /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share.
+    fn check_place(&mut self, planned: &[Particle], share: f32) -> Result<(), Error> {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
         for p in planned {
@@ -146,19 +151,19 @@ impl World {
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
             }
         }
-        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>()) {
+        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>(), share) {
             return Err(Error::new(ErrorKind::Overlap { with }, "at"));
         }
         Ok(())
     }
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
-    fn overlap(&mut self, planned: &[Particle]) -> Option<String> {
+    fn overlap(&mut self, planned: &[Particle], share: f32) -> Option<String> {
         if self.solid_obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = bounds_of(discs(planned));
-        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds))?;
+        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds, share))?;
         self.with_its_place(self.organisms.id_at(hit)?)
     }
 
@@ -176,13 +181,14 @@ impl World {
     }
 
     /// Whether an organism overlaps discs within these bounds.
-    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb) -> bool {
+    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
         let p = &self.particles;
+        let share = if organism.outline.is_empty() { share } else { TOUCHING };
         organism.particles().map(|i| i as usize).any(|i| {
             let near = bounds.loosened(p.radius[i]);
             near.contains_local_point(p.position(i))
                 && discs.iter().any(|disc| {
-                    let reach = (disc.radius + p.radius[i]) * (1.0 - OVERLAP_TOLERANCE);
+                    let reach = (disc.radius + p.radius[i]) * (1.0 - share);
                     disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
                 })
         })
@@ -309,7 +315,7 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
 fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
     let (surface, is_inside) = obstacle.nearest(disc.position());
     let gap = (disc.position() - surface).length();
-    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - OVERLAP_TOLERANCE))
+    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - TOUCHING))
 }
 
 /// Places and radii of planned particles.

@@ -214,7 +214,10 @@ impl Sequence<'_> {
     fn joint_end(&mut self, id: OrganismId) -> JointEnd {
         match self.choices.below(3) {
             0 => JointEnd::Centre(id),
-            1 => JointEnd::Point(self.place()),
+            1 => {
+                let (at, obstacle) = (self.place(), self.obstacles.last().filter(|_| id.index() % 2 == 1));
+                obstacle.map_or(JointEnd::Point(at), |&obstacle| JointEnd::Obstacle { obstacle, at })
+            }
             _ => JointEnd::Node { organism: id, node: self.choices.below(60) as u32 },
         }
     }
@@ -423,7 +426,12 @@ impl Sequence<'_> {
         let boxed = queries.overlap_box(a, b, &all);
         let near = [queries.overlap_disc(a, radius, &all), boxed, queries.overlap_polygon(&[a, b, a + b], &all)];
         assert!(near.iter().flatten().all(|&collider| is_known(collider)));
-        assert!(queries.nearest(a, radius, &all).is_none_or(|nearest| nearest.distance <= radius));
+        let nearest = queries.nearest(a, radius, &all);
+        assert!(nearest.is_none_or(|nearest| nearest.distance <= radius));
+        let fresh = self.world.clone();
+        let fresh = fresh.queries();
+        assert_eq!(fresh.cast_ray_all(a, b - a, 10.0 * radius, &all), hits, "what was kept is out of date");
+        assert_eq!(fresh.nearest(a, radius, &all), nearest, "what was kept is out of date");
     }
 
     /// Goes on with what is read of what the world is written as.

@@ -25,6 +25,7 @@ use crate::spec_field::FieldValue::{Number, Table, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Most nodes of a membrane.
 const MAX_NODES: f32 = 4096.0;
@@ -37,7 +38,7 @@ const LEAST_CYTOPLASM: usize = 7;
 const AMOEBA_NODE: f32 = 0.6;
 
 /// A membrane filled with cytoplasm.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AmoeboidCellSpec {
     /// Semi-axes at rest, units, each at least three node radii and at most 500.
     pub radii: Vec2,

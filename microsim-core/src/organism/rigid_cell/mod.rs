@@ -23,6 +23,7 @@ use crate::spec_field::FieldValue::{Count, Number, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
 use glam::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// Nucleus mass over the mass of all satellites (the seed: "most of the mass").
 const NUCLEUS_SHARE: f32 = 1.5;
@@ -32,7 +33,7 @@ const LAYER_DISTANCE: f32 = 2.4;
 const LAYER_COMPLIANCE: f32 = 1e-6;
 
 /// A soft body that keeps its shape.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RigidCellSpec {
     /// Semi-axes, units, 0.5 to 200 each, at most 1 : 8. It faces along the first.
     pub radii: Vec2,

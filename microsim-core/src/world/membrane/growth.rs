@@ -12,6 +12,7 @@ use crate::solver::fluid::rest_area;
 use crate::solver::membrane::STRAIN_LIMIT;
 use crate::template::Role;
 use crate::world::World;
+use crate::world::change::WorldChange;
 use glam::Vec2;
 
 /// Largest amount of cytoplasm in a membrane that has not stretched yet, over its content at rest. With more the pressure
@@ -37,6 +38,7 @@ impl World {
         if let Some(organism) = self.organisms.get_mut(id) {
             organism.add_wanted_nodes(nodes, &self.fluids);
         }
+        self.changed(|| WorldChange::Grow(id, nodes, particles));
         Ok(())
     }
 

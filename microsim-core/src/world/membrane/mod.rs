@@ -17,6 +17,7 @@ use crate::event::Refusal;
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
+use crate::world::change::WorldChange;
 
 /// Rate of changes that a membrane can follow, 1/s: nodes put in or taken out, particles of cytoplasm added.
 const CHANGE_RATE: f64 = 60.0;
@@ -51,6 +52,7 @@ impl World {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         let divider = organism.divider.as_mut();
         divider.ok_or_else(|| Error::unsupported("organism", "an amoeboid cell"))?.order = Some(order);
+        self.changed(|| WorldChange::Order(id, order));
         Ok(())
     }
 

@@ -8,7 +8,9 @@ pub(crate) mod sensor;
 pub(crate) mod table;
 
 use super::World;
+use super::change::WorldChange;
 use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_record::ObstacleRecord;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range, out_of_range};
 use crate::float_environment::with_default_float_environment;
@@ -30,7 +32,10 @@ impl World {
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, a one-way platform has no
     /// direction, or the obstacle would overlap an organism. Nothing is changed then.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
-        with_default_float_environment(|| self.insert_obstacle(obstacle))
+        let record = ObstacleRecord::of(&obstacle).map(Box::new);
+        let id = with_default_float_environment(|| self.insert_obstacle(obstacle))?;
+        self.changed(|| record.map_or(WorldChange::Unrecordable, WorldChange::AddObstacle));
+        Ok(id)
     }
 
     fn insert_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
@@ -71,6 +76,7 @@ impl World {
         self.known_obstacle(id)?;
         with_default_float_environment(|| self.put(id, nothing()));
         self.obstacle_table.remove(id);
+        self.changed(|| WorldChange::RemoveObstacle(id));
         Ok(())
     }
 
@@ -100,13 +106,20 @@ impl World {
         with_default_float_environment(|| self.change_obstacle(id, |obstacle| obstacle.is_enabled = is_enabled))
     }
 
-    fn change_obstacle(&mut self, id: ObstacleId, change: impl FnOnce(&mut Obstacle)) -> Result<(), Error> {
+    pub(in crate::world) fn change_obstacle(
+        &mut self,
+        id: ObstacleId,
+        change: impl FnOnce(&mut Obstacle),
+    ) -> Result<(), Error> {
         let mut obstacle = self.known_obstacle(id)?.clone();
         change(&mut obstacle);
         check(&obstacle)?;
         self.check_clear(&obstacle)?;
+        let record = ObstacleRecord::of(&obstacle).map(Box::new);
         self.obstacle_table.replace(id, &obstacle);
         self.put(id, obstacle);
+        let set = |record| WorldChange::SetObstacle(id, record);
+        self.changed(|| record.map_or(WorldChange::Unrecordable, set));
         Ok(())
     }
 
@@ -117,6 +130,7 @@ impl World {
         let before = std::mem::replace(place, obstacle);
         let shut = before.stops_chemicals() || place.stops_chemicals();
         self.wake_up_near(&before);
+        self.wake_up_joined_to(id);
         if shut {
             self.open_chemicals();
         }

@@ -3,10 +3,12 @@
 use super::{WALLS, check_pose};
 use crate::collision::obstacle::ObstacleMotion;
 use crate::collision::obstacle_path::ObstaclePath;
+use crate::collision::obstacle_record::record;
 use crate::error::{Error, out_of_range};
 use crate::event::Event;
 use crate::id::ObstacleId;
 use crate::world::World;
+use crate::world::change::WorldChange;
 use parry2d::math::Pose;
 
 impl World {
@@ -57,6 +59,7 @@ impl World {
             return Err(out_of_range("target.rotation", cosine.into(), accepted));
         }
         self.obstacle_table.set_target(id.index, Some(&target));
+        self.changed(|| WorldChange::MoveObstacle(id, record(&target)));
         Ok(())
     }
 

@@ -1,9 +1,10 @@
-//! Queries: organisms at a point, in a circle, in a box; and [`Queries`], which sorts the world once for many: rays, shape casts,
+//! Queries: organisms at a point, in a circle, in a box; and [`Queries`], for which the world is sorted once after each change: rays, shape casts,
 //! nearest points and overlaps with organisms, obstacles and walls.
 
 mod filter;
 mod index;
 mod region;
+mod sorted;
 
 use super::World;
 use crate::collider::Collider;
@@ -11,12 +12,15 @@ use crate::collision::obstacle::Obstacle;
 use crate::id::OrganismId;
 pub use filter::QueryFilter;
 use glam::Vec2;
-use index::{Disc, DiscIndex, Ray};
+use index::{Disc, Ray};
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
 use parry2d::query::{ShapeCastOptions, cast_shapes};
 use parry2d::shape::Ball;
 use region::{Region, reaches_into};
+pub(crate) use sorted::QueryIndex;
+use sorted::Sorted;
+use std::sync::Arc;
 
 /// What a ray, or a disc that is cast, meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +50,8 @@ pub struct NearestPoint {
     pub distance: f32,
 }
 
-/// A world sorted for queries: making it costs about as much as a look at every particle, and each query then looks at what is
-/// near. It borrows the world, so it always tells of the present state.
+/// A world sorted for queries. That costs about as much as a look at every particle, once after a step or another change; each
+/// query then looks at what is near. It borrows the world, so it always tells of the present state.
 ///
 /// Numbers that are not finite find nothing. A sensor is found if the filter says so, a disabled obstacle never.
 ///
@@ -65,38 +69,14 @@ pub struct NearestPoint {
 #[derive(Debug)]
 pub struct Queries<'w> {
     world: &'w World,
-    discs: DiscIndex,
-    /// Organisms with an outline, and the boxes around them.
-    outlined: Vec<(OrganismId, Aabb)>,
-    /// Enabled obstacles, walls included, and the boxes around them.
-    obstacles: Vec<(Collider, &'w Obstacle, Aabb)>,
+    sorted: Arc<Sorted>,
 }
 
 impl World {
-    /// Sorts the world for queries.
+    /// Queries of the present state. The first since the last step, or since another change, sorts the world.
     #[must_use]
     pub fn queries(&self) -> Queries<'_> {
-        let p = &self.particles;
-        let mut discs = Vec::with_capacity(p.live_count());
-        let mut bounds = vec![Aabb::new_invalid(); self.organisms.slot_count() as usize];
-        for i in p.live() {
-            let at = p.position(i);
-            bounds[p.owner[i] as usize].take_point(at);
-            if p.groups[i].memberships != 0 && at.is_finite() {
-                discs.push(Disc { at, radius: p.radius[i], index: i as u32 });
-            }
-        }
-        let outlined = self.organisms.iter().filter(|(_, organism)| !organism.outline.is_empty());
-        let outlined = outlined.map(|(id, _)| (id, bounds[id.index as usize])).collect();
-        let obstacles = (0..).zip(self.obstacles.iter()).filter(|(_, obstacle)| obstacle.is_enabled);
-        let known = |(k, obstacle): (u32, _)| Some((self.collider_at(k)?, obstacle));
-        let obstacles = obstacles.filter_map(known).map(|(collider, obstacle)| (collider, obstacle, obstacle.aabb()));
-        Queries {
-            world: self,
-            discs: DiscIndex::new(discs, self.config.size),
-            outlined,
-            obstacles: obstacles.collect(),
-        }
+        Queries { world: self, sorted: self.scratch.query_index.of(self) }
     }
 
     /// Organisms at a point: one of their discs, or the area within their outline, contains it.
@@ -158,7 +138,7 @@ impl<'w> Queries<'w> {
                 nearest = Some(*disc);
             }
         };
-        self.discs.along(&ray, visit, |done| best.get() <= done);
+        self.sorted.discs.along(&ray, visit, |done| best.get() <= done);
         let disc = nearest.and_then(|disc| self.disc_hit(&ray, &disc, filter));
         disc.filter(|disc| first.is_none_or(|first| disc.distance <= first.distance)).or(first)
     }
@@ -168,7 +148,7 @@ impl<'w> Queries<'w> {
     pub fn cast_ray_all(&self, origin: Vec2, direction: Vec2, length: f32, filter: &QueryFilter<'_>) -> Vec<RayHit> {
         let Some(ray) = ray(origin, direction, length, 0.0) else { return Vec::new() };
         let mut hits: Vec<RayHit> = self.surfaces_along(ray, filter).collect();
-        self.discs.along(&ray, |disc, _| hits.extend(self.disc_hit(&ray, disc, filter)), |_| false);
+        self.sorted.discs.along(&ray, |disc, _| hits.extend(self.disc_hit(&ray, disc, filter)), |_| false);
         let by_distance = |a: &RayHit, b: &RayHit| a.distance.total_cmp(&b.distance);
         hits.sort_by(|a, b| (a.collider.cmp(&b.collider)).then(by_distance(a, b)).then(a.node.cmp(&b.node)));
         hits.dedup_by_key(|hit| hit.collider);
@@ -214,11 +194,11 @@ impl<'w> Queries<'w> {
 
     fn overlap(&self, region: &Region<'_>, filter: &QueryFilter<'_>) -> Vec<Collider> {
         let Some(bounds) = region.aabb() else { return Vec::new() };
-        let near = self.discs.in_box(bounds.mins, bounds.maxs).filter(|disc| region.touches_disc(disc));
+        let near = self.sorted.discs.in_box(bounds.mins, bounds.maxs).filter(|disc| region.touches_disc(disc));
         let mut found: Vec<Collider> = near.filter_map(|disc| self.organism_of(disc, filter)).collect();
         found.sort_unstable();
         found.dedup();
-        let around = self.outlined.iter().filter(|(_, organism)| organism.intersects(&bounds));
+        let around = self.sorted.outlined.iter().filter(|(_, organism)| organism.intersects(&bounds));
         let around = around.filter(|(id, _)| found.binary_search(&Collider::Organism(*id)).is_err());
         let around: Vec<_> = around.filter(|(id, _)| self.is_within(*id, region, filter)).map(|(id, _)| *id).collect();
         found.extend(around.into_iter().map(Collider::Organism));
@@ -245,7 +225,7 @@ impl<'w> Queries<'w> {
                 let gap = (disc.at - point).length() - disc.radius;
                 if gap > 0.0 { gap } else { 0.0 }
             };
-            let near = self.discs.in_box(point - within, point + within).map(|disc| (gap(disc), disc));
+            let near = self.sorted.discs.in_box(point - within, point + within).map(|disc| (gap(disc), disc));
             let near = near.filter(|(gap, disc)| *gap <= within && self.organism_of(disc, filter).is_some());
             let first = near.reduce(|a, b| if (b.0, b.1.index) < (a.0, a.1.index) { b } else { a });
             if let Some((distance, disc)) = first {
@@ -274,7 +254,8 @@ impl<'w> Queries<'w> {
                 && obstacle.groups.meets(filter.groups)
                 && filter.accepts(collider)
         };
-        self.obstacles.iter().copied().filter(move |(collider, obstacle, _)| is_asked_for(*collider, obstacle))
+        let all = self.sorted.obstacles.iter().map(|&(collider, k, aabb)| (collider, &self.world.obstacles[k], aabb));
+        all.filter(move |(collider, obstacle, _)| is_asked_for(*collider, obstacle))
     }
 
     /// The obstacles and walls along a ray.
