@@ -3,6 +3,7 @@
 use super::storage::Storage;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
+use crate::capability::crawl::Pseudopods;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
@@ -12,7 +13,7 @@ use crate::kind::Kind;
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid};
-use crate::solver::membrane::{Membrane, MembraneContent};
+use crate::solver::membrane::{Flexibility, Membrane, MembraneContent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -125,7 +126,7 @@ impl Organism {
 
     /// Whether it is crawling in this step.
     pub(crate) fn crawls(&self) -> bool {
-        matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) })
+        self.locomotion.crawling_front().is_some()
     }
 
     /// Finds this step's tension of its membrane, if it has one.
@@ -140,10 +141,14 @@ impl Organism {
         let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
         let content = MembraneContent { area, spacing, lobes, folds };
-        membrane.relax(&self.outline, particles, content, is_driven, dt);
+        let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());
+        let stiffness = pseudopods.map_or(Vec::new(), Pseudopods::stiffness);
+        let slack = pseudopods.map(|pseudopods| pseudopods.params.slack);
+        let flexibility = Flexibility { slack, stiffness: &stiffness };
+        membrane.relax(&self.outline, particles, content, is_driven, flexibility, dt);
         for phagosome in &mut self.phagosomes {
             let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
-            phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
+            phagosome.membrane.relax(&phagosome.ring, particles, content, false, Flexibility::LEAST, dt);
         }
     }
 

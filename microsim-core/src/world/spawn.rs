@@ -105,6 +105,11 @@ impl World {
             }
         };
         let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
+        let mut locomotion = blueprint.locomotion;
+        if let Some(pseudopods) = locomotion.pseudopods_mut() {
+            pseudopods.rng = Rng::new(self.config.seed, id.crawl_stream());
+            pseudopods.network.reset(outline.len());
+        }
         let organism = Organism {
             kind: blueprint.kind,
             body,
@@ -112,7 +117,7 @@ impl World {
             outline,
             fluid,
             fluid_particles,
-            locomotion: blueprint.locomotion,
+            locomotion,
             speed: blueprint.speed,
             controller: placement.controller,
             rng: Rng::new(self.config.seed, id.stream()),

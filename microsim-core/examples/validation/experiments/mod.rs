@@ -6,6 +6,7 @@ pub(crate) mod chemotactic_index;
 pub(crate) mod constriction;
 pub(crate) mod convergence;
 pub(crate) mod coulomb;
+pub(crate) mod crawl;
 pub(crate) mod dam_break;
 pub(crate) mod diffusion;
 pub(crate) mod division;
