@@ -188,7 +188,7 @@ impl Organism {
         let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
         divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
         let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
-        self.set_nodes_per_root(nodes, fluids);
+        self.set_nodes_per_root((nodes as f32 / self.unfolding()) as u32, fluids);
     }
 
     fn set_nodes_per_root(&mut self, nodes: u32, fluids: &[Fluid]) {
@@ -198,9 +198,23 @@ impl Organism {
         }
     }
 
+    /// Membrane over that at rest: folds of it open while pseudopods extend.
+    fn unfolding(&self) -> f32 {
+        let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());
+        pseudopods.map_or(1.0, |pseudopods| 1.0 + pseudopods.params.slack)
+    }
+
+    /// Lets folds of its membrane open and close with its pseudopods, if it has any.
+    pub(crate) fn unfold(&mut self, fluids: &[Fluid]) {
+        if self.locomotion.pseudopods().is_some() {
+            self.record_nodes_per_root(fluids);
+            self.update_wanted_nodes(fluids);
+        }
+    }
+
     /// Sends its membrane on the way to the number of nodes that suits its content.
     pub(crate) fn update_wanted_nodes(&mut self, fluids: &[Fluid]) {
-        let root = self.content(fluids).sqrt();
+        let root = self.content(fluids).sqrt() * self.unfolding();
         if let Some(divider) = &mut self.divider {
             divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
         }

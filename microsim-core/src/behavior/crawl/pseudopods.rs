@@ -155,3 +155,59 @@ impl Cell<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capability::crawl::amoebae::Crawl;
+    use crate::{AmoeboidCellSpec, Controller, Inputs, Intent, OrganismId, Placement, World, WorldConfig};
+
+    fn a_cell(crawl: Crawl, seed: u64, controller: Controller) -> (World, OrganismId) {
+        let mut world = World::new(WorldConfig { size: Vec2::splat(1000.0), seed, ..WorldConfig::default() }).unwrap();
+        let spec = AmoeboidCellSpec { crawl, ..AmoeboidCellSpec::default() };
+        let cell = world.spawn(&spec.into(), Placement::at(500.0, 500.0).steered_by(controller)).unwrap();
+        (world, cell)
+    }
+
+    #[test]
+    fn the_crawl_has_random_numbers_of_its_own() {
+        let run = |crawl: Crawl, seed: u64| {
+            let (mut world, cell) = a_cell(crawl, seed, Controller::wander([1.0, 2.0], 0.0));
+            (0..120).for_each(|_| world.step(&Inputs::new()));
+            (world.organisms.get(cell).unwrap().rng.clone(), world.digest())
+        };
+        let (old, new, other) = (run(Crawl::FrontAndRear, 1), run(Crawl::Neutrophil, 1), run(Crawl::Neutrophil, 2));
+        assert_eq!(old.0, new.0, "the controller draws as before");
+        assert!(old.1 != new.1 && new.1 != other.1);
+        assert_eq!(run(Crawl::Neutrophil, 1).1, new.1);
+    }
+
+    #[test]
+    fn tips_are_pushed_outwards_the_rear_inwards_and_prey_makes_the_membrane_stiff() {
+        let (mut world, cell) = a_cell(Crawl::Neutrophil, 1, Controller::Still);
+        let mut inputs = Inputs::new();
+        inputs.set(cell, Intent::toward(Vec2::new(1e4, 500.0)).unwrap());
+        (0..60).for_each(|_| world.step(&inputs));
+        let organism = world.organisms.get(cell).unwrap().clone();
+        let Locomotion::Protrude(mut pseudopods) = organism.locomotion.clone() else { panic!("it has pseudopods") };
+        assert!(pseudopods.protrudes());
+        let nodes = organism.outline_positions(&world.particles);
+        let (goal, centre) = (Vec2::new(1e4, 500.0), centroid(&nodes).unwrap());
+        let mut drives = Vec::new();
+        crawl(&organism, &mut pseudopods, goal, &world.particles, 1.0 / 60.0, &mut drives).unwrap();
+        for (k, node) in organism.outline.iter().enumerate() {
+            let Some(drive) = drives.iter().find(|drive| drive.particle == *node) else { continue };
+            let (out, speed) = (heading(nodes[k] - centre), drive.velocity.length());
+            if pseudopods.network.protrudes(k) {
+                assert!(drive.velocity.dot(out) > 0.0 && speed > 8.0, "tip {k}: {}", drive.velocity);
+            } else if out.x < -0.9 {
+                assert!(drive.velocity.dot(out) < 0.0, "rear {k}: {}", drive.velocity);
+            }
+        }
+        let prey = world.spawn(&crate::AgarSpec::default().into(), Placement::at(centre.x + 14.0, centre.y)).unwrap();
+        let touches = |world: &World| world.organisms.get(cell).unwrap().meals().iter().any(|meal| meal.prey == prey);
+        assert!((0..300).any(|_| (world.step(&inputs), touches(&world)).1), "it meets the prey");
+        world.step(&inputs);
+        assert!(world.organisms.get(cell).unwrap().locomotion.pseudopods().unwrap().is_stiff);
+    }
+}
