@@ -43,7 +43,7 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 22] = [
+pub(crate) const ALL: [Experiment; 23] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
@@ -66,6 +66,7 @@ pub(crate) const ALL: [Experiment; 22] = [
     constriction::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
+    crawl::EXPERIMENT,
 ];
 
 /// What came of it.

@@ -44,12 +44,12 @@ impl PseudopodParams {
     /// Nature 453, 475).
     pub const KERATOCYTE: Self = Self {
         start_rate: 12.0,
-        life: 6.0,
-        width: 0.4,
-        coverage: 0.7,
+        life: 100.0,
+        width: 0.3,
+        coverage: 1.0,
         split_share: 0.0,
-        goal_bias: 0.3,
-        tip_speed: 1.2,
+        goal_bias: 0.4,
+        tip_speed: 1.05,
         stiffness: 0.5,
         slack: 0.25,
         ..Self::NEUTROPHIL
@@ -63,13 +63,13 @@ impl PseudopodParams {
         width: 0.1,
         coverage: 0.35,
         split_share: 0.7,
-        split_angle: 55.0,
+        split_angle: 70.0,
         split_spread: 14.0,
-        alternation: 0.75,
+        alternation: 0.9,
         goal_bias: 0.2,
         tip_speed: 2.3,
         stiffness: 0.15,
-        slack: 0.42,
+        slack: 0.33,
     };
 
     /// Dictyostelium discoideum: narrow pseudopods that split at some 60 degrees, mostly on alternating sides (Bosgraaf and
@@ -80,10 +80,10 @@ impl PseudopodParams {
         width: 0.08,
         coverage: 0.3,
         split_share: 0.85,
-        goal_bias: 0.12,
+        goal_bias: 0.06,
         tip_speed: 2.5,
         stiffness: 0.1,
-        slack: 0.45,
+        slack: 0.4,
         ..Self::NEUTROPHIL
     };
 
@@ -96,8 +96,24 @@ impl PseudopodParams {
         split_share: 0.4,
         goal_bias: 0.08,
         tip_speed: 2.2,
-        stiffness: 0.08,
-        slack: 0.6,
+        stiffness: 0.12,
+        slack: 0.5,
         ..Self::NEUTROPHIL
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_type_has_its_word_and_sound_pseudopods_of_its_own() {
+        for (k, crawl) in Crawl::ALL.into_iter().enumerate() {
+            assert_eq!(crawl as usize, k, "the order of the words");
+            let Some(params) = crawl.pseudopods() else { continue };
+            params.validate().unwrap();
+            assert!(Crawl::ALL[..k].iter().all(|other| other.pseudopods() != Some(params)), "{crawl:?}");
+            assert_eq!(Crawl::WORDS[k].replace('_', ""), format!("{crawl:?}").to_lowercase());
+        }
+    }
 }

@@ -25,8 +25,6 @@ const GAIN: f32 = 0.2;
 const DECAY: f32 = 0.8;
 /// Inhibitor above which a node cannot be excited.
 const REFRACTORY: f32 = 0.06;
-/// Inhibitor that ends any activity.
-const QUENCHED: f32 = 0.25;
 /// Activator of a node that is excited.
 const EXCITED: f32 = 0.7;
 /// Longest step of the explicit Euler method, s.
@@ -116,25 +114,28 @@ impl ExcitableNetwork {
         within(1.0 - self.mean() / coverage, [0.0, 1.0])
     }
 
-    /// Whether a node is neither active nor refractory.
-    pub(crate) fn is_excitable(&self, k: usize) -> bool {
-        self.inhibitor[k] < REFRACTORY
+    /// Whether all nodes around one, this share of all, are neither active nor refractory.
+    pub(crate) fn is_quiet(&self, centre: usize, share: f32) -> bool {
+        self.around(centre, share).all(|k| self.activator[k] < PROTRUDING && self.inhibitor[k] < REFRACTORY)
     }
 
     /// Excites the nodes around one: this share of all.
     pub(crate) fn excite(&mut self, centre: usize, share: f32) {
+        for k in self.around(centre, share) {
+            self.activator[k] = EXCITED;
+        }
+    }
+
+    fn around(&self, centre: usize, share: f32) -> impl Iterator<Item = usize> + use<> {
         let count = self.len();
         let half = ((0.5 * share * count as f32) as usize).max(1);
-        for step in 0..=2 * half {
-            let a = &mut self.activator[(centre + count + step - half) % count];
-            *a = if *a > EXCITED { *a } else { EXCITED };
-        }
+        (0..=2 * half).map(move |step| (centre + count + step - half) % count)
     }
 
     /// Ends the activity of some nodes.
     pub(crate) fn quench(&mut self, is_meant: impl Fn(usize) -> bool) {
         for k in (0..self.len()).filter(|&k| is_meant(k)) {
-            self.inhibitor[k] = QUENCHED;
+            self.activator[k] = 0.0;
         }
     }
 
@@ -213,6 +214,7 @@ mod tests {
     fn nodes_keep_their_activity_in_another_ring() {
         let mut network = quiet(12);
         network.excite(3, 0.1);
+        assert!(!network.is_quiet(5, 0.1) && network.is_quiet(6, 0.1));
         network.insert(4);
         assert!(network.is_sound(13) && network.activator()[4] == EXCITED);
         let kept: Vec<_> = [Some(4), None, Some(9)].into_iter().cycle().take(9).collect();

@@ -146,7 +146,7 @@ impl Pseudopods {
             if cosine > best.1 { (k, cosine) } else { best }
         };
         let (k, _) = outwards.iter().enumerate().fold((0, -2.0), nearest);
-        self.network.is_excitable(k).then_some(k)
+        self.network.is_quiet(k, self.params.width).then_some(k)
     }
 
     /// A random node, rather one towards the goal.
@@ -154,7 +154,7 @@ impl Pseudopods {
         for _ in 0..TRIES {
             let k = (self.rng.unit() * outwards.len() as f32) as usize;
             let is_accepted = self.rng.unit() < self.acceptance(outwards[k], way);
-            if is_accepted && self.network.is_excitable(k) {
+            if is_accepted && self.network.is_quiet(k, self.params.width) {
                 return Some(k);
             }
         }

@@ -5,8 +5,8 @@ use microsim_core::glam::Vec2;
 /// Protrusion of a node from which on it belongs to a pseudopod.
 const PROTRUDES: f32 = 0.1;
 /// Shortest way of a pseudopod, units, and its shortest time, s.
-const LEAST_WAY: f32 = 0.3;
-const LEAST_TIME: f64 = 0.1;
+const LEAST_WAY: f32 = 1.0;
+const LEAST_TIME: f64 = 0.2;
 
 /// A pseudopod from its start to its end.
 #[derive(Clone)]
