@@ -15,10 +15,9 @@ use crate::solver::drive::Drive;
 use glam::Vec2;
 use std::f32::consts::PI;
 
-/// Shares of a tip's direction: of its node's normal, of its pseudopod's direction and of the way to the goal.
+/// Shares of a tip's direction: of its node's normal and of its pseudopod's direction.
 const NORMAL: f32 = 0.4;
 const ALONG: f32 = 0.6;
-const TO_GOAL: f32 = 0.2;
 /// Times in which a tip, the rear, cytoplasm behind a tip and the rest of the front reach their speed, s.
 const TIP_TIME: f32 = 0.0125;
 const REAR_TIME: f32 = 0.0125;
@@ -109,7 +108,7 @@ impl Cell<'_> {
     }
 
     fn tip(&self, k: usize, along: Vec2, force: f32, tip_speed: f32) -> Tip {
-        let direction = heading(NORMAL * self.normal(k) + ALONG * along + TO_GOAL * self.way);
+        let direction = heading(NORMAL * self.normal(k) + ALONG * along);
         let velocity = direction * (tip_speed * self.speed);
         let max_acceleration = force * self.speed / TIP_TIME;
         Tip { at: self.nodes[k], drive: Drive { particle: self.organism.outline[k], velocity, max_acceleration } }

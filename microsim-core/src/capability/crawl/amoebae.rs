@@ -51,7 +51,7 @@ impl PseudopodParams {
         goal_bias: 0.4,
         tip_speed: 1.05,
         stiffness: 0.5,
-        slack: 0.25,
+        slack: 0.15,
         ..Self::NEUTROPHIL
     };
 
@@ -77,9 +77,10 @@ impl PseudopodParams {
     pub const DICTYOSTELIUM: Self = Self {
         start_rate: 7.0,
         life: 0.35,
-        width: 0.08,
+        width: 0.1,
         coverage: 0.3,
         split_share: 0.85,
+        split_angle: 75.0,
         goal_bias: 0.06,
         tip_speed: 2.5,
         stiffness: 0.1,

@@ -266,7 +266,7 @@ impl<'a> OrganismView<'a> {
         self.organism.locomotion.front().map(|k| k as usize)
     }
 
-    /// How far each node of the outline protrudes, 0 to 1, while it crawls by pseudopods; `None` for other ways of moving.
+    /// How much each node of the outline protrudes, 0 to 1, of a cell that crawls by pseudopods; `None` of others.
     #[must_use]
     pub fn protrusion(self) -> Option<Vec<f32>> {
         let network = &self.organism.locomotion.pseudopods()?.network;
