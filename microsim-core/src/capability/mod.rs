@@ -8,6 +8,7 @@ pub(crate) mod exchange;
 pub(crate) mod phagocytosis;
 pub(crate) mod progress;
 
+use crate::rng::Rng;
 use crawl::Pseudopods;
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +54,15 @@ impl Locomotion {
 
     pub(crate) fn pseudopods_mut(&mut self) -> Option<&mut Pseudopods> {
         if let Self::Protrude(pseudopods) = self { Some(pseudopods) } else { None }
+    }
+
+    /// The same for a new organism with so many nodes in its outline, and the random numbers of its crawl.
+    pub(crate) fn begun(mut self, rng: Rng, nodes: usize) -> Self {
+        if let Some(pseudopods) = self.pseudopods_mut() {
+            pseudopods.rng = rng;
+            pseudopods.network.reset(nodes);
+        }
+        self
     }
 
     /// Stops a crawl; pseudopods stay where they are.

@@ -105,11 +105,7 @@ impl World {
             }
         };
         let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
-        let mut locomotion = blueprint.locomotion;
-        if let Some(pseudopods) = locomotion.pseudopods_mut() {
-            pseudopods.rng = Rng::new(self.config.seed, id.crawl_stream());
-            pseudopods.network.reset(outline.len());
-        }
+        let locomotion = blueprint.locomotion.begun(Rng::new(self.config.seed, id.crawl_stream()), outline.len());
         let organism = Organism {
             kind: blueprint.kind,
             body,

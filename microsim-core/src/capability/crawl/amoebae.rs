@@ -75,12 +75,12 @@ impl PseudopodParams {
     /// Dictyostelium discoideum: narrow pseudopods that split at some 60 degrees, mostly on alternating sides (Bosgraaf and
     /// Van Haastert 2009, PLoS ONE 4, e5253).
     pub const DICTYOSTELIUM: Self = Self {
-        start_rate: 7.0,
+        start_rate: 10.0,
         life: 0.35,
-        width: 0.1,
-        coverage: 0.3,
+        width: 0.12,
+        coverage: 0.4,
         split_share: 0.85,
-        split_angle: 75.0,
+        split_angle: 95.0,
         goal_bias: 0.06,
         tip_speed: 2.5,
         stiffness: 0.1,
