@@ -27,6 +27,11 @@ impl OrganismId {
     pub(crate) fn stream(self) -> u64 {
         (u64::from(self.generation) << 32) | u64::from(self.index)
     }
+
+    /// Stream of the random numbers of its crawl.
+    pub(crate) fn crawl_stream(self) -> u64 {
+        self.stream() ^ (1 << 62)
+    }
 }
 
 /// Names a template that was added to a world; valid as long as the world.

@@ -130,6 +130,8 @@ pub mod simulation {
 /// The library's organisms: specs, and what they can do.
 pub mod organisms {
     pub use crate::behavior::crawl::MembraneRegion;
+    pub use crate::capability::crawl::PseudopodParams;
+    pub use crate::capability::crawl::amoebae::Crawl;
     pub use crate::capability::division::DivisionParams;
     pub use crate::capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
     pub use crate::id::OrganismId;

@@ -6,10 +6,11 @@
 #[path = "../examples/validation/experiments/mod.rs"]
 mod experiments;
 
+use experiments::crawl::{self, Figures};
 use experiments::scene::Stepping;
 use experiments::{ALL, angle_of_repose, free_fall, granular_energy, refinement, restitution};
-use microsim_core::WorldConfig;
 use microsim_core::glam::Vec2;
+use microsim_core::{Crawl, WorldConfig};
 
 /// Steps and substeps in which results are to be the same.
 const STEPPINGS: [Stepping; 4] = [
@@ -102,4 +103,29 @@ fn a_heap_stands_by_friction_and_spreads_without_it() {
     let (rough, smooth) = (angle(0.5), angle(0.0));
     assert!(rough > 20.0 && rough < 40.0, "{rough} degrees");
     assert!(smooth < 3.0, "{smooth} degrees");
+}
+
+#[test]
+fn a_cell_that_crawls_by_pseudopods_changes_its_shape_as_cells_do_and_obeys() {
+    let spec = crawl::cell(Crawl::Neutrophil);
+    for seed in 1..=3 {
+        let Figures {
+            solidity,
+            overlaps: [_, second, _, nine_seconds],
+            one_to_three,
+            split_angle,
+            speed,
+            voids,
+            leaks,
+            ..
+        } = crawl::figures(&spec, seed).unwrap();
+        assert!((0.85..0.95).contains(&solidity), "seed {seed}: solidity {solidity}");
+        assert!(second < 0.85 && nine_seconds < 0.75, "seed {seed}: overlaps {second} and {nine_seconds}");
+        assert!(one_to_three > 0.8, "seed {seed}: one to three pseudopods for {one_to_three} of the time");
+        assert!((35.0..75.0).contains(&split_angle), "seed {seed}: splits at {split_angle} degrees");
+        assert!((0.9..1.25).contains(&speed), "seed {seed}: {speed} of its speed");
+        assert!(leaks == 0 && voids < 0.15, "seed {seed}: {leaks} leaks, voids {voids}");
+        let [first, back] = crawl::delays(&spec, seed).unwrap();
+        assert!(first <= 0.1 && back <= 0.2, "seed {seed}: moves after {first} s, turns within {back} s");
+    }
 }

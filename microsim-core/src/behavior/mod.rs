@@ -50,7 +50,7 @@ pub(crate) fn steer_organisms(
             tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration));
         } else {
             organism.progress.note(organism.goal.is_some(), &senses);
-            move_towards(id, organism, particles, drives, events);
+            move_towards(id, organism, particles, environment.dt, drives, events);
         }
     }
 }
@@ -70,11 +70,12 @@ fn move_towards(
     id: OrganismId,
     organism: &mut Organism,
     particles: &Particles,
+    dt: f32,
     drives: &mut Vec<Drive>,
     events: &mut Vec<Event>,
 ) {
     let goal = organism.goal;
-    match organism.locomotion.clone() {
+    match organism.locomotion {
         Locomotion::None | Locomotion::Tow { .. } => {}
         Locomotion::FrontPull { front } => {
             let Some(goal) = goal else { return };
@@ -88,6 +89,7 @@ fn move_towards(
             let front_centre = goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
+        Locomotion::Protrude(_) => crawl::pseudopods::protrude(organism, particles, dt, drives),
         Locomotion::Propel { max_acceleration } => {
             let Some(goal) = goal else { return };
             let velocity = heading(goal - position_of(organism, particles)) * organism.present_speed();

@@ -41,7 +41,9 @@ impl OwnBody {
 
     pub(crate) fn senses<'a>(&'a self, me: OrganismId, organism: &Organism, around: &'a Environment<'a>) -> Senses<'a> {
         let arrival = match organism.locomotion {
-            Locomotion::Crawl { .. } | Locomotion::FrontPull { .. } => ARRIVED_BODY * self.radius,
+            Locomotion::Crawl { .. } | Locomotion::Protrude(_) | Locomotion::FrontPull { .. } => {
+                ARRIVED_BODY * self.radius
+            }
             Locomotion::None | Locomotion::Tow { .. } | Locomotion::Propel { .. } => ARRIVED,
         };
         let Self { at, velocity, radius, ref outline } = *self;

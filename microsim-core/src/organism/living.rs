@@ -3,6 +3,7 @@
 use super::storage::Storage;
 use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
+use crate::capability::crawl::Pseudopods;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
@@ -12,7 +13,7 @@ use crate::kind::Kind;
 use crate::particle::Particles;
 use crate::rng::Rng;
 use crate::solver::fluid::{self, Fluid};
-use crate::solver::membrane::{Membrane, MembraneContent};
+use crate::solver::membrane::{Flexibility, Membrane, MembraneContent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -125,7 +126,7 @@ impl Organism {
 
     /// Whether it is crawling in this step.
     pub(crate) fn crawls(&self) -> bool {
-        matches!(self.locomotion, Locomotion::Crawl { front_centre: Some(_) })
+        self.locomotion.crawling_front().is_some()
     }
 
     /// Finds this step's tension of its membrane, if it has one.
@@ -140,10 +141,14 @@ impl Organism {
         let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
         let content = MembraneContent { area, spacing, lobes, folds };
-        membrane.relax(&self.outline, particles, content, is_driven, dt);
+        let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());
+        let stiffness = pseudopods.map_or(Vec::new(), Pseudopods::stiffness);
+        let slack = pseudopods.map(|pseudopods| pseudopods.params.slack);
+        let flexibility = Flexibility { slack, stiffness: &stiffness };
+        membrane.relax(&self.outline, particles, content, is_driven, flexibility, dt);
         for phagosome in &mut self.phagosomes {
             let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
-            phagosome.membrane.relax(&phagosome.ring, particles, content, false, dt);
+            phagosome.membrane.relax(&phagosome.ring, particles, content, false, Flexibility::LEAST, dt);
         }
     }
 
@@ -183,7 +188,7 @@ impl Organism {
         let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
         divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
         let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
-        self.set_nodes_per_root(nodes, fluids);
+        self.set_nodes_per_root((nodes as f32 / self.unfolding()) as u32, fluids);
     }
 
     fn set_nodes_per_root(&mut self, nodes: u32, fluids: &[Fluid]) {
@@ -193,9 +198,23 @@ impl Organism {
         }
     }
 
+    /// Membrane over that at rest: folds of it open while pseudopods extend.
+    fn unfolding(&self) -> f32 {
+        let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());
+        pseudopods.map_or(1.0, |pseudopods| 1.0 + pseudopods.params.slack)
+    }
+
+    /// Lets folds of its membrane open and close with its pseudopods, if it has any.
+    pub(crate) fn unfold(&mut self, fluids: &[Fluid]) {
+        if self.locomotion.pseudopods().is_some() {
+            self.record_nodes_per_root(fluids);
+            self.update_wanted_nodes(fluids);
+        }
+    }
+
     /// Sends its membrane on the way to the number of nodes that suits its content.
     pub(crate) fn update_wanted_nodes(&mut self, fluids: &[Fluid]) {
-        let root = self.content(fluids).sqrt();
+        let root = self.content(fluids).sqrt() * self.unfolding();
         if let Some(divider) = &mut self.divider {
             divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
         }

@@ -9,6 +9,7 @@
 use super::living::Organism;
 use super::storage::Storage;
 use crate::capability::Locomotion;
+use crate::capability::crawl::Pseudopods;
 use crate::particle::{Particle, Particles};
 use crate::solver::membrane::links;
 use glam::Vec2;
@@ -74,13 +75,27 @@ impl Swap {
     }
 }
 
-/// Gives an organism another outline: nodes are linked anew, and its front stays a place in it.
+/// Gives an organism another outline: nodes are linked anew and keep their activity, and its front stays a place in it.
 pub(crate) fn set_outline(organism: &mut Organism, outline: Vec<u32>, p: &mut Particles) {
     p.link_ring(&outline);
-    if let Locomotion::Crawl { front_centre } = &mut organism.locomotion {
-        *front_centre = front_centre.filter(|&k| (k as usize) < outline.len());
+    let is_in_it = |k: &u32| (*k as usize) < outline.len();
+    match &mut organism.locomotion {
+        Locomotion::Crawl { front_centre } => *front_centre = front_centre.filter(is_in_it),
+        Locomotion::Protrude(pseudopods) => {
+            carry_activity(pseudopods, &organism.outline, &outline);
+            pseudopods.front_centre = pseudopods.front_centre.filter(is_in_it);
+        }
+        Locomotion::None | Locomotion::FrontPull { .. } | Locomotion::Tow { .. } | Locomotion::Propel { .. } => {}
     }
     organism.outline = outline;
+}
+
+/// Carries the activity of nodes over into another ring; new nodes are quiet.
+fn carry_activity(pseudopods: &mut Pseudopods, before: &[u32], after: &[u32]) {
+    let mut places: Vec<(u32, usize)> = before.iter().copied().zip(0..).collect();
+    places.sort_unstable();
+    let place = |node: &u32| places.binary_search_by_key(node, |&(known, _)| known).ok().map(|found| places[found].1);
+    pseudopods.network.rearrange(&after.iter().map(place).collect::<Vec<_>>());
 }
 
 /// Puts a node into the longest link of a membrane.
@@ -107,6 +122,9 @@ pub(crate) fn insert_node_in(organism: &mut Organism, places: Range<usize>, p: &
         ..like
     });
     organism.outline.insert(longest.0 % count + 1, node);
+    if let Some(pseudopods) = organism.locomotion.pseudopods_mut() {
+        pseudopods.network.insert(longest.0 % count + 1);
+    }
     if let Storage::Loose { particles, .. } = &mut organism.body {
         particles.push(node);
     }

@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 15] = [
+const BUILTINS: [Builtin; 16] = [
     Builtin {
         name: "game",
         summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",
@@ -86,6 +86,11 @@ const BUILTINS: [Builtin; 15] = [
         name: "pond",
         summary: "paramecia and an amoeba in their real size, for `render`",
         text: include_str!("../../scenarios/pond.toml"),
+    },
+    Builtin {
+        name: "crawl",
+        summary: "four types of amoeba crawl by pseudopods in an open field, best seen with `render`",
+        text: include_str!("../../scenarios/crawl.toml"),
     },
 ];
 

@@ -3,7 +3,7 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Event, Exchange, FieldKind, FleeParams,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Event, Exchange, FieldKind, FleeParams,
     FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle,
     ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams, Refusal, Region,
     RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
@@ -24,6 +24,7 @@ pub(super) fn world() -> World {
     blow(&mut world);
     let cells = [(24.0, 30.0), (64.0, 30.0), (104.0, 30.0), (140.0, 30.0)].map(|(x, y)| cell(&mut world, x, y));
     let [eater, taker, toucher, divider] = cells;
+    crawl(&mut world);
     dine(&mut world, cells);
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
@@ -45,6 +46,13 @@ pub(super) fn world() -> World {
 fn cell(world: &mut World, x: f32, y: f32) -> OrganismId {
     let spec = AmoeboidCellSpec { radii: Vec2::splat(10.0), ..AmoeboidCellSpec::default() };
     world.spawn(&spec.into(), Placement::at(x, y)).unwrap()
+}
+
+/// A cell that crawls by pseudopods.
+fn crawl(world: &mut World) {
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(5.0), crawl: Crawl::Neutrophil, ..AmoeboidCellSpec::default() };
+    let way = Controller::patrol(vec![Vec2::new(150.0, 10.0)], false);
+    world.spawn(&spec.into(), Placement::at(150.0, 60.0).steered_by(way)).unwrap();
 }
 
 /// One small organism for each controller.

@@ -46,6 +46,8 @@ const PERIMETER_DRIVEN: f32 = 0.22;
 /// Share of a driven membrane's excess perimeter that it accepts, up to this multiple of the circle.
 const EXCESS_ACCEPTED: f32 = 0.7;
 const EXCESS_LIMIT: f32 = 1.25;
+/// That multiple for a ring that protrudes, over its driven perimeter.
+const EXCESS_PROTRUDING: f32 = 1.14;
 /// Time constants, s: how fast activity follows the drive, and the perimeter grows and shrinks.
 const ACTIVITY_TIME: f32 = 0.5;
 const STRETCH_TIME: f32 = 0.25;
@@ -67,6 +69,23 @@ pub(crate) struct Membrane {
     target_area: f32,
     /// See [`MembraneContent::lobes`].
     lobes: f32,
+    /// See [`Flexibility::stiffness`]. Found in every step.
+    #[serde(skip)]
+    stiffness: Vec<f32>,
+}
+
+/// How a membrane gives way while it is driven.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flexibility<'a> {
+    /// Perimeter that it gains, relative to the circle around its content, or what it gains by default.
+    pub slack: Option<f32>,
+    /// Share of the bending stiffness at each node of the ring; empty: all of it.
+    pub stiffness: &'a [f32],
+}
+
+impl Flexibility<'_> {
+    /// That of a membrane that does not protrude.
+    pub(crate) const LEAST: Self = Self { slack: None, stiffness: &[] };
 }
 
 /// What a membrane holds.
@@ -85,7 +104,15 @@ pub(crate) struct MembraneContent {
 impl Membrane {
     pub(crate) fn new(rest_length: f32, node_radius: f32, nodes: usize) -> Self {
         let rest_perimeter = rest_length * nodes as f32;
-        Self { rest_length, node_radius, activity: 0.0, rest_perimeter, target_area: f32::INFINITY, lobes: 1.0 }
+        Self {
+            rest_length,
+            node_radius,
+            activity: 0.0,
+            rest_perimeter,
+            target_area: f32::INFINITY,
+            lobes: 1.0,
+            stiffness: Vec::new(),
+        }
     }
 
     /// Present total rest length of its links.
@@ -96,7 +123,7 @@ impl Membrane {
     /// The same for a part of its ring, or for more: `nodes` instead of `before`, under the same tension.
     pub(crate) fn resized(&self, before: usize, nodes: usize) -> Self {
         let rest_perimeter = self.rest_perimeter * nodes as f32 / before as f32;
-        Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, ..self.clone() }
+        Self { rest_perimeter, target_area: f32::INFINITY, lobes: 1.0, stiffness: Vec::new(), ..self.clone() }
     }
 
     /// Its numbers by the names of their fields: those that are always finite.
@@ -111,18 +138,24 @@ impl Membrane {
         particles: &Particles,
         content: MembraneContent,
         is_driven: bool,
+        flexibility: Flexibility<'_>,
         dt: f32,
     ) {
+        self.stiffness.clear();
+        self.stiffness.extend_from_slice(flexibility.stiffness);
+        let (gain, limit) = flexibility
+            .slack
+            .map_or((PERIMETER_DRIVEN, EXCESS_LIMIT), |slack| (slack, (1.0 + slack) * EXCESS_PROTRUDING));
         let drive = if is_driven { 1.0 } else { 0.0 };
         self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
         let radius = (content.area / (PI * content.lobes)).sqrt() + self.node_radius + CLEARANCE * content.spacing;
         self.target_area = content.lobes * PI * radius * radius;
         let circle = content.lobes * TAU * radius;
         self.lobes = content.lobes;
-        let mut target = (PERIMETER_AT_REST + PERIMETER_DRIVEN * self.activity) * circle;
+        let mut target = (PERIMETER_AT_REST + gain * self.activity) * circle;
         let perimeter = perimeter(ring, particles);
         if perimeter > target {
-            let accepted = if perimeter < EXCESS_LIMIT * circle { perimeter } else { EXCESS_LIMIT * circle };
+            let accepted = if perimeter < limit * circle { perimeter } else { limit * circle };
             let excess = if accepted > target { accepted - target } else { 0.0 };
             target += EXCESS_ACCEPTED * self.activity * excess;
         }
@@ -140,7 +173,12 @@ impl Membrane {
         let radius = 0.5 * length / step.y;
         for (stride, compliance) in BENDING {
             let cosine = unit_vector(TAU * stride as f32 / around).x;
-            bend(ring, stride, radius * (1.0 - cosine), compliance / (h * h), particles);
+            let (rise, alpha) = (radius * (1.0 - cosine), compliance / (h * h));
+            if self.stiffness.len() == ring.len() {
+                bend(ring, stride, rise, |k| alpha / self.stiffness[k], particles);
+            } else {
+                bend(ring, stride, rise, |_| alpha, particles);
+            }
         }
         let particles = &mut particles.columns();
         let measured = MeasuredRing::measure(ring, &Span::LOOSE, particles);
@@ -209,8 +247,9 @@ fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
 }
 
 /// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it. All nodes weigh the same, so
-/// `alpha` is relative to their inverse mass.
-fn bend(ring: &[u32], stride: usize, rise: f32, alpha: f32, p: &mut Particles) {
+/// `alpha` of a node is relative to their inverse mass.
+#[inline(always)]
+fn bend(ring: &[u32], stride: usize, rise: f32, alpha: impl Fn(usize) -> f32, p: &mut Particles) {
     let count = ring.len();
     for k in 0..count {
         let node = ring[k] as usize;
@@ -220,7 +259,7 @@ fn bend(ring: &[u32], stride: usize, rise: f32, alpha: f32, p: &mut Particles) {
         let outwards = -chord.perp().normalize_or_zero();
         let error = p.between(before, node) - chord * 0.5 - outwards * rise;
         // Gradient 1 for the node and -1/2 for each neighbour: the squares add up to 1.5.
-        let correction = error / (1.5 + alpha);
+        let correction = error / (1.5 + alpha(k));
         super::contact::shift(p, node, -correction);
         super::contact::shift(p, before, correction * 0.5);
         super::contact::shift(p, after, correction * 0.5);
@@ -247,7 +286,7 @@ mod tests {
         let mut membrane = Membrane::new(1.0, 0.5, indices.len());
         let content = MembraneContent { area, spacing: 0.8, lobes: 1.0, folds: 0.0 };
         for _ in 0..600 {
-            membrane.relax(&indices, p, content, false, 1.0 / 60.0);
+            membrane.relax(&indices, p, content, false, Flexibility::LEAST, 1.0 / 60.0);
             for _ in 0..8 {
                 membrane.project(&indices, p, 1.0 / 480.0);
                 membrane.limit_strain(&indices, p);

@@ -110,6 +110,7 @@ impl World {
             }
         };
         let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
+        let locomotion = blueprint.locomotion.begun(Rng::new(self.config.seed, id.crawl_stream()), outline.len());
         let organism = Organism {
             kind: blueprint.kind,
             body,
@@ -117,7 +118,7 @@ impl World {
             outline,
             fluid,
             fluid_particles,
-            locomotion: blueprint.locomotion,
+            locomotion,
             speed: blueprint.speed,
             controller: placement.controller,
             rng: Rng::new(self.config.seed, id.stream()),

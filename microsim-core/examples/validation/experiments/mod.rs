@@ -6,6 +6,7 @@ pub(crate) mod chemotactic_index;
 pub(crate) mod constriction;
 pub(crate) mod convergence;
 pub(crate) mod coulomb;
+pub(crate) mod crawl;
 pub(crate) mod dam_break;
 pub(crate) mod diffusion;
 pub(crate) mod division;
@@ -42,7 +43,7 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 22] = [
+pub(crate) const ALL: [Experiment; 23] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
@@ -65,6 +66,7 @@ pub(crate) const ALL: [Experiment; 22] = [
     constriction::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
+    crawl::EXPERIMENT,
 ];
 
 /// What came of it.

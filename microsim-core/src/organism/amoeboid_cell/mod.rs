@@ -12,6 +12,8 @@ mod neutrophil;
 use super::blueprint::{Blueprint, FluidPlan};
 use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
+use crate::capability::crawl::amoebae::Crawl;
+use crate::capability::crawl::{PseudopodParams, Pseudopods};
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, out_of_range};
@@ -21,7 +23,7 @@ use crate::kind::Kind;
 use crate::look::Look;
 use crate::particle::Material;
 use crate::solver::fluid::{FluidParams, rest_area, settle};
-use crate::spec_field::FieldValue::{Number, Table, Vector};
+use crate::spec_field::FieldValue::{Number, Table, Vector, Word};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::Vec2;
@@ -51,6 +53,10 @@ pub struct AmoeboidCellSpec {
     pub viscosity: f32,
     /// Speed of its front and rear when it moves, units/s, 0 to 1000.
     pub speed: f32,
+    /// How it crawls.
+    pub crawl: Crawl,
+    /// Its pseudopods, where they are not those of the type of amoeba that `crawl` names.
+    pub pseudopods: Option<PseudopodParams>,
     /// How it takes in and digests prey.
     pub phagocytosis: PhagocytosisParams,
     /// How it divides and fuses.
@@ -65,6 +71,8 @@ impl Default for AmoeboidCellSpec {
             cytoplasm_spacing: 1.65,
             viscosity: 25.0,
             speed: 8.0,
+            crawl: Crawl::default(),
+            pseudopods: None,
             phagocytosis: PhagocytosisParams::default(),
             division: DivisionParams::default(),
         }
@@ -98,6 +106,16 @@ impl Spec for AmoeboidCellSpec {
             field("speed", "Speed of its front and rear when it moves, micrometres/s."),
             Number(&mut self.speed, [0.0, 1000.0]),
         );
+        let words = "How it crawls: with front and rear of a round cell, or with the pseudopods of a type of amoeba.";
+        let mut crawl = self.crawl as usize;
+        visit(field("crawl", words), Word(&mut crawl, &Crawl::WORDS));
+        self.crawl = Crawl::ALL[crawl];
+        let words = "Its pseudopods, where they are not those of its type.";
+        let mut pseudopods = self.pseudopods();
+        visit(field("pseudopods", words), Table(&mut |visit| pseudopods.fields(visit)));
+        if pseudopods != self.pseudopods() {
+            self.pseudopods = Some(pseudopods);
+        }
         visit(
             field("phagocytosis", "How it takes in and digests prey."),
             Table(&mut |visit| self.phagocytosis.fields(visit)),
@@ -107,6 +125,9 @@ impl Spec for AmoeboidCellSpec {
 
     fn blueprint(&self) -> Result<Blueprint, Error> {
         check(self.clone(), Self::fields)?;
+        if self.crawl == Crawl::FrontAndRear && self.pseudopods.is_some() {
+            return Err(Error::unsupported("pseudopods", "a type of amoeba as `crawl`"));
+        }
         let chain = self.chain()?;
         let cytoplasm = self.cytoplasm();
         if cytoplasm.points.len() < LEAST_CYTOPLASM {
@@ -117,7 +138,7 @@ impl Spec for AmoeboidCellSpec {
             fluid: Some(cytoplasm),
             template: Some(self.membrane(&chain)?),
             has_membrane: true,
-            locomotion: Locomotion::Crawl { front_centre: None },
+            locomotion: self.locomotion(),
             speed: self.speed,
             engulfer: Some(self.phagocytosis),
             divider: Some(self.division),
@@ -136,6 +157,18 @@ impl Spec for AmoeboidCellSpec {
 }
 
 impl AmoeboidCellSpec {
+    /// Its own pseudopods, or those of its type.
+    fn pseudopods(&self) -> PseudopodParams {
+        self.pseudopods.or(self.crawl.pseudopods()).unwrap_or_default()
+    }
+
+    fn locomotion(&self) -> Locomotion {
+        match self.crawl {
+            Crawl::FrontAndRear => Locomotion::Crawl { front_centre: None },
+            _ => Locomotion::Protrude(Box::new(Pseudopods::new(self.pseudopods()))),
+        }
+    }
+
     /// Centres of the chain: as many as fit without a gap.
     fn chain(&self) -> Result<Vec<Vec2>, Error> {
         let radii = self.radii - Vec2::splat(self.node_radius);
@@ -229,5 +262,8 @@ mod tests {
         refuse(AmoeboidCellSpec { radii: Vec2::splat(500.0), node_radius: 0.1, ..spec() }, "radii");
         refuse(AmoeboidCellSpec { radii: Vec2::splat(3.0), cytoplasm_spacing: 3.0, ..spec() }, "radii");
         refuse(AmoeboidCellSpec { cytoplasm_spacing: 0.1, ..spec() }, "cytoplasm_spacing");
+        let pseudopods = Some(PseudopodParams { width: 0.7, ..PseudopodParams::NEUTROPHIL });
+        refuse(AmoeboidCellSpec { pseudopods, crawl: Crawl::Neutrophil, ..spec() }, "pseudopods.width");
+        refuse(AmoeboidCellSpec { pseudopods: Some(PseudopodParams::KERATOCYTE), ..spec() }, "pseudopods");
     }
 }

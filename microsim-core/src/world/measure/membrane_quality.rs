@@ -1,6 +1,5 @@
 //! Shape of a membrane around its content, and motion of its cell.
 
-use crate::capability::Locomotion;
 use crate::geometry::coverage::Coverage;
 use crate::geometry::outline::{excess_turning, quarter_widths};
 use crate::id::OrganismId;
@@ -79,9 +78,7 @@ impl World {
     }
 
     pub(in crate::world) fn crawl_quality_of(&self, organism: &Organism) -> Option<CrawlQuality> {
-        let (Some(goal), Locomotion::Crawl { front_centre: Some(_) }) = (organism.goal, &organism.locomotion) else {
-            return None;
-        };
+        let goal = organism.goal.filter(|_| organism.crawls())?;
         let outline = self.outline_of(organism);
         let velocity = self.mean_velocity(organism);
         let way = (goal - crate::geometry::polygon::centroid(&outline)?).try_normalize()?;

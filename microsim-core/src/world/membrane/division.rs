@@ -1,7 +1,6 @@
 //! Division: a [furrow](super::furrow) closes around the equator of a cell, two links are swapped, one ring becomes two, and
 //! each lobe keeps its content.
 
-use crate::capability::Locomotion;
 use crate::capability::division::Order;
 use crate::capability::phagocytosis::{Engulfer, Meal};
 use crate::error::Error;
@@ -76,6 +75,9 @@ impl World {
         let mut daughter = parent.clone();
         let daughter_id = self.organisms.next_id();
         daughter.rng = Rng::new(self.config.seed, daughter_id.stream());
+        if let Some(pseudopods) = daughter.locomotion.pseudopods_mut() {
+            pseudopods.rng = Rng::new(self.config.seed, daughter_id.crawl_stream());
+        }
         daughter.home = cut.centre;
         daughter.engulfer = daughter.engulfer.map(|engulfer| Engulfer::new(engulfer.params));
         daughter.fluid = daughter.fluid.map(|fluid| {
@@ -125,7 +127,7 @@ impl World {
         organism.phagosomes = lobe.phagosomes;
         organism.fluid_particles = lobe.fluid_particles;
         organism.spawn_area *= lobe.share;
-        organism.locomotion = Locomotion::Crawl { front_centre: None };
+        organism.locomotion.stop();
         organism.goal = None;
         set_outline(organism, lobe.outline, particles);
         if let Some(divider) = &mut organism.divider {

@@ -45,10 +45,11 @@ impl World {
     /// Adds or removes one node of a membrane that has not reached its wanted number of nodes, unless prey is going in.
     pub(super) fn adapt_membrane(&mut self, id: OrganismId) {
         let room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
-        let Self { organisms, particles, .. } = self;
+        let Self { organisms, particles, fluids, .. } = self;
         let Some(organism) = organisms.get_mut(id).filter(|organism| Self::refusal(organism).is_none()) else {
             return;
         };
+        organism.unfold(fluids);
         let count = organism.outline.len() as u32;
         let Some(divider) = &mut organism.divider else { return };
         let Some(wanted) = divider.wanted_nodes else { return };

@@ -2,7 +2,6 @@
 
 use crate::behavior::crawl::{MembraneRegion, region};
 use crate::behavior::heading;
-use crate::capability::Locomotion;
 use crate::capability::phagocytosis::Encounter;
 use crate::id::OrganismId;
 use crate::organism::Organism;
@@ -96,7 +95,7 @@ impl World {
 
 /// Particles of the front, sorted; none at rest.
 pub(in crate::world) fn front_nodes(organism: &Organism) -> Vec<u32> {
-    let Locomotion::Crawl { front_centre: Some(front) } = organism.locomotion else { return Vec::new() };
+    let Some(front) = organism.locomotion.crawling_front() else { return Vec::new() };
     let count = organism.outline.len() as u32;
     let is_front = |k: u32| region(k, front, count) == MembraneRegion::Front;
     let mut nodes: Vec<u32> =

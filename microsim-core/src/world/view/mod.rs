@@ -5,7 +5,6 @@ mod mechanics;
 pub(crate) mod moment;
 
 use crate::behavior::crawl::{MembraneRegion, region};
-use crate::capability::Locomotion;
 use crate::capability::controller::Controller;
 use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, PreyClass};
@@ -264,19 +263,20 @@ impl<'a> OrganismView<'a> {
     /// Position in the outline of its front, see [`OrganismView::front`].
     #[must_use]
     pub fn front_index(self) -> Option<usize> {
-        match self.organism.locomotion {
-            Locomotion::FrontPull { front } => Some(front as usize),
-            Locomotion::Crawl { front_centre } => front_centre.map(|k| k as usize),
-            Locomotion::None | Locomotion::Tow { .. } | Locomotion::Propel { .. } => None,
-        }
+        self.organism.locomotion.front().map(|k| k as usize)
+    }
+
+    /// How much each node of the outline protrudes, 0 to 1, of a cell that crawls by pseudopods; `None` of others.
+    #[must_use]
+    pub fn protrusion(self) -> Option<Vec<f32>> {
+        let network = &self.organism.locomotion.pseudopods()?.network;
+        Some((0..network.len()).map(|k| network.force(k)).collect())
     }
 
     /// The region of each node of the outline while it crawls; `None` when it does not.
     #[must_use]
     pub fn membrane_regions(self) -> Option<Vec<MembraneRegion>> {
-        let Locomotion::Crawl { front_centre: Some(front) } = self.organism.locomotion else {
-            return None;
-        };
+        let front = self.organism.locomotion.crawling_front()?;
         let count = self.organism.outline.len() as u32;
         Some((0..count).map(|k| region(k, front, count)).collect())
     }

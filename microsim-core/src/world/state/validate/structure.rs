@@ -119,6 +119,9 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
         Locomotion::None | Locomotion::Tow { .. } | Locomotion::Propel { .. } => true,
         Locomotion::FrontPull { front } => in_outline(front),
         Locomotion::Crawl { front_centre } => membrane.is_some() && front_centre.is_none_or(in_outline),
+        Locomotion::Protrude(ref pseudopods) => {
+            membrane.is_some() && pseudopods.is_sound(nodes) && pseudopods.front_centre.is_none_or(in_outline)
+        }
     };
     cell.must(can_move, || format!("it cannot move so with {nodes} nodes: {:?}", organism.locomotion))?;
     let needs_membrane = organism.engulfer.is_some() || organism.divider.is_some() || !organism.phagosomes.is_empty();
@@ -144,6 +147,8 @@ fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Re
         let is_known = world.check_chemical(exchange.chemical, "chemical").and_then(|()| exchange.validate());
         is_known.map_err(|error| error.within("exchanges"))?;
     }
+    let pseudopods = organism.locomotion.pseudopods().map_or(Ok(()), |pseudopods| pseudopods.params.validate());
+    pseudopods.map_err(|error| error.within("pseudopods"))?;
     let engulfer = engulfer.as_ref().map_or(Ok(()), |engulfer| engulfer.params.validate());
     engulfer.map_err(|error| error.within("engulfer"))?;
     let divider = divider.as_ref().map_or(Ok(()), |divider| divider.params.validate());

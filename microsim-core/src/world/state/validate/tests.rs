@@ -1,10 +1,12 @@
 //! Each kind of damage is found, and named.
 
+use crate::capability::crawl::Pseudopods;
 use crate::particle::sleep::Sleep;
 use crate::world::joint::JointRecord;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Exchange, FieldKind, FluidBlockSpec, ForceField,
-    Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Region, World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Crawl, Exchange, FieldKind, FluidBlockSpec,
+    ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Region, World, WorldConfig,
+    glam::Vec2,
 };
 
 /// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
@@ -56,6 +58,24 @@ fn damage_to_the_store_is_found() {
     finds(|w| _ = w.fluids[0].particles.pop(), "fluid 0 has Some");
     finds(|w| w.fluids[0].params.spacing = 0.0, "spacing");
     finds(|w| w.obstacles.push(crate::world::obstacle::nothing()), "places for");
+}
+
+#[test]
+fn damage_to_pseudopods_is_found() {
+    let finds = |damage: fn(&mut Pseudopods), words: &str| {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let spec = AmoeboidCellSpec { crawl: Crawl::Neutrophil, ..AmoeboidCellSpec::default() };
+        let cell = world.spawn(&spec.into(), Placement::at(80.0, 45.0)).unwrap();
+        assert_eq!(world.validate(), Ok(()));
+        damage(world.organisms.get_mut(cell).unwrap().locomotion.pseudopods_mut().unwrap());
+        let violation = world.validate().expect_err(words).to_string();
+        assert!(violation.contains(words), "`{violation}` instead of `{words}`");
+    };
+    finds(|it| it.network.reset(5), "it cannot move so");
+    finds(|it| it.front_centre = Some(500), "it cannot move so");
+    finds(|it| it.push = Vec2::splat(2.0), "it cannot move so");
+    finds(|it| it.side = 0.5, "it cannot move so");
+    finds(|it| it.params.life = f32::NAN, "`pseudopods.life`");
 }
 
 #[test]

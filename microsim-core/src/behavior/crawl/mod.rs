@@ -1,6 +1,10 @@
 //! Crawling of an amoeboid cell (seed, 3.1.2): in every step the membrane is divided into front, rear and two wings. The front
 //! is driven towards the goal, the rear a little more slowly towards the centroid, so that it becomes a tail; the wings
 //! follow. Cytoplasm that lags behind is accelerated too: in a large cell the membrane alone would leave it behind.
+//!
+//! The other crawl, by [`pseudopods`], falls back to this one while a cell turns round or holds on to prey.
+
+pub(crate) mod pseudopods;
 
 use super::heading;
 use crate::organism::Organism;

@@ -1,0 +1,175 @@
+//! Crawling by pseudopods as a capability: an [`ExcitableNetwork`] on the membrane decides where it protrudes. This room holds
+//! [parameters](params), the [types of amoeba](amoebae) and the state; what drives the membrane is in [`crate::behavior::crawl`].
+//!
+//! A pseudopod starts beside the last one, on alternating sides, or anywhere (Bosgraaf and Van Haastert 2009, "The ordered
+//! extension of pseudopodia by amoeboid cells in the absence of external cues"). The goal biases where, as a gradient does.
+
+pub(crate) mod amoebae;
+mod excitable_network;
+pub(crate) mod params;
+
+use crate::geometry::ring::{rotate, unit_vector};
+use crate::rng::Rng;
+use excitable_network::{ExcitableNetwork, Surround};
+use glam::Vec2;
+pub use params::PseudopodParams;
+use serde::{Deserialize, Serialize};
+
+/// Places that are tried for a pseudopod that starts anywhere.
+const TRIES: u32 = 8;
+/// Share of the stiffness of a crawling membrane that a protruding node loses.
+const SOFTENING: f32 = 0.9;
+/// Time in which the direction of the push follows the pseudopods, s.
+const PUSH_TIME: f32 = 0.3;
+/// Share of the push that has to lead to the goal: below it the cell turns round, or begins.
+const TURNING: f32 = 0.1;
+/// Cosine to the goal below which a pseudopod is withdrawn while the cell turns round.
+const OPPOSED: f32 = -0.3;
+/// Limits of the rate at which the network runs, in the cell's speed over its radius, 1/s.
+const TEMPO: [f32; 2] = [0.1, 4.0];
+
+/// What a crawling cell knows of itself in a step.
+pub(crate) struct Posture<'a> {
+    /// Unit vectors from its centroid to the nodes of its outline.
+    pub outwards: &'a [Vec2],
+    /// Unit vector to its goal.
+    pub way: Vec2,
+    /// Its speed over its radius, 1/s.
+    pub tempo: f32,
+    /// Length of the step, s.
+    pub dt: f32,
+}
+
+/// State of a crawl by pseudopods.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pseudopods {
+    pub params: PseudopodParams,
+    /// Random numbers of their own, so that those of the controller do not depend on the crawl.
+    pub rng: Rng,
+    /// Activity of each node of the outline.
+    pub network: ExcitableNetwork,
+    /// Position in the outline of the tip that leads, while it crawls.
+    pub front_centre: Option<u32>,
+    /// Mean direction of the pseudopods in the last moments; at most a unit vector.
+    pub push: Vec2,
+    /// Direction in which the last pseudopod started; zero before the first.
+    pub last: Vec2,
+    /// Side of the one before it on which it started: 1 left, -1 right.
+    pub side: f32,
+    /// Whether the membrane is as stiff as in the other crawl: while it holds on to prey.
+    pub is_stiff: bool,
+}
+
+impl Pseudopods {
+    pub(crate) fn new(params: PseudopodParams) -> Self {
+        Self {
+            params,
+            rng: Rng::new(0, 0),
+            network: ExcitableNetwork::default(),
+            front_centre: None,
+            push: Vec2::ZERO,
+            last: Vec2::ZERO,
+            side: 1.0,
+            is_stiff: false,
+        }
+    }
+
+    /// Whether its numbers are within their ranges, for an outline of so many nodes.
+    pub(crate) fn is_sound(&self, nodes: usize) -> bool {
+        let is_short = |v: Vec2| v.is_finite() && v.length_squared() <= 1.01;
+        self.network.is_sound(nodes) && is_short(self.push) && is_short(self.last) && self.side.abs() == 1.0
+    }
+
+    /// Comes to rest: what is extended is withdrawn.
+    pub(crate) fn rest(&mut self) {
+        self.network.reset(self.network.len());
+        (self.front_centre, self.push, self.last) = (None, Vec2::ZERO, Vec2::ZERO);
+    }
+
+    /// Whether it moves and may change its shape.
+    pub(crate) fn protrudes(&self) -> bool {
+        self.front_centre.is_some() && !self.is_stiff
+    }
+
+    /// Share of the bending stiffness that is left at each node: least where it protrudes.
+    pub(crate) fn stiffness(&self) -> Vec<f32> {
+        let at = |k| self.params.stiffness * (1.0 - SOFTENING * self.network.force(k));
+        (0..self.network.len()).map(at).collect()
+    }
+
+    /// Whether its pseudopods do not lead towards a goal yet: after a rest, and while it turns round.
+    pub(crate) fn is_turning(&self, way: Vec2) -> bool {
+        self.push.dot(way) < TURNING
+    }
+
+    /// Advances the network by a step: pseudopods start, grow and end.
+    pub(crate) fn advance(&mut self, posture: &Posture<'_>) {
+        let &Posture { outwards, way, tempo, dt } = posture;
+        let tempo = within(tempo, TEMPO);
+        if self.rng.unit() < dt * tempo * self.params.start_rate * self.network.room(self.params.coverage) {
+            self.start(outwards, way);
+        }
+        if self.is_turning(way) {
+            self.network.quench(|k| outwards[k].dot(way) < OPPOSED);
+        }
+        let surround = Surround { coverage: self.params.coverage, recovery: tempo / self.params.life, dt };
+        self.network.advance(&surround, |k| self.params.goal_bias * outwards[k].dot(way));
+        let active: Vec2 = outwards.iter().zip(self.network.activator()).map(|(&out, &a)| out * a).sum();
+        let push = active.normalize_or_zero();
+        self.push += (push - self.push) * (dt / (dt + PUSH_TIME));
+    }
+
+    /// Starts a pseudopod beside the last one or anywhere.
+    fn start(&mut self, outwards: &[Vec2], way: Vec2) {
+        let is_split = self.last != Vec2::ZERO && self.rng.unit() < self.params.split_share;
+        let found = if is_split { self.beside_the_last(outwards, way) } else { self.anywhere(outwards, way) };
+        let Some(k) = found else { return };
+        let turn = self.last.perp_dot(outwards[k]);
+        (self.side, self.last) = (1.0_f32.copysign(turn), outwards[k]);
+        self.network.excite(k, self.params.width);
+    }
+
+    /// The node at the split angle from the last pseudopod, more often on the other side than the one before, and towards the goal.
+    fn beside_the_last(&mut self, outwards: &[Vec2], way: Vec2) -> Option<usize> {
+        let angle = self.params.split_angle + self.params.split_spread * self.rng.normal();
+        let [left, right] = [1.0, -1.0].map(|side| rotate(self.last, unit_vector(side * angle.to_radians())));
+        let alternation = self.params.alternation;
+        let weight = |at: Vec2, is_other_side: bool| {
+            let side = if is_other_side { alternation } else { 1.0 - alternation };
+            side * self.acceptance(at, way)
+        };
+        let (to_left, to_right) = (weight(left, self.side < 0.0), weight(right, self.side > 0.0));
+        let is_left = self.rng.unit() * (to_left + to_right) < to_left;
+        let at = if is_left { left } else { right };
+        let nearest = |best: (usize, f32), (k, out): (usize, &Vec2)| {
+            let cosine = out.dot(at);
+            if cosine > best.1 { (k, cosine) } else { best }
+        };
+        let (k, _) = outwards.iter().enumerate().fold((0, -2.0), nearest);
+        self.network.is_quiet(k, self.params.width).then_some(k)
+    }
+
+    /// A random node, rather one towards the goal.
+    fn anywhere(&mut self, outwards: &[Vec2], way: Vec2) -> Option<usize> {
+        for _ in 0..TRIES {
+            let k = (self.rng.unit() * outwards.len() as f32) as usize;
+            let is_accepted = self.rng.unit() < self.acceptance(outwards[k], way);
+            if is_accepted && self.network.is_quiet(k, self.params.width) {
+                return Some(k);
+            }
+        }
+        None
+    }
+
+    /// Probability with which a place is accepted by its direction.
+    fn acceptance(&self, out: Vec2, way: Vec2) -> f32 {
+        let ahead = 0.5 * (1.0 + out.dot(way));
+        ahead * ahead
+    }
+}
+
+/// A value, or the nearest limit.
+fn within(value: f32, [low, high]: [f32; 2]) -> f32 {
+    let value = if value > low { value } else { low };
+    if value < high { value } else { high }
+}
