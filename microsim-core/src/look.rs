@@ -155,7 +155,7 @@ pub(crate) struct Inclusion {
 }
 
 /// How a small round thing fades outwards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpotShape {
     /// Softly, without an edge.
     Bump,
@@ -163,6 +163,10 @@ pub(crate) enum SpotShape {
     Ball,
     /// A wall around nothing.
     Ring,
+    /// A point above or below the plane of focus: rings that get narrower outwards. A wave of Gaussian width `sigma` that
+    /// went on by `z` is `exp(-r^2 / 2s)` with `s = sigma^2 + i lambda z / (2 pi n)`; the number is the ratio of the
+    /// imaginary part of `1 / s` to the real one.
+    Defocused(f32),
 }
 
 /// A fringe of beating hairs.

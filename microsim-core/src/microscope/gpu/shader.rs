@@ -34,8 +34,17 @@ const AMOEBOID: Uniforms = &[
     ("lobes", 3, amoeboid::LOBES),
     ("shifts", 2, 5),
 ];
-const FILM: Uniforms =
-    &[("exposure", 4, 1), ("stock", 4, 1), ("parts", 2, 5), ("image", 4, 1), ("reach", 1, 1), ("weights", 1, LONGEST)];
+const FILM: Uniforms = &[
+    ("exposure", 4, 1),
+    ("stock", 4, 1),
+    ("parts", 2, 3),
+    ("glare", 4, 1),
+    ("gradient", 2, 1),
+    ("shadows", 4, 3),
+    ("image", 4, 1),
+    ("reach", 1, 1),
+    ("weights", 1, LONGEST),
+];
 
 const SCREEN: Glsl = Glsl { source: include_str!("screen.glsl"), constants: &[] };
 const BOX: Glsl = Glsl { source: include_str!("box.glsl"), constants: &[] };

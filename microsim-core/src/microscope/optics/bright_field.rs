@@ -30,6 +30,7 @@ const MODE: Mode = Mode {
     channels: 1,
     has_surround: false,
     blur: 0.10,
+    ground: [BACKGROUND; 3],
     grain: 0.7,
     shader: Shader::Light(shade, &GLSL),
 };

@@ -13,6 +13,7 @@ const MODE: Mode = Mode {
     channels: 3,
     has_surround: false,
     blur: 0.0,
+    ground: [0.66, 0.76, 0.74],
     grain: 0.5,
     shader: Shader::Painted,
 };

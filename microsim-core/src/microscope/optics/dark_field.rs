@@ -25,6 +25,7 @@ const MODE: Mode = Mode {
     channels: 1,
     has_surround: true,
     blur: 0.10,
+    ground: [0.05; 3],
     grain: 0.6,
     shader: Shader::Light(shade, &GLSL),
 };

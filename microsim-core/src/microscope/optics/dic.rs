@@ -31,6 +31,7 @@ const MODE: Mode = Mode {
     channels: 1,
     has_surround: false,
     blur: 0.09,
+    ground: [BACKGROUND; 3],
     grain: 0.8,
     shader: Shader::Light(shade, &GLSL),
 };

@@ -5,7 +5,9 @@ use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
 /// Camera's offset and autofluorescence.
-const DARK: [f32; 3] = [0.012, 0.014, 0.016];
+const DARK: [f32; 3] = [0.014, 0.024, 0.026];
+/// Light from above and below the plane of focus, by how much the surround wave lacks: cells far and near scatter it.
+const HAZE: [f32; 3] = [0.012, 0.060, 0.045];
 const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
@@ -14,7 +16,7 @@ const SATURATION: f32 = 1.15;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
-    constants: &[("DARK", &DARK), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
+    constants: &[("DARK", &DARK), ("HAZE", &HAZE), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
 };
 
 impl Optics {
@@ -26,9 +28,10 @@ const MODE: Mode = Mode {
     name: "fluorescence",
     is_bright: false,
     channels: 3,
-    has_surround: false,
+    has_surround: true,
     blur: 0.17,
-    grain: 0.5,
+    ground: [0.03, 0.07, 0.06],
+    grain: 2.2,
     shader: Shader::Light(shade, &GLSL),
 };
 
@@ -36,8 +39,9 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sampler.matter(x, y);
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
     let (nucleus, cytoplasm) = (shines(matter.nucleus), shines(matter.cytoplasm));
+    let haze = 1.0 - sampler.waves(x, y).1.x;
     std::array::from_fn(|k| {
-        let light = DARK[k] + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
+        let light = DARK[k] + HAZE[k] * haze + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
         1.0 - libm::expf(-SATURATION * light)
     })
 }

@@ -60,6 +60,8 @@ pub(in crate::microscope) struct Mode {
     pub has_surround: bool,
     /// Blur of the image by diffraction and what else is less than perfect, standard deviation, micrometres.
     pub blur: f32,
+    /// Light of a field without a specimen, or its mean where that is dark; grey is the first.
+    pub ground: [f32; 3],
     /// Strength of the film's grain in this light, relative to phase contrast.
     pub grain: f32,
     pub shader: Shader,

@@ -37,6 +37,7 @@ const POSITIVE: Mode = Mode {
     channels: 1,
     has_surround: true,
     blur: 0.09,
+    ground: [BACKGROUND; 3],
     grain: 1.0,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
