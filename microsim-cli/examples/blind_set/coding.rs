@@ -4,9 +4,9 @@ use std::f32::consts::PI;
 
 /// Steps of coefficients of brightness and of colour, by T.81 K.1 and K.2 at quality 75: half of what stands there.
 const BRIGHTNESS: [u8; 64] = [
-    16, 11, 10, 16, 24, 40, 51, 61, 12, 12, 14, 19, 26, 58, 60, 55, 14, 13, 16, 24, 40, 57, 69, 56, 14, 17, 22, 29, 51, 87,
-    80, 62, 18, 22, 37, 56, 68, 109, 103, 77, 24, 35, 55, 64, 81, 104, 113, 92, 49, 64, 78, 87, 103, 121, 120, 101, 72, 92,
-    95, 98, 112, 100, 103, 99,
+    16, 11, 10, 16, 24, 40, 51, 61, 12, 12, 14, 19, 26, 58, 60, 55, 14, 13, 16, 24, 40, 57, 69, 56, 14, 17, 22, 29, 51,
+    87, 80, 62, 18, 22, 37, 56, 68, 109, 103, 77, 24, 35, 55, 64, 81, 104, 113, 92, 49, 64, 78, 87, 103, 121, 120, 101,
+    72, 92, 95, 98, 112, 100, 103, 99,
 ];
 const COLOUR: [u8; 16] = [17, 18, 24, 47, 18, 21, 26, 66, 24, 26, 56, 99, 47, 66, 99, 99];
 
@@ -62,9 +62,7 @@ fn turned(block: [f32; 64], is_inverse: bool) -> [f32; 64] {
     };
     std::array::from_fn(|k| {
         let (to, row) = (k / 8, k % 8);
-        let term = |from: usize| {
-            block[row * 8 + from] * if is_inverse { basis(from, to) } else { basis(to, from) }
-        };
+        let term = |from: usize| block[row * 8 + from] * if is_inverse { basis(from, to) } else { basis(to, from) };
         (0..8).map(term).sum()
     })
 }

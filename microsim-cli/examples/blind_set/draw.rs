@@ -1,9 +1,9 @@
 //! Crops of ours: any scenario, at any time, seen anywhere.
 
 use crate::{Crop, Outcome, SIDE, pick};
+use microsim_core::Rng;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
-use microsim_core::Rng;
 use microsim_core::scenario::{Scenario, builtin};
 
 const SCENARIOS: [&str; 7] = ["hunt", "demo", "pond", "divide", "squeeze", "absorb-rigid", "absorb-agar"];
@@ -29,12 +29,24 @@ pub(crate) fn ours(rng: &mut Rng) -> Outcome<Crop> {
     }
     // Near something, as whoever takes pictures would look for it.
     let view = world.view();
-    let organisms: Vec<Vec2> = view.organisms().map(|organism| { let (low, high) = organism.bounds(); 0.5 * (low + high) }).collect();
+    let organisms: Vec<Vec2> = view
+        .organisms()
+        .map(|organism| {
+            let (low, high) = organism.bounds();
+            0.5 * (low + high)
+        })
+        .collect();
     let width = pixel * SIDE as f32;
     let aside = Vec2::new(pick(rng, 100) as f32, pick(rng, 100) as f32) / 100.0 - 0.5;
-    let centre = organisms.get(pick(rng, organisms.len())).map_or(0.5 * world.config().size, |at| *at + aside * width * 0.8);
+    let centre =
+        organisms.get(pick(rng, organisms.len())).map_or(0.5 * world.config().size, |at| *at + aside * width * 0.8);
     let field = Field { centre, width, pixels: [SIDE as u32; 2] };
     let exposure = Microscope { optics, film: Film::DIGITAL }.expose(&world, field)?;
-    let origin = format!("ours {name} --seed {seed} --at {time} --view {},{},{width} --optics {}", centre.x, centre.y, optics.name());
+    let origin = format!(
+        "ours {name} --seed {seed} --at {time} --view {},{},{width} --optics {}",
+        centre.x,
+        centre.y,
+        optics.name()
+    );
     Ok(Crop { bytes: exposure.rows(0..SIDE), origin })
 }

@@ -144,7 +144,11 @@ impl Exposure {
         let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
         let grid = PixelGrid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
         let mut light = self.source.light(grid);
-        blur(&mut light, grid.columns, &self.frame.kernel(self.mode.blur / grid.pixel, grid.pixel / self.picture.pixel));
+        blur(
+            &mut light,
+            grid.columns,
+            &self.frame.kernel(self.mode.blur / grid.pixel, grid.pixel / self.picture.pixel),
+        );
         Image { grid, light }
     }
 }

@@ -169,12 +169,7 @@ pub(super) const MASK: f32 = 1.3;
 
 pub(super) const GLSL: Glsl = Glsl {
     source: include_str!("film.glsl"),
-    constants: &[
-        ("FINE", &[FINE]),
-        ("COARSE", &[COARSE]),
-        ("BLOTCHES", &BLOTCHES),
-        ("BLOTCH_SIZE", &[BLOTCH_SIZE]),
-    ],
+    constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE]), ("BLOTCHES", &BLOTCHES), ("BLOTCH_SIZE", &[BLOTCH_SIZE])],
 };
 
 impl FilmFrame {

@@ -5,9 +5,9 @@ use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
 /// Camera's offset and autofluorescence.
-const DARK: [f32; 3] = [0.014, 0.024, 0.026];
+const DARK: [f32; 3] = [0.024, 0.044, 0.042];
 /// Light from above and below the plane of focus, by how much the surround wave lacks: cells far and near scatter it.
-const HAZE: [f32; 3] = [0.012, 0.060, 0.045];
+const HAZE: [f32; 3] = [0.030, 0.150, 0.100];
 const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
@@ -16,7 +16,13 @@ const SATURATION: f32 = 1.15;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
-    constants: &[("DARK", &DARK), ("HAZE", &HAZE), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
+    constants: &[
+        ("DARK", &DARK),
+        ("HAZE", &HAZE),
+        ("NUCLEUS", &NUCLEUS),
+        ("CYTOPLASM", &CYTOPLASM),
+        ("SATURATION", &[SATURATION]),
+    ],
 };
 
 impl Optics {

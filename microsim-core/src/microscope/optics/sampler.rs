@@ -41,11 +41,17 @@ impl Sampler<'_> {
 
     /// Matter `offset` micrometres beside a pixel.
     pub(super) fn matter_beside(&self, x: usize, y: usize, offset: Vec2) -> Matter {
-        self.beside(x, y, offset, |matter| matter, |a, b, share| {
-            let mut mixed = a * (1.0 - share);
-            mixed += b * share;
-            mixed
-        })
+        self.beside(
+            x,
+            y,
+            offset,
+            |matter| matter,
+            |a, b, share| {
+                let mut mixed = a * (1.0 - share);
+                mixed += b * share;
+                mixed
+            },
+        )
     }
 
     /// Delay `offset` micrometres beside a pixel, radians.

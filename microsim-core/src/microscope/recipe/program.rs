@@ -58,8 +58,16 @@ pub struct GlslSource {
 
 const CORNER: &[(&str, usize)] = &[("corner", 2)];
 const PLACE: &[(&str, usize)] = &[("place", 2)];
-const ROUND: &[(&str, usize)] =
-    &[("centre", 2), ("rim", 3), ("facing", 2), ("matter", 4), ("profile", 4), ("grains", 4)];
+const ROUND: &[(&str, usize)] = &[
+    ("centre", 2),
+    ("rim", 3),
+    ("facing", 4),
+    ("matter", 4),
+    ("profile", 4),
+    ("grains", 4),
+    ("dried", 4),
+    ("hollow", 4),
+];
 const SPOT: &[(&str, usize)] = &[("at", 2), ("corner", 2), ("size", 3), ("matter", 4)];
 const THREAD: &[(&str, usize)] = &[("from", 2), ("to", 2), ("corner", 2), ("form", 2), ("matter", 4)];
 const PAINTED: &[(&str, usize)] = &[("place", 2), ("texture_place", 2), ("colour", 4), ("rim", 4), ("noise", 3)];

@@ -41,12 +41,32 @@ const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
 const RAGS: f32 = 0.3;
 const PULSE: f32 = 2.0;
+/// How ragged the edge is elsewhere, as a share.
+const RAGS_BEHIND: f32 = 0.3;
+/// How far a nucleus is bent out of shape, and the size of its bends, in the cell's mean radii.
+const BENT: f32 = 0.13;
+const BENDS: f32 = 0.35;
+/// Noise from and to which chromatin is dense.
+const CHROMATIN: [f32; 2] = [-0.25, 0.35];
+/// Share of the regions of granules that are out of focus.
+const OUT_OF_FOCUS: f32 = 0.3;
+/// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
+const REGION: u32 = 10;
 
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
 
-pub(in crate::microscope) const GLSL: Glsl =
-    Glsl { source: include_str!("amoeboid.glsl"), constants: &[("NECK", &[NECK]), ("RAGS", &[RAGS])] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl {
+    source: include_str!("amoeboid.glsl"),
+    constants: &[
+        ("NECK", &[NECK]),
+        ("RAGS", &[RAGS]),
+        ("RAGS_BEHIND", &[RAGS_BEHIND]),
+        ("BENT", &[BENT]),
+        ("BENDS", &[BENDS]),
+        ("CHROMATIN", &CHROMATIN),
+    ],
+};
 
 /// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
 /// nucleus.
@@ -202,7 +222,8 @@ impl AmoeboidBody {
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
-        let depth = depth + look.lamella.rags * lamella * (rags + PULSE * (self.pulse() - 1.0));
+        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
+        let depth = depth + look.lamella.rags * (ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim();
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
@@ -215,8 +236,9 @@ impl AmoeboidBody {
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
-            matter += look.nucleus.matter * (nucleus * clumps);
+            let noise = octaves(own / texture.size, 2, self.seed ^ SALTS[2]);
+            let clumps = texture.amount * (1.6 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
+            matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
         }
         matter * smoothstep(-softness, softness, depth)
     }
@@ -249,10 +271,16 @@ impl AmoeboidBody {
 
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let inside = |&(at, radius): &(Vec2, f32)| radius - (place - at).length();
+        let from_centre = place - self.centre;
+        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (BENT + NECK) * self.radius + 0.6) {
+            return 0.0;
+        }
+        let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
+        let bent = place + Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (BENT * self.radius);
+        let inside = |&(at, radius): &(Vec2, f32)| radius - (bent - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ SALTS[4]);
+        let uneven = 0.04 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
     }
@@ -269,17 +297,29 @@ impl AmoeboidBody {
         // Not of the cell: in a division a particle becomes another cell's.
         let mut rng = HashRng::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
+        let mut region = HashRng::new(carrier.index / REGION);
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
-            let expected = look.density * 0.866 * spacing * spacing;
+            let mut own = |spread: f32| libm::expf(spread * region.normal());
+            let (many, size) = (0.7 * own(0.8), own(0.25));
+            let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
+            let expected = look.density * 0.866 * spacing * spacing * many;
             let count = (expected + rng.unit()) as u32;
-            spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut rng)));
+            let granule = |_| self.granule(look, (carrier.position, spacing), (size, focus), &mut rng);
+            spots.extend((0..count.min(16)).filter_map(granule));
         }
     }
 
-    fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, rng: &mut HashRng) -> Option<Spot> {
+    /// A granule of a region where they are larger by a factor, and out of focus by some chirp.
+    fn granule(
+        &self,
+        look: &GranuleLook,
+        (carrier, spacing): (Vec2, f32),
+        (size, focus): (f32, f32),
+        rng: &mut HashRng,
+    ) -> Option<Spot> {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
-        let radius = look.radius * libm::expf(look.spread * rng.normal());
+        let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
         let seed = rng.bits();
         let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
@@ -287,7 +327,12 @@ impl AmoeboidBody {
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
-        (share > 0.02).then_some(Spot { at, radius, matter, shape: look.shape })
+        let shown = if focus > 0.0 && look.shape == SpotShape::Ball {
+            Spot { at, radius: radius + 0.08 * focus, matter: matter * 0.6, shape: SpotShape::Defocused(focus) }
+        } else {
+            Spot { at, radius, matter, shape: look.shape }
+        };
+        (share > 0.02).then_some(shown)
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.

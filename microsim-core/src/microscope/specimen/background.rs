@@ -154,7 +154,7 @@ impl BackgroundMatter {
         let seed = rng.bits();
         let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
         let radius = rng.range([2.2, 5.0]);
-        let matter = Matter { haemoglobin: 0.05, ..Matter::phase(rng.range([0.10, 0.30])) };
+        let matter = Matter::phase(rng.range([0.10, 0.30]));
         let shape = if rng.unit() < 0.3 { SpotShape::Bump } else { SpotShape::Defocused(rng.range([4.0, 11.0])) };
         Spot { at: at + drift, radius, matter, shape }
     }

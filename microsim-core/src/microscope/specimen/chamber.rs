@@ -10,7 +10,7 @@ use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
-const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.12, nucleus: 0.0 };
+const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.03, nucleus: 0.0 };
 /// Width of the rim in which it rises, micrometres.
 const RIM: f32 = 1.2;
 /// Width over which its edge fades, micrometres.

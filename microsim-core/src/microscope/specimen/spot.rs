@@ -7,7 +7,8 @@ use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: include_str!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
+pub(in crate::microscope) const GLSL: Glsl =
+    Glsl { source: include_str!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
 
 /// Decay of the rings of a thing out of focus, and the phase with which they begin.
 const DAMPING: f32 = 1.25;

@@ -1,0 +1,130 @@
+//! What makes one body differ from another of its kind: outline, and the hollow of a red cell. All of it hangs on the
+//! body's seed. Shares and spreads are those of red cells in stained smears.
+
+use super::polar_outline::PolarOutline;
+use crate::geometry::{rotate, unit_vector};
+use crate::look::OutlineLook;
+use crate::microscope::maths::{bell, larger};
+use crate::microscope::noise::HashRng;
+use glam::{Mat2, Vec2};
+use std::f32::consts::TAU;
+
+/// Highest order of the waves around an outline.
+const ORDERS: usize = 12;
+/// Most tails, bites and spikes of a body together.
+const MOST_BUMPS: usize = 12;
+/// Shares of red cells without a hollow, and with a hollow that is a slit.
+const FLAT: f32 = 0.13;
+const SLIT: f32 = 0.08;
+
+/// A bump of an outline: direction, height in radii, width in radians.
+type Bump = (Vec2, f32, f32);
+
+/// Gives an outline its own size, waves, tail, bites and spikes, which turn with the body.
+pub(super) fn reshape(polar: &mut PolarOutline, facing: Vec2, look: &OutlineLook, rng: &mut HashRng) {
+    if look.waves[0] <= 0.0 {
+        return;
+    }
+    let size = libm::expf(look.size * rng.normal());
+    let is_oval = rng.unit() < look.ovals;
+    let mut wave = |k: usize| {
+        let order = (k + 2) as f32;
+        let decay = if k == 0 { look.waves[0] } else { look.waves[1] * libm::powf(3.0 / order, look.decay) };
+        let oval = if k == 0 && is_oval { rng.range([0.10, 0.20]) } else { 0.0 };
+        unit_vector(TAU * rng.unit()) * larger(oval, decay * libm::expf(look.spread * rng.normal()))
+    };
+    let waves: [Vec2; ORDERS - 1] = std::array::from_fn(&mut wave);
+    let bumps = bumps(look, rng);
+    let back = Vec2::new(facing.x, -facing.y);
+    polar.reshape(|way| {
+        let own = rotate(way, back);
+        let mut turned = own;
+        let mut factor = 1.0;
+        for wave in waves {
+            turned = rotate(turned, own);
+            factor += wave.dot(turned);
+        }
+        for &(at, height, width) in &bumps {
+            factor += height * bell((own - at).length() / width);
+        }
+        size * larger(factor, 0.3)
+    });
+}
+
+fn bumps(look: &OutlineLook, rng: &mut HashRng) -> Vec<Bump> {
+    let mut bumps = Vec::new();
+    if rng.unit() < look.tails {
+        bumps.push((rng.direction(), rng.range([0.35, 0.85]), rng.range([0.18, 0.34])));
+    }
+    if rng.unit() < look.bites {
+        let width = rng.range([0.12, 0.30]);
+        bumps.push((rng.direction(), -0.6 * width, width));
+    }
+    let [fewest, most] = look.spikes;
+    let count = (fewest + rng.bits() % (most - fewest + 1)) as usize;
+    bumps.extend(
+        (0..count.min(MOST_BUMPS)).map(|_| (rng.direction(), rng.range([0.05, 0.22]), rng.range([0.10, 0.25]))),
+    );
+    bumps
+}
+
+/// The hollow of a red cell. In the living cell it is part of the biconcave disc; when the cell dries on the glass, its
+/// edge spreads and its middle sinks in, each in its own way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hollow {
+    /// From the body's frame, in radii, to that of the hollow, in which it has the radius 1; where the centre goes.
+    to_hollow: Mat2,
+    pub centre: Vec2,
+    /// Square of its radius, in the body's.
+    pub area: f32,
+    /// How a dried cell looks: how sharp and how steep its edge is, how deep and how flat its hollow, 0 to 1.
+    pub dried: [f32; 4],
+}
+
+impl Hollow {
+    /// None.
+    pub(super) const NONE: Self = Self { to_hollow: Mat2::IDENTITY, centre: Vec2::ZERO, area: 1.0, dried: [0.0; 4] };
+
+    pub(super) fn of(rng: &mut HashRng) -> Self {
+        let kind = rng.unit();
+        let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
+        let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.28, 0.66]) };
+        let stretch = if is_slit { rng.range([1.5, 2.0]) } else { libm::expf(0.13 * rng.normal().abs()) };
+        let way = rng.direction();
+        let turn = Mat2::from_cols(Vec2::new(way.x, -way.y), Vec2::new(way.y, way.x));
+        let to_hollow = Mat2::from_diagonal(Vec2::new(1.0 / stretch, stretch) / radius) * turn;
+        let at = rng.direction() * (0.13 * rng.normal());
+        let share = rng.unit();
+        let depth = if is_flat {
+            0.25 * share
+        } else if is_slit {
+            0.7 + 0.3 * share
+        } else {
+            share.sqrt()
+        };
+        let dried = [rng.unit(), 0.8 * rng.unit(), depth, rng.unit()];
+        Self { to_hollow, centre: to_hollow * at, area: radius * radius, dried }
+    }
+
+    /// A direction of the body's frame, in radii, in the hollow's.
+    pub(super) fn turned(&self, own: Vec2) -> Vec2 {
+        self.to_hollow * own
+    }
+
+    /// Thickness of the dried cell at a distance from its centre, in radii, and from that of the hollow; 1 without one.
+    pub(super) fn dried(&self, rho: f32, from_hollow: Vec2) -> f32 {
+        let [sharp, steep, depth, flat] = self.dried;
+        let square = rho * rho;
+        if square >= 1.0 {
+            return 0.0;
+        }
+        let fourth = square * square;
+        let inside = 1.0 - (fourth + sharp * (fourth * fourth - fourth));
+        let edge = inside.sqrt();
+        let apart = from_hollow.length_squared();
+        let sunk = depth * libm::expf(-(apart + flat * (apart * apart - apart)));
+        let from_rim = (rho - 0.80) / 0.24;
+        let bulge = larger(1.0 - from_rim * from_rim, 0.0);
+        (edge + steep * (inside - edge)) * (1.0 - sunk) * (1.0 + 0.22 * depth * bulge * bulge)
+    }
+}
