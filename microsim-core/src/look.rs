@@ -276,6 +276,8 @@ pub(crate) struct NucleusLook {
     pub behind: f32,
     /// Distance of the lobes from the middle of the nucleus, in the cell's mean radii.
     pub spread: f32,
+    /// How far it is bent out of shape, in the cell's mean radii.
+    pub bent: f32,
     pub matter: Matter,
     pub texture: Texture,
 }

@@ -66,9 +66,10 @@ impl Microscope {
         let source = match mode.shader {
             Shader::Painted => ImageSource::Painted(Painting::of(view)),
             Shader::Light(shader, _) => {
-                let around = mode.has_surround.then(|| surround_wave::grid_around(&image, image.pixel));
+                let around = mode.surround.map(|_| surround_wave::grid_around(&image, image.pixel));
                 let specimen = Specimen::of(view, field.centre, &around.unwrap_or(image));
-                let surround = around.map(|grid| SurroundWave::of(specimen.rasterize(grid)));
+                let surround = around.zip(mode.surround);
+                let surround = surround.map(|(grid, kind)| SurroundWave::of(specimen.rasterize(grid), kind));
                 ImageSource::Lit { specimen, surround, shader }
             }
         };

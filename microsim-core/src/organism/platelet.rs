@@ -108,10 +108,10 @@ impl Spec for PlateletSpec {
             texture: Texture { amount: 0.25, size: 0.4 },
             outline: OutlineLook {
                 size: 0.05,
-                waves: [0.05, 0.035],
-                decay: 0.9,
-                spread: 0.4,
-                spikes: [1, 5],
+                waves: [0.07, 0.04],
+                decay: 1.4,
+                spread: 0.5,
+                spikes: [0, 4],
                 ..OutlineLook::EVEN
             },
             inclusions: &[Inclusion {

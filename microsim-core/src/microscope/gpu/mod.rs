@@ -6,7 +6,7 @@ use super::exposure::Microscope;
 use super::field::Field;
 use super::film::FilmFrame;
 use super::maths::{larger, smaller};
-use super::optics::{Mode, Optics, Shader};
+use super::optics::{Mode, Optics, Shader, Surround};
 use super::painting::Painting;
 use super::raster::{PixelGrid, gaussian};
 use super::recipe::{Card, DrawList, Pass, PassContent, Precision, Program, Recipe, RenderTarget, TextureInput};
@@ -56,7 +56,7 @@ impl RecipeBuilder {
         let grid = self.image_grid(larger(self.field.pixel() / self.card.detail, FINEST));
         let (scale, bias) = self.coding();
         let coarse = if self.card.is_soft { grid.pixel } else { 2.0 * grid.pixel };
-        let around = self.mode.has_surround.then(|| surround_wave::grid_around(&grid, coarse));
+        let around = self.mode.surround.map(|_| surround_wave::grid_around(&grid, coarse));
         let widest = around.unwrap_or(grid);
         let mut draws = DrawList::new(widest.bounds(), grid.pixel);
         Specimen::of(view, self.field.centre, &widest).draw_on(&mut draws, bias);
@@ -125,9 +125,10 @@ impl RecipeBuilder {
         };
         let (across, along) = ([1.0 / grid.columns as f32, 0.0], [0.0, 1.0 / grid.rows as f32]);
         let from = |target| vec![TextureInput::Target(target)];
+        let wave = if self.mode.surround == Some(Surround::Emission) { Program::Emission } else { Program::Wave };
         [
             self.matter(RenderTarget::CoarseMatter, grid),
-            screen(RenderTarget::Wave, grid, Program::Wave, [scale, bias].concat(), from(RenderTarget::CoarseMatter)),
+            screen(RenderTarget::Wave, grid, wave, [scale, bias].concat(), from(RenderTarget::CoarseMatter)),
             screen(RenderTarget::Spread, grid, Program::SpreadAcross, spread(across), from(RenderTarget::Wave)),
             screen(RenderTarget::Surround, grid, Program::SpreadAlong, spread(along), from(RenderTarget::Spread)),
         ]

@@ -29,7 +29,7 @@ const MODE: Mode = Mode {
     name: "dic",
     is_bright: false,
     channels: 1,
-    has_surround: false,
+    surround: None,
     blur: 0.09,
     ground: [BACKGROUND; 3],
     grain: 0.8,

@@ -1,13 +1,13 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
-use super::mode::{Mode, Optics, Shader};
+use super::mode::{Mode, Optics, Shader, Surround};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
 /// Camera's offset and autofluorescence.
-const DARK: [f32; 3] = [0.024, 0.044, 0.042];
-/// Light from above and below the plane of focus, by how much the surround wave lacks: cells far and near scatter it.
-const HAZE: [f32; 3] = [0.030, 0.150, 0.100];
+const DARK: [f32; 3] = [0.030, 0.050, 0.050];
+/// Share of the light that is out of focus, and spreads around what shines.
+const HAZE: f32 = 0.55;
 const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
@@ -18,7 +18,7 @@ const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
     constants: &[
         ("DARK", &DARK),
-        ("HAZE", &HAZE),
+        ("HAZE", &[HAZE]),
         ("NUCLEUS", &NUCLEUS),
         ("CYTOPLASM", &CYTOPLASM),
         ("SATURATION", &[SATURATION]),
@@ -34,7 +34,7 @@ const MODE: Mode = Mode {
     name: "fluorescence",
     is_bright: false,
     channels: 3,
-    has_surround: true,
+    surround: Some(Surround::Emission),
     blur: 0.17,
     ground: [0.03, 0.07, 0.06],
     grain: 2.2,
@@ -44,10 +44,10 @@ const MODE: Mode = Mode {
 fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sampler.matter(x, y);
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
-    let (nucleus, cytoplasm) = (shines(matter.nucleus), shines(matter.cytoplasm));
-    let haze = 1.0 - sampler.waves(x, y).1.x;
+    let haze = sampler.waves(x, y).1 * HAZE;
+    let (nucleus, cytoplasm) = (shines(matter.nucleus) + haze.x, shines(matter.cytoplasm) + haze.y);
     std::array::from_fn(|k| {
-        let light = DARK[k] + HAZE[k] * haze + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
+        let light = DARK[k] + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
         1.0 - libm::expf(-SATURATION * light)
     })
 }

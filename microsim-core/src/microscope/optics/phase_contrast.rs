@@ -4,7 +4,7 @@
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
-use super::mode::{Mode, Optics, Shader, grey};
+use super::mode::{Mode, Optics, Shader, Surround, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
@@ -35,7 +35,7 @@ const POSITIVE: Mode = Mode {
     name: "phase-contrast",
     is_bright: false,
     channels: 1,
-    has_surround: true,
+    surround: Some(Surround::Wave),
     blur: 0.09,
     ground: [BACKGROUND; 3],
     grain: 1.0,

@@ -23,6 +23,8 @@ pub enum Program {
     Thread,
     /// The wave behind matter.
     Wave,
+    /// What of matter shines.
+    Emission,
     /// Its blur along rows.
     SpreadAcross,
     /// Its blur along columns.
@@ -77,7 +79,7 @@ impl Program {
     pub fn all() -> impl Iterator<Item = Self> {
         use Program::*;
         let lit = Optics::ALL.into_iter().filter(|optics| matches!(optics.mode().shader, Shader::Light(..)));
-        [Background, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, SpreadAcross, SpreadAlong]
+        [Background, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, Emission, SpreadAcross, SpreadAlong]
             .into_iter()
             .chain(lit.map(Image))
             .chain([Soften, Film, Page, PageObstacle, Painted])

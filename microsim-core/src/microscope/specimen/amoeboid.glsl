@@ -13,7 +13,8 @@ uniform vec4 lamella;
 uniform vec4 relief;
 uniform vec4 matter;
 uniform vec4 nucleus_matter;
-uniform vec2 nucleus_texture;
+// Strength and size of the texture; how far it is bent out of shape.
+uniform vec3 nucleus_texture;
 // Irregularity of the front's edge, and how far it is ahead of that by its pulse.
 uniform vec2 edge;
 uniform vec3 lobes[LOBES];
@@ -37,7 +38,7 @@ float nucleus_at(vec2 place, float softness) {
     float neck = NECK * middle.z;
     vec2 from_centre = place - middle.xy;
     vec2 bends = from_centre / (BENDS * middle.z);
-    vec2 bent = place + BENT * middle.z * vec2(value(bends, shifts[4]), value(bends, shifts[3]));
+    vec2 bent = place + nucleus_texture.z * middle.z * vec2(value(bends, shifts[4]), value(bends, shifts[3]));
     float depth = lobes[0].z - length(bent - lobes[0].xy);
     for (int k = 1; k < LOBES; k++) {
         float other = lobes[k].z - length(bent - lobes[k].xy);

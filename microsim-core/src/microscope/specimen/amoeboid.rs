@@ -43,8 +43,7 @@ const RAGS: f32 = 0.3;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
 const RAGS_BEHIND: f32 = 0.3;
-/// How far a nucleus is bent out of shape, and the size of its bends, in the cell's mean radii.
-const BENT: f32 = 0.13;
+/// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
 const CHROMATIN: [f32; 2] = [-0.25, 0.35];
@@ -62,7 +61,6 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
-        ("BENT", &[BENT]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
     ],
@@ -198,7 +196,7 @@ impl AmoeboidBody {
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
         uniforms.extend(look.matter.to_array());
         uniforms.extend(look.nucleus.matter.to_array());
-        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size]);
+        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size, look.nucleus.bent]);
         uniforms.extend([look.lamella.rags, PULSE * (self.pulse() - 1.0)]);
         let nowhere = (Vec2::ZERO, -1000.0);
         let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
@@ -272,12 +270,13 @@ impl AmoeboidBody {
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
         let from_centre = place - self.centre;
-        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (BENT + NECK) * self.radius + 0.6) {
+        let bent = self.look.nucleus.bent;
+        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
             return 0.0;
         }
         let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
-        let bent = place + Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (BENT * self.radius);
-        let inside = |&(at, radius): &(Vec2, f32)| radius - (bent - at).length();
+        let there = place + Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
+        let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
         let uneven = 0.04 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
@@ -327,7 +326,7 @@ impl AmoeboidBody {
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
-        let shown = if focus > 0.0 && look.shape == SpotShape::Ball {
+        let shown = if focus > 0.0 && radius < 0.3 {
             Spot { at, radius: radius + 0.08 * focus, matter: matter * 0.6, shape: SpotShape::Defocused(focus) }
         } else {
             Spot { at, radius, matter, shape: look.shape }

@@ -27,10 +27,10 @@ const MOST_GRAINS: usize = 34;
 const TIPS: usize = 5;
 /// The same for what is out of focus.
 const FAR_CELL: f32 = 26.0;
-const FAR: f32 = 0.55;
+const FAR: f32 = 0.45;
 /// The same for fibres, and the points of each.
 const FIBRE_CELL: f32 = 60.0;
-const FIBRES: f32 = 0.5;
+const FIBRES: f32 = 0.35;
 const FIBRE_POINTS: usize = 14;
 /// Share of the camera's movement that things out of focus seem to make.
 const PARALLAX: f32 = 0.15;
@@ -110,7 +110,7 @@ impl BackgroundMatter {
         }
         if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
-            strewn(bounds, shift, [FAR_CELL, FAR], self.seed ^ 22, |at, rng| spots.push(self.far(at, rng)));
+            strewn(bounds, shift, [FAR_CELL, FAR], self.seed ^ 22, |at, rng| self.far(at, rng, &mut spots));
         }
         (spots, threads)
     }
@@ -144,19 +144,22 @@ impl BackgroundMatter {
                 Spot { at, radius, matter, shape: SpotShape::Bump }
             } else {
                 // The same matter over a wider disc.
-                Spot { at, radius: radius + 0.16 * chirp, matter: matter * 0.4, shape: SpotShape::Defocused(chirp) }
+                Spot { at, radius: radius + 0.16 * chirp, matter: matter * 0.3, shape: SpotShape::Defocused(chirp) }
             });
         }
     }
 
-    /// A cell or a clump above or below the plane of focus: rings that drift slowly.
-    fn far(&self, at: Vec2, rng: &mut HashRng) -> Spot {
+    /// A cell or a clump above or below the plane of focus: rings of its parts, which drift slowly.
+    fn far(&self, at: Vec2, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let seed = rng.bits();
         let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
-        let radius = rng.range([2.2, 5.0]);
-        let matter = Matter::phase(rng.range([0.10, 0.30]));
-        let shape = if rng.unit() < 0.3 { SpotShape::Bump } else { SpotShape::Defocused(rng.range([4.0, 11.0])) };
-        Spot { at: at + drift, radius, matter, shape }
+        let radius = rng.range([1.6, 4.5]);
+        let shape = if rng.unit() < 0.4 { SpotShape::Bump } else { SpotShape::Defocused(rng.range([3.0, 7.5])) };
+        for _ in 0..1 + rng.bits() % 4 {
+            let at = at + drift + rng.direction() * (0.35 * radius * rng.unit());
+            let matter = Matter::phase(rng.range([0.03, 0.11]));
+            spots.push(Spot { at, radius: radius * rng.range([0.7, 1.1]), matter, shape });
+        }
     }
 }
 
@@ -167,12 +170,12 @@ fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
     let bend = rng.range([-0.15, 0.15]);
     let mut point = || {
         at += way * step;
-        way = rotate(way, unit_vector(bend + 0.16 * rng.normal()));
+        way = rotate(way, unit_vector(bend + 0.25 * rng.normal()));
         at
     };
     let points: [Vec2; FIBRE_POINTS] = std::array::from_fn(|_| point());
     let radius = rng.range([0.06, 0.16]);
-    let dense = strength * rng.range([0.08, 0.35]);
+    let dense = strength * rng.range([0.04, 0.22]);
     let matter = Matter { nucleus: 0.15 * dense, ..Matter::phase(dense) };
     Thread::curve(&points, |_| radius, matter).collect()
 }

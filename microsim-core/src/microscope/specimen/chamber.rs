@@ -18,8 +18,8 @@ const EDGE: f32 = 0.15;
 /// Most cells of an obstacle's map of depths, apart from its margin.
 const MOST_CELLS: f32 = 8192.0;
 /// Strength and size of its unevenness.
-const TEXTURE: f32 = 0.05;
-const TEXTURE_SIZE: f32 = 2.5;
+const TEXTURE: f32 = 0.012;
+const TEXTURE_SIZE: f32 = 4.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: include_str!("chamber.glsl"),

@@ -15,7 +15,7 @@ const ORDERS: usize = 12;
 const MOST_BUMPS: usize = 12;
 /// Shares of red cells without a hollow, and with a hollow that is a slit.
 const FLAT: f32 = 0.13;
-const SLIT: f32 = 0.08;
+const SLIT: f32 = 0.05;
 
 /// A bump of an outline: direction, height in radii, width in radians.
 type Bump = (Vec2, f32, f32);
@@ -89,7 +89,7 @@ impl Hollow {
         let kind = rng.unit();
         let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
         let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.28, 0.66]) };
-        let stretch = if is_slit { rng.range([1.5, 2.0]) } else { libm::expf(0.13 * rng.normal().abs()) };
+        let stretch = if is_slit { rng.range([1.35, 1.75]) } else { libm::expf(0.13 * rng.normal().abs()) };
         let way = rng.direction();
         let turn = Mat2::from_cols(Vec2::new(way.x, -way.y), Vec2::new(way.y, way.x));
         let to_hollow = Mat2::from_diagonal(Vec2::new(1.0 / stretch, stretch) / radius) * turn;

@@ -78,7 +78,7 @@ vec2 thickness(float rho) {
     if (shape.x > 0.0) {
         return vec2(pow(inside, shape.x));
     }
-    float square = mix(in_hollow.z * dot(in_hollow.xy, in_hollow.xy), rho * rho, rho * rho);
+    float square = mix(in_hollow.z * dot(in_hollow.xy, in_hollow.xy), rho * rho, 0.4 + 0.6 * rho * rho);
     float living = sqrt(inside) * (shape.y + shape.z * square - shape.w * square * square) / THICKEST;
     return vec2(living, dried_thickness(rho));
 }

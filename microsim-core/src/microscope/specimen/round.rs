@@ -172,7 +172,7 @@ impl RoundBody {
             Profile::Biconcave { c2, c4, .. } => {
                 let from_hollow = self.hollow.turned(own) - self.hollow.centre;
                 // Around the hollow in the middle, around the centre at the rim.
-                let square = mix(self.hollow.area * from_hollow.length_squared(), rho * rho, rho * rho);
+                let square = mix(self.hollow.area * from_hollow.length_squared(), rho * rho, 0.4 + 0.6 * rho * rho);
                 let living = inside.sqrt() * (self.middle + c2 * square - c4 * square * square) / THICKEST;
                 [living, self.hollow.dried(rho, from_hollow)]
             }
@@ -347,8 +347,8 @@ fn oral_groove(own: Vec2) -> [f32; 2] {
 fn own_matter(look: &RoundLook, rng: &mut HashRng) -> Matter {
     let mut matter = look.matter * libm::expf(look.variation * rng.normal().clamp(-2.0, 2.0));
     if matter.haemoglobin > 0.0 {
-        matter.haemoglobin *= libm::expf(1.2 * look.variation * rng.normal());
-        matter.cytoplasm += 0.12 * larger(rng.normal(), 0.0);
+        matter.haemoglobin *= libm::expf(0.9 * look.variation * rng.normal());
+        matter.cytoplasm += 0.07 * larger(rng.normal(), 0.0);
     }
     matter
 }
