@@ -14,7 +14,7 @@ use glam::Vec2;
 /// A field without a specimen: 198, 198, 193 of 255.
 const BACKGROUND: [f32; 3] = [0.776, 0.780, 0.757];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.090, 0.250, 0.170];
+const HAEMOGLOBIN: [f32; 3] = [0.092, 0.248, 0.192];
 const CYTOPLASM: [f32; 3] = [0.125, 0.275, 0.025];
 const NUCLEUS: [f32; 3] = [0.36, 0.62, -0.08];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.

@@ -5,6 +5,7 @@
 //! shaped.
 
 use super::distance_field::{DistanceField, united};
+use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
@@ -26,10 +27,6 @@ const STEP: f32 = 0.2;
 const BLEB_PERIOD: f32 = 4.0;
 /// Speed at which ruffles run, features per second.
 const RUFFLING: f32 = 0.25;
-/// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
-const CRAWLING: f32 = 12.0;
-/// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
-const SKEWED: f32 = 8.0;
 
 /// Farthest that anything of a cell reaches beyond its membrane, micrometres.
 const MARGIN: f32 = 2.0;
@@ -84,20 +81,6 @@ pub(super) struct AmoeboidBody {
     lobes: Vec<(Vec2, f32)>,
     seed: u32,
     time: f32,
-}
-
-/// Where a cell heads, from how it moves and is shaped.
-#[derive(Clone, Copy, Debug)]
-struct Front {
-    /// Unit vector; any at rest.
-    way: Vec2,
-    /// 0 at rest to 1.
-    strength: f32,
-    /// How slender the tail is, 0 to 1.
-    tail: f32,
-    /// Farthest that the cell reaches along `way` and against it, from its centre.
-    ahead: f32,
-    behind: f32,
 }
 
 impl AmoeboidBody {
@@ -327,7 +310,8 @@ impl AmoeboidBody {
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
         let shown = if focus > 0.0 && radius < 0.3 {
-            Spot { at, radius: radius + 0.08 * focus, matter: matter * 0.6, shape: SpotShape::Defocused(focus) }
+            let wide = radius + 0.08 * focus;
+            Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
         } else {
             Spot { at, radius, matter, shape: look.shape }
         };
@@ -365,27 +349,6 @@ impl AmoeboidBody {
             Thread { from: tail, to: tail + way * length, radius: 0.09, matter, peak: 0.0 }
         };
         (0..self.look.fibres).map(fibre).collect()
-    }
-}
-
-impl Front {
-    fn of(organism: OrganismView<'_>, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
-        let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
-        let velocity = cytoplasm().map(|p| p.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0);
-        let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
-        let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
-        // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
-        // the velocity does when a cell changes its goal.
-        let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
-        let way = polarity.try_normalize().unwrap_or(Vec2::X);
-        let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
-        Self {
-            way,
-            strength: smoothstep(0.1, 0.6, polarity.length()),
-            tail: smoothstep(0.05, 0.12, skew.length()),
-            ahead: reach(way),
-            behind: reach(-way),
-        }
     }
 }
 

@@ -17,7 +17,7 @@ const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.22;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 0.55;
+const CLUMPS: f32 = 1.3;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
 const GRAINS: f32 = 2.4;
@@ -128,7 +128,7 @@ impl BackgroundMatter {
     fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
-        let size = 0.17 * libm::expf(0.35 * rng.normal());
+        let size = 0.13 * libm::expf(0.5 * rng.normal());
         let dense = 0.55 * libm::expf(0.5 * rng.normal()) * strength;
         let dyed = if rng.unit() < 0.35 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };

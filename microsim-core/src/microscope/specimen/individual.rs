@@ -1,10 +1,11 @@
-//! What makes one body differ from another of its kind: outline, and the hollow of a red cell. All of it hangs on the
-//! body's seed. Shares and spreads are those of red cells in stained smears.
+//! What makes one body differ from another of its kind: outline, matter, where inclusions gather, the hollow of a red cell.
+//! All of it hangs on the body's seed. Shares and spreads are those of red cells in stained smears.
 
 use super::polar_outline::PolarOutline;
 use crate::geometry::{rotate, unit_vector};
-use crate::look::OutlineLook;
+use crate::look::{Inclusion, OutlineLook, RoundLook};
 use crate::microscope::maths::{bell, larger};
+use crate::microscope::matter::Matter;
 use crate::microscope::noise::HashRng;
 use glam::{Mat2, Vec2};
 use std::f32::consts::TAU;
@@ -16,6 +17,9 @@ const MOST_BUMPS: usize = 12;
 /// Shares of red cells without a hollow, and with a hollow that is a slit.
 const FLAT: f32 = 0.13;
 const SLIT: f32 = 0.05;
+
+/// Regions of a body in which inclusions gather.
+pub(super) const REGIONS: usize = 3;
 
 /// A bump of an outline: direction, height in radii, width in radians.
 type Bump = (Vec2, f32, f32);
@@ -126,5 +130,35 @@ impl Hollow {
         let from_rim = (rho - 0.80) / 0.24;
         let bulge = larger(1.0 - from_rim * from_rim, 0.0);
         (edge + steep * (inside - edge)) * (1.0 - sunk) * (1.0 + 0.22 * depth * bulge * bulge)
+    }
+}
+
+/// Matter of an individual where it is thickest: red cells differ more in haemoglobin than in thickness, and young ones
+/// take up some of the basic dye.
+pub(super) fn matter(look: &RoundLook, rng: &mut HashRng) -> Matter {
+    let mut matter = look.matter * libm::expf(look.variation * rng.normal().clamp(-2.0, 2.0));
+    if matter.haemoglobin > 0.0 {
+        matter.haemoglobin *= libm::expf(0.9 * look.variation * rng.normal());
+        matter.cytoplasm += 0.07 * larger(rng.normal(), 0.0);
+    }
+    matter
+}
+
+/// A part of a body where inclusions gather, alike in size and density.
+pub(super) struct Region {
+    /// In the frame in which the body is a disc of radius 1.
+    pub at: Vec2,
+    pub spread: f32,
+    pub size: f32,
+    pub dense: f32,
+}
+
+impl Region {
+    pub(super) fn of(inclusion: &Inclusion, rng: &mut HashRng) -> Self {
+        let at = rng.direction() * (inclusion.place[1] * rng.unit().sqrt());
+        // One or two things are what they are said to be.
+        let spread = if inclusion.count[1] > 3 { 0.25 } else { 0.0 };
+        let mut own = |spread: f32| libm::expf(spread * rng.normal());
+        Self { at, spread: spread * own(0.5), size: own(spread), dense: own(spread) }
     }
 }

@@ -1,6 +1,6 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
-use super::individual::{self, Hollow};
+use super::individual::{self, Hollow, REGIONS, Region};
 use super::polar_outline::PolarOutline;
 use super::spline::smooth;
 use super::spot::Spot;
@@ -22,13 +22,14 @@ const THICKEST: f32 = 2.56;
 const EDGE: f32 = 0.06;
 /// Share by which the edge of a body that is out of focus is wider, at most.
 const OUT_OF_FOCUS: f32 = 3.5;
+/// Share of red cells that have pits from drying.
+const PITTED: f32 = 0.2;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
 /// radius 1 that heads for +x; where it ends at the mouth; half its width at the front, where it is shallow and broad.
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
-/// Regions in which inclusions gather, and the share of them that do.
-const REGIONS: usize = 3;
+/// Share of inclusions that gather in regions.
 const CLUSTERED: f32 = 0.6;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
@@ -89,7 +90,7 @@ impl RoundBody {
             Profile::Biconcave { c0, .. } => (rng.range(c0), Hollow::of(&mut rng)),
             Profile::Dome(_) => (0.0, Hollow::NONE),
         };
-        let matter = own_matter(look, &mut rng);
+        let matter = individual::matter(look, &mut rng);
         let blur = rng.unit();
         let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur);
         Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge })
@@ -190,6 +191,9 @@ impl RoundBody {
         let mut rng = HashRng::new(self.seed ^ 0x51ed);
         let mut spots: Vec<Spot> =
             self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut rng)).collect();
+        if let Profile::Biconcave { .. } = self.look.profile {
+            spots.extend(self.drying_pits(&mut rng));
+        }
         if let Some(pellicle) = self.look.pellicle {
             let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };
             spots.extend(self.vacuoles(pellicle, time).map(spot));
@@ -219,6 +223,21 @@ impl RoundBody {
             Spot { at, radius, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
+    }
+
+    /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
+    fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
+        let count = if rng.unit() < PITTED { 1 + rng.bits() % 3 } else { 0 };
+        let pit = |_| {
+            let at = self.place(rng.direction(), 0.6 * rng.unit());
+            let radius = 0.30 * libm::expf(0.4 * rng.normal());
+            let dense = rng.range([0.3, 0.9]);
+            let clear = Matter { haemoglobin: -dense, ..Matter::phase(-0.10) };
+            let around = Matter { haemoglobin: 0.5 * dense, nucleus: 0.25 * dense, ..Matter::NONE };
+            let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
+            [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring]
+        };
+        (0..count).flat_map(pit).collect()
     }
 
     /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.
@@ -297,25 +316,6 @@ impl RoundBody {
     }
 }
 
-/// A part of a body where inclusions gather, alike in size and density.
-struct Region {
-    /// In the frame in which the body is a disc of radius 1.
-    at: Vec2,
-    spread: f32,
-    size: f32,
-    dense: f32,
-}
-
-impl Region {
-    fn of(inclusion: &Inclusion, rng: &mut HashRng) -> Self {
-        let at = rng.direction() * (inclusion.place[1] * rng.unit().sqrt());
-        // One or two things are what they are said to be.
-        let spread = if inclusion.count[1] > 3 { 0.25 } else { 0.0 };
-        let mut own = |spread: f32| libm::expf(spread * rng.normal());
-        Self { at, spread: spread * own(0.5), size: own(spread), dense: own(spread) }
-    }
-}
-
 impl Pellicle {
     /// What fills vacuoles and canals, relative to the cytoplasm that it takes the place of.
     fn water(&self) -> Matter {
@@ -340,17 +340,6 @@ fn oral_groove(own: Vec2) -> [f32; 2] {
     let from_middle = own.y - GROOVE[0] - GROOVE[1] * own.x - GROOVE[2] * own.x * own.x;
     let width = GROOVE_WIDTH * (0.5 + 0.5 * smoothstep(0.0, 0.8, own.x));
     [bell(from_middle / width) * along, bell(((from_middle / width).abs() - 1.7) / 0.45) * along]
-}
-
-/// Matter of an individual where it is thickest: red cells differ more in haemoglobin than in thickness, and young ones
-/// take up some of the basic dye.
-fn own_matter(look: &RoundLook, rng: &mut HashRng) -> Matter {
-    let mut matter = look.matter * libm::expf(look.variation * rng.normal().clamp(-2.0, 2.0));
-    if matter.haemoglobin > 0.0 {
-        matter.haemoglobin *= libm::expf(0.9 * look.variation * rng.normal());
-        matter.cytoplasm += 0.07 * larger(rng.normal(), 0.0);
-    }
-    matter
 }
 
 /// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.

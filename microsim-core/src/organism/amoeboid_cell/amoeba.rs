@@ -47,7 +47,7 @@ const GRANULES: GranuleLook = GranuleLook {
     density: 0.22,
     radius: 0.34,
     spread: 0.60,
-    limits: [0.2, 1.1],
+    limits: [0.15, 0.9],
     matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
