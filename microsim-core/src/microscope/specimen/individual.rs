@@ -157,8 +157,8 @@ impl Region {
     pub(super) fn of(inclusion: &Inclusion, rng: &mut HashRng) -> Self {
         let at = rng.direction() * (inclusion.place[1] * rng.unit().sqrt());
         // One or two things are what they are said to be.
-        let spread = if inclusion.count[1] > 3 { 0.25 } else { 0.0 };
+        let spread = if inclusion.count[1] > 3 { 0.45 } else { 0.0 };
         let mut own = |spread: f32| libm::expf(spread * rng.normal());
-        Self { at, spread: spread * own(0.5), size: own(spread), dense: own(spread) }
+        Self { at, spread: spread * own(0.5), size: own(0.5 * spread), dense: own(0.4 * spread) }
     }
 }

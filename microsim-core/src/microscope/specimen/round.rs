@@ -30,7 +30,7 @@ const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
 /// Share of inclusions that gather in regions.
-const CLUSTERED: f32 = 0.6;
+const CLUSTERED: f32 = 0.4;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
 /// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
