@@ -237,3 +237,34 @@ impl FilmFrame {
         uniforms
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sharpening_keeps_the_light() {
+        let frame = Film::DIGITAL.frame(0.0, 7);
+        for sigma in [0.0, 0.8, 4.0] {
+            let kernel = frame.kernel(sigma, 0.5);
+            assert!((kernel.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{sigma}");
+            assert!(kernel.len() % 2 == 1 && kernel.iter().any(|weight| *weight < 0.0), "{sigma}");
+        }
+        let dull = Film { sharpening: 0.0, ..Film::DIGITAL }.frame(0.0, 7);
+        assert_eq!(dull.kernel(2.0, 0.5), gaussian(2.0));
+    }
+
+    #[test]
+    fn dust_and_uneven_light_stay_from_frame_to_frame() {
+        let light = |time, seed| {
+            let camera = Film::DIGITAL.frame(time, seed).camera;
+            [Vec2::ZERO, Vec2::new(0.4, -0.3), camera.shadows[0].at].map(|place| camera.light(place))
+        };
+        assert_eq!(light(0.0, 7), light(3.0, 7));
+        assert_ne!(light(0.0, 7), light(0.0, 8));
+        let clean = Film { dust: 0.0, gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
+        assert_eq!(clean.light(clean.shadows[0].at), 1.0);
+        let dusty = Film { gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
+        assert!(dusty.light(dusty.shadows[0].at) < 1.0);
+    }
+}

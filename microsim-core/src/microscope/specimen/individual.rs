@@ -162,3 +162,31 @@ impl Region {
         Self { at, spread: spread * own(0.5), size: own(0.5 * spread), dense: own(0.4 * spread) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dried_cells_end_at_their_rim_and_differ_in_their_middle() {
+        let hollows: Vec<Hollow> = (0..200).map(|seed| Hollow::of(&mut HashRng::new(seed))).collect();
+        let middle = |hollow: &Hollow| hollow.dried(0.0, Vec2::ZERO);
+        assert!(hollows.iter().all(|hollow| hollow.dried(1.0, Vec2::ONE) == 0.0));
+        assert!(hollows.iter().all(|hollow| (0.0..=1.0).contains(&middle(hollow))));
+        let pale = hollows.iter().filter(|hollow| middle(hollow) < 0.3).count();
+        let full = hollows.iter().filter(|hollow| middle(hollow) > 0.75).count();
+        assert!((40..160).contains(&pale) && (20..100).contains(&full), "{pale} {full}");
+    }
+
+    #[test]
+    fn outlines_of_individuals_differ_and_keep_a_radius() {
+        let look = OutlineLook { size: 0.1, spikes: [2, 6], tails: 0.5, bites: 0.5, ..OutlineLook::uneven(0.1) };
+        let radii = |seed| {
+            let mut polar = PolarOutline::disc(Vec2::ZERO, 1.0).unwrap();
+            reshape(&mut polar, Vec2::X, &look, &mut HashRng::new(seed));
+            (0..32).map(|k| polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()
+        };
+        assert!((0..50).all(|seed| radii(seed).iter().all(|radius| (0.2..4.0).contains(radius))));
+        assert!((0..50).all(|seed| radii(seed) == radii(seed) && radii(seed) != radii(seed + 1)));
+    }
+}
