@@ -25,7 +25,7 @@ impl Look {
         matter: Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.8, nucleus: 0.0 },
         variation: 0.1,
         texture: Texture { amount: 0.08, size: 0.5 },
-        unevenness: 0.01,
+        outline: OutlineLook::uneven(0.01),
         inclusions: &[Inclusion {
             count: [1, 1],
             radius: [0.30, 0.38],
@@ -100,8 +100,7 @@ pub(crate) struct RoundLook {
     /// Largest share by which one individual is thicker or thinner than another.
     pub variation: f32,
     pub texture: Texture,
-    /// Size of the irregularities of the outline.
-    pub unevenness: f32,
+    pub outline: OutlineLook,
     pub inclusions: &'static [Inclusion],
     pub cilia: Option<&'static Cilia>,
     pub pellicle: Option<&'static Pellicle>,
@@ -114,11 +113,40 @@ impl RoundLook {
         matter: Matter::NONE,
         variation: 0.0,
         texture: Texture { amount: 0.0, size: 1.0 },
-        unevenness: 0.0,
+        outline: OutlineLook::EVEN,
         inclusions: &[],
         cilia: None,
         pellicle: None,
     };
+}
+
+/// How the outlines of individuals differ from the body's. Lengths are in its mean radii.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineLook {
+    /// Standard deviation of the logarithm of their size.
+    pub size: f32,
+    /// Median size of the wave of order 2 and of that of order 3 around the outline; if the first is 0, there are none.
+    pub waves: [f32; 2],
+    /// Power of the order by which higher ones are smaller, and standard deviation of the logarithm of all.
+    pub decay: f32,
+    pub spread: f32,
+    /// Shares that are ovals, have a tail, have a bite.
+    pub ovals: f32,
+    pub tails: f32,
+    pub bites: f32,
+    /// Fewest and most spikes.
+    pub spikes: [u32; 2],
+}
+
+impl OutlineLook {
+    /// None.
+    pub(crate) const EVEN: Self = Self::uneven(0.0);
+
+    /// A few low waves of about this size.
+    pub(crate) const fn uneven(size: f32) -> Self {
+        let waves = [0.6 * size, 0.4 * size];
+        Self { size: 0.0, waves, decay: 1.2, spread: 0.4, ovals: 0.0, tails: 0.0, bites: 0.0, spikes: [0, 0] }
+    }
 }
 
 /// Thickness from the centre outwards, `rho` from 0 to 1.
@@ -155,7 +183,7 @@ pub(crate) struct Inclusion {
 }
 
 /// How a small round thing fades outwards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpotShape {
     /// Softly, without an edge.
     Bump,
@@ -163,6 +191,10 @@ pub(crate) enum SpotShape {
     Ball,
     /// A wall around nothing.
     Ring,
+    /// A point above or below the plane of focus: rings that get narrower outwards. A wave of Gaussian width `sigma` that
+    /// went on by `z` is `exp(-r^2 / 2s)` with `s = sigma^2 + i lambda z / (2 pi n)`; the number is the ratio of the
+    /// imaginary part of `1 / s` to the real one.
+    Defocused(f32),
 }
 
 /// A fringe of beating hairs.
@@ -244,6 +276,8 @@ pub(crate) struct NucleusLook {
     pub behind: f32,
     /// Distance of the lobes from the middle of the nucleus, in the cell's mean radii.
     pub spread: f32,
+    /// How far it is bent out of shape, in the cell's mean radii.
+    pub bent: f32,
     pub matter: Matter,
     pub texture: Texture,
 }

@@ -152,6 +152,15 @@ fn absurd_sizes_and_films_are_refused_by_name() {
     assert_eq!(refused(microscope, Field { width: -1.0, ..EVERYTHING }), "width");
     let film = Film { grain: f32::NAN, ..Film::CINE };
     assert_eq!(refused(Microscope { film, ..microscope }, EVERYTHING), "film.grain");
+    for (film, name) in [
+        (Film { blotches: 4.1, ..Film::CINE }, "film.blotches"),
+        (Film { glare: -0.1, ..Film::CINE }, "film.glare"),
+        (Film { gradient: 0.6, ..Film::CINE }, "film.gradient"),
+        (Film { dust: 1.1, ..Film::CINE }, "film.dust"),
+        (Film { sharpening: f32::NAN, ..Film::CINE }, "film.sharpening"),
+    ] {
+        assert_eq!(refused(Microscope { film, ..microscope }, EVERYTHING), name);
+    }
     let refused = |microscope: Microscope, field: Field, card: Card| {
         microscope.recipe(world.view(), field, card).unwrap_err().field().to_owned()
     };

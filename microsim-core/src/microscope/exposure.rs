@@ -1,13 +1,13 @@
 //! A picture being taken: from matter to bytes, in rows.
 
 use super::field::Field;
-use super::film::{Film, FilmFrame};
+use super::film::{Film, FilmFrame, MASK};
 use super::maths::{larger, mix};
 use super::noise::scramble;
 use super::optics::sampler::{REACH, Sampler};
 use super::optics::{Mode, Optics, PixelShader, Shader};
 use super::painting::Painting;
-use super::raster::{PixelGrid, bilinear, blur, gaussian};
+use super::raster::{PixelGrid, bilinear, blur};
 use super::specimen::Specimen;
 use super::surround_wave::{self, SurroundWave};
 use crate::error::Error;
@@ -66,9 +66,10 @@ impl Microscope {
         let source = match mode.shader {
             Shader::Painted => ImageSource::Painted(Painting::of(view)),
             Shader::Light(shader, _) => {
-                let around = mode.has_surround.then(|| surround_wave::grid_around(&image, image.pixel));
+                let around = mode.surround.map(|_| surround_wave::grid_around(&image, image.pixel));
                 let specimen = Specimen::of(view, field.centre, &around.unwrap_or(image));
-                let surround = around.map(|grid| SurroundWave::of(specimen.rasterize(grid)));
+                let surround = around.zip(mode.surround);
+                let surround = surround.map(|(grid, kind)| SurroundWave::of(specimen.rasterize(grid), kind));
                 ImageSource::Lit { specimen, surround, shader }
             }
         };
@@ -86,7 +87,8 @@ impl Microscope {
 /// Grid of the image behind a picture, and its margin in pixels.
 fn image_grid(picture: &PixelGrid, mode: &Mode) -> (PixelGrid, usize) {
     let pixel = larger(picture.pixel, FINEST);
-    let margin = ((REACH + 3.0 * mode.blur) / pixel).ceil() as usize + 2;
+    let margin = (REACH + 3.0 * mode.blur) / pixel + 3.0 * MASK * picture.pixel / pixel;
+    let margin = margin.ceil() as usize + 2;
     let scale = picture.pixel / pixel;
     let count = |count: usize| (count as f32 * scale).ceil() as usize + 2 * margin;
     let corner = picture.corner + Vec2::new(-1.0, 1.0) * (margin as f32 * pixel);
@@ -121,7 +123,7 @@ impl Exposure {
         for y in rows {
             for x in 0..self.pixels[0] {
                 let light = image.at(self.image_place(x, y));
-                let recorded = self.frame.record(light, x, y, self.mode.grain, half);
+                let recorded = self.frame.record(light, x, y, self.mode, half);
                 bytes.extend((0..3).map(|k| recorded[k.min(N - 1)]));
             }
         }
@@ -143,7 +145,11 @@ impl Exposure {
         let last = self.image_place(0, rows.end - 1).y as usize + 2 + self.margin;
         let grid = PixelGrid { top: first, rows: last.min(self.image.rows) - first, ..self.image };
         let mut light = self.source.light(grid);
-        blur(&mut light, grid.columns, &gaussian(self.mode.blur / grid.pixel));
+        blur(
+            &mut light,
+            grid.columns,
+            &self.frame.kernel(self.mode.blur / grid.pixel, grid.pixel / self.picture.pixel),
+        );
         Image { grid, light }
     }
 }

@@ -3,9 +3,15 @@
 uniform sampler2D light;
 // Level, vignette, black, white.
 uniform vec4 exposure;
-// Strength of the grain, share of each colour's own, width and height of the picture.
+// Strength of the grain, of blotches of colour, width and height of the picture.
 uniform vec4 stock;
-uniform vec2 parts[5];
+uniform vec2 parts[3];
+// Light of a field without a specimen, and its share that glare is.
+uniform vec4 glare;
+// By how much the light grows from the middle on.
+uniform vec2 gradient;
+// Shadows of dust: place, radius, depth.
+uniform vec4 shadows[3];
 // From the picture's pixels to the image: scale, where its lower edge is; one pixel of the image upwards.
 uniform vec4 image;
 uniform float reach;
@@ -31,15 +37,30 @@ vec3 grain_at(vec3 seen) {
     float coarse = 4.0 * grain(entry(pixel + parts[1] + 0.5));
     vec3 sum = vec3(FINE * fine + COARSE * coarse);
     if (stock.y > 0.0) {
-        sum += stock.y * vec3(grain(entry(pixel + parts[2])), grain(entry(pixel + parts[3])), grain(entry(pixel + parts[4])));
+        // The texture unit interpolates between entries.
+        sum += stock.y * BLOTCHES * three_grains(entry(pixel / BLOTCH_SIZE + parts[2]));
     }
     return stock.x * sqrt(max(seen * (1.15 - seen), 0.01)) * sum;
+}
+
+// What dust leaves of the light, from upwards coordinates.
+float shaded(vec2 from_middle) {
+    vec2 place = vec2(from_middle.x, -from_middle.y);
+    float light = 1.0 + dot(gradient, place);
+    for (int k = 0; k < 3; k++) {
+        vec2 apart = place - shadows[k].xy;
+        float inside = max(1.0 - dot(apart, apart) / (shadows[k].z * shadows[k].z), 0.0);
+        light *= 1.0 - shadows[k].w * inside * inside;
+    }
+    return light;
 }
 
 void main() {
     vec2 half_size = 0.5 * stock.zw;
     vec2 from_middle = (gl_FragCoord.xy - half_size) / max(length(half_size), 1.0);
-    vec3 seen = light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)) * exposure.x * (1.0 - exposure.y * dot(from_middle, from_middle));
+    vec3 light = mix(light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)), glare.rgb, glare.a);
+    float falloff = 1.0 - exposure.y * dot(from_middle, from_middle);
+    vec3 seen = light * (exposure.x * falloff * shaded(from_middle));
     vec3 recorded = seen;
     if (stock.x > 0.0) {
         recorded += grain_at(seen);

@@ -2,7 +2,9 @@
 
 use super::glsl::Glsl;
 use super::maths::{larger, mix};
-use super::noise::{HashRng, grain, hash, shift, wobble};
+use super::noise::{HashRng, grain, hash, shift, three_grains, wobble};
+use super::optics::Mode;
+use super::raster::gaussian;
 use crate::error::{Error, in_range};
 use glam::{IVec2, Vec2};
 
@@ -21,15 +23,47 @@ pub struct Film {
     pub levels: [f32; 2],
     /// Frames per second, 1 to 1000: grain, weave and flicker are new in each.
     pub rate: f32,
+    /// Strength of blotches of colour relative to the grain, 0 to 4: a sensor sees one colour with each of its pixels.
+    pub blotches: f32,
+    /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
+    pub glare: f32,
+    /// Share by which the light falls off from one side to the other, standard deviation, 0 to 0.5.
+    pub gradient: f32,
+    /// Deepest shadow of dust near the sensor, as a share of the light, 0 to 1.
+    pub dust: f32,
+    /// Sharpening by an unsharp mask: share of the difference that is added, 0 to 2.
+    pub sharpening: f32,
 }
 
 impl Film {
     /// 16 mm film, as of the 1950s.
-    pub const CINE: Self =
-        Self { grain: 0.024, weave: 0.25, flicker: 0.004, vignette: 0.16, levels: [0.06, 0.93], rate: 24.0 };
+    pub const CINE: Self = Self {
+        grain: 0.024,
+        weave: 0.25,
+        flicker: 0.004,
+        vignette: 0.16,
+        levels: [0.06, 0.93],
+        rate: 24.0,
+        blotches: 0.4,
+        glare: 0.04,
+        gradient: 0.02,
+        dust: 0.10,
+        sharpening: 0.0,
+    };
     /// A digital camera.
-    pub const DIGITAL: Self =
-        Self { grain: 0.012, weave: 0.0, flicker: 0.0, vignette: 0.06, levels: [0.0, 1.0], rate: 24.0 };
+    pub const DIGITAL: Self = Self {
+        grain: 0.012,
+        weave: 0.0,
+        flicker: 0.0,
+        vignette: 0.06,
+        levels: [0.0, 1.0],
+        rate: 24.0,
+        blotches: 1.0,
+        glare: 0.035,
+        gradient: 0.025,
+        dust: 0.14,
+        sharpening: 0.6,
+    };
 
     /// Checks every number.
     ///
@@ -42,7 +76,12 @@ impl Film {
         in_range("vignette", self.vignette, 0.0, 1.0)?;
         in_range("levels[0]", self.levels[0], 0.0, 1.0)?;
         in_range("levels[1]", self.levels[1], 0.0, 1.0)?;
-        in_range("rate", self.rate, 1.0, 1000.0)
+        in_range("rate", self.rate, 1.0, 1000.0)?;
+        in_range("blotches", self.blotches, 0.0, 4.0)?;
+        in_range("glare", self.glare, 0.0, 0.5)?;
+        in_range("gradient", self.gradient, 0.0, 0.5)?;
+        in_range("dust", self.dust, 0.0, 1.0)?;
+        in_range("sharpening", self.sharpening, 0.0, 2.0)
     }
 
     /// One frame of it, at a time in seconds.
@@ -54,9 +93,47 @@ impl Film {
         let walk = Vec2::new(wobble(slow, 101), wobble(slow, 102)) * 1.5;
         let shake = Vec2::new(rng.normal(), rng.normal()) * 0.3;
         let mut part = || shift(rng.bits());
-        let grain = GrainShifts { fine: part(), coarse: part(), colours: [part(), part(), part()] };
+        let grain = GrainShifts { fine: part(), coarse: part(), blotches: part() };
         let level = 1.0 + self.flicker * rng.normal();
-        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level }
+        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level, camera: Camera::of(self, seed) }
+    }
+}
+
+/// What stays from frame to frame: uneven light, and dust. Lengths are shares of half the picture's diagonal.
+#[derive(Clone, Copy, Debug)]
+struct Camera {
+    /// By how much the light grows from the middle on.
+    gradient: Vec2,
+    shadows: [Shadow; SHADOWS],
+}
+
+/// A shadow of dust.
+#[derive(Clone, Copy, Debug)]
+struct Shadow {
+    at: Vec2,
+    radius: f32,
+    depth: f32,
+}
+
+impl Camera {
+    fn of(film: &Film, seed: u32) -> Self {
+        let mut rng = HashRng::new(seed ^ 0xd057);
+        let gradient = Vec2::new(rng.normal(), rng.normal()) * film.gradient;
+        let mut shadow = || Shadow {
+            at: Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7])),
+            radius: rng.range([0.015, 0.05]),
+            depth: film.dust * rng.unit(),
+        };
+        Self { gradient, shadows: std::array::from_fn(|_| shadow()) }
+    }
+
+    /// Light at a place, 1 in the middle of an even field.
+    fn light(&self, from_middle: Vec2) -> f32 {
+        self.shadows.iter().fold(1.0 + self.gradient.dot(from_middle), |light, shadow| {
+            let apart = (from_middle - shadow.at).length_squared() / (shadow.radius * shadow.radius);
+            let inside = larger(1.0 - apart, 0.0);
+            light * (1.0 - shadow.depth * inside * inside)
+        })
     }
 }
 
@@ -68,6 +145,7 @@ pub(super) struct FilmFrame {
     /// By how much the picture is shifted, pixels.
     pub weave: Vec2,
     level: f32,
+    camera: Camera,
 }
 
 /// Which parts of the table of noise a frame's grain is.
@@ -75,16 +153,24 @@ pub(super) struct FilmFrame {
 struct GrainShifts {
     fine: IVec2,
     coarse: IVec2,
-    colours: [IVec2; 3],
+    blotches: IVec2,
 }
 
-/// Shares of grain of a pixel's size and of larger grain; of the grain that all colours share, and each one's own.
+/// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.6;
 const COARSE: f32 = 0.4;
-const OWN: f32 = 0.4;
+/// Grain of each colour's own, in blotches of some pixels: a sensor has least blue light, and its noise is smoothed most.
+const BLOTCHES: [f32; 3] = [0.7, 0.5, 2.4];
+const BLOTCH_SIZE: f32 = 2.6;
+/// Shadows of dust.
+const SHADOWS: usize = 3;
+/// Standard deviation of the unsharp mask, pixels of the picture.
+pub(super) const MASK: f32 = 1.3;
 
-pub(super) const GLSL: Glsl =
-    Glsl { source: include_str!("film.glsl"), constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE])] };
+pub(super) const GLSL: Glsl = Glsl {
+    source: include_str!("film.glsl"),
+    constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE]), ("BLOTCHES", &BLOTCHES), ("BLOTCH_SIZE", &[BLOTCH_SIZE])],
+};
 
 impl FilmFrame {
     /// Records light at a pixel: 0 to 255 for each channel. `half` is half the picture's size.
@@ -93,45 +179,92 @@ impl FilmFrame {
         light: [f32; N],
         x: usize,
         y: usize,
-        strength: f32,
+        mode: &Mode,
         half: Vec2,
     ) -> [u8; N] {
         let from_middle = (Vec2::new(x as f32, y as f32) + 0.5 - half) / larger(half.length(), 1.0);
-        let exposure = self.level * (1.0 - self.film.vignette * from_middle.length_squared());
+        let falloff = 1.0 - self.film.vignette * from_middle.length_squared();
+        let exposure = self.level * falloff * self.camera.light(from_middle);
         let [black, white] = self.film.levels;
-        let strength = self.film.grain * strength;
-        let pixel = IVec2::new(x as i32, y as i32);
-        let common = if strength > 0.0 { self.common_grain(pixel) } else { 0.0 };
+        let strength = self.film.grain * mode.grain;
+        let grain = if strength > 0.0 { self.grain::<N>(IVec2::new(x as i32, y as i32)) } else { [0.0; N] };
         std::array::from_fn(|channel| {
-            let light = light[channel] * exposure;
-            let has_own = N > 1 && strength > 0.0;
-            let own = if has_own { grain(pixel.wrapping_add(self.grain.colours[channel])) } else { 0.0 };
+            let light = mix(light[channel], mode.ground[channel], self.film.glare) * exposure;
             // Grain is strongest in the middle greys, and never quite gone.
             let middle = larger(light * (1.15 - light), 0.01).sqrt();
-            let light = light + strength * middle * (common + OWN * own);
+            let light = light + strength * middle * grain[channel];
             (mix(black, white, light) * 255.0 + 0.5).clamp(0.0, 255.0) as u8
         })
     }
 
-    /// Grain of two sizes, standard deviation 1.
-    fn common_grain(&self, pixel: IVec2) -> f32 {
+    /// Grain of two sizes, standard deviation 1, and blotches of colour on it.
+    fn grain<const N: usize>(&self, pixel: IVec2) -> [f32; N] {
         let fine = grain(pixel.wrapping_add(self.grain.fine));
         // Two by two pixels of another part, so that it is correlated over about 1.6 pixels.
         let corners = [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE];
         let coarse = |corner: IVec2| grain(pixel.wrapping_add(self.grain.coarse).wrapping_add(corner));
-        FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>()
+        let common = FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>();
+        let own = if N > 1 { three_grains(pixel.as_vec2() / BLOTCH_SIZE, self.grain.blotches) } else { [0.0; 3] };
+        std::array::from_fn(|channel| common + self.film.blotches * BLOTCHES[channel] * own[channel])
+    }
+
+    /// The blur of a lens of this standard deviation and the camera's sharpening, both in pixels of `pixel` of the picture's.
+    pub(super) fn kernel(&self, sigma: f32, pixel: f32) -> Vec<f32> {
+        let mask = MASK / pixel;
+        let blurred = gaussian((sigma * sigma + mask * mask).sqrt());
+        if self.film.sharpening == 0.0 {
+            return gaussian(sigma);
+        }
+        let sharp = gaussian(sigma);
+        let margin = (blurred.len() - sharp.len()) / 2;
+        let sharp_at = |k: usize| k.checked_sub(margin).and_then(|k| sharp.get(k)).copied().unwrap_or(0.0);
+        let amount = self.film.sharpening;
+        blurred.iter().enumerate().map(|(k, blurred)| (1.0 + amount) * sharp_at(k) - amount * blurred).collect()
     }
 
     /// Uniforms of [`GLSL`] for a picture of this size.
-    pub(super) fn uniforms(&self, strength: f32, is_grey: bool, [width, height]: [usize; 2]) -> Vec<f32> {
+    pub(super) fn uniforms(&self, mode: &Mode, [width, height]: [usize; 2]) -> Vec<f32> {
         let [black, white] = self.film.levels;
-        let own = if is_grey { 0.0 } else { OWN };
+        let blotches = if mode.channels == 1 { 0.0 } else { self.film.blotches };
         let mut uniforms = vec![self.level, self.film.vignette, black, white];
-        uniforms.extend([self.film.grain * strength, own, width as f32, height as f32]);
-        let [red, green, blue] = self.grain.colours;
-        uniforms.extend(
-            [self.grain.fine, self.grain.coarse, red, green, blue].iter().flat_map(|part| part.as_vec2().to_array()),
-        );
+        uniforms.extend([self.film.grain * mode.grain, blotches, width as f32, height as f32]);
+        let GrainShifts { fine, coarse, blotches } = self.grain;
+        uniforms.extend([fine, coarse, blotches].iter().flat_map(|part| part.as_vec2().to_array()));
+        uniforms.extend(mode.ground);
+        uniforms.extend([self.film.glare, self.camera.gradient.x, self.camera.gradient.y]);
+        let shadow = |shadow: &Shadow| [shadow.at.x, shadow.at.y, shadow.radius, shadow.depth];
+        uniforms.extend(self.camera.shadows.iter().flat_map(shadow));
         uniforms
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sharpening_keeps_the_light() {
+        let frame = Film::DIGITAL.frame(0.0, 7);
+        for sigma in [0.0, 0.8, 4.0] {
+            let kernel = frame.kernel(sigma, 0.5);
+            assert!((kernel.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{sigma}");
+            assert!(kernel.len() % 2 == 1 && kernel.iter().any(|weight| *weight < 0.0), "{sigma}");
+        }
+        let dull = Film { sharpening: 0.0, ..Film::DIGITAL }.frame(0.0, 7);
+        assert_eq!(dull.kernel(2.0, 0.5), gaussian(2.0));
+    }
+
+    #[test]
+    fn dust_and_uneven_light_stay_from_frame_to_frame() {
+        let light = |time, seed| {
+            let camera = Film::DIGITAL.frame(time, seed).camera;
+            [Vec2::ZERO, Vec2::new(0.4, -0.3), camera.shadows[0].at].map(|place| camera.light(place))
+        };
+        assert_eq!(light(0.0, 7), light(3.0, 7));
+        assert_ne!(light(0.0, 7), light(0.0, 8));
+        let clean = Film { dust: 0.0, gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
+        assert_eq!(clean.light(clean.shadows[0].at), 1.0);
+        let dusty = Film { gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
+        assert!(dusty.light(dusty.shadows[0].at) < 1.0);
     }
 }

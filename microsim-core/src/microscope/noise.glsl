@@ -31,3 +31,9 @@ float three_octaves(vec2 at, vec2 shift) {
 float grain(vec4 bytes) {
     return (bytes.r + bytes.g + bytes.b + bytes.a - 2.0) * 1.732;
 }
+
+// Three uncorrelated numbers of mean 0 and of standard deviation 1 at entries.
+vec3 three_grains(vec4 bytes) {
+    vec4 b = bytes * 1.732;
+    return vec3(b.r + b.g - b.b - b.a, b.r - b.g + b.b - b.a, b.r - b.g - b.b + b.a);
+}

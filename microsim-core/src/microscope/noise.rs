@@ -131,6 +131,19 @@ pub(super) fn normal(bytes: [u8; 4]) -> f32 {
     ((a + b + c + d) / 255.0 - 2.0) * 1.732
 }
 
+/// Three uncorrelated numbers of mean 0 and of standard deviation 1 at entries, interpolated between them.
+pub(super) fn three_grains(at: Vec2, shift: IVec2) -> [f32; 3] {
+    let cell = at.floor();
+    let share = at - cell;
+    let cell = cell.as_ivec2().wrapping_add(shift);
+    let corner = |x: i32, y: i32| entry(cell.wrapping_add(IVec2::new(x, y))).map(f32::from);
+    let blend =
+        |a: [f32; 4], b: [f32; 4], share: f32| -> [f32; 4] { std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share) };
+    let low = blend(corner(0, 0), corner(1, 0), share.x);
+    let [a, b, c, d] = blend(low, blend(corner(0, 1), corner(1, 1), share.x), share.y);
+    [a + b - c - d, a - b + c - d, a - b - c + d].map(|sum| sum / 255.0 * 1.732)
+}
+
 /// Smooth noise along time, from -1 to 1, with features of 1.
 pub(super) fn wobble(time: f32, seed: u32) -> f32 {
     value(Vec2::new(time, 0.5), shift(seed))

@@ -34,7 +34,11 @@ void main() {
 }
 #else
 void main() {
+#ifdef EMISSION
+    vec2 wave = emitted(matter_at(uv));
+#else
     vec2 wave = behind(matter_at(uv));
+#endif
     gl_FragColor = kept(vec4(wave, wave));
 }
 #endif

@@ -4,6 +4,7 @@
 use super::glsl::Glsl;
 use super::maths::larger;
 use super::matter::MatterRaster;
+use super::optics::Surround;
 use super::raster::{PixelGrid, bilinear, blur, gaussian};
 use super::wave;
 use glam::Vec2;
@@ -47,8 +48,12 @@ pub(super) struct SurroundWave {
 
 impl SurroundWave {
     /// Of matter on the grid of [`grid_around`].
-    pub(super) fn of(MatterRaster { grid, matter }: MatterRaster) -> Self {
-        let wave: Vec<[f32; 2]> = matter.into_iter().map(|matter| wave::behind(matter).to_array()).collect();
+    pub(super) fn of(MatterRaster { grid, matter }: MatterRaster, kind: Surround) -> Self {
+        let wave = match kind {
+            Surround::Wave => wave::behind,
+            Surround::Emission => wave::emitted,
+        };
+        let wave: Vec<[f32; 2]> = matter.into_iter().map(|matter| wave(matter).to_array()).collect();
         let (mut near, mut far) = (wave.clone(), wave);
         blur(&mut near, grid.columns, &gaussian(CORE_WIDTH / grid.pixel));
         blur(&mut far, grid.columns, &gaussian(HALO_WIDTH / grid.pixel));

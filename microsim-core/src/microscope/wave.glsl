@@ -14,6 +14,11 @@ vec2 behind(vec4 matter) {
     return vec2(cos(matter.x), sin(matter.x)) * exp(-0.5 * GREEN_DENSITY * matter.y);
 }
 
+// What shines in fluorescence.
+vec2 emitted(vec4 matter) {
+    return clamp(matter.wz, 0.0, 1.0);
+}
+
 float transmitted(vec4 matter) {
     return exp(-GREEN_DENSITY * matter.y);
 }

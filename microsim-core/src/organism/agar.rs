@@ -5,7 +5,7 @@ use super::spec::{Spec, SpecTable};
 use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, Profile, RoundLook, Texture};
+use crate::look::{Look, Matter, OutlineLook, Profile, RoundLook, Texture};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ impl Spec for AgarSpec {
             matter: Matter { phase: 0.45, haemoglobin: 0.0, cytoplasm: 0.35, nucleus: 0.0 },
             variation: 0.3,
             texture: Texture { amount: 0.2, size: 0.35 },
-            unevenness: 0.03,
+            outline: const { OutlineLook::uneven(0.10) },
             ..RoundLook::PLAIN
         })
     }

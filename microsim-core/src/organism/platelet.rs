@@ -13,7 +13,7 @@ use super::spec::{Spec, SpecTable};
 use crate::error::Error;
 use crate::geometry::ring::{ellipse, unit_vector};
 use crate::kind::Kind;
-use crate::look::{Inclusion, Look, Matter, Profile, RoundLook, SpotShape, Texture};
+use crate::look::{Inclusion, Look, Matter, OutlineLook, Profile, RoundLook, SpotShape, Texture};
 use crate::particle::CollisionGroups;
 use crate::solver::constraint::{Anchor, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
@@ -104,15 +104,22 @@ impl Spec for PlateletSpec {
     fn look(&self) -> Look {
         Look::Round(&RoundLook {
             profile: Profile::Dome(0.3),
-            matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.55, nucleus: 0.08 },
+            matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.50, nucleus: 0.16 },
             variation: 0.15,
             texture: Texture { amount: 0.25, size: 0.4 },
-            unevenness: 0.15,
+            outline: OutlineLook {
+                size: 0.05,
+                waves: [0.07, 0.04],
+                decay: 1.4,
+                spread: 0.5,
+                spikes: [0, 4],
+                ..OutlineLook::EVEN
+            },
             inclusions: &[Inclusion {
-                count: [5, 9],
-                radius: [0.14, 0.30],
-                place: [0.0, 0.5],
-                matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.55 },
+                count: [6, 16],
+                radius: [0.07, 0.26],
+                place: [0.0, 0.55],
+                matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
                 shape: SpotShape::Bump,
             }],
             ..RoundLook::PLAIN

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::geometry::ring::{ellipse, unit_vector};
 use crate::geometry::signed_area;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, Profile, RoundLook, Texture, WAVE};
+use crate::look::{Look, Matter, OutlineLook, Profile, RoundLook, Texture, WAVE};
 use crate::particle::Material;
 use crate::solver::constraint::{Area, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
@@ -105,9 +105,18 @@ impl Spec for RedCellSpec {
         Look::Round(&RoundLook {
             profile: Profile::Biconcave { c0: [0.81, 1.75], c2: 7.83, c4: 4.39 },
             matter: Matter { phase: 0.033 * WAVE * 2.56, haemoglobin: 1.0, cytoplasm: 0.0, nucleus: 0.0 },
-            variation: 0.10,
-            texture: Texture { amount: 0.03, size: 0.6 },
-            unevenness: 0.045,
+            variation: 0.12,
+            texture: Texture { amount: 0.05, size: 0.9 },
+            outline: OutlineLook {
+                size: 0.08,
+                waves: [0.055, 0.021],
+                decay: 1.6,
+                spread: 0.7,
+                ovals: 0.10,
+                tails: 0.04,
+                bites: 0.07,
+                spikes: [0, 0],
+            },
             ..RoundLook::PLAIN
         })
     }

@@ -6,7 +6,7 @@ use super::exposure::Microscope;
 use super::field::Field;
 use super::film::FilmFrame;
 use super::maths::{larger, smaller};
-use super::optics::{Mode, Optics, Shader};
+use super::optics::{Mode, Optics, Shader, Surround};
 use super::painting::Painting;
 use super::raster::{PixelGrid, gaussian};
 use super::recipe::{Card, DrawList, Pass, PassContent, Precision, Program, Recipe, RenderTarget, TextureInput};
@@ -19,6 +19,8 @@ use shader::LONGEST;
 
 /// Smallest pixel that a card computes an image on, micrometres.
 const FINEST: f32 = 1.0 / 32.0;
+/// Largest standard deviation of a lens's blur, pixels: with the camera's mask it fits into a kernel.
+const MOST_SIGMA: f32 = 7.0;
 /// Scale and bias of matter in targets of bytes. Phase goes from -1 to 5.
 const BYTES_SCALE: [f32; 4] = [1.0 / 6.0, 1.0 / 1.6, 1.0 / 2.4, 1.0 / 2.0];
 const BYTES_BIAS: [f32; 4] = [1.0 / 6.0, 0.03, 0.15, 0.05];
@@ -54,7 +56,7 @@ impl RecipeBuilder {
         let grid = self.image_grid(larger(self.field.pixel() / self.card.detail, FINEST));
         let (scale, bias) = self.coding();
         let coarse = if self.card.is_soft { grid.pixel } else { 2.0 * grid.pixel };
-        let around = self.mode.has_surround.then(|| surround_wave::grid_around(&grid, coarse));
+        let around = self.mode.surround.map(|_| surround_wave::grid_around(&grid, coarse));
         let widest = around.unwrap_or(grid);
         let mut draws = DrawList::new(widest.bounds(), grid.pixel);
         Specimen::of(view, self.field.centre, &widest).draw_on(&mut draws, bias);
@@ -123,9 +125,10 @@ impl RecipeBuilder {
         };
         let (across, along) = ([1.0 / grid.columns as f32, 0.0], [0.0, 1.0 / grid.rows as f32]);
         let from = |target| vec![TextureInput::Target(target)];
+        let wave = if self.mode.surround == Some(Surround::Emission) { Program::Emission } else { Program::Wave };
         [
             self.matter(RenderTarget::CoarseMatter, grid),
-            screen(RenderTarget::Wave, grid, Program::Wave, [scale, bias].concat(), from(RenderTarget::CoarseMatter)),
+            screen(RenderTarget::Wave, grid, wave, [scale, bias].concat(), from(RenderTarget::CoarseMatter)),
             screen(RenderTarget::Spread, grid, Program::SpreadAcross, spread(across), from(RenderTarget::Wave)),
             screen(RenderTarget::Surround, grid, Program::SpreadAlong, spread(along), from(RenderTarget::Spread)),
         ]
@@ -134,7 +137,9 @@ impl RecipeBuilder {
     /// From the image to the picture.
     fn develop(&self, grid: &PixelGrid, passes: &mut Vec<Pass>) {
         let sigma = if self.card.is_soft { self.mode.blur / grid.pixel } else { 0.0 };
-        let weights = gaussian(smaller(sigma, (LONGEST - 1) as f32 / 3.0));
+        let sigma = smaller(sigma, MOST_SIGMA);
+        let is_soft = self.card.is_soft;
+        let weights = if is_soft { self.frame.kernel(sigma, grid.pixel / self.field.pixel()) } else { gaussian(0.0) };
         let half = &weights[weights.len() / 2..];
         let reach = (half.len() - 1) as f32;
         let mut image = RenderTarget::Image;
@@ -146,7 +151,7 @@ impl RecipeBuilder {
             image = RenderTarget::Softened;
         }
         let pixels = self.field.pixels.map(|count| count as usize);
-        let mut uniforms = self.frame.uniforms(self.mode.grain, self.mode.channels == 1, pixels);
+        let mut uniforms = self.frame.uniforms(self.mode, pixels);
         // From the picture's pixels to the image, whose upper left corner is that of the picture.
         let scale = self.field.pixel() / grid.pixel;
         let share = [scale / grid.columns as f32, scale / grid.rows as f32];

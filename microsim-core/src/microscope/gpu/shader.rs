@@ -29,13 +29,22 @@ const AMOEBOID: Uniforms = &[
     ("relief", 4, 1),
     ("matter", 4, 1),
     ("nucleus_matter", 4, 1),
-    ("nucleus_texture", 2, 1),
+    ("nucleus_texture", 3, 1),
     ("edge", 2, 1),
     ("lobes", 3, amoeboid::LOBES),
     ("shifts", 2, 5),
 ];
-const FILM: Uniforms =
-    &[("exposure", 4, 1), ("stock", 4, 1), ("parts", 2, 5), ("image", 4, 1), ("reach", 1, 1), ("weights", 1, LONGEST)];
+const FILM: Uniforms = &[
+    ("exposure", 4, 1),
+    ("stock", 4, 1),
+    ("parts", 2, 3),
+    ("glare", 4, 1),
+    ("gradient", 2, 1),
+    ("shadows", 4, 3),
+    ("image", 4, 1),
+    ("reach", 1, 1),
+    ("weights", 1, LONGEST),
+];
 
 const SCREEN: Glsl = Glsl { source: include_str!("screen.glsl"), constants: &[] };
 const BOX: Glsl = Glsl { source: include_str!("box.glsl"), constants: &[] };
@@ -44,7 +53,7 @@ const SOFTEN: Glsl = Glsl { source: include_str!("soften.glsl"), constants: &[] 
 impl Program {
     fn uniforms(self) -> Vec<(&'static str, usize, usize)> {
         use Program::*;
-        let has_surround = matches!(self, Image(optics) if optics.mode().has_surround);
+        let has_surround = matches!(self, Image(optics) if optics.mode().surround.is_some());
         let parts: &[Uniforms] = match self {
             Background => &[MATTER, &[("bias", 4, 1), ("shifts", 4, 1)]],
             Walls => &[MATTER, ROOM],
@@ -52,7 +61,7 @@ impl Program {
             Amoeboid => &[MATTER, MAP, AMOEBOID],
             Round | Spot | Thread => &[MATTER],
             Ciliate => &[MATTER, &[("frame", 4, 1), ("pellicle", 3, 1)]],
-            Wave => &[CODING],
+            Wave | Emission => &[CODING],
             SpreadAcross | SpreadAlong => &[&[("side", 3, 1), ("weights", 2, LONGEST)]],
             Image(_) if has_surround => &[CODING, &[("area", 4, 1), ("to_surround", 4, 1)]],
             Image(_) => &[CODING, &[("area", 4, 1)]],
@@ -69,9 +78,11 @@ impl Program {
         use Program::*;
         match self {
             Obstacle | Amoeboid | PageObstacle => vec!["noise_table", "map"],
-            Wave => vec!["matter_target"],
+            Wave | Emission => vec!["matter_target"],
             SpreadAcross | SpreadAlong => vec!["waves"],
-            Image(optics) if optics.mode().has_surround => vec!["matter_target", "noise_table", "surround_target"],
+            Image(optics) if optics.mode().surround.is_some() => {
+                vec!["matter_target", "noise_table", "surround_target"]
+            }
             Image(_) => vec!["matter_target", "noise_table"],
             Soften => vec!["light"],
             Film => vec!["light", "noise_table"],
@@ -85,9 +96,10 @@ impl Program {
         match self {
             Obstacle => &["OBSTACLE"],
             Ciliate => &["PELLICLE"],
+            Emission => &["EMISSION"],
             SpreadAcross => &["SPREAD"],
             SpreadAlong => &["SPREAD", "LAST"],
-            Image(optics) if optics.mode().has_surround => &["SURROUND"],
+            Image(optics) if optics.mode().surround.is_some() => &["SURROUND"],
             Page => &["PAGE"],
             PageObstacle => &["PAGE", "OBSTACLE"],
             _ => &[],
@@ -106,7 +118,7 @@ impl Program {
             Round | Ciliate => drawn(&[&round::GLSL]),
             Spot => drawn(&[&spot::GLSL]),
             Thread => drawn(&[&thread::GLSL]),
-            Wave | SpreadAcross | SpreadAlong => vec![&wave::GLSL, &surround_wave::GLSL],
+            Wave | Emission | SpreadAcross | SpreadAlong => vec![&wave::GLSL, &surround_wave::GLSL],
             Image(optics) => match &optics.mode().shader {
                 Shader::Light(_, glsl) => vec![&noise::GLSL, &wave::GLSL, &sampler::GLSL, glsl],
                 Shader::Painted => Vec::new(),
@@ -121,7 +133,7 @@ impl Program {
     /// Whether its vertices are the corners of the target, and its GLSL is for pixels only.
     fn covers_target(self) -> bool {
         use Program::*;
-        matches!(self, Wave | SpreadAcross | SpreadAlong | Image(_) | Soften | Film)
+        matches!(self, Wave | Emission | SpreadAcross | SpreadAlong | Image(_) | Soften | Film)
     }
 
     /// Its GLSL, and the names of its inputs.

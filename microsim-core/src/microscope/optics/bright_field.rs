@@ -8,9 +8,9 @@ use crate::microscope::glsl::Glsl;
 use crate::microscope::wave::transmitted;
 
 /// Defocus over the wave number, square micrometres per radian.
-const DEFOCUS: f32 = 0.016;
+const DEFOCUS: f32 = 0.026;
 /// Distance over which the curvature of the delay is taken, micrometres.
-const STEP: f32 = 0.13;
+const STEP: f32 = 0.21;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
@@ -28,8 +28,9 @@ const MODE: Mode = Mode {
     name: "bright-field",
     is_bright: true,
     channels: 1,
-    has_surround: false,
+    surround: None,
     blur: 0.10,
+    ground: [BACKGROUND; 3],
     grain: 0.7,
     shader: Shader::Light(shade, &GLSL),
 };

@@ -11,8 +11,9 @@ const MODE: Mode = Mode {
     name: "classic",
     is_bright: true,
     channels: 3,
-    has_surround: false,
+    surround: None,
     blur: 0.0,
+    ground: [0.66, 0.76, 0.74],
     grain: 0.5,
     shader: Shader::Painted,
 };

@@ -1,6 +1,6 @@
 //! Dark field: the surround wave is stopped, and what the specimen scattered is all there is. `I = |E - S|^2`.
 
-use super::mode::{Mode, Optics, Shader, grey};
+use super::mode::{Mode, Optics, Shader, Surround, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
@@ -23,8 +23,9 @@ const MODE: Mode = Mode {
     name: "dark-field",
     is_bright: false,
     channels: 1,
-    has_surround: true,
+    surround: Some(Surround::Wave),
     blur: 0.10,
+    ground: [0.05; 3],
     grain: 0.6,
     shader: Shader::Light(shade, &GLSL),
 };

@@ -29,8 +29,9 @@ const MODE: Mode = Mode {
     name: "dic",
     is_bright: false,
     channels: 1,
-    has_surround: false,
+    surround: None,
     blur: 0.09,
+    ground: [BACKGROUND; 3],
     grain: 0.8,
     shader: Shader::Light(shade, &GLSL),
 };

@@ -1,11 +1,13 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
-use super::mode::{Mode, Optics, Shader};
+use super::mode::{Mode, Optics, Shader, Surround};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 
 /// Camera's offset and autofluorescence.
-const DARK: [f32; 3] = [0.012, 0.014, 0.016];
+const DARK: [f32; 3] = [0.030, 0.050, 0.050];
+/// Share of the light that is out of focus, and spreads around what shines.
+const HAZE: f32 = 0.55;
 const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
@@ -14,7 +16,13 @@ const SATURATION: f32 = 1.15;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
-    constants: &[("DARK", &DARK), ("NUCLEUS", &NUCLEUS), ("CYTOPLASM", &CYTOPLASM), ("SATURATION", &[SATURATION])],
+    constants: &[
+        ("DARK", &DARK),
+        ("HAZE", &[HAZE]),
+        ("NUCLEUS", &NUCLEUS),
+        ("CYTOPLASM", &CYTOPLASM),
+        ("SATURATION", &[SATURATION]),
+    ],
 };
 
 impl Optics {
@@ -26,16 +34,18 @@ const MODE: Mode = Mode {
     name: "fluorescence",
     is_bright: false,
     channels: 3,
-    has_surround: false,
+    surround: Some(Surround::Emission),
     blur: 0.17,
-    grain: 0.5,
+    ground: [0.03, 0.07, 0.06],
+    grain: 2.2,
     shader: Shader::Light(shade, &GLSL),
 };
 
 fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sampler.matter(x, y);
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
-    let (nucleus, cytoplasm) = (shines(matter.nucleus), shines(matter.cytoplasm));
+    let haze = sampler.waves(x, y).1 * HAZE;
+    let (nucleus, cytoplasm) = (shines(matter.nucleus) + haze.x, shines(matter.cytoplasm) + haze.y);
     std::array::from_fn(|k| {
         let light = DARK[k] + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
         1.0 - libm::expf(-SATURATION * light)

@@ -57,12 +57,24 @@ pub(in crate::microscope) struct Mode {
     pub is_bright: bool,
     /// 1 for grey, 3 for colour.
     pub channels: usize,
-    pub has_surround: bool,
+    /// What of the specimen its image needs without details, if anything.
+    pub surround: Option<Surround>,
     /// Blur of the image by diffraction and what else is less than perfect, standard deviation, micrometres.
     pub blur: f32,
+    /// Light of a field without a specimen, or its mean where that is dark; grey is the first.
+    pub ground: [f32; 3],
     /// Strength of the film's grain in this light, relative to phase contrast.
     pub grain: f32,
     pub shader: Shader,
+}
+
+/// What is blurred widely.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::microscope) enum Surround {
+    /// The wave behind the specimen.
+    Wave,
+    /// What shines: nucleic acid and cytoplasm.
+    Emission,
 }
 
 /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three.

@@ -4,24 +4,41 @@
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
-use super::mode::{Mode, Optics, Shader, grey};
+use super::mode::{Mode, Optics, Shader, Surround, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::maths::larger;
 
 /// Amplitude that the phase plate leaves of the surround wave.
 const TRANSMISSION: f32 = 0.46;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.40;
 const GAMMA: f32 = 0.85;
+/// Share of the background that comes even where waves cancel: the condenser's ring is wide.
+const LEAK: f32 = 0.06;
+/// How a camera's tone curve bends light that is brighter than the background.
+const SHOULDER: f32 = 0.55;
 
 const SOURCE: &str = include_str!("phase_contrast.glsl");
 const POSITIVE_GLSL: Glsl = Glsl {
     source: SOURCE,
-    constants: &[("TRANSMISSION", &[TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
+    constants: &[
+        ("TRANSMISSION", &[TRANSMISSION]),
+        ("BACKGROUND", &[BACKGROUND]),
+        ("GAMMA", &[GAMMA]),
+        ("LEAK", &[LEAK]),
+        ("SHOULDER", &[SHOULDER]),
+    ],
 };
 const NEGATIVE_GLSL: Glsl = Glsl {
     source: SOURCE,
-    constants: &[("TRANSMISSION", &[-TRANSMISSION]), ("BACKGROUND", &[BACKGROUND]), ("GAMMA", &[GAMMA])],
+    constants: &[
+        ("TRANSMISSION", &[-TRANSMISSION]),
+        ("BACKGROUND", &[BACKGROUND]),
+        ("GAMMA", &[GAMMA]),
+        ("LEAK", &[LEAK]),
+        ("SHOULDER", &[SHOULDER]),
+    ],
 };
 
 impl Optics {
@@ -35,8 +52,9 @@ const POSITIVE: Mode = Mode {
     name: "phase-contrast",
     is_bright: false,
     channels: 1,
-    has_surround: true,
+    surround: Some(Surround::Wave),
     blur: 0.09,
+    ground: [BACKGROUND; 3],
     grain: 1.0,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
@@ -51,5 +69,6 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize, transmission: f32) -> [f32; 
     let (wave, surround) = sampler.waves(x, y);
     let image = (wave - surround) - surround.perp() * transmission;
     let intensity = image.length_squared() / (transmission * transmission);
-    grey(BACKGROUND * libm::powf(intensity, GAMMA))
+    let light = BACKGROUND * libm::powf(LEAK + (1.0 - LEAK) * intensity, GAMMA);
+    grey(light / (1.0 + SHOULDER * larger(light - BACKGROUND, 0.0)))
 }

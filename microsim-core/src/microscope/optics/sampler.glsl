@@ -18,9 +18,14 @@ vec4 matter_here() {
     return matter_at(uv);
 }
 
-// Delay some micrometres beside this place, radians.
+// Matter some micrometres beside this place.
+vec4 matter_beside(vec2 offset) {
+    return matter_at(uv + offset / area.zw);
+}
+
+// Delay there, radians.
 float phase_beside(vec2 offset) {
-    return matter_at(uv + offset / area.zw).x;
+    return matter_beside(offset).x;
 }
 
 // Curvature of the delay over a step, radians per square micrometre.

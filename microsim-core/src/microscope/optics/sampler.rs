@@ -11,7 +11,7 @@ use glam::{IVec2, Vec2};
 pub(in crate::microscope) const GLSL: Glsl = Glsl { source: include_str!("sampler.glsl"), constants: &[] };
 
 /// Farthest that an image looks to the side, micrometres.
-pub(in crate::microscope) const REACH: f32 = 0.16;
+pub(in crate::microscope) const REACH: f32 = 0.36;
 
 /// The specimen on a grid of pixels, and the surround wave.
 #[derive(Clone, Copy, Debug)]
@@ -39,12 +39,37 @@ impl Sampler<'_> {
         (around - 4.0 * self.matter(x, y).phase) / (step * step)
     }
 
+    /// Matter `offset` micrometres beside a pixel.
+    pub(super) fn matter_beside(&self, x: usize, y: usize, offset: Vec2) -> Matter {
+        self.beside(
+            x,
+            y,
+            offset,
+            |matter| matter,
+            |a, b, share| {
+                let mut mixed = a * (1.0 - share);
+                mixed += b * share;
+                mixed
+            },
+        )
+    }
+
     /// Delay `offset` micrometres beside a pixel, radians.
     pub(super) fn phase_beside(&self, x: usize, y: usize, offset: Vec2) -> f32 {
+        self.beside(x, y, offset, |matter| matter.phase, mix)
+    }
+
+    fn beside<T>(
+        &self,
+        x: usize,
+        y: usize,
+        offset: Vec2,
+        value: impl Fn(Matter) -> T,
+        mix: impl Fn(T, T, f32) -> T,
+    ) -> T {
         let grid = &self.raster.grid;
         let offset = Vec2::new(offset.x, -offset.y) / grid.pixel;
         let pixel = IVec2::new(x as i32, y as i32) + offset.floor().as_ivec2();
-        let phase = |k: usize| self.raster.matter[k].phase;
-        bilinear([grid.columns, grid.rows], pixel, offset - offset.floor(), phase, mix)
+        bilinear([grid.columns, grid.rows], pixel, offset - offset.floor(), |k| value(self.raster.matter[k]), mix)
     }
 }

@@ -1,9 +1,15 @@
-vec3 shade() {
-    vec4 matter = matter_here();
+vec3 dyes(vec4 matter) {
     float cytoplasm = matter.z / (DRY.x + DRY.y * abs(matter.z));
-    float haemoglobin = matter.y * sqrt(abs(matter.y));
-    float plasma = three_octaves((area.xy + uv * area.zw) / PLASMA_SIZE, PLASMA_SHIFT);
+    return HAEMOGLOBIN * matter.y + CYTOPLASM * cytoplasm + NUCLEUS * matter.w;
+}
+
+vec3 shade() {
+    vec4 blue = 0.5 * (matter_beside(BLUE_SHIFT + BLUE_BLUR) + matter_beside(BLUE_SHIFT - BLUE_BLUR));
+    vec2 place = area.xy + uv * area.zw;
+    vec2 along = vec2(PLASMA_WAY.x * place.x - PLASMA_WAY.y * place.y, PLASMA_WAY.y * place.x + PLASMA_WAY.x * place.y);
+    float plasma = two_octaves(along / PLASMA_SIZE, PLASMA_SHIFT);
     float bent = clamp(curvature(STEP), -20.0, 20.0);
-    vec3 dyes = HAEMOGLOBIN * haemoglobin + CYTOPLASM * cytoplasm + NUCLEUS * matter.w;
-    return BACKGROUND * exp(-dyes - PLASMA * plasma) * (1.0 - DEFOCUS * bent);
+    vec3 density = vec3(dyes(matter_here()).xy, dyes(blue).z) + PLASMA * plasma;
+    density /= 1.0 + TONE * abs(density);
+    return BACKGROUND * exp(-density) * (1.0 - DEFOCUS * bent);
 }

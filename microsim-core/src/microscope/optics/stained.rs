@@ -2,28 +2,37 @@
 //!
 //! `I_rgb = background exp(-(haemoglobin eps_1 + cytoplasm eps_2 + nucleus eps_3)) (1 - z_rgb Lap phi)`. The colours are
 //! measured ones of stained smears. `z_rgb` is the defocus that remains: a simple objective does not focus all colours in
-//! one plane, which puts a faint coloured line along every edge.
+//! one plane, nor in one place, which makes edges violet on one side of everything and pale yellow on the other.
 
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
+use glam::Vec2;
 
 /// A field without a specimen: 198, 198, 193 of 255.
 const BACKGROUND: [f32; 3] = [0.776, 0.780, 0.757];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.100, 0.258, 0.205];
-const CYTOPLASM: [f32; 3] = [0.112, 0.251, 0.020];
-const NUCLEUS: [f32; 3] = [0.29, 0.52, -0.10];
-/// What dries on the glass between the cells: plasma with a little of each dye, and none where it was washed off.
-const PLASMA: [f32; 3] = [0.052, 0.020, 0.112];
+const HAEMOGLOBIN: [f32; 3] = [0.092, 0.248, 0.192];
+const CYTOPLASM: [f32; 3] = [0.125, 0.275, 0.025];
+const NUCLEUS: [f32; 3] = [0.36, 0.62, -0.08];
+/// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
+const PLASMA: [f32; 3] = [0.014, 0.007, 0.011];
+/// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
+const TONE: f32 = 0.22;
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
-const DEFOCUS: [f32; 3] = [0.0030, 0.0055, -0.0015];
+const DEFOCUS: [f32; 3] = [0.0030, 0.0050, 0.0];
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.15;
+/// Where the blue image lies from the others, and half the distance of two images of which it is the mean: the objective
+/// is not corrected for blue.
+const BLUE_SHIFT: Vec2 = Vec2::new(-0.04, -0.19);
+const BLUE_BLUR: Vec2 = Vec2::new(0.10, 0.07);
 
-/// Size of its blotches, micrometres, and the noise that they are.
-const PLASMA_SIZE: f32 = 9.0;
+/// Length and width of the streaks of plasma, micrometres, their direction, and the noise that they are.
+const PLASMA_SIZE: Vec2 = Vec2::new(19.0, 6.5);
+const PLASMA_WAY: Vec2 = Vec2::new(0.8, 0.6);
 const PLASMA_SEED: u32 = 0x57a1;
 /// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.
 const DRY: [f32; 2] = [0.45, 0.55];
@@ -39,7 +48,11 @@ const GLSL: Glsl = Glsl {
         ("DEFOCUS", &DEFOCUS),
         ("STEP", &[STEP]),
         ("DRY", &DRY),
-        ("PLASMA_SIZE", &[PLASMA_SIZE]),
+        ("TONE", &[TONE]),
+        ("BLUE_SHIFT", &[BLUE_SHIFT.x, BLUE_SHIFT.y]),
+        ("BLUE_BLUR", &[BLUE_BLUR.x, BLUE_BLUR.y]),
+        ("PLASMA_SIZE", &[PLASMA_SIZE.x, PLASMA_SIZE.y]),
+        ("PLASMA_WAY", &[PLASMA_WAY.x, PLASMA_WAY.y]),
         ("PLASMA_SHIFT", &shift_of(PLASMA_SEED)),
     ],
 };
@@ -53,21 +66,32 @@ const MODE: Mode = Mode {
     name: "stained",
     is_bright: true,
     channels: 3,
-    has_surround: false,
-    blur: 0.12,
-    grain: 0.25,
+    surround: None,
+    blur: 0.10,
+    ground: BACKGROUND,
+    grain: 0.8,
     shader: Shader::Light(shade, &GLSL),
 };
 
 fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
-    let matter = sampler.matter(x, y);
-    let cytoplasm = matter.cytoplasm / (DRY[0] + DRY[1] * matter.cytoplasm.abs());
-    // The middle of a dry red cell sinks in.
-    let haemoglobin = matter.haemoglobin * matter.haemoglobin.abs().sqrt();
-    let plasma = octaves(sampler.raster.grid.place(x, y) / PLASMA_SIZE, 3, PLASMA_SEED);
+    let mut blue = sampler.matter_beside(x, y, BLUE_SHIFT + BLUE_BLUR);
+    blue += sampler.matter_beside(x, y, BLUE_SHIFT - BLUE_BLUR);
+    let (here, blue) = (dyes(sampler.matter(x, y)), dyes(blue * 0.5));
+    let along = PLASMA_WAY.rotate(sampler.raster.grid.place(x, y)) / PLASMA_SIZE;
+    let plasma = octaves(along, 2, PLASMA_SEED);
     let curvature = sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
+    let density = [here[0], here[1], blue[2]];
     std::array::from_fn(|k| {
-        let dyes = HAEMOGLOBIN[k] * haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus;
-        BACKGROUND[k] * libm::expf(-dyes - PLASMA[k] * plasma) * (1.0 - DEFOCUS[k] * curvature)
+        let density = density[k] + PLASMA[k] * plasma;
+        let density = density / (1.0 + TONE * density.abs());
+        BACKGROUND[k] * libm::expf(-density) * (1.0 - DEFOCUS[k] * curvature)
+    })
+}
+
+/// Optical densities of matter in red, green and blue.
+fn dyes(matter: Matter) -> [f32; 3] {
+    let cytoplasm = matter.cytoplasm / (DRY[0] + DRY[1] * matter.cytoplasm.abs());
+    std::array::from_fn(|k| {
+        HAEMOGLOBIN[k] * matter.haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus
     })
 }

@@ -23,6 +23,8 @@ pub enum Program {
     Thread,
     /// The wave behind matter.
     Wave,
+    /// What of matter shines.
+    Emission,
     /// Its blur along rows.
     SpreadAcross,
     /// Its blur along columns.
@@ -58,9 +60,17 @@ pub struct GlslSource {
 
 const CORNER: &[(&str, usize)] = &[("corner", 2)];
 const PLACE: &[(&str, usize)] = &[("place", 2)];
-const ROUND: &[(&str, usize)] =
-    &[("centre", 2), ("rim", 3), ("facing", 2), ("matter", 4), ("profile", 4), ("grains", 4)];
-const SPOT: &[(&str, usize)] = &[("at", 2), ("corner", 2), ("size", 2), ("matter", 4)];
+const ROUND: &[(&str, usize)] = &[
+    ("centre", 2),
+    ("rim", 3),
+    ("facing", 4),
+    ("matter", 4),
+    ("profile", 4),
+    ("grains", 4),
+    ("dried", 4),
+    ("hollow", 4),
+];
+const SPOT: &[(&str, usize)] = &[("at", 2), ("corner", 2), ("size", 3), ("matter", 4)];
 const THREAD: &[(&str, usize)] = &[("from", 2), ("to", 2), ("corner", 2), ("form", 2), ("matter", 4)];
 const PAINTED: &[(&str, usize)] = &[("place", 2), ("texture_place", 2), ("colour", 4), ("rim", 4), ("noise", 3)];
 
@@ -69,7 +79,7 @@ impl Program {
     pub fn all() -> impl Iterator<Item = Self> {
         use Program::*;
         let lit = Optics::ALL.into_iter().filter(|optics| matches!(optics.mode().shader, Shader::Light(..)));
-        [Background, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, SpreadAcross, SpreadAlong]
+        [Background, Walls, Obstacle, Amoeboid, Round, Ciliate, Spot, Thread, Wave, Emission, SpreadAcross, SpreadAlong]
             .into_iter()
             .chain(lit.map(Image))
             .chain([Soften, Film, Page, PageObstacle, Painted])

@@ -13,7 +13,8 @@ uniform vec4 lamella;
 uniform vec4 relief;
 uniform vec4 matter;
 uniform vec4 nucleus_matter;
-uniform vec2 nucleus_texture;
+// Strength and size of the texture; how far it is bent out of shape.
+uniform vec3 nucleus_texture;
 // Irregularity of the front's edge, and how far it is ahead of that by its pulse.
 uniform vec2 edge;
 uniform vec3 lobes[LOBES];
@@ -35,16 +36,19 @@ float lamella_at(vec2 place) {
 
 float nucleus_at(vec2 place, float softness) {
     float neck = NECK * middle.z;
-    float depth = lobes[0].z - length(place - lobes[0].xy);
+    vec2 from_centre = place - middle.xy;
+    vec2 bends = from_centre / (BENDS * middle.z);
+    vec2 bent = place + nucleus_texture.z * middle.z * vec2(value(bends, shifts[4]), value(bends, shifts[3]));
+    float depth = lobes[0].z - length(bent - lobes[0].xy);
     for (int k = 1; k < LOBES; k++) {
-        float other = lobes[k].z - length(place - lobes[k].xy);
+        float other = lobes[k].z - length(bent - lobes[k].xy);
         float share = clamp(0.5 + 0.5 * (depth - other) / neck, 0.0, 1.0);
         depth = mix(other, depth, share) + neck * share * (1.0 - share);
     }
     if (depth <= -2.0 * softness - 0.3) {
         return 0.0;
     }
-    float uneven = 0.05 * middle.z * two_octaves((place - middle.xy) / (0.2 * middle.z), shifts[4]);
+    float uneven = 0.04 * middle.z * two_octaves(from_centre / (0.13 * middle.z), shifts[4]);
     float width = max(softness, 0.12);
     return rising(-width, width, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
 }
@@ -60,14 +64,14 @@ void main() {
     vec2 from_centre = at - middle.xy;
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
     float rags = two_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
-    depth += edge.x * front_share * (rags + edge.y);
+    depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * rags + front_share * edge.y);
     float dome = mix(rise(depth / middle.w), lamella.z * rise(depth / (0.25 * middle.w)), front_share);
     vec4 sum = matter * (dome * (1.0 + relief.z * three_octaves(own / relief.w, shifts[0])));
     float ruffle = bell((depth - relief.y) / 0.28) * front_share;
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));
     float nucleus = nucleus_at(at, softness);
-    float clumps = 1.0 + nucleus_texture.x * three_octaves(own / nucleus_texture.y, shifts[2]);
-    sum += nucleus_matter * (nucleus * clumps);
+    float dense = rising(CHROMATIN.x, CHROMATIN.y, two_octaves(own / nucleus_texture.y, shifts[2]));
+    sum += nucleus_matter * (nucleus * (1.0 + nucleus_texture.x * (1.6 * dense - 1.0)));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

@@ -5,6 +5,7 @@
 //! shaped.
 
 use super::distance_field::{DistanceField, united};
+use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
@@ -26,10 +27,6 @@ const STEP: f32 = 0.2;
 const BLEB_PERIOD: f32 = 4.0;
 /// Speed at which ruffles run, features per second.
 const RUFFLING: f32 = 0.25;
-/// Speed of which a cell's front is half as strong as it can be by speed alone, micrometres/s.
-const CRAWLING: f32 = 12.0;
-/// Strength of a front over the skewness of the cell's outline; a cell with a slender tail has about 0.12.
-const SKEWED: f32 = 8.0;
 
 /// Farthest that anything of a cell reaches beyond its membrane, micrometres.
 const MARGIN: f32 = 2.0;
@@ -41,12 +38,30 @@ const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
 const RAGS: f32 = 0.3;
 const PULSE: f32 = 2.0;
+/// How ragged the edge is elsewhere, as a share.
+const RAGS_BEHIND: f32 = 0.3;
+/// Size of the bends of a nucleus, in the cell's mean radii.
+const BENDS: f32 = 0.35;
+/// Noise from and to which chromatin is dense.
+const CHROMATIN: [f32; 2] = [-0.25, 0.35];
+/// Share of the regions of granules that are out of focus.
+const OUT_OF_FOCUS: f32 = 0.3;
+/// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
+const REGION: u32 = 10;
 
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
 
-pub(in crate::microscope) const GLSL: Glsl =
-    Glsl { source: include_str!("amoeboid.glsl"), constants: &[("NECK", &[NECK]), ("RAGS", &[RAGS])] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl {
+    source: include_str!("amoeboid.glsl"),
+    constants: &[
+        ("NECK", &[NECK]),
+        ("RAGS", &[RAGS]),
+        ("RAGS_BEHIND", &[RAGS_BEHIND]),
+        ("BENDS", &[BENDS]),
+        ("CHROMATIN", &CHROMATIN),
+    ],
+};
 
 /// Seeds of its unevenness, from its own: texture, ruffles, clumps in the nucleus, border of the front, outline of the
 /// nucleus.
@@ -66,20 +81,6 @@ pub(super) struct AmoeboidBody {
     lobes: Vec<(Vec2, f32)>,
     seed: u32,
     time: f32,
-}
-
-/// Where a cell heads, from how it moves and is shaped.
-#[derive(Clone, Copy, Debug)]
-struct Front {
-    /// Unit vector; any at rest.
-    way: Vec2,
-    /// 0 at rest to 1.
-    strength: f32,
-    /// How slender the tail is, 0 to 1.
-    tail: f32,
-    /// Farthest that the cell reaches along `way` and against it, from its centre.
-    ahead: f32,
-    behind: f32,
 }
 
 impl AmoeboidBody {
@@ -178,7 +179,7 @@ impl AmoeboidBody {
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
         uniforms.extend(look.matter.to_array());
         uniforms.extend(look.nucleus.matter.to_array());
-        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size]);
+        uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size, look.nucleus.bent]);
         uniforms.extend([look.lamella.rags, PULSE * (self.pulse() - 1.0)]);
         let nowhere = (Vec2::ZERO, -1000.0);
         let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
@@ -202,7 +203,8 @@ impl AmoeboidBody {
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
-        let depth = depth + look.lamella.rags * lamella * (rags + PULSE * (self.pulse() - 1.0));
+        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
+        let depth = depth + look.lamella.rags * (ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim();
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
@@ -215,8 +217,9 @@ impl AmoeboidBody {
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let clumps = 1.0 + texture.amount * octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
-            matter += look.nucleus.matter * (nucleus * clumps);
+            let noise = octaves(own / texture.size, 2, self.seed ^ SALTS[2]);
+            let clumps = texture.amount * (1.6 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
+            matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
         }
         matter * smoothstep(-softness, softness, depth)
     }
@@ -249,10 +252,17 @@ impl AmoeboidBody {
 
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let inside = |&(at, radius): &(Vec2, f32)| radius - (place - at).length();
+        let from_centre = place - self.centre;
+        let bent = self.look.nucleus.bent;
+        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
+            return 0.0;
+        }
+        let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
+        let there = place + Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
+        let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.05 * self.radius * octaves((place - self.centre) / (0.2 * self.radius), 2, self.seed ^ SALTS[4]);
+        let uneven = 0.04 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
     }
@@ -269,17 +279,29 @@ impl AmoeboidBody {
         // Not of the cell: in a division a particle becomes another cell's.
         let mut rng = HashRng::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
+        let mut region = HashRng::new(carrier.index / REGION);
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
-            let expected = look.density * 0.866 * spacing * spacing;
+            let mut own = |spread: f32| libm::expf(spread * region.normal());
+            let (many, size) = (0.7 * own(0.8), own(0.25));
+            let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
+            let expected = look.density * 0.866 * spacing * spacing * many;
             let count = (expected + rng.unit()) as u32;
-            spots.extend((0..count.min(12)).filter_map(|_| self.granule(look, carrier.position, spacing, &mut rng)));
+            let granule = |_| self.granule(look, (carrier.position, spacing), (size, focus), &mut rng);
+            spots.extend((0..count.min(16)).filter_map(granule));
         }
     }
 
-    fn granule(&self, look: &GranuleLook, carrier: Vec2, spacing: f32, rng: &mut HashRng) -> Option<Spot> {
+    /// A granule of a region where they are larger by a factor, and out of focus by some chirp.
+    fn granule(
+        &self,
+        look: &GranuleLook,
+        (carrier, spacing): (Vec2, f32),
+        (size, focus): (f32, f32),
+        rng: &mut HashRng,
+    ) -> Option<Spot> {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
-        let radius = look.radius * libm::expf(look.spread * rng.normal());
+        let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
         let seed = rng.bits();
         let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
@@ -287,7 +309,13 @@ impl AmoeboidBody {
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share);
-        (share > 0.02).then_some(Spot { at, radius, matter, shape: look.shape })
+        let shown = if focus > 0.0 && radius < 0.3 {
+            let wide = radius + 0.08 * focus;
+            Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
+        } else {
+            Spot { at, radius, matter, shape: look.shape }
+        };
+        (share > 0.02).then_some(shown)
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.
@@ -321,27 +349,6 @@ impl AmoeboidBody {
             Thread { from: tail, to: tail + way * length, radius: 0.09, matter, peak: 0.0 }
         };
         (0..self.look.fibres).map(fibre).collect()
-    }
-}
-
-impl Front {
-    fn of(organism: OrganismView<'_>, outline: &[Vec2], centre: Vec2, radius: f32) -> Self {
-        let cytoplasm = || organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
-        let velocity = cytoplasm().map(|p| p.velocity).sum::<Vec2>() / larger(cytoplasm().count() as f32, 1.0);
-        let cubed = |&p: &Vec2| (p - centre) * ((p - centre).length_squared() / (radius * radius * radius));
-        let skew = outline.iter().map(cubed).sum::<Vec2>() / outline.len() as f32;
-        // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
-        // the velocity does when a cell changes its goal.
-        let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
-        let way = polarity.try_normalize().unwrap_or(Vec2::X);
-        let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
-        Self {
-            way,
-            strength: smoothstep(0.1, 0.6, polarity.length()),
-            tail: smoothstep(0.05, 0.12, skew.length()),
-            ahead: reach(way),
-            behind: reach(-way),
-        }
     }
 }
 

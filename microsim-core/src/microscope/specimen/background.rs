@@ -2,6 +2,8 @@
 //! is stored.
 
 use super::spot::Spot;
+use super::thread::Thread;
+use crate::geometry::{rotate, unit_vector};
 use crate::look::SpotShape;
 use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::smoothstep;
@@ -10,12 +12,26 @@ use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::{IVec2, Vec2};
 
-/// Side of the cells in which dust is strewn, micrometres, and specks in each on average.
+/// Side of the cells in which single specks are strewn, micrometres, and specks in each on average.
 const DUST_CELL: f32 = 5.0;
-const DUST: f32 = 1.0;
+const DUST: f32 = 0.22;
+/// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
+const CLUMP_CELL: f32 = 12.0;
+const CLUMPS: f32 = 1.3;
+const PATCHES: f32 = 34.0;
+/// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
+const GRAINS: f32 = 2.4;
+const GRAINS_SPREAD: f32 = 1.1;
+const MOST_GRAINS: usize = 34;
+/// Of this many grains last added to a clump one is where the next grows.
+const TIPS: usize = 5;
 /// The same for what is out of focus.
 const FAR_CELL: f32 = 26.0;
-const FAR: f32 = 0.75;
+const FAR: f32 = 0.45;
+/// The same for fibres, and the points of each.
+const FIBRE_CELL: f32 = 60.0;
+const FIBRES: f32 = 0.35;
+const FIBRE_POINTS: usize = 14;
 /// Share of the camera's movement that things out of focus seem to make.
 const PARALLAX: f32 = 0.15;
 /// Pixels from and to which dust fades because it is too small to be seen, and those where the other things are,
@@ -23,9 +39,9 @@ const PARALLAX: f32 = 0.15;
 const DUST_FADES: [f32; 2] = [0.3, 0.6];
 const FAR_ENDS: f32 = 2.0;
 /// Strength and size of the glass's unevenness, radians and micrometres.
-const FINE: f32 = 0.018;
+const FINE: f32 = 0.010;
 const FINE_SIZE: f32 = 1.2;
-const COARSE: f32 = 0.05;
+const COARSE: f32 = 0.035;
 const COARSE_SIZE: f32 = 15.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
@@ -61,7 +77,9 @@ impl BackgroundMatter {
                 raster.matter[y * grid.columns + x].phase += slow + quick;
             }
         }
-        self.each_spot(grid.bounds(), grid.pixel, |spot| spot.draw(raster));
+        let (spots, threads) = self.things(grid.bounds(), grid.pixel);
+        spots.iter().for_each(|spot| spot.draw(raster));
+        threads.iter().for_each(|thread| thread.draw(raster));
     }
 
     /// Its triangles, for [`GLSL`].
@@ -70,50 +88,106 @@ impl BackgroundMatter {
         uniforms.extend([shift_of(self.seed), shift_of(self.seed ^ 9)].concat());
         let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
         draws.add_apart(Program::Background, &corners, QUAD.to_vec(), uniforms, None);
-        self.each_spot(draws.bounds(), draws.pixel(), |spot| spot.draw_on(draws));
+        let (spots, threads) = self.things(draws.bounds(), draws.pixel());
+        spots.iter().for_each(|spot| spot.draw_on(draws));
+        threads.iter().for_each(|thread| thread.draw_on(draws));
     }
 
-    /// Dust, and what is out of focus, in a box.
-    fn each_spot(&self, bounds: (Vec2, Vec2), pixel: f32, mut visit: impl FnMut(Spot)) {
+    /// Debris, and what is out of focus, in a box.
+    fn things(&self, bounds: (Vec2, Vec2), pixel: f32) -> (Vec<Spot>, Vec<Thread>) {
+        let (mut spots, mut threads) = (Vec::new(), Vec::new());
         let strength = smoothstep(DUST_FADES[1], DUST_FADES[0], pixel);
         if strength > 0.0 {
-            let speck = |at, rng: &mut HashRng| self.speck(at, strength, rng);
-            strewn(bounds, Vec2::ZERO, DUST_CELL, DUST, self.seed ^ 21, speck, &mut visit);
+            strewn(bounds, Vec2::ZERO, [DUST_CELL, DUST], self.seed ^ 21, |at, rng| {
+                spots.push(self.speck(at, strength, rng));
+            });
+            strewn(bounds, Vec2::ZERO, [CLUMP_CELL, CLUMPS], self.seed ^ 23, |at, rng| {
+                self.clump(at, strength, rng, &mut spots);
+            });
+            strewn(bounds, Vec2::ZERO, [FIBRE_CELL, FIBRES], self.seed ^ 24, |at, rng| {
+                threads.extend(fibre(at, strength, rng));
+            });
         }
         if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
-            strewn(bounds, shift, FAR_CELL, FAR, self.seed ^ 22, |at, rng| self.far(at, rng), &mut visit);
+            strewn(bounds, shift, [FAR_CELL, FAR], self.seed ^ 22, |at, rng| self.far(at, rng, &mut spots));
         }
+        (spots, threads)
     }
 
-    /// Dust: mostly tiny, some denser than the medium and some less.
+    /// A speck of dust: mostly tiny, some denser than the medium and some less.
     fn speck(&self, at: Vec2, strength: f32, rng: &mut HashRng) -> Spot {
         let size = rng.unit();
-        let radius = 0.06 + 0.34 * size * size * size * size;
-        let sign = if rng.unit() < 0.65 { strength } else { -strength };
+        let radius = 0.06 + 0.30 * size * size * size * size;
+        let sign = if rng.unit() < 0.75 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.08, 0.32])) };
         Spot { at, radius, matter, shape: SpotShape::Bump }
     }
 
-    /// A cell or a clump above or below the plane of focus: a soft shadow that drifts slowly.
-    fn far(&self, at: Vec2, rng: &mut HashRng) -> Spot {
+    /// Grains that grew on each other, all of a kind, in focus or out of it.
+    fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
+        let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
+        let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
+        let size = 0.13 * libm::expf(0.5 * rng.normal());
+        let dense = 0.55 * libm::expf(0.5 * rng.normal()) * strength;
+        let dyed = if rng.unit() < 0.35 { dense } else { 0.08 * dense };
+        let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
+        let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
+        let mut tips = [at; TIPS];
+        for k in 0..(count as usize).min(MOST_GRAINS) {
+            let from = tips[rng.bits() as usize % TIPS];
+            let at = from + rng.direction() * (1.4 * size);
+            tips[k % TIPS] = at;
+            let radius = size * libm::expf(0.3 * rng.normal());
+            let matter = matter * rng.range([0.5, 1.1]);
+            spots.push(if chirp == 0.0 {
+                Spot { at, radius, matter, shape: SpotShape::Bump }
+            } else {
+                // The same matter over a wider disc.
+                Spot { at, radius: radius + 0.16 * chirp, matter: matter * 0.3, shape: SpotShape::Defocused(chirp) }
+            });
+        }
+    }
+
+    /// A cell or a clump above or below the plane of focus: rings of its parts, which drift slowly.
+    fn far(&self, at: Vec2, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let seed = rng.bits();
         let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
-        let radius = rng.range([3.0, 5.0]);
-        let matter = Matter { haemoglobin: 0.05, ..Matter::phase(rng.range([0.12, 0.34])) };
-        Spot { at: at + drift, radius, matter, shape: SpotShape::Bump }
+        let radius = rng.range([1.6, 4.5]);
+        let shape = if rng.unit() < 0.4 { SpotShape::Bump } else { SpotShape::Defocused(rng.range([3.0, 7.5])) };
+        for _ in 0..1 + rng.bits() % 4 {
+            let at = at + drift + rng.direction() * (0.35 * radius * rng.unit());
+            let matter = Matter::phase(rng.range([0.03, 0.11]));
+            spots.push(Spot { at, radius: radius * rng.range([0.7, 1.1]), matter, shape });
+        }
     }
 }
 
-/// Visits what lies in the cells of an endless square grid that a box touches; `shift` moves the grid.
+/// A fibre that wanders over the glass.
+fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
+    let (mut at, mut way) = (at, rng.direction());
+    let step = rng.range([0.25, 1.0]);
+    let bend = rng.range([-0.15, 0.15]);
+    let mut point = || {
+        at += way * step;
+        way = rotate(way, unit_vector(bend + 0.25 * rng.normal()));
+        at
+    };
+    let points: [Vec2; FIBRE_POINTS] = std::array::from_fn(|_| point());
+    let radius = rng.range([0.06, 0.16]);
+    let dense = strength * rng.range([0.04, 0.22]);
+    let matter = Matter { nucleus: 0.15 * dense, ..Matter::phase(dense) };
+    Thread::curve(&points, |_| radius, matter).collect()
+}
+
+/// Visits the things in the cells of an endless square grid that a box touches, so many in each on average; `shift` moves
+/// the grid.
 fn strewn(
     (low, high): (Vec2, Vec2),
     shift: Vec2,
-    cell: f32,
-    expected: f32,
+    [cell, expected]: [f32; 2],
     seed: u32,
-    spot: impl Fn(Vec2, &mut HashRng) -> Spot,
-    visit: &mut impl FnMut(Spot),
+    mut visit: impl FnMut(Vec2, &mut HashRng),
 ) {
     let [first, last] = [low, high].map(|corner| ((corner - shift) / cell).floor().as_ivec2());
     for j in first.y - 1..=last.y + 1 {
@@ -122,7 +196,7 @@ fn strewn(
             let count = (2.0 * expected * rng.unit() + 0.5) as u32;
             for _ in 0..count {
                 let at = (Vec2::new(i as f32, j as f32) + Vec2::new(rng.unit(), rng.unit())) * cell + shift;
-                visit(spot(at, &mut rng));
+                visit(at, &mut rng);
             }
         }
     }

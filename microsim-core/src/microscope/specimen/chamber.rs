@@ -10,7 +10,7 @@ use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
-const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.12, nucleus: 0.0 };
+const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.03, nucleus: 0.0 };
 /// Width of the rim in which it rises, micrometres.
 const RIM: f32 = 1.2;
 /// Width over which its edge fades, micrometres.
@@ -18,8 +18,8 @@ const EDGE: f32 = 0.15;
 /// Most cells of an obstacle's map of depths, apart from its margin.
 const MOST_CELLS: f32 = 8192.0;
 /// Strength and size of its unevenness.
-const TEXTURE: f32 = 0.05;
-const TEXTURE_SIZE: f32 = 2.5;
+const TEXTURE: f32 = 0.012;
+const TEXTURE_SIZE: f32 = 4.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: include_str!("chamber.glsl"),

@@ -4,6 +4,8 @@ pub(super) mod amoeboid;
 pub(super) mod background;
 pub(super) mod chamber;
 pub(super) mod distance_field;
+mod front;
+mod individual;
 mod polar_outline;
 pub(super) mod round;
 mod spline;

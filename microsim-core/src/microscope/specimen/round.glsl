@@ -6,18 +6,25 @@ varying float fade;
 varying vec4 body;
 varying vec4 shape;
 varying vec4 noise;
+// Place in the hollow's frame, and the square of its radius.
+varying vec3 in_hollow;
+varying vec4 dry;
 
 #ifdef VERTEX
 attribute vec2 centre;
 // From the centre to the edge, and the radius there; the centre itself has the body's mean radius.
 attribute vec3 rim;
-attribute vec2 facing;
+// The body's first direction; where its centre lies in the hollow's frame.
+attribute vec4 facing;
 attribute vec4 matter;
 attribute vec4 profile;
 attribute vec4 grains;
+attribute vec4 dried;
+// Place in the hollow's frame; square of the hollow's radius; width over which the edge fades.
+attribute vec4 hollow;
 
 void main() {
-    float softness = max(0.6 * pixel.x, EDGE);
+    float softness = max(0.6 * pixel.x, hollow.w);
     fade = softness / rim.z;
     float is_rim = step(1e-9, dot(rim.xy, rim.xy));
     rho = is_rim * (1.0 + fade);
@@ -25,6 +32,8 @@ void main() {
     own = vec2(way.x * facing.x + way.y * facing.y, way.y * facing.x - way.x * facing.y);
     body = matter;
     shape = profile;
+    dry = dried;
+    in_hollow = vec3(hollow.xy * is_rim * (1.0 + fade) - facing.zw, hollow.z);
     noise = grains;
     gl_Position = seen_at(centre + way);
 }
@@ -48,26 +57,40 @@ float relief(vec2 own) {
 }
 #endif
 
-float thickness(float rho) {
+// Thickness of a dried cell.
+float dried_thickness(float rho) {
+    float fourth = rho * rho * rho * rho;
+    float inside = 1.0 - mix(fourth, fourth * fourth, dry.x);
+    float edge = sqrt(inside);
+    float apart = dot(in_hollow.xy, in_hollow.xy);
+    float sunk = dry.z * exp(-mix(apart, apart * apart, dry.w));
+    float from_rim = (rho - 0.80) / 0.24;
+    float bulge = max(1.0 - from_rim * from_rim, 0.0);
+    return mix(edge, inside, dry.y) * (1.0 - sunk) * (1.0 + 0.22 * dry.z * bulge * bulge);
+}
+
+// Thickness in the living and in the dried state.
+vec2 thickness(float rho) {
     float inside = 1.0 - rho * rho;
     if (inside <= 0.0) {
-        return 0.0;
+        return vec2(0.0);
     }
     if (shape.x > 0.0) {
-        return pow(inside, shape.x);
+        return vec2(pow(inside, shape.x));
     }
-    float square = rho * rho;
-    return sqrt(inside) * (shape.y + shape.z * square - shape.w * square * square) / THICKEST;
+    float square = mix(in_hollow.z * dot(in_hollow.xy, in_hollow.xy), rho * rho, 0.4 + 0.6 * rho * rho);
+    float living = sqrt(inside) * (shape.y + shape.z * square - shape.w * square * square) / THICKEST;
+    return vec2(living, dried_thickness(rho));
 }
 
 void main() {
-    float amount = thickness(rho / (1.0 + fade)) * rising(1.0 + fade, 1.0 - fade, rho);
+    vec2 amount = thickness(rho / (1.0 + fade)) * rising(1.0 + fade, 1.0 - fade, rho);
     if (noise.x > 0.0) {
         amount *= 1.0 + noise.x * two_octaves(own / noise.y, noise.zw);
     }
 #ifdef PELLICLE
     amount *= relief(own / frame.xy);
 #endif
-    put(body * amount);
+    put(body * amount.xyyy);
 }
 #endif

@@ -1,5 +1,6 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
+use super::individual::{self, Hollow, REGIONS, Region};
 use super::polar_outline::PolarOutline;
 use super::spline::smooth;
 use super::spot::Spot;
@@ -19,11 +20,17 @@ use std::f32::consts::TAU;
 const THICKEST: f32 = 2.56;
 /// Width over which any edge fades, micrometres: what a good lens resolves.
 const EDGE: f32 = 0.06;
+/// Share by which the edge of a body that is out of focus is wider, at most.
+const OUT_OF_FOCUS: f32 = 3.5;
+/// Share of red cells that have pits from drying.
+const PITTED: f32 = 0.2;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
 /// radius 1 that heads for +x; where it ends at the mouth; half its width at the front, where it is shallow and broad.
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
+/// Share of inclusions that gather in regions.
+const CLUSTERED: f32 = 0.4;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
 /// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
@@ -54,7 +61,10 @@ pub(super) struct RoundBody {
     seed: u32,
     matter: Matter,
     /// Thickness of a red cell's middle, micrometres.
-    hollow: f32,
+    middle: f32,
+    hollow: Hollow,
+    /// Width over which its edge fades, micrometres: it may lie a little above or below the plane of focus.
+    edge: f32,
 }
 
 impl RoundBody {
@@ -71,19 +81,24 @@ impl RoundBody {
         let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
         let facing = direction_or(first, Vec2::X);
         let mut rng = HashRng::new(seed);
-        make_uneven(&mut polar, facing, look.unevenness, &mut rng);
+        individual::reshape(&mut polar, facing, &look.outline, &mut rng);
         let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
         }
-        let variation = 1.0 + rng.range([-look.variation, look.variation]);
-        let hollow = if let Profile::Biconcave { c0, .. } = look.profile { rng.range(c0) } else { 0.0 };
-        Some(Self { look, polar, facing, axes, seed, matter: look.matter * variation, hollow })
+        let (middle, hollow) = match look.profile {
+            Profile::Biconcave { c0, .. } => (rng.range(c0), Hollow::of(&mut rng)),
+            Profile::Dome(_) => (0.0, Hollow::NONE),
+        };
+        let matter = individual::matter(look, &mut rng);
+        let blur = rng.unit();
+        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur);
+        Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge })
     }
 
     pub(super) fn draw(&self, raster: &mut MatterRaster) {
-        let reach = Vec2::splat(self.polar.farthest + EDGE + raster.grid.pixel);
-        let softness = larger(0.6 * raster.grid.pixel, EDGE);
+        let reach = Vec2::splat(self.polar.farthest + self.edge + raster.grid.pixel);
+        let softness = larger(0.6 * raster.grid.pixel, self.edge);
         raster.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
     }
 
@@ -92,18 +107,20 @@ impl RoundBody {
         if !draws.sees(self.polar.centre, self.polar.farthest + 1.0) {
             return;
         }
-        let mut constant = self.facing.to_array().to_vec();
+        let mut constant = [self.facing.to_array(), self.hollow.centre.to_array()].concat();
         constant.extend(self.matter.to_array());
         constant.extend(match self.look.profile {
             Profile::Dome(power) => [power, 0.0, 0.0, 0.0],
-            Profile::Biconcave { c2, c4, .. } => [0.0, self.hollow, c2, c4],
+            Profile::Biconcave { c2, c4, .. } => [0.0, self.middle, c2, c4],
         });
         constant.extend([self.look.texture.amount, self.look.texture.size]);
         constant.extend(shift_of(self.seed));
+        constant.extend(self.hollow.dried);
+        let back = Vec2::new(self.facing.x, -self.facing.y) / self.polar.mean;
         // So many that chords are hardly apart from arcs: their distance goes by the radius and by the square of the angle.
         let in_pixels = self.polar.farthest / draws.pixel();
         let spokes = (SPOKES_PER_ROOT * in_pixels.sqrt()).clamp(SPOKES[0], SPOKES[1]) as usize;
-        let mut vertices = Vec::with_capacity((spokes + 1) * (5 + constant.len()));
+        let mut vertices = Vec::with_capacity((spokes + 1) * (9 + constant.len()));
         for spoke in 0..=spokes {
             // Even on a disc that is stretched like the body, so that slender ends are round.
             let on_disc = if spoke == spokes { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / spokes as f32) };
@@ -112,6 +129,8 @@ impl RoundBody {
             vertices.extend(self.polar.centre.to_array());
             vertices.extend([way.x * radius, way.y * radius, radius]);
             vertices.extend_from_slice(&constant);
+            let in_hollow = self.hollow.turned(rotate(way * radius, back));
+            vertices.extend([in_hollow.x, in_hollow.y, self.hollow.area, self.edge]);
         }
         let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
         match self.look.pellicle {
@@ -133,25 +152,30 @@ impl RoundBody {
         if rho >= 1.0 + fade {
             return Matter::NONE;
         }
-        let thickness = self.thickness(rho / (1.0 + fade)) * smoothstep(1.0 + fade, 1.0 - fade, rho);
         let own = rotate(way, Vec2::new(self.facing.x, -self.facing.y));
+        let thickness = self.thickness(rho / (1.0 + fade), own / self.polar.mean);
         let texture = &self.look.texture;
         let noise = if texture.amount > 0.0 { octaves(own / texture.size, 2, self.seed) } else { 0.0 };
         let relief = self.look.pellicle.map_or(1.0, |pellicle| pellicle.relief(own / self.axes, self.seed));
-        self.matter * (thickness * (1.0 + texture.amount * noise) * relief)
+        let share = smoothstep(1.0 + fade, 1.0 - fade, rho) * (1.0 + texture.amount * noise) * relief;
+        let matter = self.matter * (thickness[1] * share);
+        Matter { phase: self.matter.phase * (thickness[0] * share), ..matter }
     }
 
-    /// Thickness at a distance from the centre, 1 where it is thickest.
-    fn thickness(&self, rho: f32) -> f32 {
+    /// Thickness in the living and in the dried state, 1 where it is thickest.
+    fn thickness(&self, rho: f32, own: Vec2) -> [f32; 2] {
         let inside = 1.0 - rho * rho;
         if inside <= 0.0 {
-            return 0.0;
+            return [0.0; 2];
         }
         match self.look.profile {
-            Profile::Dome(power) => libm::powf(inside, power),
+            Profile::Dome(power) => [libm::powf(inside, power); 2],
             Profile::Biconcave { c2, c4, .. } => {
-                let square = rho * rho;
-                inside.sqrt() * (self.hollow + c2 * square - c4 * square * square) / THICKEST
+                let from_hollow = self.hollow.turned(own) - self.hollow.centre;
+                // Around the hollow in the middle, around the centre at the rim.
+                let square = mix(self.hollow.area * from_hollow.length_squared(), rho * rho, 0.4 + 0.6 * rho * rho);
+                let living = inside.sqrt() * (self.middle + c2 * square - c4 * square * square) / THICKEST;
+                [living, self.hollow.dried(rho, from_hollow)]
             }
         }
     }
@@ -167,6 +191,9 @@ impl RoundBody {
         let mut rng = HashRng::new(self.seed ^ 0x51ed);
         let mut spots: Vec<Spot> =
             self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut rng)).collect();
+        if let Profile::Biconcave { .. } = self.look.profile {
+            spots.extend(self.drying_pits(&mut rng));
+        }
         if let Some(pellicle) = self.look.pellicle {
             let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };
             spots.extend(self.vacuoles(pellicle, time).map(spot));
@@ -177,19 +204,40 @@ impl RoundBody {
     fn include(&self, inclusion: &Inclusion, rng: &mut HashRng) -> Vec<Spot> {
         let [fewest, most] = inclusion.count;
         let count = fewest + rng.bits() % (most - fewest + 1);
+        let regions: [Region; REGIONS] = std::array::from_fn(|_| Region::of(inclusion, rng));
         let spot = |_| {
             let [nearest, farthest] = inclusion.place;
+            let region = &regions[rng.bits() as usize % REGIONS];
             let rho = rng.range([nearest * nearest, farthest * farthest]).sqrt();
+            let anywhere = rng.direction() * rho;
+            let near = region.at + rng.direction() * (region.spread * rng.normal());
+            let at = if rng.unit() < CLUSTERED && near.length() < farthest { near } else { anywhere };
             let share = rng.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
-            let at = self.place(rng.direction(), rho);
+            let at = self.place(at.normalize_or_zero(), at.length());
             // The groove is clear.
             let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
             let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
-            let matter = inclusion.matter * (rng.range([0.6, 1.3]) * (1.0 - 0.9 * clear));
-            Spot { at, radius: radius * self.polar.mean, matter, shape: inclusion.shape }
+            let matter = inclusion.matter * (rng.range([0.6, 1.3]) * region.dense * (1.0 - 0.9 * clear));
+            let radius = radius * region.size * self.polar.mean;
+            Spot { at, radius, matter, shape: inclusion.shape }
         };
         (0..count).map(spot).collect()
+    }
+
+    /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
+    fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
+        let count = if rng.unit() < PITTED { 1 + rng.bits() % 3 } else { 0 };
+        let pit = |_| {
+            let at = self.place(rng.direction(), 0.6 * rng.unit());
+            let radius = 0.30 * libm::expf(0.4 * rng.normal());
+            let dense = rng.range([0.3, 0.9]);
+            let clear = Matter { haemoglobin: -dense, ..Matter::phase(-0.10) };
+            let around = Matter { haemoglobin: 0.5 * dense, nucleus: 0.25 * dense, ..Matter::NONE };
+            let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
+            [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring]
+        };
+        (0..count).flat_map(pit).collect()
     }
 
     /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.
@@ -217,12 +265,14 @@ impl RoundBody {
     /// Canals that lead to a vacuole; they swell while it is empty.
     fn canals(&self, pellicle: &Pellicle, (at, vacuole, filled): (Vec2, f32, f32)) -> [Thread; 7] {
         let radius = 0.02 * self.polar.mean * (1.0 - 0.6 * filled);
-        let canal = |k: usize| {
-            let way = rotate(unit_vector(k as f32 * TAU / 7.0 + 0.3), self.facing);
-            let to = at + way * (vacuole + 0.16 * self.polar.mean);
-            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * 0.55, peak: 0.0 }
+        let mut rng = HashRng::new(self.seed ^ 0xca7a);
+        let mut canal = |k: usize| {
+            let way = rotate(unit_vector((k as f32 + 0.7 * rng.unit()) * TAU / 7.0), self.facing);
+            let to = at + way * (vacuole + rng.range([0.05, 0.18]) * self.polar.mean);
+            let share = 0.5 * rng.unit() * (1.0 - 0.7 * filled);
+            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * share, peak: 0.0 }
         };
-        std::array::from_fn(canal)
+        std::array::from_fn(&mut canal)
     }
 
     /// Its cilia and canals at a time.
@@ -290,21 +340,6 @@ fn oral_groove(own: Vec2) -> [f32; 2] {
     let from_middle = own.y - GROOVE[0] - GROOVE[1] * own.x - GROOVE[2] * own.x * own.x;
     let width = GROOVE_WIDTH * (0.5 + 0.5 * smoothstep(0.0, 0.8, own.x));
     [bell(from_middle / width) * along, bell(((from_middle / width).abs() - 1.7) / 0.45) * along]
-}
-
-/// Gives an outline a few low waves of its own, which turn with the body.
-fn make_uneven(polar: &mut PolarOutline, facing: Vec2, amount: f32, rng: &mut HashRng) {
-    if amount <= 0.0 {
-        return;
-    }
-    let back = Vec2::new(facing.x, -facing.y);
-    let wave = |(order, share): (f32, f32)| (order, rng.unit() * TAU, rng.range([0.2, 1.0]) * share * amount);
-    let waves = [(2.0, 1.0), (3.0, 0.6), (4.0, 0.35), (5.0, 0.25), (7.0, 0.2)].map(wave);
-    polar.reshape(|way| {
-        let own = rotate(way, back);
-        let angle = libm::atan2f(own.y, own.x);
-        1.0 + waves.iter().map(|&(order, phase, size)| size * libm::cosf(order * angle + phase)).sum::<f32>()
-    });
 }
 
 /// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.

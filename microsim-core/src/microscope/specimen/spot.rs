@@ -7,7 +7,12 @@ use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: include_str!("spot.glsl"), constants: &[] };
+pub(in crate::microscope) const GLSL: Glsl =
+    Glsl { source: include_str!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
+
+/// Decay of the rings of a thing out of focus, and the phase with which they begin.
+const DAMPING: f32 = 1.25;
+const LAG: f32 = 1.0;
 
 /// A small round thing.
 #[derive(Clone, Copy, Debug)]
@@ -31,11 +36,21 @@ impl Spot {
             SpotShape::Bump => 0.0,
             SpotShape::Ball => 1.0,
             SpotShape::Ring => 2.0,
+            SpotShape::Defocused(_) => 3.0,
         };
         let [phase, haemoglobin, cytoplasm, nucleus] = matter.to_array();
-        let vertices = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, y]| [self.at.x, self.at.y, x, y, self.radius, shape, phase, haemoglobin, cytoplasm, nucleus]);
-        draws.add(Program::Spot, is_less, vertices.as_flattened(), QUAD);
+        let chirp = if let SpotShape::Defocused(chirp) = self.shape { chirp } else { 0.0 };
+        let Self { at, radius, .. } = *self;
+        let mut draw = |shape: f32, is_less: bool| {
+            let vertices = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+                .map(|[x, y]| [at.x, at.y, x, y, radius, shape, chirp, phase, haemoglobin, cytoplasm, nucleus]);
+            draws.add(Program::Spot, is_less, vertices.as_flattened(), QUAD);
+        };
+        draw(shape, is_less);
+        // A card adds or subtracts: the other half of the rings is drawn on its own.
+        if chirp != 0.0 {
+            draw(-shape, !is_less);
+        }
     }
 
     /// Adds the spot to a raster. What is smaller than a pixel is spread over one and loses no matter.
@@ -43,7 +58,7 @@ impl Spot {
         let blur = 0.7 * raster.grid.pixel;
         let radius = (self.radius * self.radius + blur * blur).sqrt();
         let matter = self.matter * (self.radius * self.radius / (radius * radius));
-        let reach = Vec2::splat(radius * if self.shape == SpotShape::Ring { 1.8 } else { 1.25 });
+        let reach = Vec2::splat(radius * reach(self.shape));
         let softness = larger(blur / radius, 0.08);
         let profile = |rho: f32| match self.shape {
             SpotShape::Bump => {
@@ -55,7 +70,16 @@ impl Spot {
                 if inside > 0.0 { inside.sqrt() * smoothstep(1.0 + softness, 1.0 - softness, rho) } else { 0.0 }
             }
             SpotShape::Ring => bell((rho - 1.2) / 0.25),
+            SpotShape::Defocused(chirp) => bell(DAMPING * rho) * libm::cosf(chirp * rho * rho - LAG),
         };
         raster.add(self.at - reach, self.at + reach, |p| matter * profile((p - self.at).length() / radius));
+    }
+}
+
+/// How far a spot reaches, in radii.
+fn reach(shape: SpotShape) -> f32 {
+    match shape {
+        SpotShape::Bump | SpotShape::Ball => 1.25,
+        SpotShape::Ring | SpotShape::Defocused(_) => 1.8,
     }
 }

@@ -12,6 +12,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         radius: [0.235, 0.235],
         behind: 0.0,
         spread: 0.0,
+        bent: 0.035,
         matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
         texture: Texture { amount: 0.2, size: 1.5 },
     },
@@ -38,16 +39,16 @@ const FINE: GranuleLook = GranuleLook {
     radius: 0.22,
     spread: 0.35,
     limits: [0.1, 0.5],
-    matter: Matter { phase: 0.03 * WAVE, haemoglobin: 0.0, cytoplasm: 0.2, nucleus: 0.0 },
+    matter: Matter { phase: 0.024 * WAVE, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
 const GRANULES: GranuleLook = GranuleLook {
     density: 0.22,
-    radius: 0.42,
-    spread: 0.42,
-    limits: [0.2, 1.1],
-    matter: Matter { phase: 0.026 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
+    radius: 0.34,
+    spread: 0.60,
+    limits: [0.15, 0.9],
+    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 

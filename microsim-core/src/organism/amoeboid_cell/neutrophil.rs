@@ -12,6 +12,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         radius: [0.24, 0.30],
         behind: 0.16,
         spread: 0.42,
+        bent: 0.13,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
         texture: Texture { amount: 0.42, size: 0.8 },
     },

@@ -1,13 +1,13 @@
 //! Paramecium: a thick body packed with food, an oral groove, two contractile vacuoles and a coat of cilia.
 
-use crate::look::{Cilia, Inclusion, Matter, Pellicle, Profile, RoundLook, SpotShape, Texture};
+use crate::look::{Cilia, Inclusion, Matter, OutlineLook, Pellicle, Profile, RoundLook, SpotShape, Texture};
 
 pub(super) const LOOK: RoundLook = RoundLook {
     profile: Profile::Dome(0.45),
     matter: Matter { phase: 2.5, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     variation: 0.05,
     texture: Texture { amount: 0.05, size: 0.5 },
-    unevenness: 0.006,
+    outline: OutlineLook::uneven(0.012),
     inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
     cilia: Some(&Cilia { most: 380.0, apart: 0.35, length: 0.16, width: 0.14, phase: 0.26, waves: 9.0, rate: 4.0 }),
     pellicle: Some(&Pellicle {
