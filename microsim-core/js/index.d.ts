@@ -1,4 +1,4 @@
-/** Loads the program; without a source, the file `microsim.wasm` beside this module. */
+/** Loads the program; without a source, `microsim-simd.wasm` or `microsim.wasm` beside this module. */
 export function load(source?: BufferSource | Response | Promise<BufferSource | Response>): Promise<Microsim>;
 
 export interface Microsim {

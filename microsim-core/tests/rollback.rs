@@ -3,7 +3,7 @@
 //! Three thousand steps: `cargo test --release -p microsim-core --features scenario,snapshot --test rollback -- --ignored`.
 #![cfg(all(feature = "scenario", feature = "snapshot"))]
 
-use ggrs::{Config, GgrsRequest, SessionBuilder};
+use ggrs::{Config, GgrsRequest, PredictRepeatLast, SessionBuilder};
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_core::{Inputs, Intent, Kind, OrganismId, Rng, World};
@@ -25,6 +25,7 @@ struct Told {
 struct Game;
 
 impl Config for Game {
+    type InputPredictor = PredictRepeatLast;
     type Input = Told;
     /// A snapshot.
     type State = Vec<u8>;
@@ -60,7 +61,7 @@ fn synchronise_through(steps: u32, seed: u64, alter: fn(&mut World)) -> World {
     let mut world = Scenario::parse(builtin("demo").unwrap().text, &[]).unwrap().build().unwrap().world;
     let is_player = |id: &OrganismId| matches!(world.kind(*id), Some(Kind::AmoeboidCell | Kind::RigidCell));
     let cells: Vec<OrganismId> = world.organisms().filter(is_player).take(PLAYERS).collect();
-    let builder = SessionBuilder::<Game>::new().with_num_players(PLAYERS).with_input_delay(0);
+    let builder = SessionBuilder::<Game>::new().with_num_players(PLAYERS).unwrap().with_input_delay(0);
     let builder = builder.with_max_prediction_window(DISTANCE + 1).with_check_distance(DISTANCE);
     let mut session = builder.start_synctest_session().unwrap();
     let (mut rng, mut told) = (Rng::new(seed, 0), [Told::default(); PLAYERS]);

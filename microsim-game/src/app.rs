@@ -141,7 +141,7 @@ impl App {
         if self.screens.is_empty() {
             return false;
         }
-        platform::show_buttons(self.screens.is_scene());
+        platform::show_buttons(self.screens.is_scene(), self.context.settings.hold_to_digest);
         if let Some(stage) = self.open_dropped(input) {
             self.screens.go(Next::Show(MainScreen::Simulation(Box::new(stage))), &mut self.context);
         }

@@ -12,7 +12,7 @@ const SCREENSHOT_FRAMES: u32 = 120;
 const AFTER_HELP: &str = "\
 Without a scenario: the title, to play or to choose a simulation.
 
-CONTROLS: hold the left mouse button: crawl there | hold Q: digest | A, D or wheel: zoom out, in | Space: pause
+CONTROLS: hold the left mouse button: crawl there | A, D or wheel: zoom out, in | Space: pause
           R: restart | F11: full screen | F12: picture | Escape: menu. Keys can be changed in the settings.
 
 EXIT CODE: 0 fine, 1 no display or a file that cannot be written, 2 a bad argument or scenario";

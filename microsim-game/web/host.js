@@ -38,7 +38,7 @@ export async function give(list) {
 export function readAddress(linked) {
     for (const [name, value] of address) {
         if (name === "scenario") words.push(value);
-        else if (name !== "floats") words.push(value === "" ? `--${name}` : `--${name}=${value}`);
+        else if (name !== "floats" && name !== "simd") words.push(value === "" ? `--${name}` : `--${name}=${value}`);
     }
     words.push(...linked);
 }
@@ -114,8 +114,9 @@ function download(name, bytes) {
 
 const fingers = matchMedia("(pointer: coarse)");
 
-function showButtons(areWanted) {
+function showButtons(areWanted, which) {
     element("buttons").hidden = !(areWanted && fingers.matches);
+    element("digest").hidden = which !== "digest";
 }
 
 function hasFloatTargets() {
@@ -139,11 +140,11 @@ const answers = {
 const orders = {
     "download": download,
     "fail": (_, bytes) => fail(new TextDecoder().decode(bytes)),
-    "hide buttons": () => showButtons(false),
+    "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
     "print": (_, bytes) => console.log(new TextDecoder().decode(bytes)),
     "rename": rename,
-    "show buttons": () => showButtons(true),
+    "show buttons": (which) => showButtons(true, which),
 };
 
 let found = new Uint8Array();

@@ -1,7 +1,9 @@
 // Keeps the page for when there is no network. `@VERSION@` is a hash of all files: another version is another cache.
 
 const CACHE = "microsim-@VERSION@";
-const FILES = ["./", "start.js", "host.js", "link.js", "gl.js", "style.css", "game.wasm", "manifest.webmanifest", "icon-192.png"];
+// Of the two programs the one that this browser runs.
+const PROGRAM = location.search.slice(1);
+const FILES = ["./", "start.js", "host.js", "link.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png"];
 
 addEventListener("install", (event) => {
     skipWaiting();

@@ -6,6 +6,11 @@ import { linkTo, linked } from "./link.js";
 const element = (id) => document.getElementById(id);
 const canvasElement = element("glcanvas");
 
+/** A program of one 128-bit instruction, which only browsers that have those accept. */
+const WIDE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11]);
+const isWide = WebAssembly.validate(WIDE) && new URLSearchParams(location.search).get("simd") !== "no";
+const PROGRAM = isWide ? "game-simd.wasm" : "game.wasm";
+
 /** A response whose reading moves the progress bar. */
 function counted(response) {
     const total = Number(document.documentElement.dataset.bytes) || 4e6;
@@ -44,8 +49,8 @@ async function load(path) {
     const instance = await WebAssembly.instantiate(program, importObject);
     wasm_memory = instance.exports.memory;
     wasm_exports = instance.exports;
-    if (wasm_exports.crate_version() !== version) throw new Error("gl.js is not that of this game.wasm");
-    if (wasm_exports.microsim_crate_version() !== 1) throw new Error("host.js is not that of this game.wasm");
+    if (wasm_exports.crate_version() !== version) throw new Error("gl.js is not that of this program");
+    if (wasm_exports.microsim_crate_version() !== 1) throw new Error("host.js is not that of this program");
     wasm_exports.main();
 }
 
@@ -141,11 +146,11 @@ if (document.createElement("canvas").getContext("webgl2") === null) {
 } else {
     try {
         readAddress(await readLink());
-        await load("game.wasm");
+        await load(PROGRAM);
         requestAnimationFrame(() => (element("loading").hidden = true));
     } catch (error) {
         fail(error.message);
     }
 }
 globalThis.microsim = { digest, linkTo };
-navigator.serviceWorker?.register("offline.js").catch(() => {}); // Without it the page needs the network, and nothing else.
+navigator.serviceWorker?.register(`offline.js?${PROGRAM}`).catch(() => {}); // Without it the page needs the network, and nothing else.

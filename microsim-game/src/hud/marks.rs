@@ -23,8 +23,8 @@ pub struct Style<'a> {
     pub time: Option<f32>,
     /// The green arrow also where there is no room, as in the seed (T75).
     pub is_classic: bool,
-    /// What is written on the key that digests.
-    pub key: &'a str,
+    /// What is written on the key that digests, if the player has to hold one.
+    pub key: Option<&'a str>,
 }
 
 /// The marks that are drawn so far: the middle of each, and half its size.
@@ -138,9 +138,9 @@ pub fn draw_held(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, held:
         }
     }
     // One key digests all of it.
-    if let Some((tip, is_down)) = highest {
+    if let Some(((tip, is_down), key)) = highest.zip(style.key) {
         taken.place(tip - Vec2::new(0.0, 0.8 * unit), Vec2::splat(0.8 * unit));
-        draw_key(pen, tip, style.key, is_down);
+        draw_key(pen, tip, key, is_down);
     }
 }
 
@@ -219,7 +219,7 @@ mod tests {
     fn drawn(draw: impl Fn(&mut Pen, &Style<'_>, &mut MarkLayout), is_classic: bool) -> Pen {
         let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
         let mut pen = Pen::bare();
-        let style = Style { camera: &camera, time: None, is_classic, key: "Q" };
+        let style = Style { camera: &camera, time: None, is_classic, key: Some("Q") };
         draw(&mut pen, &style, &mut MarkLayout::default());
         pen
     }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Action {
-    /// Digest what is inside, while held.
+    /// Digest what is inside, while held; for players who ask for a key, see the settings.
     Consume,
     /// Look closer, while held.
     ZoomIn,
@@ -68,7 +68,7 @@ impl Action {
     /// Its name in scripts and in the settings.
     fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Consume => ["consume", "Consume (hold)"],
+            Self::Consume => ["consume", "Digest (hold)"],
             Self::ZoomIn => ["zoom-in", "Zoom in"],
             Self::ZoomOut => ["zoom-out", "Zoom out"],
             Self::Pause => ["pause", "Pause"],

@@ -11,6 +11,7 @@ pub mod game;
 pub mod hint;
 pub mod referee;
 pub mod round;
+pub mod verdict;
 
 #[cfg(test)]
 mod tests;

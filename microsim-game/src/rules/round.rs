@@ -3,7 +3,7 @@
 use super::referee::{KindScore, Referee};
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
-use microsim_core::{Inputs, Intent, Kind, OrganismId, World};
+use microsim_core::{Inputs, Intent, Kind, MealPhase, OrganismId, World};
 use std::num::NonZeroU32;
 
 /// Steps between two digests of a recorded round.
@@ -25,6 +25,8 @@ pub struct RoundResult {
     pub score: u32,
     /// Time of the round, s.
     pub time: f32,
+    /// How many things were inside, and not digested.
+    pub undigested: u32,
     /// What was digested, by kind.
     pub kinds: Vec<(Kind, KindScore)>,
     /// The round as a [`Replay`]; `None` if it was a replay itself.
@@ -126,10 +128,17 @@ impl Round {
         RoundResult {
             score: self.referee.score(),
             time: self.referee.game().time,
+            undigested: self.undigested(),
             kinds: self.referee.kinds().to_vec(),
             record: self.record(),
             is_mismatch: self.mismatch().is_some(),
         }
+    }
+
+    fn undigested(&self) -> u32 {
+        let player = self.world().view().organism(self.player);
+        let is_inside = |phase: &MealPhase| matches!(phase, MealPhase::Ingested | MealPhase::Digesting(_));
+        player.map_or(0, |player| player.meals().filter(|(_, phase)| is_inside(phase)).count() as u32)
     }
 
     /// Name of its scenario.

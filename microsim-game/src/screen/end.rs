@@ -1,4 +1,4 @@
-//! The end of a round: the score by kind, and its place among the best.
+//! The end of a round: the score by kind, its place among the best, what was missed, and the next goal.
 
 use super::context::{AppContext, LAST_GAME};
 use super::page::draw_shade;
@@ -8,6 +8,7 @@ use crate::draw::palette::{HALO, READY};
 use crate::input::{Action, Input, Move};
 use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
+use crate::rules::verdict;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
@@ -17,7 +18,7 @@ use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
 const MENU_TOP: f32 = 0.62;
-/// Time for which the menu does not answer, s: the player may still be holding keys.
+/// Time for which the menu does not answer, s: the player may still be steering.
 const DELAY: f32 = 0.7;
 
 #[derive(Debug)]
@@ -28,14 +29,20 @@ pub(super) struct End {
     /// The best ones of the same game; none after a replay, which may be of another one.
     best: Vec<Score>,
     place: Option<usize>,
+    missed: Option<String>,
+    goal: String,
     menu: Menu,
     since: f32,
+    /// Whether the hand that steered has let go since, and then moved: before that a click picks nothing.
+    has_let_go: bool,
+    has_moved: bool,
 }
 
 impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
     pub(super) fn new(result: RoundResult, context: &mut AppContext) -> Self {
-        let RoundResult { score: points, time, kinds, record, is_mismatch } = result;
+        let missed = verdict::missed(&result);
+        let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
         let game = context.game.label();
         let count = |is_rigid: bool| {
             let of_kind = kinds.iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
@@ -55,7 +62,21 @@ impl End {
         let menu = Menu::new(["Play again", "Watch it again", "Title"].map(MenuItem::new).into());
         let doubt = if is_mismatch { ", not as it was played" } else { "" };
         let heading = format!("{points} points{doubt}");
-        Self { heading, points, kinds, best, place, menu, since: 0.0 }
+        let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
+        let goal = verdict::next_goal(points, better);
+        Self {
+            heading,
+            points,
+            kinds,
+            best,
+            place,
+            missed,
+            goal,
+            menu,
+            since: 0.0,
+            has_let_go: false,
+            has_moved: false,
+        }
     }
 
     fn draw_kinds(&self, pen: &mut Pen, top: f32) {
@@ -86,6 +107,9 @@ impl Screen for End {
         if self.since < DELAY {
             return Next::Stay;
         }
+        self.has_let_go |= !input.is_held;
+        self.has_moved |= self.has_let_go && input.has_moved;
+        let input = &Input { is_clicked: input.is_clicked && self.has_moved, ..input.clone() };
         if input.presses(Action::Restart) {
             return Next::Show(MainScreen::Round);
         }
@@ -110,6 +134,11 @@ impl Screen for End {
             let text = if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) };
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(TextSize::Large));
             pen.write(below, TextSize::Body, Align::Centre, READY, &text);
+        }
+        let told = [self.missed.as_deref(), Some(self.goal.as_str())].into_iter().flatten();
+        for (k, text) in told.enumerate() {
+            let at = Vec2::new(0.5 * screen.x, (MENU_TOP - 0.02) * screen.y - line * (1.7 - k as f32));
+            pen.write(at, TextSize::Small, Align::Centre, HALO, text);
         }
         self.draw_kinds(pen, 0.28 * screen.y + line);
         draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], MENU_TOP * screen.y, &self.best, self.place);

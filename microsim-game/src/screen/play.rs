@@ -62,14 +62,14 @@ impl Play {
         if self.round.is_replay() { Paused::Replay } else { Paused::Round }
     }
 
-    fn intent(&self, input: &Input) -> Intent {
+    fn intent(&self, input: &Input, context: &AppContext) -> Intent {
         let goal = input.is_held.then(|| self.viewer.camera.to_room(input.cursor));
         let moving = goal.and_then(|goal| Intent::toward(goal).ok()).unwrap_or(Intent::REST);
-        moving.digesting(input.holds(Action::Consume))
+        moving.digesting(context.settings.digests(input))
     }
 
     fn run(&mut self, input: &Input, context: &AppContext) {
-        let intent = self.intent(input);
+        let intent = self.intent(input, context);
         let Self { round, viewer, gains, .. } = self;
         viewer.run(context.pace, 1.0, round, |round| {
             round.step(intent);
@@ -92,11 +92,11 @@ impl Play {
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
     }
 
-    fn advice(&self, hints: &Hints, key: &str, has_buttons: bool) -> Option<String> {
+    fn advice(&self, hints: &Hints, key: Option<&str>, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
         if self.round.is_replay() {
             None
-        } else if hints.can_digest() && self.round.referee().score() == 0 {
+        } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
             Some(format!("Hold {key} to digest what you have taken in"))
         } else if time < ADVICE_TIME {
             let what = if has_buttons { "a finger on the picture" } else { "the left mouse button" };
@@ -132,10 +132,11 @@ impl Screen for Play {
         }
         let hints = Hints::of(view, self.round.player());
         let covered = platform::covered_height();
-        let key = if covered > 0.0 { "Digest".to_owned() } else { context.settings.keys.label(Action::Consume) };
+        let label = || if covered > 0.0 { "Digest".to_owned() } else { context.settings.keys.label(Action::Consume) };
+        let key = context.settings.hold_to_digest.then(label);
         let time = context.motion();
-        let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: &key };
-        let advice = self.advice(&hints, &key, covered > 0.0);
+        let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
+        let advice = self.advice(&hints, key.as_deref(), covered > 0.0);
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
         marks::draw_held(pen, &style, &mut taken, &hints.held);

@@ -15,9 +15,10 @@ const SIGHT: usize = 0;
 const EFFORT: usize = 1;
 const TEXT: usize = 2;
 const MOTION: usize = 3;
-const ARROWS: usize = 4;
-const FULL_SCREEN: usize = 5;
-const KEYS: usize = 6;
+const DIGESTION: usize = 4;
+const ARROWS: usize = 5;
+const FULL_SCREEN: usize = 6;
+const KEYS: usize = 7;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
@@ -32,6 +33,7 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::with("Quality", context.effort().name()),
         MenuItem::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
         MenuItem::switch("Reduced motion", settings.reduced_motion),
+        MenuItem::switch("Hold to digest", settings.hold_to_digest),
         MenuItem::switch("Classic arrows", settings.classic_arrows),
         MenuItem::switch("Full screen", settings.full_screen),
         MenuItem::new("Keys"),
@@ -56,6 +58,7 @@ impl Screen for SettingsMenu {
             MenuChoice::Pick(TEXT) => settings.change_text_size(1),
             MenuChoice::Less(TEXT) => settings.change_text_size(-1),
             MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
+            MenuChoice::Pick(DIGESTION) | MenuChoice::Less(DIGESTION) => settings.hold_to_digest ^= true,
             MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
             MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
             MenuChoice::Pick(KEYS) => return Next::Open(Overlay::Keys),

@@ -1,6 +1,7 @@
 //! What the player has chosen.
 
 use crate::input::keys::Keys;
+use crate::input::{Action, Input};
 use crate::scenery::Effort;
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +18,8 @@ pub struct Settings {
     pub text_size: usize,
     /// Nothing floats, pulses or drifts that does not have to.
     pub reduced_motion: bool,
+    /// Food is digested only while a key is held, as in the seed; otherwise as soon as it is inside.
+    pub hold_to_digest: bool,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
     pub classic_arrows: bool,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
@@ -34,6 +37,7 @@ impl Default for Settings {
         Self {
             text_size: 1,
             reduced_motion: false,
+            hold_to_digest: false,
             classic_arrows: false,
             sight: String::new(),
             effort: Effort::default(),
@@ -50,16 +54,24 @@ impl Settings {
         fn newer<T: PartialEq>(own: T, earlier: &T, other: T) -> T {
             if own == *earlier { other } else { own }
         }
-        let Self { text_size, reduced_motion, classic_arrows, sight, effort, full_screen, keys } = earlier;
+        let Self { text_size, reduced_motion, hold_to_digest, classic_arrows, sight, effort, full_screen, keys } =
+            earlier;
         Self {
             text_size: newer(self.text_size, text_size, others.text_size),
             reduced_motion: newer(self.reduced_motion, reduced_motion, others.reduced_motion),
+            hold_to_digest: newer(self.hold_to_digest, hold_to_digest, others.hold_to_digest),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
             sight: newer(self.sight, sight, others.sight),
             effort: newer(self.effort, effort, others.effort),
             full_screen: newer(self.full_screen, full_screen, others.full_screen),
             keys: newer(self.keys, keys, others.keys),
         }
+    }
+
+    /// Whether the player's cell digests what is inside.
+    #[must_use]
+    pub fn digests(&self, input: &Input) -> bool {
+        !self.hold_to_digest || input.holds(Action::Consume)
     }
 
     /// Size of text relative to the usual one.
@@ -77,7 +89,6 @@ impl Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Action;
     use crate::store::files::tests::Folder;
     use macroquad::input::KeyCode;
 
@@ -88,6 +99,14 @@ mod tests {
         assert!(settings.keys.set(Action::Consume, KeyCode::E));
         store.save(FILE, &settings).unwrap();
         assert_eq!(store.load::<Settings>(FILE), (settings, None));
+    }
+
+    #[test]
+    fn t61_food_is_digested_at_once_unless_the_player_asks_for_a_key() {
+        let (free, holding) = (Input::default(), Input { held: vec![Action::Consume], ..Input::default() });
+        let held = Settings { hold_to_digest: true, ..Settings::default() };
+        assert_eq!([&free, &holding].map(|input| Settings::default().digests(input)), [true, true]);
+        assert_eq!([&free, &holding].map(|input| held.digests(input)), [false, true]);
     }
 
     #[test]

@@ -79,7 +79,7 @@ pub fn screen_buttons() -> ScreenButtons {
 }
 
 /// Nothing: there are no buttons on the screen to show or hide.
-pub fn show_buttons(_: bool) {}
+pub fn show_buttons(_: bool, _: bool) {}
 
 /// Height at the lower edge that buttons cover, drawing units.
 #[must_use]

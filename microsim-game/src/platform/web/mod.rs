@@ -73,9 +73,10 @@ pub fn screen_buttons() -> ScreenButtons {
     ScreenButtons { held: lines("held"), pressed: lines("pressed") }
 }
 
-/// Shows the page's buttons, on devices that have no keys, or hides them.
-pub fn show_buttons(are_wanted: bool) {
-    host::tell(if are_wanted { "show buttons" } else { "hide buttons" }, "", &[]);
+/// Shows the page's buttons, on devices that have no keys, or hides them; that for digestion only if it `digests`.
+pub fn show_buttons(are_wanted: bool, digests: bool) {
+    let order = if are_wanted { "show buttons" } else { "hide buttons" };
+    host::tell(order, if digests { "digest" } else { "" }, &[]);
 }
 
 /// Height at the lower edge that buttons cover, drawing units; 0 if there are none.

@@ -139,7 +139,8 @@ impl Screen for Sandbox {
                 return next;
             }
         }
-        if let Some(problem) = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel) {
+        let digests = context.settings.digests(input);
+        if let Some(problem) = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests) {
             context.tell(problem);
         }
         self.run(context);

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
-use crate::input::{Action, Input};
+use crate::input::Input;
 use crate::stage::Stage;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
@@ -95,6 +95,7 @@ impl Tools {
         camera: &Camera,
         input: &Input,
         is_on_panel: bool,
+        digests: bool,
     ) -> Option<String> {
         let at = camera.to_room(input.cursor);
         let begins = input.is_clicked && !is_on_panel;
@@ -104,7 +105,7 @@ impl Tools {
             self.grasped = None;
         }
         let goal = self.hand.filter(|_| self.tool == Tool::Steer).and_then(|at| Intent::toward(at).ok());
-        stage.steer(goal.unwrap_or(Intent::REST).digesting(input.holds(Action::Consume)));
+        stage.steer(goal.unwrap_or(Intent::REST).digesting(digests));
         if !begins {
             return None;
         }
@@ -247,7 +248,7 @@ mod tests {
         let grip = camera.to_room(Vec2::new(300.0, 200.0));
         for (x, y, is_clicked) in [(300.0, 200.0, true), (330.0, 190.0, false), (360.0, 190.0, false)] {
             let input = Input { cursor: Vec2::new(x, y), is_clicked, is_held: true, ..Input::default() };
-            assert_eq!(tools.use_on(&mut stage, &camera, &input, false), None);
+            assert_eq!(tools.use_on(&mut stage, &camera, &input, false, false), None);
             assert!(tools.look_around(&mut camera));
             assert!((camera.to_room(input.cursor) - grip).length() < 1e-3, "{x}");
         }

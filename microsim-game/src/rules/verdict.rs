@@ -1,0 +1,71 @@
+//! What the player is told at the end of a round: what was missed, and the next goal.
+
+use super::round::RoundResult;
+use microsim_core::Kind;
+
+/// What was missed in a round, if anything.
+#[must_use]
+pub fn missed(result: &RoundResult) -> Option<String> {
+    let count_of = |is_rigid: bool| -> Option<u32> {
+        let of_kind: Vec<u32> = result
+            .kinds
+            .iter()
+            .filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid)
+            .map(|(_, entry)| entry.count)
+            .collect();
+        (!of_kind.is_empty()).then(|| of_kind.iter().sum())
+    };
+    let [rigid, small] = [true, false].map(count_of);
+    match (result.undigested, small, rigid) {
+        (1, ..) => Some("One thing inside was not digested: only what is digested counts.".to_owned()),
+        (more @ 2.., ..) => Some(format!("{more} things inside were not digested: only what is digested counts.")),
+        (0, Some(0), Some(0) | None) => {
+            Some("Nothing was taken in: crawl with your front against food, and stay on it.".to_owned())
+        }
+        (0, _, Some(0)) => {
+            Some("No rigid cell: they count most. Grow on small food, then take one under a green arrow.".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// The next goal, when `better` is the lowest of the kept scores that are higher.
+#[must_use]
+pub fn next_goal(points: u32, better: Option<u32>) -> String {
+    match (points, better) {
+        (_, Some(better)) => format!("Next: more than {better}"),
+        (0, None) => "Next: the first points".to_owned(),
+        (points, None) => format!("Next: more than your best, {points}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::referee::KindScore;
+
+    fn result(undigested: u32, small: u32, rigid: u32) -> RoundResult {
+        let entry = |count| KindScore { count, points: 10 * count };
+        let kinds = vec![(Kind::Agar, entry(small)), (Kind::RigidCell, entry(rigid))];
+        RoundResult { score: 10 * (small + rigid), time: 90.0, kinds, undigested, record: None, is_mismatch: false }
+    }
+
+    #[test]
+    fn what_was_missed_is_said_in_the_order_of_what_it_cost() {
+        let said = |undigested, small, rigid| missed(&result(undigested, small, rigid)).unwrap_or_default();
+        assert!(said(1, 0, 0).starts_with("One thing inside"));
+        assert!(said(3, 5, 1).starts_with("3 things inside"));
+        assert!(said(0, 0, 0).starts_with("Nothing was taken in"));
+        assert!(said(0, 5, 0).starts_with("No rigid cell"));
+        assert_eq!(missed(&result(0, 5, 1)), None);
+        let no_rigid = RoundResult { kinds: result(0, 5, 0).kinds[..1].to_vec(), ..result(0, 5, 0) };
+        assert_eq!(missed(&no_rigid), None, "this game has none");
+    }
+
+    #[test]
+    fn the_next_goal_is_the_score_above() {
+        assert_eq!(next_goal(30, Some(50)), "Next: more than 50");
+        assert_eq!(next_goal(50, None), "Next: more than your best, 50");
+        assert_eq!(next_goal(0, None), "Next: the first points");
+    }
+}
