@@ -312,6 +312,14 @@ fn numbers_that_make_no_sense_find_nothing() {
         assert_eq!(queries.cast_disc(origin, direction, length, radius, &filter), None);
         assert!(radius != 0.0 || queries.cast_ray_all(origin, direction, length, &filter).is_empty());
     }
+    // So far away that distances overflow.
+    for huge in [Vec2::new(-3e38, 30.0), Vec2::splat(3e38), Vec2::splat(-3e38), Vec2::new(1e20, -1e20)] {
+        for hit in queries.cast_ray_all(huge, at - huge, f32::INFINITY, &filter) {
+            assert!(hit.point.is_finite() && !hit.distance.is_nan(), "{hit:?}");
+        }
+        let found = queries.nearest(huge, f32::INFINITY, &filter);
+        assert!(found.is_none_or(|found| found.point.is_finite() && found.distance.is_finite()), "{found:?}");
+    }
     assert!(queries.cast_ray(at, Vec2::X, f32::INFINITY, &filter).is_some());
     assert!(queries.nearest(nan, 9.0, &filter).is_none() && queries.nearest(at, f32::NAN, &filter).is_none());
     assert!(queries.nearest(at, f32::INFINITY, &filter).is_some());

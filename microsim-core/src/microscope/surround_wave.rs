@@ -4,7 +4,6 @@
 use super::glsl::Glsl;
 use super::maths::larger;
 use super::matter::MatterRaster;
-use super::optics::Surround;
 use super::raster::{PixelGrid, bilinear, blur, gaussian};
 use super::wave;
 use glam::Vec2;
@@ -37,6 +36,15 @@ pub(super) fn weights(pixel: f32) -> Vec<f32> {
     let (near, far) = (gaussian(CORE_WIDTH / pixel), gaussian(HALO_WIDTH / pixel));
     let at = |weights: &[f32], k: usize| weights.get(weights.len() / 2 + k).copied().unwrap_or(0.0);
     (0..=far.len() / 2).flat_map(|k| [at(&near, k), at(&far, k)]).collect()
+}
+
+/// What is blurred widely.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Surround {
+    /// The wave behind the specimen.
+    Wave,
+    /// What shines: nucleic acid and cytoplasm.
+    Emission,
 }
 
 /// The surround wave over a whole picture.

@@ -29,7 +29,7 @@ pub(super) fn world() -> World {
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
-    let joint = join(&mut world, toucher, divider);
+    let joint = join(&mut world, toucher, divider, platform);
     world.events = events(eater, divider, sensor, joint);
     let partners = colliders(divider, sensor);
     let reports = &mut world.contact_reports;
@@ -89,7 +89,7 @@ fn cage(world: &mut World, chemical: ChemicalId) {
 }
 
 /// A joint of each kind, and a free place; returns the last one's handle.
-fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
+fn join(world: &mut World, one: OrganismId, other: OrganismId, obstacle: ObstacleId) -> JointId {
     let (length, max_force, frequency, damping_ratio) = (10.0, 1.0, 1.0, 1.0);
     let kinds = [
         JointKind::Pin,
@@ -101,11 +101,12 @@ fn join(world: &mut World, one: OrganismId, other: OrganismId) -> JointId {
         JointKind::LengthMotor { length, max_force },
         JointKind::SpeedMotor { speed: 1.0, max_force },
     ];
-    let ends = [JointEnd::Centre(other), JointEnd::Point(Vec2::splat(50.0))];
+    let on_obstacle = JointEnd::Obstacle { obstacle, at: Vec2::X };
+    let ends = [JointEnd::Centre(other), JointEnd::Point(Vec2::splat(50.0)), on_obstacle];
     let node = JointEnd::Node { organism: one, node: 0 };
     // Each kind of end on either side.
     let spec = |(k, kind): (usize, JointKind)| {
-        let (a, b) = if k < 4 { (node, ends[k % 2]) } else { (ends[k % 2], node) };
+        let (a, b) = if k < 4 { (node, ends[k % 3]) } else { (ends[k % 3], node) };
         JointSpec::new(a, b, kind)
     };
     let joints: Vec<_> = kinds.into_iter().enumerate().map(|it| world.add_joint(spec(it)).unwrap()).collect();

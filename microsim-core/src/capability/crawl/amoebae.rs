@@ -1,9 +1,10 @@
 //! Types of amoeba: how each crawls, as data.
 
 use super::params::PseudopodParams;
+use serde::{Deserialize, Serialize};
 
 /// How an amoeboid cell crawls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Crawl {
     /// Front and rear of the membrane drive it and the wings follow, round as it is (seed, 3.1.2).
     #[default]

@@ -1,8 +1,9 @@
 //! Dark field: the surround wave is stopped, and what the specimen scattered is all there is. `I = |E - S|^2`.
 
-use super::mode::{Mode, Optics, Shader, Surround, grey};
+use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::surround_wave::Surround;
 
 const GAIN: f32 = 2.2;
 /// Light that gets past the stop.

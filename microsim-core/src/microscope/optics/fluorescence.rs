@@ -1,8 +1,9 @@
 //! Fluorescence: nucleic acid shines blue (DAPI), cytoplasm green, all else stays dark.
 
-use super::mode::{Mode, Optics, Shader, Surround};
+use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::surround_wave::Surround;
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.030, 0.050, 0.050];

@@ -12,7 +12,7 @@ pub(super) mod sampler;
 mod stained;
 
 pub use mode::Optics;
-pub(super) use mode::{Mode, PixelShader, Shader, Surround};
+pub(super) use mode::{Mode, PixelShader, Shader};
 
 impl Optics {
     /// All of them.

@@ -2,6 +2,7 @@
 
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::surround_wave::Surround;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
@@ -66,15 +67,6 @@ pub(in crate::microscope) struct Mode {
     /// Strength of the film's grain in this light, relative to phase contrast.
     pub grain: f32,
     pub shader: Shader,
-}
-
-/// What is blurred widely.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::microscope) enum Surround {
-    /// The wave behind the specimen.
-    Wave,
-    /// What shines: nucleic acid and cytoplasm.
-    Emission,
 }
 
 /// Light at a pixel, 0 to about 1 as the eye sees it; one channel or three.

@@ -4,10 +4,11 @@
 //!
 //! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
 
-use super::mode::{Mode, Optics, Shader, Surround, grey};
+use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::larger;
+use crate::microscope::surround_wave::Surround;
 
 /// Amplitude that the phase plate leaves of the surround wave.
 const TRANSMISSION: f32 = 0.46;

@@ -167,7 +167,8 @@ impl<'w> Queries<'w> {
             let on = if is_inside { point } else { surface };
             NearestPoint { collider, node: None, point: on, distance: (on - point).length() }
         });
-        let first = surfaces.reduce(|a, b| if b.distance < a.distance { b } else { a });
+        let sound = surfaces.filter(|found| found.distance.is_finite());
+        let first = sound.reduce(|a, b| if b.distance < a.distance { b } else { a });
         let most = first.map_or(distance, |first| if first.distance < distance { first.distance } else { distance });
         let disc = self.nearest_disc(point, most, filter);
         disc.or(first).filter(|found| found.distance <= distance)
@@ -273,7 +274,8 @@ impl<'w> Queries<'w> {
             // On the surface itself the way out is the way back.
             let away = away.try_normalize().filter(|away| away.dot(ray.direction) < 0.0).unwrap_or(-ray.direction);
             let normal = if begins_inside { Vec2::ZERO } else { away };
-            Some(RayHit { collider, node: None, distance, point: surface, normal })
+            // Not where a number overflows far outside.
+            surface.is_finite().then_some(RayHit { collider, node: None, distance, point: surface, normal })
         })
     }
 
@@ -282,7 +284,7 @@ impl<'w> Queries<'w> {
         let away = (ray.point_at(distance) - disc.at).normalize_or_zero();
         let normal = if distance > 0.0 { away } else { Vec2::ZERO };
         let point = if distance > 0.0 { disc.at + away * disc.radius } else { ray.origin };
-        Some(RayHit { collider, node: Some(disc.index), distance, point, normal })
+        point.is_finite().then_some(RayHit { collider, node: Some(disc.index), distance, point, normal })
     }
 
     /// Whose disc it is, if a filter lets it through.
