@@ -1,0 +1,78 @@
+//! Writes the font without what nothing here reads: instructions for coarse screens and tables of layout. Two thirds of it.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Tables that are kept: letters, their outlines and widths, and whose work they are.
+const KEPT: [&[u8; 4]; 9] = [b"cmap", b"glyf", b"head", b"hhea", b"hmtx", b"loca", b"maxp", b"name", b"OS/2"];
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let font = epaint_default_fonts::UBUNTU_LIGHT;
+    let small = without_instructions(font).unwrap_or_else(|| font.to_vec());
+    let out = std::env::var_os("OUT_DIR").expect("cargo names a folder");
+    std::fs::write(Path::new(&out).join("font.ttf"), small).expect("the folder can be written to");
+}
+
+/// A TrueType font without instructions; `None` if it is not built as the format's specification says (OpenType 1.9).
+fn without_instructions(font: &[u8]) -> Option<Vec<u8>> {
+    let mut tables: BTreeMap<&[u8], Vec<u8>> = BTreeMap::new();
+    for k in 0..usize::from(u16_at(font, 4)?) {
+        let entry = font.get(12 + 16 * k..28 + 16 * k)?;
+        let (tag, from) = (&entry[..4], u32_at(entry, 8)? as usize);
+        if KEPT.iter().any(|kept| kept[..] == *tag) {
+            tables.insert(tag, font.get(from..from + u32_at(entry, 12)? as usize)?.to_vec());
+        }
+    }
+    let has_long_offsets = u16_at(&tables[&b"head"[..]], 50)? == 1;
+    let (old, places) = (tables.get(&b"glyf"[..])?, tables.get(&b"loca"[..])?);
+    let place =
+        |k| if has_long_offsets { Some(u32_at(places, 4 * k)?) } else { Some(2 * u32::from(u16_at(places, 2 * k)?)) };
+    let (mut glyphs, mut offsets) = (Vec::new(), vec![0u32]);
+    for k in 0..usize::from(u16_at(&tables[&b"maxp"[..]], 4)?) {
+        glyphs.extend(glyph(old.get(place(k)? as usize..place(k + 1)? as usize)?)?);
+        glyphs.resize(glyphs.len().next_multiple_of(4), 0);
+        offsets.push(glyphs.len() as u32);
+    }
+    tables.insert(b"loca", offsets.iter().flat_map(|at| at.to_be_bytes()).collect());
+    tables.insert(b"glyf", glyphs);
+    tables.get_mut(&b"head"[..])?.splice(50..52, [0, 1]);
+    Some(file(&font[..4], &tables))
+}
+
+/// A glyph without its instructions; one that is composed of others has few, and stays as it is.
+fn glyph(old: &[u8]) -> Option<Vec<u8>> {
+    let contours = u16_at(old, 0).map_or(0, u16::cast_signed);
+    if contours <= 0 {
+        return Some(old.to_vec());
+    }
+    let at = 10 + 2 * contours.cast_unsigned() as usize;
+    let rest = at + 2 + usize::from(u16_at(old, at)?);
+    Some([&old[..at], &[0, 0], old.get(rest..)?].concat())
+}
+
+/// A file of these tables.
+fn file(kind: &[u8], tables: &BTreeMap<&[u8], Vec<u8>>) -> Vec<u8> {
+    let count = tables.len() as u16;
+    let range = 16 << count.ilog2();
+    let mut head = kind.to_vec();
+    head.extend([count, range, count.ilog2() as u16, 16 * count - range].iter().flat_map(|word| word.to_be_bytes()));
+    let (mut body, start) = (Vec::new(), 12 + 16 * tables.len());
+    for (tag, table) in tables {
+        let padded = table.chunks(4).map(|part| [0, 1, 2, 3].map(|k| part.get(k).copied().unwrap_or(0)));
+        let sum = padded.map(u32::from_be_bytes).fold(0, u32::wrapping_add);
+        head.extend_from_slice(tag);
+        head.extend([sum, (start + body.len()) as u32, table.len() as u32].iter().flat_map(|word| word.to_be_bytes()));
+        body.extend_from_slice(table);
+        body.resize(body.len().next_multiple_of(4), 0);
+    }
+    [head, body].concat()
+}
+
+fn u16_at(bytes: &[u8], at: usize) -> Option<u16> {
+    Some(u16::from_be_bytes(bytes.get(at..at + 2)?.try_into().ok()?))
+}
+
+fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?))
+}
