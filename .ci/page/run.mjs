@@ -191,6 +191,17 @@ async function settings() {
     await page.context().close();
 }
 
+/** Notes what the page plays: when, how long and how loud each piece of sound is. */
+function listen() {
+    globalThis.heard = [];
+    const start = AudioBufferSourceNode.prototype.start;
+    AudioBufferSourceNode.prototype.start = function (at) {
+        const loudest = this.buffer.getChannelData(0).reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+        globalThis.heard.push({ at, time: this.buffer.duration, loudest });
+        return start.call(this, at);
+    };
+}
+
 /** Opens the table as a game, from a link. */
 async function openTable(page) {
     await open(page, "?scenario=empty&optics=drawn");
@@ -200,6 +211,7 @@ async function openTable(page) {
 
 async function round() {
     const page = await profile();
+    await page.addInitScript(listen);
     await openTable(page);
     await page.mouse.move(600, 180);
     await page.mouse.down();
@@ -211,6 +223,11 @@ async function round() {
     }
     await page.mouse.up();
     check("round: ends with a score", /^microsim-end-[1-9]\d*\.png$/.test(name), name);
+    const heard = await page.evaluate(() => globalThis.heard);
+    const loudest = Math.max(...heard.map((piece) => piece.loudest));
+    const time = heard.reduce((sum, piece) => sum + piece.time, 0);
+    check("round: is heard", loudest > 0.05 && loudest < 0.6 && time > 1, `${time.toFixed(2)} s, at most ${loudest.toFixed(2)}`);
+    check("round: no sound is played over another", heard.every((piece, k) => k === 0 || piece.at > heard[k - 1].at + 0.99 * heard[k - 1].time));
     await checkPicture("round", await screenshot(page, "end"));
     check("round: the score is kept", /^points = [1-9]/m.test((await kept(page, "scores.toml")) ?? ""));
     await page.locator("#menu summary").click();

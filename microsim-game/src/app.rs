@@ -138,6 +138,7 @@ impl App {
             self.press(input);
         }
         self.screens.update(input, &mut self.context);
+        self.context.speaker.pass(self.context.pace.elapsed);
         if self.screens.is_empty() {
             return false;
         }

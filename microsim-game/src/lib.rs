@@ -4,6 +4,7 @@
 //!
 //! ```text
 //!   input --> screen --> rules, stage --> core            (what is played; `rules` knows no window)
+//!               +--> sound                                     (what is heard of it)
 //!               |
 //!               +--> viewer --> scenery --> draw, microscope   (the scene: a moment of the world, on the screen)
 //!               +--> hud, ui                                   (what lies above it)
@@ -28,6 +29,7 @@ pub mod scene_source;
 pub mod scenery;
 pub mod screen;
 pub mod shot;
+pub mod sound;
 pub mod stage;
 pub mod store;
 pub mod timings;

@@ -2,6 +2,8 @@
 
 const STORE = "microsim/";
 const LONGEST_FILE = 16 << 20;
+/** Seconds by which sound is late, so that a late frame leaves no gap. */
+const DELAY = 0.06;
 
 const encode = (text) => new TextEncoder().encode(text);
 const element = (id) => document.getElementById(id);
@@ -112,6 +114,26 @@ function download(name, bytes) {
     return true;
 }
 
+let audio = null, played = 0;
+
+/** Plays samples after those before, a little later than now: frames come when they come. */
+function playSound(rate, bytes) {
+    if (!navigator.userActivation?.hasBeenActive) return false; // No browser plays before.
+    audio ??= new AudioContext();
+    if (audio.state === "suspended") audio.resume();
+    const samples = new Float32Array(bytes.buffer);
+    if (samples.length === 0) return true;
+    const buffer = audio.createBuffer(1, samples.length, Number(rate));
+    buffer.copyToChannel(samples, 0);
+    const source = audio.createBufferSource();
+    source.buffer = buffer;
+    source.connect(audio.destination);
+    if (played < audio.currentTime) played = audio.currentTime + DELAY;
+    source.start(played);
+    played += buffer.duration;
+    return true;
+}
+
 const fingers = matchMedia("(pointer: coarse)");
 
 function showButtons(areWanted, which) {
@@ -145,6 +167,7 @@ const orders = {
     "print": (_, bytes) => console.log(new TextDecoder().decode(bytes)),
     "rename": rename,
     "show buttons": (which) => showButtons(true, which),
+    "sound": playSound,
 };
 
 let found = new Uint8Array();

@@ -1,4 +1,4 @@
-//! What a desktop and a browser do differently: time, arguments, files, what is kept, the window, and where errors are read.
+//! What a desktop and a browser do differently: time, arguments, files, what is kept, the window, sound, and where errors are read.
 //! Both have the same functions, so nothing else asks which of the two it runs on.
 
 #[cfg(not(target_arch = "wasm32"))]

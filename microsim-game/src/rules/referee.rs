@@ -4,6 +4,9 @@ use microsim_core::glam::Vec2;
 use microsim_core::scenario::Game;
 use microsim_core::{Event, Kind, OrganismId, World};
 
+/// Seconds at the end of a round that are counted aloud.
+const LAST_SECONDS: u32 = 10;
+
 /// Points for one thing that was digested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gain {
@@ -112,6 +115,15 @@ impl Referee {
     #[must_use]
     pub fn time_left(&self) -> f32 {
         self.game.time * (self.steps_left as f32 / self.steps as f32)
+    }
+
+    /// How many seconds are left, if one of the last ten begins with this step, or 0 if it was the last step.
+    #[must_use]
+    pub fn begins_second(&self) -> Option<u32> {
+        let second = self.steps as f32 / self.game.time;
+        let left = |steps: u64| (steps as f32 / second).ceil() as u32;
+        let now = left(self.steps_left);
+        (now < LAST_SECONDS && now != left(self.steps_left + 1)).then_some(now)
     }
 
     /// Whether time is up.

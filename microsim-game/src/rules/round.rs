@@ -1,6 +1,7 @@
 //! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
 use super::referee::{KindScore, Referee};
+use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
 use microsim_core::{Inputs, Intent, Kind, MealPhase, OrganismId, World};
@@ -95,6 +96,13 @@ impl Round {
             },
         }
         self.referee.after_step(&self.course.run().world);
+    }
+
+    /// What the player hears of the last step: what its cell does, the last seconds, and the end.
+    pub fn heard(&self) -> impl Iterator<Item = Cue> + '_ {
+        let events = self.world().events().iter().filter_map(|event| Cue::of(event, Some(self.player)));
+        let time = self.referee.begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
+        events.chain(time)
     }
 
     /// Whether time is up, or the replay ends.

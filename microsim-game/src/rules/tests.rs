@@ -3,6 +3,7 @@
 use super::bot::{Bot, Policy};
 use super::hint::{Hints, MealState, Readiness};
 use super::round::Round;
+use crate::sound::Cue;
 use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::{Scenario, builtin};
@@ -315,4 +316,15 @@ fn the_rules_know_no_window() {
         let forbidden = concat!("macro", "quad");
         assert!(!text.contains(forbidden), "{}", path.display());
     }
+}
+
+#[test]
+fn the_player_hears_what_its_cell_does_the_last_nine_seconds_and_the_end() {
+    let mut heard = Vec::new();
+    let round = play(Policy::Greedy, 3, 30.0, |round| heard.extend(round.heard()));
+    let count = |cue: Cue| heard.iter().filter(|&&other| other == cue).count();
+    assert_eq!((count(Cue::Second), count(Cue::End)), (9, 1));
+    let eaten: u32 = round.referee().kinds().iter().map(|(_, entry)| entry.count).sum();
+    assert!(eaten > 0 && count(Cue::Digest) == eaten as usize, "{eaten} eaten: {heard:?}");
+    assert!(count(Cue::Engulf) >= count(Cue::Ingest) && count(Cue::Ingest) >= count(Cue::Digest));
 }

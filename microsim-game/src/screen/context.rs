@@ -3,9 +3,11 @@
 use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
+use crate::platform::Speaker;
 use crate::rules::game::GameChoice;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
+use crate::sound::Cue;
 use crate::stage::Stage;
 use crate::store::files::PlayerFolder;
 use crate::store::scores::Scores;
@@ -42,6 +44,8 @@ pub struct AppContext {
     pub scenery: Scenery,
     /// Draws above it.
     pub pen: Pen,
+    /// Plays what is heard.
+    pub speaker: Speaker,
     /// Where settings and scores are kept.
     pub store: PlayerFolder,
     /// What the player has chosen.
@@ -79,6 +83,7 @@ impl AppContext {
         let mut context = Self {
             scenery: Scenery::new(),
             pen: Pen::new(),
+            speaker: Speaker::default(),
             store,
             kept_settings: settings.clone(),
             settings,
@@ -109,6 +114,14 @@ impl AppContext {
         }
         let time = (READING_TIME * text.len() as f32).clamp(MESSAGE_TIME, LONGEST_TIME);
         self.message = Some((text, self.time + time));
+    }
+
+    /// Plays what was heard in this frame, unless frames are made for pictures.
+    pub fn play(&mut self, heard: &[Cue]) {
+        let loudness = self.settings.loudness();
+        if loudness > 0.0 && !self.pace.is_exact {
+            heard.iter().for_each(|&cue| self.speaker.play(cue, loudness));
+        }
     }
 
     /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.

@@ -7,6 +7,7 @@ use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
+use crate::sound::Cue;
 use crate::viewer::{Viewer, first_view};
 use macroquad::miniquad;
 use microsim_core::Intent;
@@ -23,6 +24,8 @@ pub(super) struct Play {
     round: Round,
     viewer: Viewer,
     gains: marks::Gains,
+    /// What was heard in this frame.
+    heard: Vec<Cue>,
     /// Area of the cell at the beginning, and what the camera has made of its growth.
     first_area: f32,
     grown: f32,
@@ -55,7 +58,7 @@ impl Play {
         let camera = first_view(world, Some(round.player()), VIEW, context.pen.screen());
         let first_area = world.view().organism(round.player()).map_or(1.0, |cell| cell.cytoplasm_area());
         let viewer = Viewer::new(world, camera);
-        Self { round, viewer, gains: marks::Gains::default(), first_area, grown: 1.0 }
+        Self { round, viewer, gains: marks::Gains::default(), heard: Vec::new(), first_area, grown: 1.0 }
     }
 
     fn paused(&self) -> Paused {
@@ -70,9 +73,11 @@ impl Play {
 
     fn run(&mut self, input: &Input, context: &AppContext) {
         let intent = self.intent(input, context);
-        let Self { round, viewer, gains, .. } = self;
+        let Self { round, viewer, gains, heard, .. } = self;
+        heard.clear();
         viewer.run(context.pace, 1.0, round, |round| {
             round.step(intent);
+            heard.extend(round.heard());
             gains.add(round.referee().gains());
             round.world()
         });
@@ -116,6 +121,7 @@ impl Screen for Play {
             return self.paused().restart();
         }
         self.run(input, context);
+        context.play(&self.heard);
         self.look(input, context);
         if self.round.is_over() {
             return Next::Open(Overlay::End(Box::new(self.round.result())));

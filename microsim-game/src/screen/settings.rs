@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::page::MenuPage;
 use super::{Next, Overlay, Screen};
 use crate::input::{Input, Move};
+use crate::sound::Cue;
 use crate::ui::menu::{MenuChoice, MenuItem};
 
 #[derive(Debug)]
@@ -16,9 +17,10 @@ const EFFORT: usize = 1;
 const TEXT: usize = 2;
 const MOTION: usize = 3;
 const DIGESTION: usize = 4;
-const ARROWS: usize = 5;
-const FULL_SCREEN: usize = 6;
-const KEYS: usize = 7;
+const SOUND: usize = 5;
+const ARROWS: usize = 6;
+const FULL_SCREEN: usize = 7;
+const KEYS: usize = 8;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
@@ -34,6 +36,7 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
         MenuItem::switch("Reduced motion", settings.reduced_motion),
         MenuItem::switch("Hold to digest", settings.hold_to_digest),
+        MenuItem::with("Sound", format!("{:.0} %", 100.0 * settings.loudness())),
         MenuItem::switch("Classic arrows", settings.classic_arrows),
         MenuItem::switch("Full screen", settings.full_screen),
         MenuItem::new("Keys"),
@@ -59,12 +62,17 @@ impl Screen for SettingsMenu {
             MenuChoice::Less(TEXT) => settings.change_text_size(-1),
             MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
             MenuChoice::Pick(DIGESTION) | MenuChoice::Less(DIGESTION) => settings.hold_to_digest ^= true,
+            MenuChoice::Pick(SOUND) => settings.change_sound(true),
+            MenuChoice::Less(SOUND) => settings.change_sound(false),
             MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
             MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
             MenuChoice::Pick(KEYS) => return Next::Open(Overlay::Keys),
             _ => return Next::Back,
         }
         self.page.menu.items = items(context);
+        if let MenuChoice::Pick(SOUND) | MenuChoice::Less(SOUND) = choice {
+            context.play(&[Cue::Digest]);
+        }
         context.save_settings();
         Next::Stay
     }

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub const FILE: &str = "settings.toml";
 /// Sizes of text, relative to the usual one.
 const TEXT_SIZES: [f32; 4] = [0.85, 1.0, 1.25, 1.5];
+/// Steps from silence to the full loudness.
+const SOUND_STEPS: usize = 4;
 
 /// What the player has chosen. Each has a default, so that files of other versions can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +22,8 @@ pub struct Settings {
     pub reduced_motion: bool,
     /// Food is digested only while a key is held, as in the seed; otherwise as soon as it is inside.
     pub hold_to_digest: bool,
+    /// Which of the steps from silence to the full loudness.
+    pub sound: usize,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
     pub classic_arrows: bool,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
@@ -38,6 +42,7 @@ impl Default for Settings {
             text_size: 1,
             reduced_motion: false,
             hold_to_digest: false,
+            sound: 3,
             classic_arrows: false,
             sight: String::new(),
             effort: Effort::default(),
@@ -54,12 +59,13 @@ impl Settings {
         fn newer<T: PartialEq>(own: T, earlier: &T, other: T) -> T {
             if own == *earlier { other } else { own }
         }
-        let Self { text_size, reduced_motion, hold_to_digest, classic_arrows, sight, effort, full_screen, keys } =
+        let Self { text_size, reduced_motion, hold_to_digest, sound, classic_arrows, sight, effort, full_screen, keys } =
             earlier;
         Self {
             text_size: newer(self.text_size, text_size, others.text_size),
             reduced_motion: newer(self.reduced_motion, reduced_motion, others.reduced_motion),
             hold_to_digest: newer(self.hold_to_digest, hold_to_digest, others.hold_to_digest),
+            sound: newer(self.sound, sound, others.sound),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
             sight: newer(self.sight, sight, others.sight),
             effort: newer(self.effort, effort, others.effort),
@@ -78,6 +84,18 @@ impl Settings {
     #[must_use]
     pub fn text_factor(&self) -> f32 {
         TEXT_SIZES[self.text_size.min(TEXT_SIZES.len() - 1)]
+    }
+
+    /// Loudness of what is heard, 0 to 1.
+    #[must_use]
+    pub fn loudness(&self) -> f32 {
+        self.sound.min(SOUND_STEPS) as f32 / SOUND_STEPS as f32
+    }
+
+    /// A step louder, and silent after the loudest; or one less loud, and the loudest after silence.
+    pub fn change_sound(&mut self, is_louder: bool) {
+        let by = if is_louder { 1 } else { SOUND_STEPS };
+        self.sound = (self.sound.min(SOUND_STEPS) + by) % (SOUND_STEPS + 1);
     }
 
     /// The next size of text, or the one before.
@@ -107,6 +125,19 @@ mod tests {
         let held = Settings { hold_to_digest: true, ..Settings::default() };
         assert_eq!([&free, &holding].map(|input| Settings::default().digests(input)), [true, true]);
         assert_eq!([&free, &holding].map(|input| held.digests(input)), [false, true]);
+    }
+
+    #[test]
+    fn sound_goes_from_silence_to_full_and_round_again() {
+        let mut settings = Settings { sound: 99, ..Settings::default() };
+        assert_eq!(settings.loudness(), 1.0);
+        settings.change_sound(true);
+        assert_eq!(settings.loudness(), 0.0);
+        settings.change_sound(true);
+        assert_eq!(settings.loudness(), 0.25);
+        settings.change_sound(false);
+        settings.change_sound(false);
+        assert_eq!(settings.loudness(), 1.0);
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! A desktop: files, a command line, standard error.
 
+mod speaker;
 mod storage;
 mod window;
 
+pub use speaker::Speaker;
 pub use storage::Storage;
 pub(crate) use window::run;
 

@@ -1,8 +1,10 @@
 //! A page in a browser: the address in place of a command line, downloads, values in its own storage.
 
 mod host;
+mod speaker;
 mod storage;
 
+pub use speaker::Speaker;
 pub use storage::Storage;
 
 use super::ScreenButtons;

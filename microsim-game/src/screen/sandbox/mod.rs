@@ -9,6 +9,7 @@ use super::context::AppContext;
 use super::{Next, Overlay, Paused, Screen};
 use crate::draw::palette::HALO;
 use crate::input::{Action, Input, Move};
+use crate::sound::Cue;
 use crate::stage::Stage;
 use crate::ui::font::TextSize;
 use crate::ui::menu::Menu;
@@ -33,6 +34,8 @@ pub(super) struct Sandbox {
     tools: Tools,
     panel: Menu,
     plots: Plots,
+    /// What was heard in this frame.
+    heard: Vec<Cue>,
     speed: usize,
     shows: Shows,
     is_paused: bool,
@@ -53,7 +56,8 @@ impl Sandbox {
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
         let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
         let (tools, plots) = (Tools::default(), Plots::default());
-        let mut sandbox = Self { stage, viewer, tools, panel, plots, speed: USUAL_SPEED, shows, is_paused: false };
+        let (heard, speed) = (Vec::new(), USUAL_SPEED);
+        let mut sandbox = Self { stage, viewer, tools, panel, plots, heard, speed, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
         sandbox
     }
@@ -88,12 +92,18 @@ impl Sandbox {
         self.measure();
     }
 
-    fn run(&mut self, context: &AppContext) {
+    fn run(&mut self, context: &mut AppContext) {
         if self.is_paused {
             return;
         }
-        let tools = &self.tools;
-        self.viewer.run(context.pace, SPEEDS[self.speed], &mut self.stage, |stage| tools.step(stage));
+        let Self { tools, heard, .. } = self;
+        heard.clear();
+        self.viewer.run(context.pace, SPEEDS[self.speed], &mut self.stage, |stage| {
+            let world = tools.step(stage);
+            heard.extend(world.events().iter().filter_map(|event| Cue::of(event, None)));
+            world
+        });
+        context.play(&self.heard);
         self.measure();
     }
 

@@ -1,0 +1,65 @@
+//! Sound that arrives at a real server; `.ci/sound` starts one.
+#![cfg(target_os = "linux")]
+
+use microsim_game::platform::Speaker;
+use microsim_game::sound::{Cue, Mixer, RATE};
+use std::fs::File;
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::Duration;
+
+/// The samples of a cue, from the first that is heard to the last.
+fn samples_of(cue: Cue) -> Vec<f32> {
+    let (mut mixer, mut samples) = (Mixer::default(), vec![0.0; 2 * RATE as usize]);
+    mixer.play(cue, 1.0);
+    mixer.fill(&mut samples);
+    trimmed(&samples).to_vec()
+}
+
+fn is_heard(sample: &f32) -> bool {
+    sample.abs() > 1e-3
+}
+
+fn trimmed(samples: &[f32]) -> &[f32] {
+    let (first, last) = (samples.iter().position(is_heard), samples.iter().rposition(is_heard));
+    first.zip(last).map_or(&[], |(first, last)| &samples[first..=last])
+}
+
+/// What the server plays while cues are played to it, one after the other.
+fn recorded(cues: &[Cue]) -> Vec<f32> {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("heard.raw");
+    let arguments =
+        ["--device=microsim.monitor", "--format=float32le", "--rate=48000", "--channels=1", "--latency-msec=20"];
+    let mut recorder = Command::new("parec").args(arguments).stdout(File::create(&file).unwrap()).spawn().unwrap();
+    let mut speaker = Speaker::default();
+    // The first one wakes the server, which takes two seconds without a device.
+    speaker.play(Cue::Fuse, 0.0);
+    sleep(Duration::from_secs(3));
+    for &cue in cues {
+        speaker.play(cue, 1.0);
+        sleep(Duration::from_secs(2));
+    }
+    recorder.kill().unwrap();
+    recorder.wait().unwrap();
+    let bytes = std::fs::read(file).unwrap();
+    bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+}
+
+#[test]
+#[ignore = "needs a server of sound, see .ci/sound"]
+fn what_the_server_plays_is_what_was_mixed() {
+    let cues = [Cue::Second, Cue::Ingest, Cue::End];
+    let heard = recorded(&cues);
+    let mut rest = &heard[..];
+    for cue in cues {
+        let mixed = samples_of(cue);
+        let Some(first) = rest.iter().position(is_heard) else { panic!("{cue:?} is not heard") };
+        let worst = mixed.iter().zip(&rest[first..]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        // The server's samples have 16 bits.
+        assert!(worst < 1e-3, "{cue:?}: {worst}");
+        println!("{cue:?}: none of {} samples differs by more than {worst:.1e}", mixed.len());
+        rest = &rest[first + mixed.len() + RATE as usize / 10..];
+    }
+    assert!(!rest.iter().any(is_heard), "nothing else is heard");
+}
