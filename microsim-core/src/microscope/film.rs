@@ -62,7 +62,7 @@ impl Film {
         glare: 0.035,
         gradient: 0.025,
         dust: 0.14,
-        sharpening: 0.6,
+        sharpening: 0.25,
     };
 
     /// Checks every number.

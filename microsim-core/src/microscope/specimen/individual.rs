@@ -4,7 +4,7 @@
 use super::polar_outline::PolarOutline;
 use crate::geometry::{rotate, unit_vector};
 use crate::look::{Inclusion, OutlineLook, RoundLook};
-use crate::microscope::maths::{bell, larger};
+use crate::microscope::maths::{bell, larger, smaller};
 use crate::microscope::matter::Matter;
 use crate::microscope::noise::HashRng;
 use glam::{Mat2, Vec2};
@@ -159,7 +159,7 @@ impl Region {
         // One or two things are what they are said to be.
         let spread = if inclusion.count[1] > 3 { 0.45 } else { 0.0 };
         let mut own = |spread: f32| libm::expf(spread * rng.normal());
-        Self { at, spread: spread * own(0.5), size: own(0.5 * spread), dense: own(0.4 * spread) }
+        Self { at, spread: spread * own(0.5), size: own(0.5 * spread), dense: smaller(own(0.4 * spread), 1.0) }
     }
 }
 
