@@ -1,8 +1,8 @@
 // Keeps the page for when there is no network. `@VERSION@` is a hash of all files: another version is another cache.
 
 const CACHE = "microsim-@VERSION@";
-// Of the two programs the one that this browser runs.
-const PROGRAM = location.search.slice(1);
+// Of the two programs the one that this browser runs; pages of before did not say.
+const PROGRAM = location.search.slice(1) || "game.wasm";
 const FILES = ["./", "start.js", "host.js", "link.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png"];
 
 addEventListener("install", (event) => {

@@ -8,7 +8,7 @@ const canvasElement = element("glcanvas");
 
 /** A program of one 128-bit instruction, which only browsers that have those accept. */
 const WIDE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11]);
-const isWide = WebAssembly.validate(WIDE) && new URLSearchParams(location.search).get("simd") !== "no";
+const isWide = globalThis.WebAssembly?.validate(WIDE) && new URLSearchParams(location.search).get("simd") !== "no";
 const PROGRAM = isWide ? "game-simd.wasm" : "game.wasm";
 
 /** A response whose reading moves the progress bar. */

@@ -38,8 +38,10 @@ fn main() -> Outcome<()> {
     for _ in 0..count {
         crops.push(draw::ours(&mut rng)?);
     }
-    if let [references] = references {
-        crops.extend(crop::references(Path::new(references), count, &mut rng)?);
+    match references {
+        [] => {}
+        [references] => crops.extend(crop::references(Path::new(references), count, &mut rng)?),
+        _ => return Err(usage.into()),
     }
     for last in (1..crops.len()).rev() {
         crops.swap(last, pick(&mut rng, last + 1));

@@ -31,7 +31,7 @@ pub struct Film {
     pub gradient: f32,
     /// Deepest shadow of dust near the sensor, as a share of the light, 0 to 1.
     pub dust: f32,
-    /// Sharpening by an unsharp mask: share of the difference that is added, 0 to 2.
+    /// Sharpening by an unsharp mask along rows and then along columns: share of the difference that is added each time, 0 to 2.
     pub sharpening: f32,
 }
 

@@ -22,6 +22,7 @@ pub fn missed(result: &RoundResult) -> Option<String> {
         (0, Some(0), Some(0) | None) => {
             Some("Nothing was taken in: crawl with your front against food, and stay on it.".to_owned())
         }
+        (0, None, Some(0)) => Some("No rigid cell: take one under a green arrow.".to_owned()),
         (0, _, Some(0)) => {
             Some("No rigid cell: they count most. Grow on small food, then take one under a green arrow.".to_owned())
         }
@@ -60,6 +61,8 @@ mod tests {
         assert_eq!(missed(&result(0, 5, 1)), None);
         let no_rigid = RoundResult { kinds: result(0, 5, 0).kinds[..1].to_vec(), ..result(0, 5, 0) };
         assert_eq!(missed(&no_rigid), None, "this game has none");
+        let no_small = RoundResult { kinds: result(0, 0, 0).kinds[1..].to_vec(), ..result(0, 0, 0) };
+        assert!(missed(&no_small).is_some_and(|said| !said.contains("small")), "this game has nothing small");
     }
 
     #[test]

@@ -30,7 +30,8 @@ pub(super) struct End {
     best: Vec<Score>,
     place: Option<usize>,
     missed: Option<String>,
-    goal: String,
+    /// None after a replay.
+    goal: Option<String>,
     menu: Menu,
     since: f32,
     /// Whether the hand that steered has let go since, and then moved: before that a click picks nothing.
@@ -49,7 +50,7 @@ impl End {
             of_kind.map(|(_, entry)| entry.count).sum()
         };
         let score = Score { game: game.clone(), time, points, small: count(false), rigid: count(true) };
-        let (mut place, mut best) = (None, Vec::new());
+        let (mut place, mut best, is_own) = (None, Vec::new(), record.is_some());
         if let Some(record) = record {
             let (found, kept) = context.scores.add(score, &context.store);
             place = found;
@@ -63,7 +64,7 @@ impl End {
         let doubt = if is_mismatch { ", not as it was played" } else { "" };
         let heading = format!("{points} points{doubt}");
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
-        let goal = verdict::next_goal(points, better);
+        let goal = is_own.then(|| verdict::next_goal(points, better));
         Self {
             heading,
             points,
@@ -104,11 +105,11 @@ fn plain_name(kind: Kind) -> &'static str {
 impl Screen for End {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         self.since += context.pace.elapsed;
+        self.has_let_go |= !input.is_held;
+        self.has_moved |= self.has_let_go && input.has_moved;
         if self.since < DELAY {
             return Next::Stay;
         }
-        self.has_let_go |= !input.is_held;
-        self.has_moved |= self.has_let_go && input.has_moved;
         let input = &Input { is_clicked: input.is_clicked && self.has_moved, ..input.clone() };
         if input.presses(Action::Restart) {
             return Next::Show(MainScreen::Round);
@@ -135,13 +136,15 @@ impl Screen for End {
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(TextSize::Large));
             pen.write(below, TextSize::Body, Align::Centre, READY, &text);
         }
-        let told = [self.missed.as_deref(), Some(self.goal.as_str())].into_iter().flatten();
-        for (k, text) in told.enumerate() {
-            let at = Vec2::new(0.5 * screen.x, (MENU_TOP - 0.02) * screen.y - line * (1.7 - k as f32));
-            pen.write(at, TextSize::Small, Align::Centre, HALO, text);
+        let told = [self.missed.as_deref(), self.goal.as_deref()].into_iter().flatten();
+        let told: Vec<String> = told.flat_map(|text| pen.wrap(TextSize::Small, text, 0.94 * screen.x)).collect();
+        let small = pen.line(TextSize::Small);
+        let first = (MENU_TOP - 0.02) * screen.y - small * (told.len() as f32 - 0.3);
+        for (k, text) in told.iter().enumerate() {
+            pen.write(Vec2::new(0.5 * screen.x, first + small * k as f32), TextSize::Small, Align::Centre, HALO, text);
         }
         self.draw_kinds(pen, 0.28 * screen.y + line);
-        draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], MENU_TOP * screen.y, &self.best, self.place);
+        draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
         self.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
     }
 
