@@ -46,20 +46,28 @@ fn recorded(cues: &[Cue]) -> Vec<f32> {
     bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
 }
 
+/// Says how what was heard differs from what was mixed.
+fn compare(cues: &[Cue], heard: &[f32]) -> Result<(), String> {
+    let mut rest = heard;
+    for &cue in cues {
+        let mixed = samples_of(cue);
+        let first = rest.iter().position(is_heard).ok_or_else(|| format!("{cue:?} is not heard"))?;
+        let worst = mixed.iter().zip(&rest[first..]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        // The server's samples have 16 bits.
+        if worst > 1e-3 {
+            return Err(format!("{cue:?}: a sample differs by {worst}"));
+        }
+        println!("{cue:?}: none of {} samples differs by more than {worst:.1e}", mixed.len());
+        rest = rest.get(first + mixed.len() + RATE as usize / 10..).unwrap_or_default();
+    }
+    if rest.iter().any(is_heard) { Err("more is heard".to_owned()) } else { Ok(()) }
+}
+
 #[test]
 #[ignore = "needs a server of sound, see .ci/sound"]
 fn what_the_server_plays_is_what_was_mixed() {
     let cues = [Cue::Second, Cue::Ingest, Cue::End];
-    let heard = recorded(&cues);
-    let mut rest = &heard[..];
-    for cue in cues {
-        let mixed = samples_of(cue);
-        let Some(first) = rest.iter().position(is_heard) else { panic!("{cue:?} is not heard") };
-        let worst = mixed.iter().zip(&rest[first..]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-        // The server's samples have 16 bits.
-        assert!(worst < 1e-3, "{cue:?}: {worst}");
-        println!("{cue:?}: none of {} samples differs by more than {worst:.1e}", mixed.len());
-        rest = &rest[first + mixed.len() + RATE as usize / 10..];
-    }
-    assert!(!rest.iter().any(is_heard), "nothing else is heard");
+    // A machine that is busy with something else may be late once.
+    let problems: Vec<String> = (0..3).map_while(|_| compare(&cues, &recorded(&cues)).err()).collect();
+    assert!(problems.len() < 3, "{problems:#?}");
 }
