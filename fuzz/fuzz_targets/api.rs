@@ -1,6 +1,6 @@
 #![no_main]
 
-#[path = "../../microsim-core/tests/common/sequence.rs"]
+#[path = "../../microsim-core/tests/common/sequence/mod.rs"]
 mod sequence;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

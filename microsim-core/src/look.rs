@@ -97,7 +97,7 @@ pub(crate) struct RoundLook {
     pub profile: Profile,
     /// Where the body is thickest.
     pub matter: Matter,
-    /// Largest share by which one individual is thicker or thinner than another.
+    /// Standard deviation of the logarithm of an individual's thickness.
     pub variation: f32,
     pub texture: Texture,
     pub outline: OutlineLook,
@@ -125,7 +125,7 @@ impl RoundLook {
 pub(crate) struct OutlineLook {
     /// Standard deviation of the logarithm of their size.
     pub size: f32,
-    /// Median size of the wave of order 2 and of that of order 3 around the outline; if the first is 0, there are none.
+    /// Median size of the wave of order 2 and of that of order 3 around the outline; if the first is 0, the outline is the body's.
     pub waves: [f32; 2],
     /// Power of the order by which higher ones are smaller, and standard deviation of the logarithm of all.
     pub decay: f32,
@@ -173,7 +173,7 @@ pub(crate) struct Texture {
 pub(crate) struct Inclusion {
     /// Fewest and most.
     pub count: [u32; 2],
-    /// Smallest and largest radius.
+    /// Smallest and largest radius, before the size of the region in which it lies.
     pub radius: [f32; 2],
     /// Nearest and farthest from the centre, `rho`.
     pub place: [f32; 2],

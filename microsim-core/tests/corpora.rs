@@ -3,7 +3,7 @@
 //! `cargo test -p microsim-core --features scenario,snapshot --test corpora -- --ignored` writes the seeds anew.
 #![cfg(all(feature = "scenario", feature = "snapshot"))]
 
-#[path = "common/sequence.rs"]
+#[path = "common/sequence/mod.rs"]
 mod sequence;
 #[path = "../../fuzz/src/targets.rs"]
 mod targets;

@@ -4,7 +4,7 @@
 #![cfg(feature = "snapshot")]
 #![allow(clippy::disallowed_methods, reason = "how many sequences there are is asked of the environment")]
 
-#[path = "common/sequence.rs"]
+#[path = "common/sequence/mod.rs"]
 mod sequence;
 
 use microsim_core::Rng;

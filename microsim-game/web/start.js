@@ -13,7 +13,8 @@ const PROGRAM = isWide ? "game-simd.wasm" : "game.wasm";
 
 /** A response whose reading moves the progress bar. */
 function counted(response) {
-    const total = Number(document.documentElement.dataset.bytes) || 4e6;
+    const { bytes, simdBytes } = document.documentElement.dataset;
+    const total = Number(isWide ? simdBytes : bytes) || 4e6;
     let done = 0;
     const counter = new TransformStream({
         transform(chunk, controller) {

@@ -29,6 +29,9 @@ pub(crate) fn references(folder: &Path, count: usize, rng: &mut Rng) -> Outcome<
         let bytes = (0..SIDE).flat_map(|y| pixels[row(y)].to_vec()).collect();
         crops.push(Crop { bytes, origin: format!("real {} {left} {top}", files[file].display()) });
     }
+    if crops.len() < count {
+        return Err(format!("no PNG file of at least {SIDE} x {SIDE} pixels in {}", folder.display()).into());
+    }
     Ok(crops)
 }
 

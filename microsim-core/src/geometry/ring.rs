@@ -40,6 +40,15 @@ pub fn ellipse(radii: Vec2, count: usize) -> Vec<Vec2> {
         .collect()
 }
 
+/// Radius of a ring of `count` equal discs that touch their neighbours and together reach as far as 1, and radius of a disc.
+///
+/// With `s = sin(pi / count)` discs at the radius `R` have the radius `R s`, and `R + R s` is 1.
+pub(crate) fn touching_ring(count: usize) -> [f32; 2] {
+    let half_angle_sine = unit_vector(std::f32::consts::PI / count as f32).y;
+    let ring_radius = 1.0 / (1.0 + half_angle_sine);
+    [ring_radius, ring_radius * half_angle_sine]
+}
+
 /// The index of the point nearest to `target`; the lowest such index if several are.
 ///
 /// `None` if there are no points. Points at a NaN distance are passed over.
@@ -126,6 +135,16 @@ fn mirrored(point: Vec2, quadrant: usize) -> Vec2 {
 mod tests {
     use super::super::{is_simple, signed_area};
     use super::*;
+
+    #[test]
+    fn discs_of_a_touching_ring_touch_and_reach_as_far_as_1() {
+        for count in [3, 8, 28, 64] {
+            let [ring_radius, disc_radius] = touching_ring(count);
+            let points = ellipse(Vec2::splat(ring_radius), count);
+            assert!((points[0].distance(points[1]) / (2.0 * disc_radius) - 1.0).abs() < 1e-5, "{count}");
+            assert!((ring_radius + disc_radius - 1.0).abs() < 1e-6, "{count}");
+        }
+    }
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
     use glam::vec2;
     use proptest::prelude::*;

@@ -11,7 +11,7 @@ uniform vec4 glare;
 // By how much the light grows from the middle on.
 uniform vec2 gradient;
 // Shadows of dust: place, radius, depth.
-uniform vec4 shadows[3];
+uniform vec4 shadows[SHADOWS];
 // From the picture's pixels to the image: scale, where its lower edge is; one pixel of the image upwards.
 uniform vec4 image;
 uniform float reach;
@@ -47,7 +47,7 @@ vec3 grain_at(vec3 seen) {
 float shaded(vec2 from_middle) {
     vec2 place = vec2(from_middle.x, -from_middle.y);
     float light = 1.0 + dot(gradient, place);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < SHADOWS; k++) {
         vec2 apart = place - shadows[k].xy;
         float inside = max(1.0 - dot(apart, apart) / (shadows[k].z * shadows[k].z), 0.0);
         light *= 1.0 - shadows[k].w * inside * inside;

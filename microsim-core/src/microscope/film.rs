@@ -27,7 +27,7 @@ pub struct Film {
     pub blotches: f32,
     /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
     pub glare: f32,
-    /// Share by which the light falls off from one side to the other, standard deviation, 0 to 0.5.
+    /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis, 0 to 0.5.
     pub gradient: f32,
     /// Deepest shadow of dust near the sensor, as a share of the light, 0 to 1.
     pub dust: f32,
@@ -163,7 +163,7 @@ const COARSE: f32 = 0.4;
 const BLOTCHES: [f32; 3] = [0.7, 0.5, 2.4];
 const BLOTCH_SIZE: f32 = 2.6;
 /// Shadows of dust.
-const SHADOWS: usize = 3;
+pub(super) const SHADOWS: usize = 3;
 /// Standard deviation of the unsharp mask, pixels of the picture.
 pub(super) const MASK: f32 = 1.3;
 

@@ -1,5 +1,5 @@
 //! The surround wave: what the wave behind the specimen is without its details. Phase contrast and dark field set it
-//! against the wave itself; how far it reaches is the width of the halo.
+//! against the wave itself; how far it reaches is the width of the halo. The haze of fluorescence reaches as far.
 
 use super::glsl::Glsl;
 use super::maths::larger;

@@ -11,7 +11,7 @@
 use super::blueprint::Blueprint;
 use super::spec::{Spec, SpecTable};
 use crate::error::Error;
-use crate::geometry::ring::{ellipse, unit_vector};
+use crate::geometry::ring::{ellipse, touching_ring};
 use crate::kind::Kind;
 use crate::look::{Inclusion, Look, Matter, OutlineLook, Profile, RoundLook, SpotShape, Texture};
 use crate::particle::CollisionGroups;
@@ -130,10 +130,7 @@ impl Spec for PlateletSpec {
 impl PlateletSpec {
     /// The platelet of outer radius 1.
     fn template(&self) -> Result<Template, Error> {
-        // Neighbouring satellites touch: r = R sin(pi / n), and R + r = 1.
-        let half_angle_sine = unit_vector(std::f32::consts::PI / self.satellites as f32).y;
-        let ring_radius = 1.0 / (1.0 + half_angle_sine);
-        let satellite_radius = ring_radius * half_angle_sine;
+        let [ring_radius, satellite_radius] = touching_ring(self.satellites as usize);
         let mut builder = Template::builder();
         let core = Core::add(&mut builder, self.core_mass, ring_radius - (1.0 + INTERLAYER_GAP) * satellite_radius);
         let satellite = |position| Node { role: Role::Membrane, ..Node::disc(position, 1.0, satellite_radius) };

@@ -14,7 +14,7 @@
 use super::blueprint::Blueprint;
 use super::spec::{Spec, SpecTable};
 use crate::error::Error;
-use crate::geometry::ring::{ellipse, unit_vector};
+use crate::geometry::ring::{ellipse, touching_ring};
 use crate::geometry::signed_area;
 use crate::kind::Kind;
 use crate::look::{Look, Matter, OutlineLook, Profile, RoundLook, Texture, WAVE};
@@ -125,14 +125,12 @@ impl Spec for RedCellSpec {
 impl RedCellSpec {
     /// The cell of outer radius 1 and mass 1.
     fn template(&self) -> Result<Template, Error> {
-        // Neighbouring satellites touch: r = R sin(pi / n), and R + r = 1.
         let count = self.satellites as usize;
-        let half_angle_sine = unit_vector(std::f32::consts::PI / count as f32).y;
-        let ring_radius = 1.0 / (1.0 + half_angle_sine);
+        let [ring_radius, satellite_radius] = touching_ring(count);
         let points = ellipse(Vec2::splat(ring_radius), count);
         // Slippery, as in plasma.
         let material = Material { friction: 0.02, restitution: 0.0 };
-        let disc = |at| Node::disc(at, 1.0 / count as f32, ring_radius * half_angle_sine);
+        let disc = |at| Node::disc(at, 1.0 / count as f32, satellite_radius);
         let mut builder = Template::builder();
         let node = |at| Node { role: Role::Membrane, material, ..disc(at) };
         let ring: Vec<u32> = points.iter().map(|&at| builder.node(node(at))).collect();

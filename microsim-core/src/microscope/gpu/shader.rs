@@ -1,5 +1,6 @@
 //! The GLSL of each program, and the uniforms and textures that it is fed.
 
+use crate::microscope::film::SHADOWS;
 use crate::microscope::glsl::Glsl;
 use crate::microscope::optics::{Shader, sampler};
 use crate::microscope::recipe::{GlslSource, Program};
@@ -40,7 +41,7 @@ const FILM: Uniforms = &[
     ("parts", 2, 3),
     ("glare", 4, 1),
     ("gradient", 2, 1),
-    ("shadows", 4, 3),
+    ("shadows", 4, SHADOWS),
     ("image", 4, 1),
     ("reach", 1, 1),
     ("weights", 1, LONGEST),
@@ -141,7 +142,7 @@ impl Program {
     pub fn source(self) -> GlslSource {
         let mut head = "#version 100\nprecision highp float;\nprecision highp int;\n".to_owned();
         self.switches().iter().for_each(|word| _ = writeln!(head, "#define {word}"));
-        _ = writeln!(head, "#define LONGEST {LONGEST}\n#define LOBES {}", amoeboid::LOBES);
+        _ = writeln!(head, "#define LONGEST {LONGEST}\n#define SHADOWS {SHADOWS}\n#define LOBES {}", amoeboid::LOBES);
         _ = writeln!(head, "const float WAVE_RANGE = {WAVE_RANGE:?};\nconst float LIGHT_RANGE = {LIGHT_RANGE:?};");
         let (mut vertex, mut fragment) = (format!("{head}#define VERTEX\n"), head);
         self.pieces().into_iter().for_each(|piece| piece.write(&mut fragment));

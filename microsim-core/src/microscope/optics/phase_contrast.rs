@@ -2,7 +2,8 @@
 //! that the specimen scattered (Zernike 1942). Halo and shade-off come by themselves: the phase plate cannot tell the
 //! surround wave from light that the specimen scatters a little. The width of the halo is `HALO_WIDTH` in `surround_wave`.
 //!
-//! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast.
+//! `I = |D + T (S_y, -S_x)|^2 / T^2` with the scattered wave `D = E - S`; `-T` for negative contrast. A share `LEAK` of
+//! the background is added, and light brighter than the background is bent by `SHOULDER`, as a camera does.
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;

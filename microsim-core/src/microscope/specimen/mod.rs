@@ -33,7 +33,7 @@ use thread::Thread;
 const ROD_STEP: f32 = 0.4;
 /// Farthest that anything of an organism reaches beyond its bounds: share of their longer side, and micrometres. Fibres and
 /// cilia do, and outlines that are made uneven.
-const BEYOND: [f32; 2] = [0.25, 6.0];
+const BEYOND: [f32; 2] = [0.7, 6.0];
 /// Pixels over which small things are spread.
 const BLUR: f32 = 3.0;
 

@@ -211,7 +211,8 @@ impl RoundBody {
             let rho = rng.range([nearest * nearest, farthest * farthest]).sqrt();
             let anywhere = rng.direction() * rho;
             let near = region.at + rng.direction() * (region.spread * rng.normal());
-            let at = if rng.unit() < CLUSTERED && near.length() < farthest { near } else { anywhere };
+            let at =
+                if rng.unit() < CLUSTERED && (nearest..farthest).contains(&near.length()) { near } else { anywhere };
             let share = rng.unit();
             let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
             let at = self.place(at.normalize_or_zero(), at.length());

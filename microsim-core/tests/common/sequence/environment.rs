@@ -1,0 +1,77 @@
+//! Calls for joints, force fields and settings.
+
+use super::{Outcome, Sequence};
+use microsim_core::{CollisionGroups, FieldKind, ForceField, JointEnd, JointKind, JointSpec, OrganismId, Region};
+
+impl Sequence<'_> {
+    fn joint_end(&mut self, id: OrganismId) -> JointEnd {
+        match self.choices.below(3) {
+            0 => JointEnd::Centre(id),
+            1 => {
+                let (at, obstacle) = (self.place(), self.obstacles.last().filter(|_| id.index() % 2 == 1));
+                obstacle.map_or(JointEnd::Point(at), |&obstacle| JointEnd::Obstacle { obstacle, at })
+            }
+            _ => JointEnd::Node { organism: id, node: self.choices.below(60) as u32 },
+        }
+    }
+
+    fn joint(&mut self, a: OrganismId, b: OrganismId) -> JointSpec {
+        let (a, b, c) = (self.joint_end(a), self.joint_end(b), &mut self.choices);
+        let (length, max_force) = (c.number(0.0, 20.0), c.number(0.0, 1000.0));
+        let (frequency, damping_ratio) = (c.number(0.1, 20.0), c.number(0.0, 2.0));
+        let kind = match c.below(8) {
+            0 => JointKind::Pin,
+            1 => JointKind::Distance { length },
+            2 => JointKind::Rope { max_length: length },
+            3 => JointKind::Spring { length, frequency, damping_ratio },
+            4 => JointKind::Mouse { frequency, damping_ratio, max_force },
+            5 => JointKind::LengthMotor { length, max_force },
+            6 => JointKind::SpeedMotor { speed: c.number(-30.0, 30.0), max_force },
+            _ => JointKind::Weld,
+        };
+        let spec = JointSpec::new(a, b, kind);
+        if c.flag() { spec.breaking_at(c.number(0.0, 1000.0)) } else { spec }
+    }
+
+    pub(super) fn change_joint(&mut self, a: OrganismId, b: OrganismId) -> Outcome {
+        let (spec, count) = (self.joint(a, b), self.joints.len());
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_joint(self.joints[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_joint(self.joints[self.choices.below(count)], spec),
+            _ => self.world.add_joint(spec).map(|joint| self.joints.push(joint)),
+        }
+    }
+
+    pub(super) fn change_field(&mut self) -> Outcome {
+        let (centre, acceleration, count) = (self.place(), self.choices.number(-200.0, 200.0), self.fields.len());
+        let kind = match self.choices.below(3) {
+            0 => FieldKind::Uniform { acceleration: self.vector(100.0) },
+            1 => FieldKind::Radial { centre, acceleration },
+            _ => FieldKind::Vortex { centre, acceleration },
+        };
+        let region = match self.choices.below(3) {
+            0 => Region::All,
+            1 => Region::Circle { centre, radius: self.choices.number(0.0, 40.0) },
+            _ => Region::Box { low: self.place(), high: centre },
+        };
+        let field = ForceField { region, kind };
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_field(self.fields[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_field(self.fields[self.choices.below(count)], field),
+            _ => self.world.add_field(field).map(|field| self.fields.push(field)),
+        }
+    }
+
+    pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
+        let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
+        let gravity = self.vector(30.0);
+        match self.choices.below(6) {
+            0 => self.world.set_gravity(gravity),
+            1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
+            2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),
+            3 => self.world.set_gravity_scale(id, self.choices.number(-2.0, 3.0)),
+            4 => self.world.set_collision_groups(id, groups),
+            _ => self.world.set_user_data(id, u128::from(self.choices.byte()) << 90),
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Random sequences of calls of the public API, spelt by bytes: for property tests and for fuzzing.
+//!
+//! Whatever the bytes are, no call panics, the world is valid after each, a call that is refused has changed nothing, and
+//! what was stepped from a clone or read from a snapshot can be had again.
+#![allow(dead_code, reason = "each user needs its part")]
+
+mod check;
+mod choices;
+mod environment;
+mod obstacle;
+mod organism;
+
+use choices::Choices;
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    ChemicalId, Error, FieldId, Inputs, InstructionSet, JointId, ObstacleId, OrganismId, TemplateId, World,
+};
+
+/// Most calls and steps of a sequence.
+const CALLS: usize = 60;
+const STEPS: u32 = 120;
+type Outcome = Result<(), Error>;
+
+/// What a sequence did.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tally {
+    pub calls: u32,
+    pub refusals: u32,
+    pub steps: u32,
+    /// Most organisms at a time.
+    pub organisms: usize,
+}
+
+/// A world, everything that was ever in it, and what is told to it.
+struct Sequence<'a> {
+    choices: Choices<'a>,
+    world: World,
+    saved: World,
+    /// Digest of `saved` when it was saved.
+    digest_saved: u64,
+    handles: Vec<OrganismId>,
+    obstacles: Vec<ObstacleId>,
+    templates: Vec<TemplateId>,
+    chemicals: Vec<ChemicalId>,
+    joints: Vec<JointId>,
+    fields: Vec<FieldId>,
+    inputs: Inputs,
+    tally: Tally,
+}
+
+/// Carries out what the bytes spell.
+///
+/// # Errors
+/// What is wrong with the world, and after which call.
+pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
+    let mut choices = Choices(bytes);
+    let Ok(world) = World::new(choices.config()) else { return Ok(Tally::default()) };
+    let mut sequence = Sequence {
+        choices,
+        saved: world.clone(),
+        digest_saved: world.digest(),
+        world,
+        handles: Vec::new(),
+        obstacles: Vec::new(),
+        templates: Vec::new(),
+        chemicals: Vec::new(),
+        joints: Vec::new(),
+        fields: Vec::new(),
+        inputs: Inputs::new(),
+        tally: Tally::default(),
+    };
+    for _ in 0..CALLS {
+        if sequence.choices.0.is_empty() {
+            break;
+        }
+        let before = sequence.world.digest();
+        let (name, outcome) = sequence.call();
+        let Tally { calls, .. } = sequence.tally;
+        sequence.tally.calls += 1;
+        sequence.world.validate().map_err(|violation| format!("after call {calls}, {name}: {violation}"))?;
+        if outcome.is_err() {
+            sequence.tally.refusals += 1;
+            if before != sequence.world.digest() {
+                return Err(format!("call {calls}, {name}, was refused and has changed the world: {outcome:?}"));
+            }
+        }
+        if sequence.saved.digest() != sequence.digest_saved {
+            return Err(format!("call {calls}, {name}, has changed a clone"));
+        }
+        sequence.tally.organisms = sequence.tally.organisms.max(sequence.world.organisms().count());
+    }
+    Ok(sequence.tally)
+}
+
+impl Sequence<'_> {
+    /// One call, and its name.
+    fn call(&mut self) -> (&'static str, Outcome) {
+        match self.choices.below(34) {
+            0..=6 => ("spawn", self.spawn()),
+            7..=12 => ("step", self.step()),
+            13..=15 => ("input", self.with_handle(Self::input)),
+            16 => ("divide", self.with_handle(Self::divide)),
+            17 => ("fuse", self.with_two_handles(|sequence, a, b| sequence.world.fuse(a, b))),
+            18 => ("grow", self.with_handle(Self::grow)),
+            19 => ("remove", self.with_handle(|sequence, id| sequence.world.remove(id))),
+            20 => ("set_exempt", self.with_two_handles(Self::set_exempt)),
+            21 => self.obstacle_call(),
+            22 => ("spawn_template", self.spawn_template()),
+            23 => ("clone", self.save_or_restore()),
+            24 => ("queries", self.ask()),
+            25 => ("push", self.with_handle(Self::push)),
+            26 => ("set_exchange", self.with_handle(Self::set_exchange)),
+            27..=28 => ("actuate", self.with_handle(Self::actuate)),
+            29..=30 => ("joint", self.with_two_handles(Self::change_joint)),
+            31 => ("field", self.change_field()),
+            32 => ("setting", self.with_handle(Self::change_setting)),
+            _ => match self.choices.below(8) {
+                which @ 0..=3 => ("set_instruction_set", self.set_instruction_set(which % 2 == 1)),
+                4..=5 => ("snapshot", self.write_and_read()),
+                _ => ("set_controller", self.with_handle(Self::set_controller)),
+            },
+        }
+    }
+
+    fn handle(&mut self) -> Option<OrganismId> {
+        let count = self.handles.len();
+        (count > 0).then(|| self.handles[self.choices.below(count)])
+    }
+
+    /// A call for one of the handles, if there is any.
+    fn with_handle(&mut self, call: fn(&mut Self, OrganismId) -> Outcome) -> Outcome {
+        self.handle().map_or(Ok(()), |id| call(self, id))
+    }
+
+    fn with_two_handles(&mut self, call: fn(&mut Self, OrganismId, OrganismId) -> Outcome) -> Outcome {
+        self.handle().zip(self.handle()).map_or(Ok(()), |(a, b)| call(self, a, b))
+    }
+
+    fn place(&mut self) -> Vec2 {
+        self.choices.place(self.world.config().size)
+    }
+
+    fn step(&mut self) -> Outcome {
+        for _ in 0..1 + self.choices.below(12) {
+            if self.tally.steps < STEPS {
+                self.world.step(&self.inputs);
+                self.tally.steps += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn vector(&mut self, most: f32) -> Vec2 {
+        Vec2::new(self.choices.number(-most, most), self.choices.number(-most, most))
+    }
+
+    fn set_instruction_set(&mut self, best: bool) -> Outcome {
+        let set = if best { InstructionSet::Best } else { InstructionSet::Baseline };
+        self.world.set_instruction_set(set);
+        Ok(())
+    }
+}

@@ -1,0 +1,111 @@
+//! Calls for organisms: spawning, inputs, division, growth, controllers, own templates.
+
+use super::{Outcome, Sequence};
+use microsim_core::glam::Vec2;
+use microsim_core::{Actuation, ChemicalSpec, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template};
+
+impl Sequence<'_> {
+    pub(super) fn spawn(&mut self) -> Outcome {
+        let (spec, placement) = (self.choices.spec(), self.choices.placement(self.world.config().size));
+        self.world.spawn(&spec, placement).map(|id| self.handles.push(id))
+    }
+
+    pub(super) fn input(&mut self, id: OrganismId) -> Outcome {
+        let place = match self.choices.below(4) {
+            0 => self.place(),
+            // After somebody: that is how meals come about.
+            _ => self.handle().and_then(|other| self.world.centroid(other)).unwrap_or(Vec2::ZERO),
+        };
+        let digests = self.choices.flag();
+        let intent = Intent::toward(place)?.digesting(digests);
+        self.inputs.set(id, if self.choices.byte() < 20 { Intent::REST } else { intent });
+        Ok(())
+    }
+
+    pub(super) fn divide(&mut self, id: OrganismId) -> Outcome {
+        if self.choices.flag() {
+            return self.world.divide(id);
+        }
+        let axis = Vec2::new(self.choices.number(-1.0, 1.0), self.choices.number(-1.0, 1.0));
+        self.world.divide_along(id, axis)
+    }
+
+    pub(super) fn grow(&mut self, id: OrganismId) -> Outcome {
+        let (nodes, particles) = (self.choices.below(6) as u32, self.choices.byte() as u32);
+        self.world.grow(id, nodes, particles)
+    }
+
+    pub(super) fn set_exempt(&mut self, a: OrganismId, b: OrganismId) -> Outcome {
+        let is_exempt = self.choices.flag();
+        self.world.set_exempt(a, b, is_exempt)
+    }
+
+    pub(super) fn push(&mut self, id: OrganismId) -> Outcome {
+        let velocity = Vec2::new(self.choices.number(-50.0, 50.0), self.choices.number(-50.0, 50.0));
+        self.world.push(id, velocity)
+    }
+
+    pub(super) fn actuate(&mut self, id: OrganismId) -> Outcome {
+        let node = self.choices.below(40) as u32;
+        let (force, impulse) = (Actuation::force(self.vector(500.0)), Actuation::impulse(self.vector(50.0)));
+        let target = Actuation::target(self.place());
+        match self.choices.below(7) {
+            0 => self.inputs.actuate(id, force),
+            1 => self.inputs.actuate(id, impulse),
+            2 => self.inputs.actuate(id, Actuation::torque(self.choices.number(-500.0, 500.0))),
+            3 => self.inputs.actuate(id, target),
+            4 => self.inputs.actuate_node(id, node, force),
+            5 => self.inputs.activate(id, node % 3, self.choices.number(0.0, 1.1)),
+            _ => {
+                self.inputs.clear();
+                self.world.check_inputs(&self.inputs)
+            }
+        }
+    }
+
+    pub(super) fn set_exchange(&mut self, id: OrganismId) -> Outcome {
+        if self.chemicals.len() < 2 && self.choices.flag() {
+            let spec = ChemicalSpec { diffusion: self.choices.number(0.0, 200.0), ..ChemicalSpec::default() };
+            // A kept world that is returned to may not have it.
+            return self.world.add_chemical(spec).map(|chemical| self.chemicals.push(chemical));
+        }
+        let Some(&chemical) = self.chemicals.first() else { return Ok(()) };
+        let (secretion, uptake) = (self.choices.number(0.0, 100.0), self.choices.number(0.0, 100.0));
+        self.world.set_exchange(id, Exchange { chemical, secretion, uptake })
+    }
+
+    pub(super) fn set_controller(&mut self, id: OrganismId) -> Outcome {
+        let controller = self.choices.controller(self.chemicals.first().copied());
+        self.world.set_controller(id, controller)
+    }
+
+    pub(super) fn spawn_template(&mut self) -> Outcome {
+        if self.templates.is_empty() || self.choices.byte() < 80 {
+            let template = self.template()?;
+            self.templates.push(self.world.add_template(template));
+            return Ok(());
+        }
+        let which = self.choices.below(self.templates.len());
+        let (template, placement) = (self.templates[which], self.choices.placement(self.world.config().size));
+        self.world.spawn_template(template, placement).map(|id| self.handles.push(id))
+    }
+
+    fn template(&mut self) -> Result<Template, Error> {
+        let mut builder = Template::builder();
+        let c = &mut self.choices;
+        let count = 1 + c.below(6) as u32;
+        for _ in 0..count {
+            let at = Vec2::new(c.number(-3.0, 3.0), c.number(-3.0, 3.0));
+            builder.node(Node::disc(at, c.number(0.1, 10.0), c.number(0.1, 1.0)));
+        }
+        for _ in 0..c.below(6) {
+            builder.spring(c.below(7) as u32, c.below(7) as u32, c.number(0.0, 1e-3), c.number(0.0, 1.0));
+        }
+        if c.flag() {
+            let channel = builder.channel([c.number(0.5, 1.5), c.number(0.5, 1.5)]);
+            builder.muscle(channel, Rope { a: 0, b: c.below(3) as u32, max_length: c.number(1.0, 4.0) });
+            builder.propulsion(Propulsion { speed: c.number(1.0, 20.0), max_acceleration: c.number(1.0, 100.0) });
+        }
+        builder.build()
+    }
+}
