@@ -23,6 +23,14 @@ impl OrganismId {
         self.generation
     }
 
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
+    }
+
     /// Stream of its random numbers: its own, and no other organism's of this world.
     pub(crate) fn stream(self) -> u64 {
         (u64::from(self.generation) << 32) | u64::from(self.index)
@@ -56,6 +64,14 @@ impl ObstacleId {
     #[must_use]
     pub fn generation(self) -> u32 {
         self.generation
+    }
+
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
     }
 }
 

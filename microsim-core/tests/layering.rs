@@ -28,7 +28,8 @@ const LAYERS: &[(&str, &str)] = &[
     ("capability", "chemical collision::obstacle config error geometry id rng spec_field"),
     (
         "organism",
-        "capability collision error float_environment geometry id kind look particle rng shared solver spec_field template",
+        "arena capability collision error float_environment geometry id kind look particle rng shared solver spec_field \
+        template",
     ),
     (
         "behavior",

@@ -1,16 +1,18 @@
-//! The table of organisms: slots with generations, so that stale handles are recognised.
+//! The table of organisms: who is there, who has a membrane, who holds whom.
 
 use super::living::{Organism, Phagosome};
+use crate::arena::Arena;
 use crate::capability::phagocytosis::MealPhase;
 use crate::collision::ring::{Containment, Ring};
 use crate::id::OrganismId;
 use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 
-/// Slots of organisms, in the order of their index.
+/// Organisms, in the order of their index.
 #[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(transparent)]
 pub(crate) struct Organisms {
-    slots: Vec<Slot>,
+    arena: Arena<Shared<Organism>>,
     /// Indices of the organisms that have a membrane, ascending: few among many, and asked for in every substep. Nobody else
     /// takes others in or divides.
     #[serde(skip)]
@@ -18,15 +20,6 @@ pub(crate) struct Organisms {
     /// Whether gravity was ever scaled for an organism: else nobody has to be asked in a step.
     #[serde(skip)]
     scales_gravity: bool,
-    /// Indices of empty slots, the last freed first.
-    free: Vec<u32>,
-}
-
-/// An empty one is small, however many a file says there are.
-#[derive(Debug, Default, Serialize, Deserialize)]
-struct Slot {
-    generation: u32,
-    organism: Option<Shared<Organism>>,
 }
 
 impl Clone for Organisms {
@@ -37,45 +30,28 @@ impl Clone for Organisms {
     }
 
     fn clone_from(&mut self, source: &Self) {
-        let Self { slots, with_membrane, scales_gravity, free } = source;
-        self.slots.clone_from(slots);
+        let Self { arena, with_membrane, scales_gravity } = source;
+        self.arena.clone_from(arena);
         self.with_membrane.clone_from(with_membrane);
         self.scales_gravity = *scales_gravity;
-        self.free.clone_from(free);
-    }
-}
-
-impl Clone for Slot {
-    fn clone(&self) -> Self {
-        Self { generation: self.generation, organism: self.organism.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.generation = source.generation;
-        self.organism.clone_from(&source.organism);
     }
 }
 
 impl Organisms {
     /// The handle that the next organism gets.
     pub(crate) fn next_id(&self) -> OrganismId {
-        let index = self.free.last().copied().unwrap_or(self.slots.len() as u32);
-        OrganismId { index, generation: self.slots.get(index as usize).map_or(0, |slot| slot.generation) }
+        OrganismId::of(self.arena.next_handle())
     }
 
     /// Puts an organism under [`Organisms::next_id`].
     pub(crate) fn insert(&mut self, organism: Organism) -> OrganismId {
         let id = self.next_id();
-        if self.free.pop().is_none() {
-            self.slots.push(Slot::default());
-        }
         if organism.body.membrane().is_some()
             && let Err(at) = self.with_membrane.binary_search(&id.index)
         {
             self.with_membrane.insert(at, id.index);
         }
-        self.slots[id.index as usize].organism = Some(Shared::new(organism));
-        id
+        OrganismId::of(self.arena.insert(Shared::new(organism)))
     }
 
     /// Makes what is not read with a table: who has a membrane, whether gravity is scaled.
@@ -88,36 +64,27 @@ impl Organisms {
     }
 
     pub(crate) fn remove(&mut self, id: OrganismId) -> Option<Organism> {
-        self.get(id)?;
-        let slot = &mut self.slots[id.index as usize];
-        slot.generation = slot.generation.wrapping_add(1);
-        self.free.push(id.index);
+        let organism = self.arena.remove(id.handle())?;
         self.with_membrane.retain(|&index| index != id.index);
-        slot.organism.take().map(Shared::into_inner)
+        Some(organism.into_inner())
     }
 
     pub(crate) fn get(&self, id: OrganismId) -> Option<&Organism> {
-        let slot = self.slots.get(id.index as usize)?;
-        slot.organism.as_deref().filter(|_| slot.generation == id.generation)
+        self.arena.get(id.handle()).map(|organism| &**organism)
     }
 
     pub(crate) fn get_mut(&mut self, id: OrganismId) -> Option<&mut Organism> {
-        let slot = self.slots.get_mut(id.index as usize)?;
-        slot.organism.as_deref_mut().filter(|_| slot.generation == id.generation)
+        self.arena.get_mut(id.handle()).map(|organism| &mut **organism)
     }
 
     /// The handle of the organism that lives at an index.
     pub(crate) fn id_at(&self, index: u32) -> Option<OrganismId> {
-        let slot = self.slots.get(index as usize)?;
-        slot.organism.as_ref().map(|_| OrganismId { index, generation: slot.generation })
+        self.arena.handle_at(index).map(OrganismId::of)
     }
 
     /// All organisms, by index.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
-        self.slots.iter().zip(0u32..).filter_map(|(slot, index)| {
-            let id = OrganismId { index, generation: slot.generation };
-            slot.organism.as_deref().map(|organism| (id, organism))
-        })
+        self.arena.iter().map(|(handle, organism)| (OrganismId::of(handle), &**organism))
     }
 
     /// Those that are `wanted`, by index, to be changed; the others stay shared with clones.
@@ -125,26 +92,22 @@ impl Organisms {
         &mut self,
         wanted: impl Fn(&Organism) -> bool,
     ) -> impl Iterator<Item = (OrganismId, &mut Organism)> {
-        self.slots.iter_mut().zip(0u32..).filter_map(move |(slot, index)| {
-            let id = OrganismId { index, generation: slot.generation };
-            let organism = slot.organism.as_mut().filter(|organism| wanted(organism))?;
-            Some((id, &mut **organism))
-        })
+        let all = self.arena.iter_mut().filter(move |(_, organism)| wanted(organism));
+        all.map(|(handle, organism)| (OrganismId::of(handle), &mut **organism))
     }
 
     /// Those that have a membrane, by index.
     pub(crate) fn with_membrane(&self) -> impl Iterator<Item = (OrganismId, &Organism)> {
         self.with_membrane.iter().filter_map(|&index| {
-            let id = self.id_at(index)?;
-            self.get(id).map(|organism| (id, organism))
+            let handle = self.arena.handle_at(index)?;
+            self.arena.at(index).map(|organism| (OrganismId::of(handle), &**organism))
         })
     }
 
     /// The same, to be changed.
     pub(crate) fn for_each_with_membrane(&mut self, mut change: impl FnMut(&mut Organism)) {
         for &index in &self.with_membrane {
-            let slot = self.slots.get_mut(index as usize);
-            if let Some(organism) = slot.and_then(|slot| slot.organism.as_deref_mut()) {
+            if let Some(organism) = self.arena.at_mut(index) {
                 change(organism);
             }
         }
@@ -152,9 +115,8 @@ impl Organisms {
 
     /// Those on which gravity acts otherwise.
     pub(crate) fn with_gravity_scale(&self) -> impl Iterator<Item = &Organism> {
-        let all = if self.scales_gravity { &self.slots[..] } else { &[] };
-        let organisms = all.iter().filter_map(|slot| slot.organism.as_deref());
-        organisms.filter(|organism| organism.gravity_scale != 1.0 && !organism.is_quarantined)
+        let all = self.scales_gravity.then(|| self.iter().map(|(_, organism)| organism));
+        all.into_iter().flatten().filter(|organism| organism.gravity_scale != 1.0 && !organism.is_quarantined)
     }
 
     pub(crate) fn set_gravity_scale(&mut self, id: OrganismId, scale: f32) {
@@ -179,7 +141,7 @@ impl Organisms {
 
     /// Which membrane holds each organism.
     pub(crate) fn containments(&self) -> Vec<Containment> {
-        let mut containments = vec![Containment::Free; self.slots.len()];
+        let mut containments = vec![Containment::Free; self.arena.slot_count()];
         for (id, organism) in self.with_membrane() {
             let meals = organism.meals().iter();
             // Another organism may live in the place of prey that was removed.
@@ -199,22 +161,22 @@ impl Organisms {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.slots.len() - self.free.len()
+        self.arena.iter().count()
     }
 
     /// Number of slots, empty ones included.
     pub(crate) fn slot_count(&self) -> u32 {
-        self.slots.len() as u32
+        self.arena.slot_count() as u32
     }
 
     /// Generation of a slot: of who lives there, or will.
     pub(crate) fn generation(&self, index: u32) -> Option<u32> {
-        self.slots.get(index as usize).map(|slot| slot.generation)
+        self.arena.generation(index)
     }
 
-    /// Indices of empty slots, the last freed last.
-    pub(crate) fn free_slots(&self) -> &[u32] {
-        &self.free
+    /// Whether the free slots are exactly the empty ones.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.arena.is_sound()
     }
 }
 

@@ -337,7 +337,7 @@ fn the_worlds_of_the_tests_hold_everything_that_can_be_written() {
     const EXCEPT: [&str; 3] = [
         "0[].shape.Several[].1.Polyline",
         "0[].shape.Several[].1.Several",
-        "1.organisms.slots[].organism?.divider?.wanted_nodes?",
+        "1.organisms.slots[].value?.divider?.wanted_nodes?",
     ];
     let mut held = Layout::default();
     for world in worlds() {

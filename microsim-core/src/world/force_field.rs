@@ -26,7 +26,7 @@ impl World {
     /// Names the number that is out of its range.
     pub fn add_field(&mut self, field: ForceField) -> Result<FieldId, Error> {
         field.validate()?;
-        let id = FieldId::of(self.fields.insert(field));
+        let id = FieldId::of(self.fields.insert(Box::new(field)));
         self.changed(|| WorldChange::AddField(field));
         Ok(id)
     }
@@ -37,7 +37,7 @@ impl World {
     /// Names the number that is out of its range, and a handle that is stale.
     pub fn set_field(&mut self, id: FieldId, field: ForceField) -> Result<(), Error> {
         field.validate()?;
-        *self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))? = field;
+        **self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))? = field;
         self.changed(|| WorldChange::SetField(id, field));
         Ok(())
     }
@@ -54,7 +54,7 @@ impl World {
 
     /// All force fields, in a stable order.
     pub fn fields(&self) -> impl Iterator<Item = (FieldId, &ForceField)> {
-        self.fields.iter().map(|(handle, field)| (FieldId::of(handle), field))
+        self.fields.iter().map(|(handle, field)| (FieldId::of(handle), &**field))
     }
 
     /// Acceleration by all force fields at a point, without gravity, units/s2.

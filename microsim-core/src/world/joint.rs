@@ -66,7 +66,7 @@ impl World {
     pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
         let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&spec);
-        let id = JointId::of(self.joints.insert(record));
+        let id = JointId::of(self.joints.insert(Box::new(record)));
         self.changed(|| WorldChange::AddJoint(spec));
         Ok(id)
     }
@@ -81,7 +81,7 @@ impl World {
         self.wake_up_joined(&before);
         self.wake_up_joined(&spec);
         if let Some(joint) = self.joints.get_mut(id.handle()) {
-            *joint = record;
+            **joint = record;
         }
         self.changed(|| WorldChange::SetJoint(id, spec));
         Ok(())

@@ -1,5 +1,6 @@
 //! The table of obstacles: handles, and the state of each that is not in its shape.
 
+use crate::arena::Arena;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::{ObstacleRecord, PoseRecord, Surface, pose_of, record};
 use crate::id::ObstacleId;
@@ -8,20 +9,11 @@ use glam::Vec2;
 use parry2d::math::Pose;
 use serde::{Deserialize, Serialize};
 
-/// Places of the obstacles that were added, in the order of their indices. Those that were removed are reused.
+/// What is known of the obstacles that were added, in the order of their indices.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(transparent)]
 pub(crate) struct ObstacleTable {
-    slots: Vec<Slot>,
-    /// Empty slots, the last emptied last.
-    free: Vec<u32>,
-}
-
-/// Place of an obstacle.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Slot {
-    generation: u32,
-    /// `None` after removal. In a box: a file cannot ask for much memory with many empty slots.
-    state: Option<Box<State>>,
+    arena: Arena<Box<State>>,
 }
 
 /// State of an obstacle.
@@ -46,82 +38,68 @@ impl ObstacleTable {
     /// Number of places, empty ones included.
     #[cfg(feature = "snapshot")]
     pub(crate) fn len(&self) -> usize {
-        self.slots.len()
+        self.arena.slot_count()
     }
 
     /// Index of the place that the next obstacle gets.
     pub(super) fn next_index(&self) -> usize {
-        self.free.last().map_or(self.slots.len(), |&index| index as usize)
+        self.arena.next_handle().0 as usize
     }
 
     /// Notes an obstacle that was added, at [`ObstacleTable::next_index`].
     pub(super) fn insert(&mut self, obstacle: &Obstacle) -> ObstacleId {
-        let state = Some(State::of(obstacle));
-        let index = self.free.pop().unwrap_or_else(|| {
-            self.slots.push(Slot { generation: 0, state: None });
-            self.slots.len() as u32 - 1
-        });
-        let slot = &mut self.slots[index as usize];
-        slot.state = state;
-        ObstacleId { index, generation: slot.generation }
+        ObstacleId::of(self.arena.insert(State::of(obstacle)))
     }
 
     /// Empties a place; the handle is stale from now on.
     pub(super) fn remove(&mut self, id: ObstacleId) {
-        let slot = &mut self.slots[id.index as usize];
-        slot.state = None;
-        slot.generation = slot.generation.saturating_add(1);
-        // A place whose generations are used up stays empty.
-        if slot.generation < u32::MAX {
-            self.free.push(id.index);
-        }
+        self.arena.remove(id.handle());
     }
 
     /// Whether a handle names an obstacle.
     pub(super) fn contains(&self, id: ObstacleId) -> bool {
-        let slot = self.slots.get(id.index as usize);
-        slot.is_some_and(|slot| slot.generation == id.generation && slot.state.is_some())
+        self.arena.get(id.handle()).is_some()
     }
 
     /// Handle of the obstacle with this index.
     pub(crate) fn id_at(&self, index: u32) -> Option<ObstacleId> {
-        let slot = self.slots.get(index as usize).filter(|slot| slot.state.is_some())?;
-        Some(ObstacleId { index, generation: slot.generation })
+        self.arena.handle_at(index).map(ObstacleId::of)
     }
 
     /// Handles of all obstacles.
     pub(super) fn ids(&self) -> impl Iterator<Item = ObstacleId> + '_ {
-        (0..self.slots.len() as u32).filter_map(|index| self.id_at(index))
+        self.arena.iter().map(|(handle, _)| ObstacleId::of(handle))
     }
 
     /// Notes what an obstacle has become; it has no target any more.
     pub(super) fn replace(&mut self, id: ObstacleId, obstacle: &Obstacle) {
-        self.slots[id.index as usize].state = Some(State::of(obstacle));
+        if let Some(state) = self.arena.get_mut(id.handle()) {
+            *state = State::of(obstacle);
+        }
     }
 
     /// Notes where an obstacle is.
     pub(super) fn set_pose(&mut self, index: u32, pose: &Pose) {
-        if let Some(state) = &mut self.slots[index as usize].state {
+        if let Some(state) = self.arena.at_mut(index) {
             state.pose = record(pose);
         }
     }
 
     /// Sets where an obstacle is going.
     pub(super) fn set_target(&mut self, index: u32, target: Option<&Pose>) {
-        if let Some(state) = &mut self.slots[index as usize].state {
+        if let Some(state) = self.arena.at_mut(index) {
             state.target = target.map(record);
         }
     }
 
     /// Where an obstacle is going, if anywhere.
     pub(super) fn target(&self, index: u32) -> Option<Pose> {
-        pose_of(self.slots[index as usize].state.as_ref()?.target?)
+        pose_of(self.arena.at(index)?.target?)
     }
 
     /// Indices of the obstacles that are going somewhere.
     pub(super) fn moving(&self) -> impl Iterator<Item = u32> + '_ {
-        let is_moving = |slot: &Slot| slot.state.as_ref().is_some_and(|state| state.target.is_some());
-        self.slots.iter().zip(0..).filter(move |(slot, _)| is_moving(slot)).map(|(_, index)| index)
+        self.arena.iter().filter(|(_, state)| state.target.is_some()).map(|((index, _), _)| index)
     }
 
     /// Checks that empty places are listed once.
@@ -129,14 +107,8 @@ impl ObstacleTable {
     /// # Errors
     /// Says what is wrong.
     pub(super) fn check_free(&self) -> Result<(), String> {
-        let mut free = self.free.clone();
-        free.sort_unstable();
-        let is_empty = |slot: &Slot| slot.state.is_none() && slot.generation < u32::MAX;
-        let empty = self.slots.iter().zip(0..).filter(|(slot, _)| is_empty(slot)).map(|(_, index)| index);
-        if !empty.eq(free) {
-            return Err("the free places of obstacles are not the empty ones".to_owned());
-        }
-        Ok(())
+        let error = || "the free places of obstacles are not the empty ones".to_owned();
+        self.arena.is_sound().then_some(()).ok_or_else(error)
     }
 
     /// Checks that empty places are listed once, that targets are poses, and that these are the obstacles.
@@ -144,13 +116,13 @@ impl ObstacleTable {
     /// # Errors
     /// Says what is wrong.
     pub(crate) fn check(&self, obstacles: &[Obstacle]) -> Result<(), String> {
-        let (count, slots) = (obstacles.len(), self.slots.len());
+        let (count, slots) = (obstacles.len(), self.arena.slot_count());
         if count != slots {
             return Err(format!("{slots} places for {count} obstacles"));
         }
         self.check_free()?;
-        for (k, (slot, obstacle)) in self.slots.iter().zip(obstacles).enumerate() {
-            let Some(state) = &slot.state else { continue };
+        for ((k, _), state) in self.arena.iter() {
+            let obstacle = &obstacles[k as usize];
             let is_target =
                 |target: PoseRecord| pose_of(target).is_some_and(|pose| super::check_pose("", &pose).is_ok());
             if !state.target.is_none_or(is_target) {
@@ -200,15 +172,5 @@ mod tests {
         let again = table.insert(&ball());
         assert_eq!((again.index, again.generation), (0, 1));
         assert!(!table.contains(a) && table.ids().eq([again, b]));
-    }
-
-    #[test]
-    fn a_place_whose_generations_are_used_up_stays_empty() {
-        let mut table = ObstacleTable::default();
-        let id = table.insert(&ball());
-        table.slots[0].generation = u32::MAX - 1;
-        table.remove(ObstacleId { generation: u32::MAX - 1, ..id });
-        assert_eq!(table.next_index(), 1);
-        assert!(table.check(&[ball()]).is_ok());
     }
 }

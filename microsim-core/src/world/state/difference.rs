@@ -54,7 +54,7 @@ impl World {
                 PathSegment::Field(field),
                 rest @ ..,
             ] => {
-                let field = if *field == "organism" { dotted(rest) } else { format!("{field}{}", dotted(rest)) };
+                let field = if *field == "value" { dotted(rest) } else { format!("{field}{}", dotted(rest)) };
                 let field = if field.is_empty() { "existence".to_owned() } else { field };
                 (self.describe_organism(*i as u32), field.trim_start_matches('.').to_owned())
             }

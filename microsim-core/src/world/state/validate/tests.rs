@@ -132,7 +132,7 @@ fn damage_to_joints_fields_and_muscles_is_found() {
     finds(
         |w| {
             let id = w.add_field(wind(Vec2::ZERO)).unwrap();
-            *w.fields.get_mut(id.handle()).unwrap() = wind(Vec2::NAN);
+            **w.fields.get_mut(id.handle()).unwrap() = wind(Vec2::NAN);
         },
         "fields[0]: `kind.acceleration.x`",
     );
