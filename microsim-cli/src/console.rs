@@ -1,6 +1,6 @@
 //! Stdout for results, stderr for notes, errors and progress, and whether to use colour.
 
-use crate::clean;
+use crate::sanitize;
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -28,20 +28,20 @@ impl Console {
     /// One line for the user. That stderr is closed is no reason to fail.
     pub(crate) fn note(self, text: &str) {
         if !self.is_quiet {
-            let _ = writeln!(io::stderr(), "{}", clean::lines(text));
+            let _ = writeln!(io::stderr(), "{}", sanitize::lines(text));
         }
     }
 
     /// One line for `--verbose`.
     pub(crate) fn detail(self, text: impl FnOnce() -> String) {
         if self.is_verbose {
-            let _ = writeln!(io::stderr(), "{}", clean::lines(&text()));
+            let _ = writeln!(io::stderr(), "{}", sanitize::lines(&text()));
         }
     }
 
     /// One line or report about what went wrong; also when quiet.
     pub(crate) fn complain(self, text: &str) {
-        self.complain_styled(&clean::lines(text));
+        self.complain_styled(&sanitize::lines(text));
     }
 
     /// The same of a text that is clean and may have colours.

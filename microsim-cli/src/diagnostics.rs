@@ -1,6 +1,6 @@
 //! Shows the problems of a scenario with the lines that cause them.
 
-use crate::clean;
+use crate::sanitize;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use microsim_core::scenario::{Diagnostic, Diagnostics};
@@ -31,18 +31,18 @@ pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured:
     }
     let count = problems.len() + problems.left_out().iter().map(|more| more.count).sum::<usize>();
     let plural = if count == 1 { "" } else { "s" };
-    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", clean::line(&source.origin)));
+    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", sanitize::line(&source.origin)));
     text
 }
 
 fn group<'a>(source: &'a ScenarioText, problem: &'a Diagnostic) -> Group<'a> {
-    let title = Level::ERROR.primary_title(clean::line(&title(problem)).into_owned());
+    let title = Level::ERROR.primary_title(sanitize::line(&title(problem)).into_owned());
     let group = match &problem.span {
         Some(span) => title.element(snippet(source, span)),
         None => title.element(origin(source, problem)),
     };
     match &problem.accepted {
-        Some(accepted) => group.element(Level::HELP.message(format!("accepted: {}", clean::line(accepted)))),
+        Some(accepted) => group.element(Level::HELP.message(format!("accepted: {}", sanitize::line(accepted)))),
         None => group,
     }
 }
@@ -58,11 +58,11 @@ fn title(problem: &Diagnostic) -> String {
 
 fn snippet<'a>(source: &'a ScenarioText, span: &Range<usize>) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let annotation = AnnotationKind::Primary.span(within(&source.text, span));
-    Snippet::source(&source.text).path(clean::line(&source.origin)).annotation(annotation)
+    Snippet::source(&source.text).path(sanitize::line(&source.origin)).annotation(annotation)
 }
 
 fn origin<'a>(source: &'a ScenarioText, problem: &Diagnostic) -> Origin<'a> {
-    let origin = Origin::path(clean::line(&source.origin));
+    let origin = Origin::path(sanitize::line(&source.origin));
     match (problem.line, problem.column) {
         (Some(line), Some(column)) => origin.line(line).char_column(column),
         (Some(line), None) => origin.line(line),

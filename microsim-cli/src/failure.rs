@@ -1,9 +1,9 @@
 //! Reasons why the program fails, and their exit codes.
 
-use crate::clean;
 use crate::console::Console;
 use crate::diagnostics::{self, ScenarioText};
 use crate::interrupt;
+use crate::sanitize;
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -34,7 +34,7 @@ impl Failure {
     /// A file or folder that cannot be read or written.
     pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
         let path = path.display().to_string();
-        Self::Message(format!("cannot {verb} {}: {error}{}", clean::line(&path), remedy(error.kind())))
+        Self::Message(format!("cannot {verb} {}: {error}{}", sanitize::line(&path), remedy(error.kind())))
     }
 
     /// Tells the user, and says which code to exit with.

@@ -6,7 +6,6 @@
 
 mod args;
 mod checkpoint;
-mod clean;
 mod console;
 mod diagnostics;
 mod draw;
@@ -18,6 +17,7 @@ mod output;
 mod prepared;
 mod read;
 mod record_args;
+mod sanitize;
 mod scenario_args;
 mod session;
 mod summary;

@@ -1,7 +1,6 @@
 //! A run with its files, from its first step or from a checkpoint on.
 
 use crate::checkpoint::{self, CheckpointHeader};
-use crate::clean;
 use crate::console::{Console, print_json};
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
@@ -9,6 +8,7 @@ use crate::interrupt;
 use crate::output::{FileProgress, Outputs, RunWriter, write_description};
 use crate::prepared::Prepared;
 use crate::record_args::{RecordArgs, ReplayWriter};
+use crate::sanitize;
 use crate::summary::RunReport;
 use crate::tally::Tally;
 use microsim_core::World;
@@ -188,7 +188,7 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     if report.failures.is_empty() {
         return Ok(());
     }
-    let name = clean::line(name);
+    let name = sanitize::line(name);
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
 }

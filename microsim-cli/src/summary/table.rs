@@ -1,6 +1,6 @@
 //! Aligned rows of a name and a value.
 
-use crate::{clean, console};
+use crate::{console, sanitize};
 use std::io;
 
 /// Rows to be printed under each other.
@@ -11,7 +11,7 @@ pub(crate) struct Table {
 
 impl Table {
     pub(crate) fn row(&mut self, name: &str, value: impl ToString) {
-        self.rows.push((clean::line(name).into_owned(), clean::line(&value.to_string()).into_owned()));
+        self.rows.push((sanitize::line(name).into_owned(), sanitize::line(&value.to_string()).into_owned()));
     }
 
     pub(crate) fn print(&self) -> io::Result<()> {

@@ -1,10 +1,10 @@
 //! `check`: whether a scenario can be run.
 
-use crate::clean;
 use crate::console::print;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::prepared::{Prepared, prepare};
+use crate::sanitize;
 use crate::scenario_args::ScenarioArgs;
 use microsim_core::Census;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
@@ -46,7 +46,7 @@ fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
     let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
-    Ok(print(format!("ok: {}, {size}\n", clean::line(name)))?)
+    Ok(print(format!("ok: {}, {size}\n", sanitize::line(name)))?)
 }
 
 fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {

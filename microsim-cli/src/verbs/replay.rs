@@ -1,9 +1,9 @@
 //! `replay`: repeats a recorded run and compares it with the record.
 
-use crate::clean;
 use crate::console::{self, Console, print_json};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::sanitize;
 use crate::world_file::{in_words, lost, play, read_replay};
 use microsim_core::replay::{Ending, Player, Replay};
 use serde::Serialize;
@@ -81,7 +81,7 @@ fn print(replay: &Replay, player: &Player, is_json: bool) -> Result<(), Failure>
     let every = replay.interval();
     let played = format!(
         "{steps} steps ({simulated_seconds:.2} s) of {} with seed {seed} are as recorded",
-        clean::line(&scenario)
+        sanitize::line(&scenario)
     );
     Ok(console::print(format!("{played}\ndigest {digest}, compared every {every} steps\n"))?)
 }

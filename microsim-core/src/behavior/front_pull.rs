@@ -18,15 +18,15 @@ pub(crate) fn drive(
 ) -> u32 {
     let count = organism.outline.len() as u32;
     let particle = |k: u32| organism.body.particle(organism.outline[(k % count) as usize]);
-    let way = |k: u32| goal - particles.position(particle(k) as usize);
+    let offset = |k: u32| goal - particles.position(particle(k) as usize);
     let opposite = (front + count / 2) % count;
     if organism.relative_speed < 0.0 {
-        let velocity = heading(way(opposite)) * organism.present_speed();
+        let velocity = heading(offset(opposite)) * organism.present_speed();
         drives.push(Drive { particle: particle(opposite), velocity, max_acceleration: f32::INFINITY });
         return front;
     }
-    let front = if way(opposite).length_squared() < way(front).length_squared() { opposite } else { front };
-    let velocity = heading(way(front)) * organism.present_speed();
+    let front = if offset(opposite).length_squared() < offset(front).length_squared() { opposite } else { front };
+    let velocity = heading(offset(front)) * organism.present_speed();
     drives.push(Drive { particle: particle(front), velocity, max_acceleration: f32::INFINITY });
     front
 }

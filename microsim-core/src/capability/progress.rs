@@ -41,14 +41,14 @@ pub(crate) struct Progress {
     pub stalled: f32,
     /// Way out that it is on.
     escape: Option<Escape>,
-    /// Sum of the ways that failed, the last ones weighing most.
+    /// Sum of the directions that failed, the last ones weighing most.
     failed: Vec2,
 }
 
 /// A way out.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Escape {
-    way: Vec2,
+    direction: Vec2,
     /// Time for which it has been on it, s.
     age: f32,
 }
@@ -69,12 +69,12 @@ impl Progress {
     pub(crate) fn way_out(&mut self, steering: Steering, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let needed = PROGRESS_DISTANCE * senses.radius / senses.speed;
         let [due, length] = [STUCK_AFTER, ESCAPE_TIME].map(|[times, more]| times * needed + more);
-        let goes = |way: Vec2| senses.velocity.dot(way) > MOVING_SPEED * senses.speed;
+        let goes = |direction: Vec2| senses.velocity.dot(direction) > MOVING_SPEED * senses.speed;
         let escape = match self.escape {
-            Some(Escape { way, age }) if age > GIVE_UP_AFTER && !goes(way) && self.stalled > 0.0 => {
-                self.next_escape(way, senses, rng)
+            Some(Escape { direction, age }) if age > GIVE_UP_AFTER && !goes(direction) && self.stalled > 0.0 => {
+                self.next_escape(direction, senses, rng)
             }
-            Some(Escape { way, age }) if age < length => Escape { way, age: age + senses.around.dt },
+            Some(Escape { direction, age }) if age < length => Escape { direction, age: age + senses.around.dt },
             _ if self.stalled > due && !goes(direction_or(senses.at - self.mark, Vec2::ZERO)) => self.next_escape(
                 direction_or((steering.goal - senses.at) * steering.relative_speed, Vec2::ZERO),
                 senses,
@@ -87,22 +87,23 @@ impl Progress {
         };
         self.escape = Some(escape);
         let effort = if self.stalled < MAX_EFFORT_AFTER { self.stalled } else { MAX_EFFORT_AFTER };
-        Some(Steering { relative_speed: ESCAPE_SPEED[0] + ESCAPE_SPEED[1] * effort, ..senses.along(escape.way) })
+        Some(Steering { relative_speed: ESCAPE_SPEED[0] + ESCAPE_SPEED[1] * effort, ..senses.along(escape.direction) })
     }
 
-    /// The most promising of some ways all around, after one that failed.
+    /// The most promising of some directions all around, after one that failed.
     fn next_escape(&mut self, failed: Vec2, senses: &Senses<'_>, rng: &mut Rng) -> Escape {
         self.failed = self.failed * MEMORY + failed;
-        Escape { way: self.best_way(senses, rng), age: 0.0 }
+        Escape { direction: self.best_direction(senses, rng), age: 0.0 }
     }
 
-    fn best_way(&self, senses: &Senses<'_>, rng: &mut Rng) -> Vec2 {
+    fn best_direction(&self, senses: &Senses<'_>, rng: &mut Rng) -> Vec2 {
         let towards = direction_or(self.before - senses.at, Vec2::ZERO) * WEIGHT_BACK - self.failed;
         let axis = senses.axis() * WEIGHT_AXIS;
-        let merit = |way: Vec2| way.dot(towards) + way.dot(axis).abs();
+        let merit = |direction: Vec2| direction.dot(towards) + direction.dot(axis).abs();
         let first = rng.range(0.0, TAU);
-        let ways = (0..DIRECTIONS).map(|k| senses.along_walls(unit_vector(first + TAU * k as f32 / DIRECTIONS as f32)));
-        ways.reduce(|a, b| if merit(b) > merit(a) { b } else { a }).unwrap_or(Vec2::X)
+        let directions =
+            (0..DIRECTIONS).map(|k| senses.along_walls(unit_vector(first + TAU * k as f32 / DIRECTIONS as f32)));
+        directions.reduce(|a, b| if merit(b) > merit(a) { b } else { a }).unwrap_or(Vec2::X)
     }
 }
 
@@ -113,8 +114,8 @@ mod tests {
     use crate::geometry::ring::ellipse;
     use crate::id::OrganismId;
 
-    /// The ways out, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
-    fn ways_out(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
+    /// Escapes, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
+    fn escapes(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
         const DT: f32 = 0.1;
         let around = Environment { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
         let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
@@ -133,11 +134,11 @@ mod tests {
 
     #[test]
     fn what_is_stuck_tries_one_way_after_the_other_and_none_that_just_failed() {
-        let ways = ways_out(Vec2::ZERO, 4.0);
-        let waits = ways.iter().take_while(|way| way.is_none()).count();
+        let escapes = escapes(Vec2::ZERO, 4.0);
+        let waits = escapes.iter().take_while(|escape| escape.is_none()).count();
         assert!((9..=11).contains(&waits), "{waits} tenths of a second");
-        assert!(ways[waits..].iter().all(Option::is_some));
-        let mut tried: Vec<Vec2> = ways.into_iter().flatten().collect();
+        assert!(escapes[waits..].iter().all(Option::is_some));
+        let mut tried: Vec<Vec2> = escapes.into_iter().flatten().collect();
         tried.dedup();
         assert!(tried.len() >= 4, "{tried:?}");
         assert!(tried[0].x < 0.0, "{}", tried[0]);
@@ -146,7 +147,7 @@ mod tests {
 
     #[test]
     fn what_gets_somewhere_is_let_alone() {
-        assert_eq!(ways_out(Vec2::X * 0.5, 4.0), [None; 40]);
-        assert_eq!(ways_out(Vec2::Y * 0.35, 4.0), [None; 40], "pushed aside, but away");
+        assert_eq!(escapes(Vec2::X * 0.5, 4.0), [None; 40]);
+        assert_eq!(escapes(Vec2::Y * 0.35, 4.0), [None; 40], "pushed aside, but away");
     }
 }

@@ -94,20 +94,20 @@ fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32) {
     let middle = 0.5 * pen.screen();
     // Below the status line, and not quite at the edge.
     let room = middle - Vec2::new(1.2, 2.4) * unit;
-    let way = at - middle;
-    let share = (room / way.abs().max(Vec2::splat(1.0))).min_element();
-    arrow(pen, middle + way * share.min(1.0), way.normalize_or_zero(), 0.8 * unit, READY);
+    let offset = at - middle;
+    let share = (room / offset.abs().max(Vec2::splat(1.0))).min_element();
+    arrow(pen, middle + offset * share.min(1.0), offset.normalize_or_zero(), 0.8 * unit, READY);
 }
 
 /// An arrow with its tip at a point, in a dark rim that shows it on any ground.
-fn arrow(pen: &mut Pen, tip: Vec2, way: Vec2, unit: f32, colour: Color) {
-    let side = way.perp();
+fn arrow(pen: &mut Pen, tip: Vec2, direction: Vec2, unit: f32, colour: Color) {
+    let side = direction.perp();
     for (grown, colour) in [(0.14 * unit, INK), (0.0, colour)] {
-        let tip = tip + way * (1.6 * grown);
-        let neck = tip - way * (0.62 * unit + 2.4 * grown);
+        let tip = tip + direction * (1.6 * grown);
+        let neck = tip - direction * (0.62 * unit + 2.4 * grown);
         let wing = side * (0.5 * unit + 1.3 * grown);
         let stem = side * (0.19 * unit + grown);
-        let tail = neck - way * (0.5 * unit - 0.2 * grown);
+        let tail = neck - direction * (0.5 * unit - 0.2 * grown);
         pen.canvas().quad([neck - stem, neck + stem, tail + stem, tail - stem], [colour; 4]);
         pen.canvas().corner([tip, neck + wing, neck - wing], colour);
     }

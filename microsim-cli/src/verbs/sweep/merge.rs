@@ -3,10 +3,10 @@
 use super::store::ResultStore;
 use super::task::{Task, TaskOutcome};
 use super::{MergeArgs, StatusArgs, plan};
-use crate::clean;
 use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
+use crate::sanitize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -99,7 +99,7 @@ fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
         rows.push(row);
     }
     let written =
-        rows.iter().try_for_each(|row| writer.write_record(row.iter().map(|text| clean::cell(text).into_owned())));
+        rows.iter().try_for_each(|row| writer.write_record(row.iter().map(|text| sanitize::cell(text).into_owned())));
     let fail = |error: &dyn std::fmt::Display| Failure::Message(format!("cannot write the table: {error}"));
     written.map_err(|error| fail(&error))?;
     writer.into_inner().map_err(|error| fail(&error))

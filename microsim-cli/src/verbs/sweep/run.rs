@@ -3,10 +3,10 @@
 use super::store::ResultStore;
 use super::task::Task;
 use super::{SweepRunArgs, plan};
-use crate::clean;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::sanitize;
 use indicatif::ProgressBar;
 use std::path::Path;
 use std::str::FromStr;
@@ -118,8 +118,9 @@ impl Pool<'_> {
         self.note(|done| {
             done.found += usize::from(is_found);
             done.run += usize::from(!is_found);
-            let name =
-                |failure| format!("{} with seed {} ({}): {failure}", clean::line(&task.scenario), task.seed, task.key);
+            let name = |failure| {
+                format!("{} with seed {} ({}): {failure}", sanitize::line(&task.scenario), task.seed, task.key)
+            };
             done.broken.extend(outcome.failures.first().map(name));
         });
         Ok(())

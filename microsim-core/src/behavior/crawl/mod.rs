@@ -77,12 +77,12 @@ pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, driv
 }
 
 /// Accelerates the cytoplasm evenly while its mean velocity lags behind.
-fn stream(organism: &Organism, way: Vec2, particles: &Particles, drives: &mut Vec<Drive>) {
+fn stream(organism: &Organism, direction: Vec2, particles: &Particles, drives: &mut Vec<Drive>) {
     let (cytoplasm, speed) = (&organism.fluid_particles, organism.present_speed());
     let sum: Vec2 = cytoplasm.iter().map(|&i| particles.velocity(i as usize)).sum();
-    let lag = STREAMING_SPEED * speed - sum.dot(way) / cytoplasm.len() as f32;
+    let lag = STREAMING_SPEED * speed - sum.dot(direction) / cytoplasm.len() as f32;
     if lag > 0.0 {
-        let (velocity, max_acceleration) = (way * speed, lag / STREAMING_TIME);
+        let (velocity, max_acceleration) = (direction * speed, lag / STREAMING_TIME);
         drives.extend(cytoplasm.iter().map(|&particle| Drive { particle, velocity, max_acceleration }));
     }
 }
@@ -91,12 +91,12 @@ fn stream(organism: &Organism, way: Vec2, particles: &Particles, drives: &mut Ve
 /// near the centroid: the cell has arrived.
 fn beyond(goal: Vec2, centroid: Vec2, nodes: &[Vec2]) -> Option<Vec2> {
     let radius = (crate::geometry::polygon::signed_area(nodes) / std::f32::consts::PI).sqrt();
-    let way = goal - centroid;
-    let distance = way.length();
+    let offset = goal - centroid;
+    let distance = offset.length();
     if distance >= FAR * radius {
         Some(goal)
     } else if distance >= ARRIVED * radius {
-        Some(centroid + way * (FAR * radius / distance))
+        Some(centroid + offset * (FAR * radius / distance))
     } else {
         None
     }

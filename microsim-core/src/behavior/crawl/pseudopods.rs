@@ -63,16 +63,16 @@ fn crawl(
     let nodes = organism.outline_positions(particles);
     let centre = centroid(&nodes)?;
     beyond(goal, centre, &nodes)?;
-    let way = heading(goal - centre) * 1.0_f32.copysign(organism.relative_speed);
+    let direction = heading(goal - centre) * 1.0_f32.copysign(organism.relative_speed);
     let outwards: Vec<Vec2> = nodes.iter().map(|&at| heading(at - centre)).collect();
     let tempo = organism.speed / (signed_area(&nodes) / PI).sqrt();
-    pseudopods.advance(&Posture { outwards: &outwards, way, tempo, dt });
+    pseudopods.advance(&Posture { outwards: &outwards, direction, tempo, dt });
     pseudopods.is_stiff = organism.meals().iter().any(|meal| !meal.phase.is_inside());
-    if pseudopods.is_stiff || pseudopods.is_turning(way) {
+    if pseudopods.is_stiff || pseudopods.is_turning(direction) {
         return super::drive(organism, goal, particles, drives);
     }
     let cell =
-        Cell { organism, nodes: &nodes, outwards: &outwards, centre, way, speed: organism.present_speed().abs() };
+        Cell { organism, nodes: &nodes, outwards: &outwards, centre, direction, speed: organism.present_speed().abs() };
     let (tips, front) = cell.tips(pseudopods);
     cell.draw_cytoplasm(&tips, particles, drives);
     drives.extend(tips.iter().map(|tip| tip.drive));
@@ -86,7 +86,7 @@ struct Cell<'a> {
     nodes: &'a [Vec2],
     outwards: &'a [Vec2],
     centre: Vec2,
-    way: Vec2,
+    direction: Vec2,
     speed: f32,
 }
 
@@ -98,7 +98,7 @@ impl Cell<'_> {
         for (first, length) in network.arcs() {
             let arc = (first..first + length).map(|k| k % self.nodes.len());
             let along = heading(arc.clone().map(|k| self.outwards[k] * network.force(k)).sum());
-            let strength = arc.clone().map(|k| network.force(k)).sum::<f32>() * (1.0 + along.dot(self.way));
+            let strength = arc.clone().map(|k| network.force(k)).sum::<f32>() * (1.0 + along.dot(self.direction));
             if strength > strongest.0 {
                 strongest = (strength, Some(((first + length / 2) % self.nodes.len()) as u32));
             }

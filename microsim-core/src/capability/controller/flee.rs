@@ -51,10 +51,10 @@ impl Flee {
     pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
         let mut away = Vec2::ZERO;
         for threat in senses.others(|other| other.is_engulfer) {
-            let way = senses.at - threat.at;
-            let gap = larger(way.length() - threat.radius - senses.radius, 0.1 * senses.radius);
+            let offset = senses.at - threat.at;
+            let gap = larger(offset.length() - threat.radius - senses.radius, 0.1 * senses.radius);
             if gap < self.params.within {
-                away += direction_or(way, Vec2::X) / gap;
+                away += direction_or(offset, Vec2::X) / gap;
             }
         }
         self.remaining -= senses.around.dt;

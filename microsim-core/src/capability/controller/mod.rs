@@ -199,14 +199,14 @@ impl Controller {
     }
 
     /// Turns its own way, if it has one, to the direction in which it got away from where it was stuck.
-    pub(crate) fn head(&mut self, way: Vec2) {
+    pub(crate) fn head(&mut self, direction: Vec2) {
         match self {
-            Self::PersistentWalk(model) => model.heading = way,
-            Self::Chemotaxis(model) => model.walk.heading = way,
-            Self::Avoidance(model) => model.head(way),
+            Self::PersistentWalk(model) => model.heading = direction,
+            Self::Chemotaxis(model) => model.walk.heading = direction,
+            Self::Avoidance(model) => model.head(direction),
             _ => {
                 if let Some(otherwise) = self.otherwise_mut() {
-                    otherwise.head(way);
+                    otherwise.head(direction);
                 }
             }
         }

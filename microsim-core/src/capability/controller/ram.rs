@@ -57,11 +57,11 @@ mod tests {
         bench.others =
             vec![engulfer(Bench::ME.index, Vec2::ZERO), engulfer(1, Vec2::new(25.0, 5.0)), engulfer(2, near)];
         let goals: Vec<Vec2> = (0..3000).filter_map(|_| bench.decide()).map(|steering| steering.goal).collect();
-        let aside: Vec<Vec2> = goals.iter().map(|&goal| goal - near).filter(|&way| way != Vec2::ZERO).collect();
+        let aside: Vec<Vec2> = goals.iter().map(|&goal| goal - near).filter(|&offset| offset != Vec2::ZERO).collect();
         assert_eq!(goals.len(), 3000);
         assert!((950..1150).contains(&aside.len()), "a third of the time, not {}", aside.len());
-        assert!(aside.iter().all(|way| (way.length() - 8.0).abs() < 1e-3));
-        let quadrant = |x: f32, y: f32| aside.iter().any(|way| way.x * x > 0.0 && way.y * y > 0.0);
+        assert!(aside.iter().all(|offset| (offset.length() - 8.0).abs() < 1e-3));
+        let quadrant = |x: f32, y: f32| aside.iter().any(|offset| offset.x * x > 0.0 && offset.y * y > 0.0);
         assert!(quadrant(1.0, 1.0) && quadrant(1.0, -1.0) && quadrant(-1.0, 1.0) && quadrant(-1.0, -1.0));
     }
 }

@@ -115,16 +115,16 @@ impl Senses<'_> {
 
     /// A direction without its component into walls nearby. One that is head-on becomes a direction along the wall.
     pub(crate) fn along_walls(&self, heading: Vec2) -> Vec2 {
-        let mut way = heading;
+        let mut direction = heading;
         for Wall { away, gap } in self.walls() {
-            let into = -way.dot(away);
+            let into = -direction.dot(away);
             if gap < WHISKERS * self.radius && into > -DETACH {
-                let side = if way.perp_dot(away) > 0.0 { away.perp() } else { -away.perp() };
-                let slide = direction_or(way + away * into, side);
-                way = direction_or(slide + away * DETACH, side);
+                let side = if direction.perp_dot(away) > 0.0 { away.perp() } else { -away.perp() };
+                let slide = direction_or(direction + away * into, side);
+                direction = direction_or(slide + away * DETACH, side);
             }
         }
-        way
+        direction
     }
 
     /// Along the longest extent of its outline; the longer beside its radius, the longer, and zero when it is round.
@@ -145,11 +145,11 @@ impl Senses<'_> {
     fn walls(&self) -> impl Iterator<Item = Wall> {
         self.around.obstacles.iter().filter(|obstacle| obstacle.is_solid()).filter_map(|obstacle| {
             let (surface, is_inside) = obstacle.nearest(self.at);
-            let way = self.at - surface;
-            let away = direction_or(if is_inside { -way } else { way }, Vec2::Y);
+            let offset = self.at - surface;
+            let away = direction_or(if is_inside { -offset } else { offset }, Vec2::Y);
             let reach = self.outline.iter().map(|&node| (self.at - node).dot(away));
             let reach = reach.fold(if self.outline.is_empty() { self.radius } else { 0.0 }, larger);
-            (!is_inside).then(|| Wall { away, gap: way.length() - reach })
+            (!is_inside).then(|| Wall { away, gap: offset.length() - reach })
         })
     }
 }

@@ -33,7 +33,7 @@ pub(crate) struct Posture<'a> {
     /// Unit vectors from its centroid to the nodes of its outline.
     pub outwards: &'a [Vec2],
     /// Unit vector to its goal.
-    pub way: Vec2,
+    pub direction: Vec2,
     /// Its speed over its radius, 1/s.
     pub tempo: f32,
     /// Length of the step, s.
@@ -98,31 +98,32 @@ impl Pseudopods {
     }
 
     /// Whether its pseudopods do not lead towards a goal yet: after a rest, and while it turns round.
-    pub(crate) fn is_turning(&self, way: Vec2) -> bool {
-        self.push.dot(way) < TURNING
+    pub(crate) fn is_turning(&self, direction: Vec2) -> bool {
+        self.push.dot(direction) < TURNING
     }
 
     /// Advances the network by a step: pseudopods start, grow and end.
     pub(crate) fn advance(&mut self, posture: &Posture<'_>) {
-        let &Posture { outwards, way, tempo, dt } = posture;
+        let &Posture { outwards, direction, tempo, dt } = posture;
         let tempo = within(tempo, TEMPO);
         if self.rng.unit() < dt * tempo * self.params.start_rate * self.network.room(self.params.coverage) {
-            self.start(outwards, way);
+            self.start(outwards, direction);
         }
-        if self.is_turning(way) {
-            self.network.quench(|k| outwards[k].dot(way) < OPPOSED);
+        if self.is_turning(direction) {
+            self.network.quench(|k| outwards[k].dot(direction) < OPPOSED);
         }
         let surround = Surround { coverage: self.params.coverage, recovery: tempo / self.params.life, dt };
-        self.network.advance(&surround, |k| self.params.goal_bias * outwards[k].dot(way));
+        self.network.advance(&surround, |k| self.params.goal_bias * outwards[k].dot(direction));
         let active: Vec2 = outwards.iter().zip(self.network.activator()).map(|(&out, &a)| out * a).sum();
         let push = active.normalize_or_zero();
         self.push += (push - self.push) * (dt / (dt + PUSH_TIME));
     }
 
     /// Starts a pseudopod beside the last one or anywhere.
-    fn start(&mut self, outwards: &[Vec2], way: Vec2) {
+    fn start(&mut self, outwards: &[Vec2], direction: Vec2) {
         let is_split = self.last != Vec2::ZERO && self.rng.unit() < self.params.split_share;
-        let found = if is_split { self.beside_the_last(outwards, way) } else { self.anywhere(outwards, way) };
+        let found =
+            if is_split { self.beside_the_last(outwards, direction) } else { self.anywhere(outwards, direction) };
         let Some(k) = found else { return };
         let turn = self.last.perp_dot(outwards[k]);
         (self.side, self.last) = (1.0_f32.copysign(turn), outwards[k]);
@@ -130,13 +131,13 @@ impl Pseudopods {
     }
 
     /// The node at the split angle from the last pseudopod, more often on the other side than the one before, and towards the goal.
-    fn beside_the_last(&mut self, outwards: &[Vec2], way: Vec2) -> Option<usize> {
+    fn beside_the_last(&mut self, outwards: &[Vec2], direction: Vec2) -> Option<usize> {
         let angle = self.params.split_angle + self.params.split_spread * self.rng.normal();
         let [left, right] = [1.0, -1.0].map(|side| rotate(self.last, unit_vector(side * angle.to_radians())));
         let alternation = self.params.alternation;
         let weight = |at: Vec2, is_other_side: bool| {
             let side = if is_other_side { alternation } else { 1.0 - alternation };
-            side * self.acceptance(at, way)
+            side * self.acceptance(at, direction)
         };
         let (to_left, to_right) = (weight(left, self.side < 0.0), weight(right, self.side > 0.0));
         let is_left = self.rng.unit() * (to_left + to_right) < to_left;
@@ -150,10 +151,10 @@ impl Pseudopods {
     }
 
     /// A random node, rather one towards the goal.
-    fn anywhere(&mut self, outwards: &[Vec2], way: Vec2) -> Option<usize> {
+    fn anywhere(&mut self, outwards: &[Vec2], direction: Vec2) -> Option<usize> {
         for _ in 0..TRIES {
             let k = (self.rng.unit() * outwards.len() as f32) as usize;
-            let is_accepted = self.rng.unit() < self.acceptance(outwards[k], way);
+            let is_accepted = self.rng.unit() < self.acceptance(outwards[k], direction);
             if is_accepted && self.network.is_quiet(k, self.params.width) {
                 return Some(k);
             }
@@ -162,8 +163,8 @@ impl Pseudopods {
     }
 
     /// Probability with which a place is accepted by its direction.
-    fn acceptance(&self, out: Vec2, way: Vec2) -> f32 {
-        let ahead = 0.5 * (1.0 + out.dot(way));
+    fn acceptance(&self, out: Vec2, direction: Vec2) -> f32 {
+        let ahead = 0.5 * (1.0 + out.dot(direction));
         ahead * ahead
     }
 }

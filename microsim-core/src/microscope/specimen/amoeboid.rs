@@ -101,8 +101,8 @@ impl AmoeboidBody {
             seed,
             time,
         };
-        let Front { way, strength, ahead, behind, .. } = body.front;
-        let middle = centre - way * (look.nucleus.behind * (ahead + behind) * strength);
+        let Front { direction, strength, ahead, behind, .. } = body.front;
+        let middle = centre - direction * (look.nucleus.behind * (ahead + behind) * strength);
         body.lobes = body.lobes(middle, radius, shape);
         if organism.dividing_for().is_some() {
             body.part_nucleus(&outline);
@@ -173,7 +173,7 @@ impl AmoeboidBody {
         let Self { look, front, from_shape: frame, .. } = self;
         let mut uniforms = vec![self.centre.x, self.centre.y, self.radius, self.rim()];
         uniforms.extend([frame.x_axis.x, frame.x_axis.y, frame.y_axis.x, frame.y_axis.y]);
-        uniforms.extend([front.way.x, front.way.y, front.strength, front.ahead + front.behind]);
+        uniforms.extend([front.direction.x, front.direction.y, front.strength, front.ahead + front.behind]);
         let [from, to] = self.border();
         uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
@@ -226,13 +226,13 @@ impl AmoeboidBody {
 
     /// How much a place belongs to the clear front, 0 to 1.
     fn lamella(&self, place: Vec2) -> f32 {
-        let Front { way, strength, ahead, behind, .. } = self.front;
+        let Front { direction, strength, ahead, behind, .. } = self.front;
         let length = ahead + behind;
         let from_centre = place - self.centre;
         // Its border is uneven, and bends back along the sides.
-        let across = from_centre.perp_dot(way);
+        let across = from_centre.perp_dot(direction);
         let uneven = 0.05 * length * octaves(from_centre / (0.25 * self.radius), 2, self.seed ^ SALTS[3]);
-        let along = from_centre.dot(way) + 0.15 * across * across / self.radius + uneven;
+        let along = from_centre.dot(direction) + 0.15 * across * across / self.radius + uneven;
         let [from, to] = self.border();
         strength * smoothstep(from, to, along)
     }
@@ -330,23 +330,23 @@ impl AmoeboidBody {
         let [smallest, largest] = self.look.blebs;
         let cycle = self.time / BLEB_PERIOD + HashRng::new(seed).unit();
         let mut rng = HashRng::new(seed ^ scramble(cycle as u32));
-        let way = rotate(-self.front.way, unit_vector(rng.range([-1.9, 1.9])));
+        let direction = rotate(-self.front.direction, unit_vector(rng.range([-1.9, 1.9])));
         let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
         let radius = rng.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.field.at(prey));
-        let reach = self.field.crossing(self.centre, way, 0.05 * self.radius)?;
-        (radius > 0.05).then_some((self.centre + way * (reach + 0.3 * radius), radius))
+        let reach = self.field.crossing(self.centre, direction, 0.05 * self.radius)?;
+        (radius > 0.05).then_some((self.centre + direction * (reach + 0.3 * radius), radius))
     }
 
     /// Retraction fibres, which the tail leaves on the glass.
     pub(super) fn threads(&self) -> Vec<Thread> {
-        let Front { way, tail: strength, behind, .. } = self.front;
+        let Front { direction, tail: strength, behind, .. } = self.front;
         let mut rng = HashRng::new(self.seed ^ 0xf1b);
-        let tail = self.field.pushed_inside(self.centre - way * behind, 0.1);
+        let tail = self.field.pushed_inside(self.centre - direction * behind, 0.1);
         let fibre = |_| {
-            let way = rotate(-way, unit_vector(rng.range([-0.45, 0.45])));
+            let direction = rotate(-direction, unit_vector(rng.range([-0.45, 0.45])));
             let length = rng.range([2.0, 4.0]) * strength;
             let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
-            Thread { from: tail, to: tail + way * length, radius: 0.09, matter, peak: 0.0 }
+            Thread { from: tail, to: tail + direction * length, radius: 0.09, matter, peak: 0.0 }
         };
         (0..self.look.fibres).map(fibre).collect()
     }

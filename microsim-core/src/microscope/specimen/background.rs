@@ -165,12 +165,12 @@ impl BackgroundMatter {
 
 /// A fibre that wanders over the glass.
 fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
-    let (mut at, mut way) = (at, rng.direction());
+    let (mut at, mut direction) = (at, rng.direction());
     let step = rng.range([0.25, 1.0]);
     let bend = rng.range([-0.15, 0.15]);
     let mut point = || {
-        at += way * step;
-        way = rotate(way, unit_vector(bend + 0.25 * rng.normal()));
+        at += direction * step;
+        direction = rotate(direction, unit_vector(bend + 0.25 * rng.normal()));
         at
     };
     let points: [Vec2; FIBRE_POINTS] = std::array::from_fn(|_| point());

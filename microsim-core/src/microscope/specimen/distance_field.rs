@@ -113,8 +113,8 @@ impl DistanceField {
     }
 
     /// Distance from a place inside to the edge, in steps along a direction.
-    pub(super) fn crossing(&self, from: Vec2, way: Vec2, step: f32) -> Option<f32> {
-        let depth = |k: u32| self.at(from + way * (k as f32 * step));
+    pub(super) fn crossing(&self, from: Vec2, direction: Vec2, step: f32) -> Option<f32> {
+        let depth = |k: u32| self.at(from + direction * (k as f32 * step));
         let beyond = (1..60).find(|&k| depth(k) < 0.0)?;
         let (inside, outside) = (depth(beyond - 1), depth(beyond));
         Some(step * ((beyond - 1) as f32 + (inside / (inside - outside)).clamp(0.0, 1.0)))

@@ -14,7 +14,7 @@ const SKEWED: f32 = 8.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Front {
     /// Unit vector; any at rest.
-    pub way: Vec2,
+    pub direction: Vec2,
     /// 0 at rest to 1.
     pub strength: f32,
     /// How slender the tail is, 0 to 1.
@@ -33,14 +33,14 @@ impl Front {
         // A narrow tail lies far out, and the front is opposite. The shape counts most: it cannot change at once, while
         // the velocity does when a cell changes its goal.
         let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
-        let way = polarity.try_normalize().unwrap_or(Vec2::X);
-        let reach = |way: Vec2| outline.iter().map(|&p| (p - centre).dot(way)).fold(0.0, larger);
+        let direction = polarity.try_normalize().unwrap_or(Vec2::X);
+        let reach = |direction: Vec2| outline.iter().map(|&p| (p - centre).dot(direction)).fold(0.0, larger);
         Self {
-            way,
+            direction,
             strength: smoothstep(0.1, 0.6, polarity.length()),
             tail: smoothstep(0.05, 0.12, skew.length()),
-            ahead: reach(way),
-            behind: reach(-way),
+            ahead: reach(direction),
+            behind: reach(-direction),
         }
     }
 }

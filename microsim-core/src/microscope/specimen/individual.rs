@@ -40,8 +40,8 @@ pub(super) fn reshape(polar: &mut PolarOutline, facing: Vec2, look: &OutlineLook
     let waves: [Vec2; ORDERS - 1] = std::array::from_fn(&mut wave);
     let bumps = bumps(look, rng);
     let back = Vec2::new(facing.x, -facing.y);
-    polar.reshape(|way| {
-        let own = rotate(way, back);
+    polar.reshape(|direction| {
+        let own = rotate(direction, back);
         let mut turned = own;
         let mut factor = 1.0;
         for wave in waves {
@@ -94,8 +94,8 @@ impl Hollow {
         let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
         let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.28, 0.66]) };
         let stretch = if is_slit { rng.range([1.35, 1.75]) } else { libm::expf(0.13 * rng.normal().abs()) };
-        let way = rng.direction();
-        let turn = Mat2::from_cols(Vec2::new(way.x, -way.y), Vec2::new(way.y, way.x));
+        let direction = rng.direction();
+        let turn = Mat2::from_cols(Vec2::new(direction.x, -direction.y), Vec2::new(direction.y, direction.x));
         let to_hollow = Mat2::from_diagonal(Vec2::new(1.0 / stretch, stretch) / radius) * turn;
         let at = rng.direction() * (0.13 * rng.normal());
         let share = rng.unit();

@@ -44,9 +44,9 @@ impl PolarOutline {
         self.farthest = self.radii.iter().copied().fold(0.0, larger);
     }
 
-    /// Radius in the direction of `way`.
-    pub(super) fn radius(&self, way: Vec2) -> f32 {
-        let at = diamond_angle(way) * (DIRECTIONS as f32 / 4.0);
+    /// Radius in the a direction.
+    pub(super) fn radius(&self, direction: Vec2) -> f32 {
+        let at = diamond_angle(direction) * (DIRECTIONS as f32 / 4.0);
         let k = at as usize;
         let (a, b) = (self.radii[k % DIRECTIONS], self.radii[(k + 1) % DIRECTIONS]);
         a + (b - a) * (at - k as f32)
@@ -97,17 +97,18 @@ fn reaches(outline: &[Vec2], from: Vec2) -> Vec<f32> {
 fn between(a: Vec2, b: Vec2) -> impl Iterator<Item = usize> {
     let [start, end] = [a, b].map(|end| diamond_angle(end) * (DIRECTIONS as f32 / 4.0));
     let turn = DIRECTIONS as f32;
-    let way = end - start;
+    let turned = end - start;
     // The shorter way round, but where the side passes so near that either may be.
-    let way = if way > 0.5 * turn {
-        way - turn
-    } else if way < -0.5 * turn {
-        way + turn
+    let turned = if turned > 0.5 * turn {
+        turned - turn
+    } else if turned < -0.5 * turn {
+        turned + turn
     } else {
-        way
+        turned
     };
-    let (low, high) = (smaller(start, start + way).floor() as i32 - 1, larger(start, start + way).ceil() as i32 + 1);
-    let all = way.abs() > 0.45 * turn || !way.is_finite();
+    let (low, high) =
+        (smaller(start, start + turned).floor() as i32 - 1, larger(start, start + turned).ceil() as i32 + 1);
+    let all = turned.abs() > 0.45 * turn || !turned.is_finite();
     let (low, high) = if all { (0, DIRECTIONS as i32 - 1) } else { (low, high) };
     (low..=high).map(|at| at.rem_euclid(DIRECTIONS as i32) as usize)
 }
@@ -132,8 +133,8 @@ mod tests {
         let outline: Vec<Vec2> = ellipse(Vec2::new(6.0, 2.0), 200).iter().map(|p| *p + Vec2::new(5.0, -3.0)).collect();
         let polar = PolarOutline::around(&outline).unwrap();
         assert!((polar.centre - Vec2::new(5.0, -3.0)).length() < 1e-3 && (polar.mean - 12_f32.sqrt()).abs() < 0.01);
-        for (way, radius) in [(Vec2::X, 6.0), (Vec2::NEG_X, 6.0), (Vec2::Y, 2.0), (Vec2::NEG_Y, 2.0)] {
-            assert!((polar.radius(way) - radius).abs() < 0.02, "{way}: {}", polar.radius(way));
+        for (direction, radius) in [(Vec2::X, 6.0), (Vec2::NEG_X, 6.0), (Vec2::Y, 2.0), (Vec2::NEG_Y, 2.0)] {
+            assert!((polar.radius(direction) - radius).abs() < 0.02, "{direction}: {}", polar.radius(direction));
         }
         assert!(
             outline.iter().all(|&p| (polar.radius(p - polar.centre) / (p - polar.centre).length() - 1.0).abs() < 0.02)

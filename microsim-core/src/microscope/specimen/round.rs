@@ -124,12 +124,12 @@ impl RoundBody {
         for spoke in 0..=spokes {
             // Even on a disc that is stretched like the body, so that slender ends are round.
             let on_disc = if spoke == spokes { Vec2::ZERO } else { unit_vector(TAU * spoke as f32 / spokes as f32) };
-            let way = rotate(on_disc * self.axes, self.facing).normalize_or_zero();
-            let radius = if spoke == spokes { self.polar.mean } else { self.polar.radius(way) };
+            let direction = rotate(on_disc * self.axes, self.facing).normalize_or_zero();
+            let radius = if spoke == spokes { self.polar.mean } else { self.polar.radius(direction) };
             vertices.extend(self.polar.centre.to_array());
-            vertices.extend([way.x * radius, way.y * radius, radius]);
+            vertices.extend([direction.x * radius, direction.y * radius, radius]);
             vertices.extend_from_slice(&constant);
-            let in_hollow = self.hollow.turned(rotate(way * radius, back));
+            let in_hollow = self.hollow.turned(rotate(direction * radius, back));
             vertices.extend([in_hollow.x, in_hollow.y, self.hollow.area, self.edge]);
         }
         let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
@@ -145,14 +145,14 @@ impl RoundBody {
 
     /// Its matter at a place.
     fn at(&self, place: Vec2, softness: f32) -> Matter {
-        let way = place - self.polar.centre;
-        let radius = self.polar.radius(way);
-        let rho = way.length() / radius;
+        let direction = place - self.polar.centre;
+        let radius = self.polar.radius(direction);
+        let rho = direction.length() / radius;
         let fade = softness / radius;
         if rho >= 1.0 + fade {
             return Matter::NONE;
         }
-        let own = rotate(way, Vec2::new(self.facing.x, -self.facing.y));
+        let own = rotate(direction, Vec2::new(self.facing.x, -self.facing.y));
         let thickness = self.thickness(rho / (1.0 + fade), own / self.polar.mean);
         let texture = &self.look.texture;
         let noise = if texture.amount > 0.0 { octaves(own / texture.size, 2, self.seed) } else { 0.0 };
@@ -253,8 +253,8 @@ impl RoundBody {
     /// The tube from the mouth, at the end of the groove, into the body.
     fn gullet(&self, pellicle: &Pellicle, threads: &mut Vec<Thread>) {
         let point = |k: usize| {
-            let way = k as f32 / 6.0;
-            let own = Vec2::new(0.02 - 0.26 * way, GROOVE[0] + 0.02 + 0.34 * way * way) * self.axes;
+            let along = k as f32 / 6.0;
+            let own = Vec2::new(0.02 - 0.26 * along, GROOVE[0] + 0.02 + 0.34 * along * along) * self.axes;
             self.polar.centre + rotate(own, self.facing)
         };
         let radius = |k: usize| self.polar.mean * (0.05 - 0.005 * k as f32);
@@ -268,10 +268,10 @@ impl RoundBody {
         let radius = 0.02 * self.polar.mean * (1.0 - 0.6 * filled);
         let mut rng = HashRng::new(self.seed ^ 0xca7a);
         let mut canal = |k: usize| {
-            let way = rotate(unit_vector((k as f32 + 0.7 * rng.unit()) * TAU / 7.0), self.facing);
-            let to = at + way * (vacuole + rng.range([0.05, 0.18]) * self.polar.mean);
+            let direction = rotate(unit_vector((k as f32 + 0.7 * rng.unit()) * TAU / 7.0), self.facing);
+            let to = at + direction * (vacuole + rng.range([0.05, 0.18]) * self.polar.mean);
             let share = 0.5 * rng.unit() * (1.0 - 0.7 * filled);
-            Thread { from: at + way * vacuole, to, radius, matter: pellicle.water() * share, peak: 0.0 }
+            Thread { from: at + direction * vacuole, to, radius, matter: pellicle.water() * share, peak: 0.0 }
         };
         std::array::from_fn(&mut canal)
     }
@@ -296,8 +296,8 @@ impl RoundBody {
         // Between even in angle and even on the stretched disc, they are about as dense everywhere.
         let stretch = Vec2::new(self.axes.x.sqrt(), self.axes.y.sqrt());
         let root = |share: f32| {
-            let way = rotate(unit_vector(TAU * share) * stretch, self.facing).normalize_or_zero();
-            self.polar.centre + way * self.polar.radius(way)
+            let direction = rotate(unit_vector(TAU * share) * stretch, self.facing).normalize_or_zero();
+            self.polar.centre + direction * self.polar.radius(direction)
         };
         let from = root(share);
         let outwards = -direction_or(root(share + 0.004) - root(share - 0.004), Vec2::X).perp();
@@ -346,8 +346,8 @@ fn oral_groove(own: Vec2) -> [f32; 2] {
 /// Gives an outline the shape of a slipper: blunt in front, pointed behind, and hollow along the oral groove.
 fn make_slipper(polar: &mut PolarOutline, facing: Vec2, axes: Vec2, amount: f32) {
     let back = Vec2::new(facing.x, -facing.y);
-    polar.reshape(|way| {
-        let own = (rotate(way, back) / axes).normalize_or_zero();
+    polar.reshape(|direction| {
+        let own = (rotate(direction, back) / axes).normalize_or_zero();
         let pointed = own.x * own.y * own.y;
         let hollow = if own.y < 0.0 { bell((own.x - 0.45) / 0.35) * own.y * own.y } else { 0.0 };
         1.0 + amount * (1.6 * pointed - hollow)

@@ -49,11 +49,11 @@ impl Thread {
         let radius = (self.radius * self.radius + blur * blur).sqrt();
         let matter = self.matter * (self.radius / radius);
         let reach = Vec2::splat(2.0 * radius);
-        let way = self.to - self.from;
-        let per_length = 1.0 / larger(way.length_squared(), 1e-12);
+        let axis = self.to - self.from;
+        let per_length = 1.0 / larger(axis.length_squared(), 1e-12);
         raster.add(self.from.min(self.to) - reach, self.from.max(self.to) + reach, |p| {
-            let along = ((p - self.from).dot(way) * per_length).clamp(0.0, 1.0);
-            let apart = (p - self.from - way * along).length() / radius;
+            let along = ((p - self.from).dot(axis) * per_length).clamp(0.0, 1.0);
+            let apart = (p - self.from - axis * along).length() / radius;
             let share = if along < self.peak { along / self.peak } else { (1.0 - along) / (1.0 - self.peak) };
             matter * (bell(apart) * share)
         });
