@@ -144,7 +144,7 @@ pub(crate) fn subtract_displacement(block: &mut Columns<'_>, margins: &mut [f32;
 
 #[cfg(test)]
 mod tests {
-    use super::super::constraint::{Anchor, Area, Distance, MinDistance, Rope};
+    use super::super::constraint::{Anchor, Area, Bend, Distance, MinDistance, Rope};
     use super::super::testing::disc;
     use super::*;
     use glam::Vec2;
@@ -160,6 +160,7 @@ mod tests {
         list.push(Distance { a: 0, b: 2, rest_length: 2.0, compliance: 1e-5, damping: 0.0 }.into());
         list.push(MinDistance { a: 1, b: 3, min_length: 3.0 }.into());
         list.push(Rope { a: 2, b: 4, max_length: 2.9 }.into());
+        list.push(Bend::new([0, 3, 4], 0.4, 1e-3).into());
         list.push(Anchor { node: 3, anchor: 0, rest_length: 1.0, max_length: 4.4, compliance: 1e-4 }.into());
         for is_upper_bound in [false, true] {
             list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound }.into());

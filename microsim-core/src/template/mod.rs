@@ -226,7 +226,7 @@ impl TemplateBuilder {
         self.channels.len() as u32 - 1
     }
 
-    /// Adds a constraint of any kind as a muscle of a channel.
+    /// Adds a constraint of any kind that has lengths or an area as a muscle of a channel.
     pub fn muscle(&mut self, channel: u32, constraint: impl Into<Constraint>) -> &mut Self {
         self.muscles.push(Muscle { constraint: self.constraints.len() as u32, channel });
         self.constraint(constraint)
@@ -267,7 +267,7 @@ impl TemplateBuilder {
             in_range("rest", scale[0], 0.1, 10.0).map_err(|error| error.within(&format!("channels[{k}]")))?;
             in_range("active", scale[1], 0.1, 10.0).map_err(|error| error.within(&format!("channels[{k}]")))?;
         }
-        check_muscles(&muscles, constraints.len(), channels.len())?;
+        check_muscles(&muscles, &constraints, channels.len())?;
         let (constraints, muscles) = in_order(constraints, &muscles);
         if !outline.is_empty() {
             check_ring("outline", &outline, nodes.len())?;
@@ -280,16 +280,20 @@ impl TemplateBuilder {
     }
 }
 
-/// Checks that muscles name different constraints, ascending, and channels that exist.
-fn check_muscles(muscles: &[Muscle], constraints: usize, channels: usize) -> Result<(), Error> {
-    let is_known = |muscle: &Muscle| (muscle.constraint as usize) < constraints && (muscle.channel as usize) < channels;
+/// Checks that muscles name different constraints, ascending, that have lengths, and channels that exist.
+fn check_muscles(muscles: &[Muscle], constraints: &[Constraint], channels: usize) -> Result<(), Error> {
+    let has_lengths =
+        |muscle: &Muscle| constraints.get(muscle.constraint as usize).is_some_and(Constraint::has_lengths);
+    let is_known = |muscle: &Muscle| has_lengths(muscle) && (muscle.channel as usize) < channels;
     let is_ascending = muscles.is_sorted_by(|a, b| a.constraint < b.constraint);
     if is_ascending && muscles.iter().all(is_known) {
         return Ok(());
     }
     Err(Error::reference(
         "muscles",
-        format!("one of the {channels} channels for each of the constraints that are muscles"),
+        format!(
+            "one of the {channels} channels for each of the constraints that are muscles, and those with lengths only"
+        ),
     ))
 }
 
@@ -313,7 +317,7 @@ fn in_order(mut constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constr
 mod tests {
     use super::*;
     use crate::error::ErrorKind;
-    use crate::solver::constraint::{Anchor, Area, MinDistance, Rope};
+    use crate::solver::constraint::{Anchor, Area, Bend, MinDistance, Rope};
 
     /// Discs at (0, 0) and (0, 2).
     fn two_nodes() -> TemplateBuilder {
@@ -378,6 +382,39 @@ mod tests {
         refuse(&|b| _ = b.channel([0.0, 1.0]), "channels[0].rest");
         refuse(&|b| _ = b.channel([1.0, f32::NAN]), "channels[0].active");
         refuse(&|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }), "muscles");
+        let bent = |b: &mut TemplateBuilder, angle, compliance| {
+            let c = b.node(Node::disc(Vec2::Y, 1.0, 0.5));
+            Bend::new([0, 1, c], angle, compliance)
+        };
+        refuse(
+            &|b| {
+                _ = {
+                    let bend = bent(b, 0.0, 0.0);
+                    let channel = b.channel([1.0, 2.0]);
+                    b.muscle(channel, bend)
+                }
+            },
+            "muscles",
+        );
+        refuse(
+            &|b| {
+                _ = {
+                    let bend = bent(b, f32::NAN, 0.0);
+                    b.constraint(bend)
+                }
+            },
+            "constraints[0].rest_turn",
+        );
+        refuse(
+            &|b| {
+                _ = {
+                    let bend = bent(b, 0.0, -1.0);
+                    b.constraint(bend)
+                }
+            },
+            "constraints[0].compliance",
+        );
+        refuse(&|b| _ = b.constraint(Bend::new([0, 1, 2], 0.0, 0.0)), "constraints[0].a");
         let propulsion = |speed, max_acceleration| Propulsion { speed, max_acceleration };
         refuse(&|b| _ = b.propulsion(propulsion(-1.0, 0.0)), "propulsion.speed");
         refuse(&|b| _ = b.propulsion(propulsion(1.0, f32::INFINITY)), "propulsion.max_acceleration");

@@ -2,6 +2,7 @@
 
 mod anchor;
 mod area;
+mod bend;
 mod distance;
 mod min_distance;
 mod rope;
@@ -9,6 +10,7 @@ mod rope;
 pub use anchor::Anchor;
 pub use area::Area;
 pub(super) use area::MeasuredRing;
+pub use bend::Bend;
 pub use distance::Distance;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
@@ -37,6 +39,7 @@ pub enum Constraint {
     Area(Area),
     Anchor(Anchor),
     Rope(Rope),
+    Bend(Bend),
 }
 
 /// What every kind of constraint says of itself.
@@ -49,6 +52,11 @@ pub(crate) trait Constrain {
 
     /// Checks its nodes, of which there are so many, and the range of each number. Errors name the field.
     fn validate(&self, nodes: usize) -> Result<(), Error>;
+
+    /// Whether it has lengths or areas, which grow with the body and by which it can be a muscle.
+    fn has_lengths(&self) -> bool {
+        true
+    }
 
     /// Projects it once in each lane of some spans, in a substep of `h` seconds.
     fn project<const L: usize>(&self, spans: &[Span<L>], particles: &mut Columns<'_>, h: f32)
@@ -72,6 +80,7 @@ impl Constraint {
             Self::Area(c) => task.run(c),
             Self::Anchor(c) => task.run(c),
             Self::Rope(c) => task.run(c),
+            Self::Bend(c) => task.run(c),
         }
     }
 
@@ -79,6 +88,11 @@ impl Constraint {
     #[must_use]
     pub fn links(&self) -> Vec<[u32; 2]> {
         self.run(Borrow).links()
+    }
+
+    /// Whether it can be a muscle.
+    pub(crate) fn has_lengths(&self) -> bool {
+        self.run(Borrow).has_lengths()
     }
 
     /// Place of its kind in the order of projection.
@@ -161,6 +175,7 @@ mod tests {
             Area { ring: vec![0, 1, 2], rest_area: 1.0, compliance, is_upper_bound: false }.into(),
             Anchor { node: a, anchor: b, rest_length, max_length: 1.0, compliance }.into(),
             Rope { a, b, max_length: 1.0 }.into(),
+            Bend::new([0, 1, 2], 0.0, compliance).into(),
         ];
         let orders = std::collections::BTreeSet::from(kinds.each_ref().map(|kind| kind.run(Borrow).order()));
         assert_eq!(orders.len(), kinds.len());

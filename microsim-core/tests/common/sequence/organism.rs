@@ -2,7 +2,9 @@
 
 use super::{Outcome, Sequence};
 use microsim_core::glam::Vec2;
-use microsim_core::{Actuation, ChemicalSpec, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template};
+use microsim_core::{
+    Actuation, Bend, ChemicalSpec, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template,
+};
 
 impl Sequence<'_> {
     pub(super) fn spawn(&mut self) -> Outcome {
@@ -100,6 +102,9 @@ impl Sequence<'_> {
         }
         for _ in 0..c.below(6) {
             builder.spring(c.below(7) as u32, c.below(7) as u32, c.number(0.0, 1e-3), c.number(0.0, 1.0));
+        }
+        if count > 2 {
+            builder.constraint(Bend::new([0, 1, 2], c.number(-3.0, 3.0), c.number(0.0, 1e-2)));
         }
         if c.flag() {
             let channel = builder.channel([c.number(0.5, 1.5), c.number(0.5, 1.5)]);
