@@ -52,10 +52,13 @@ mod tests {
     use crate::rules::round::Round;
     use crate::rules::slide_bot::SlideBot;
     use microsim_core::Intent;
-    use microsim_core::scenario::builtin;
 
     fn round(slide: &BuiltinSlide, seed: u64) -> Round {
-        let mut scenario = Scenario::parse(slide.text, &[]).unwrap_or_else(|found| panic!("{}: {found}", slide.name));
+        let mut scenario = Scenario::parse(
+            &std::fs::read_to_string(format!("{}/slides/{}.toml", env!("CARGO_MANIFEST_DIR"), slide.name)).unwrap(),
+            &[],
+        )
+        .unwrap_or_else(|found| panic!("{}: {found}", slide.name));
         scenario.set_seed(seed);
         Round::new(&scenario).unwrap_or_else(|problem| panic!("{}, seed {seed}: {problem}", slide.name))
     }
