@@ -1,4 +1,4 @@
-//! The places that a slide's goals ask for.
+//! What a slide's goals ask for: places, and food to be told from dust.
 
 use super::marks::{Style, draw_at_edge};
 use crate::draw::palette::{HALO, INK, READY, fade};
@@ -6,6 +6,7 @@ use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
+use microsim_core::{Kind, View};
 
 /// Draws a frame around each place, a thick one that is filled until the player was there; an arrow at the edge of the picture
 /// points to such a place outside.
@@ -25,6 +26,19 @@ pub fn draw_places<'a>(pen: &mut Pen, style: &Style<'_>, goals: impl Iterator<It
         if done == 0 && !is_seen {
             draw_at_edge(pen, 0.5 * (low + high), unit);
         }
+    }
+}
+
+/// Draws a thin ring around everything small that can be digested.
+pub fn draw_food(pen: &mut Pen, style: &Style<'_>, view: View<'_>) {
+    let unit = pen.line(TextSize::Body);
+    let is_food = |kind| matches!(kind, Kind::Agar | Kind::Coccus | Kind::Bacillus);
+    for food in view.organisms().filter(|organism| is_food(organism.kind()) && organism.held_by().is_none()) {
+        let (low, high) = food.bounds();
+        let radius = 0.5 * (high - low).max_element() * style.camera.scale() + 0.35 * unit;
+        let at = style.camera.to_screen(food.centroid());
+        pen.canvas().arc(at, radius, 0.2 * unit, 1.0, fade(INK, 0.5));
+        pen.canvas().arc(at, radius, 0.1 * unit, 1.0, READY);
     }
 }
 

@@ -7,8 +7,8 @@ use macroquad::color::Color;
 use microsim_core::Chemical;
 use microsim_core::glam::Vec2;
 
-/// The cells of a chemical's grid, the fuller the more of it is there.
-pub(crate) fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color) {
+/// The cells of a chemical's grid, the fuller the more of it is there, at most this strong.
+pub(crate) fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color, strength: f32) {
     let most = chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value));
     let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
     for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
@@ -18,7 +18,7 @@ pub(crate) fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Che
         let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
         let share = (value / most).max(0.0).sqrt();
         if is_seen && share > 0.02 {
-            canvas.rectangle(upper_left, lower_right, fade(colour, 0.2 * share));
+            canvas.rectangle(upper_left, lower_right, fade(colour, strength * share));
         }
     }
 }

@@ -1,11 +1,12 @@
 //! A bot that plays slides: it does one goal after another, and sees obstacles.
 
+use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::round::Round;
 use super::slide::wanted;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
-use microsim_core::{Intent, World};
+use microsim_core::{Intent, Kind, OrganismView, View, World};
 
 /// Steps between two decisions.
 const INTERVAL: u64 = 10;
@@ -35,18 +36,26 @@ impl SlideBot {
     }
 }
 
-/// The nearest place or prey that a goal asks for.
+/// The nearest place or prey that a goal asks for, or food to grow on.
 fn target(round: &Round) -> Option<Vec2> {
-    let (world, player) = (round.world(), round.player());
-    let at = world.centroid(player)?;
+    let view = round.world().view();
+    let player = view.organism(round.player())?;
+    let at = player.centroid();
     let open = round.attempt()?.goals().filter(|&(goal, done)| done < wanted(goal));
     let places = open.flat_map(|(goal, _)| match *goal {
         Goal::Reach { low, high } => vec![0.5 * (low + high)],
-        Goal::Digest { kind, .. } => {
-            let view = world.view();
-            let free = view.organisms().filter(|prey| prey.kind() == kind && prey.held_by().is_none());
-            free.map(|prey| prey.centroid()).collect()
-        }
+        Goal::Digest { kind, .. } => prey_of(view, player, kind),
     });
     places.min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length()))
+}
+
+/// Where prey of a kind is that the player can take in now; where food is if there is none.
+fn prey_of(view: View<'_>, player: OrganismView<'_>, kind: Kind) -> Vec<Vec2> {
+    let is_ready = |prey: OrganismView<'_>| !prey.is_soft_prey() || readiness(player, prey) == Some(Readiness::Ready);
+    let free = |is_wanted: &dyn Fn(Kind) -> bool| -> Vec<Vec2> {
+        let wanted = view.organisms().filter(|prey| is_wanted(prey.kind()) && prey.held_by().is_none());
+        wanted.filter(|prey| is_ready(*prey)).map(|prey| prey.centroid()).collect()
+    };
+    let prey = free(&|of| of == kind);
+    if prey.is_empty() { free(&|of| matches!(of, Kind::Agar | Kind::Coccus)) } else { prey }
 }

@@ -2,7 +2,7 @@
 
 use super::context::AppContext;
 use super::{Next, Overlay, Paused, Screen};
-use crate::draw::palette::WAIT;
+use crate::draw::palette::ALERT;
 use crate::hud::{self, Status, marks, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
@@ -21,6 +21,8 @@ use microsim_core::replay::Replay;
 const VIEW: f32 = 62.0;
 /// Time for which the player is told the task of a slide, and what to do, s.
 const TASK_TIME: f64 = 9.0;
+/// How strong the tint of a chemical is at most.
+const SCENT: f32 = 0.6;
 const ADVICE_TIME: f64 = 7.0;
 
 /// A round on the screen.
@@ -161,7 +163,7 @@ impl Screen for Play {
         context.paint(view, camera);
         if self.round.attempt().is_some() {
             view.chemicals()
-                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), camera, chemical, WAIT));
+                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), camera, chemical, ALERT, SCENT));
         }
         if !context.is_top {
             return;
@@ -176,6 +178,7 @@ impl Screen for Play {
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
         if let Some(attempt) = self.round.attempt() {
+            places::draw_food(pen, &style, view);
             places::draw_places(pen, &style, attempt.goals());
         }
         marks::draw_held(pen, &style, &mut taken, &hints.held);

@@ -21,7 +21,7 @@ pub fn stars_width(radius: f32) -> f32 {
 pub fn draw_stars(pen: &mut Pen, middle: Vec2, radius: f32, stars: u32, colour: Color) {
     for k in 0..STARS {
         let at = middle + Vec2::new((k as f32 - 1.0) * 2.3 * radius, 0.0);
-        draw_star(pen, at, if k < stars { radius } else { 0.35 * radius }, colour);
+        draw_star(pen, at, if k < stars { radius } else { 0.45 * radius }, colour);
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
     let canvas = pen.canvas();
     canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
     for ((_, chemical), colour) in view.chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
-        tint::draw_chemical(canvas, camera, chemical, colour);
+        tint::draw_chemical(canvas, camera, chemical, colour, 0.2);
     }
     for (bond, ends) in view.bonds() {
         let (width, colour) = stroke(bond);
