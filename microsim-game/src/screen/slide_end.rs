@@ -49,10 +49,11 @@ impl SlideEnd {
     /// The text in lines that fit into the picture, each with its place.
     fn lines(&self, pen: &Pen) -> Vec<(Vec2, TextSize, Color, String)> {
         let screen = pen.screen();
+        let width = (0.92 * screen.x).min(30.0 * pen.line(TextSize::Body));
         let mut y = 0.09 * screen.y + 0.9 * pen.line(TextSize::Large);
         let mut lines = Vec::new();
         for (size, colour, text) in &self.told {
-            for line in pen.wrap(*size, text, 0.92 * screen.x) {
+            for line in pen.wrap(*size, text, width) {
                 y += 0.5 * pen.line(*size);
                 lines.push((Vec2::new(0.5 * screen.x, y), *size, *colour, line));
                 y += 0.5 * pen.line(*size);
