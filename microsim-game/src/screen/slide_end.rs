@@ -19,6 +19,9 @@ use microsim_core::glam::Vec2;
 /// Share of the picture's height above the menu, if the text leaves it.
 const MENU_TOP: f32 = 0.6;
 
+/// A line of text: where its middle is, and how it is written.
+type Line = (Vec2, TextSize, Color, String);
+
 #[derive(Debug)]
 pub(super) struct SlideEnd {
     played: Paused,
@@ -47,16 +50,28 @@ impl SlideEnd {
     }
 
     /// The text in lines that fit into the picture, each with its place.
-    fn lines(&self, pen: &Pen) -> Vec<(Vec2, TextSize, Color, String)> {
+    fn lines(&self, pen: &Pen) -> Vec<Line> {
+        let lines = self.lines_of(pen, TextSize::Body);
+        if end_of(pen, &lines) <= MenuLayout::middle(pen, 1.0).corner.y {
+            return lines;
+        }
+        let mut lines = self.lines_of(pen, TextSize::Small);
+        lines.retain(|line| end_of(pen, std::slice::from_ref(line)) <= MenuLayout::middle(pen, 1.0).corner.y);
+        lines
+    }
+
+    /// The same with the fact in this size.
+    fn lines_of(&self, pen: &Pen, fact: TextSize) -> Vec<Line> {
         let screen = pen.screen();
         let width = (0.92 * screen.x).min(30.0 * pen.line(TextSize::Body));
         let mut y = 0.09 * screen.y + 0.9 * pen.line(TextSize::Large);
         let mut lines = Vec::new();
         for (size, colour, text) in &self.told {
-            for line in pen.wrap(*size, text, width) {
-                y += 0.5 * pen.line(*size);
-                lines.push((Vec2::new(0.5 * screen.x, y), *size, *colour, line));
-                y += 0.5 * pen.line(*size);
+            let size = if *size == TextSize::Body { fact } else { *size };
+            for line in pen.wrap(size, text, width) {
+                y += 0.5 * pen.line(size);
+                lines.push((Vec2::new(0.5 * screen.x, y), size, *colour, line));
+                y += 0.5 * pen.line(size);
             }
             y += 0.3 * pen.line(TextSize::Small);
         }
@@ -64,9 +79,13 @@ impl SlideEnd {
     }
 
     fn layout(&self, pen: &Pen) -> MenuLayout {
-        let end = self.lines(pen).last().map_or(0.0, |(at, size, ..)| at.y + 0.8 * pen.line(*size));
-        MenuLayout::middle(pen, MENU_TOP.max(end / pen.screen().y))
+        MenuLayout::middle(pen, MENU_TOP.max(end_of(pen, &self.lines(pen)) / pen.screen().y))
     }
+}
+
+/// Where lines end, drawing units from the upper edge.
+fn end_of(pen: &Pen, lines: &[Line]) -> f32 {
+    lines.last().map_or(0.0, |(at, size, ..)| at.y + 0.6 * pen.line(*size))
 }
 
 /// The slide of the list that was played, if it was one.
@@ -107,7 +126,7 @@ impl Screen for SlideEnd {
         let index = slide_of(self.played).unwrap_or_default();
         let label = match choice {
             EndChoice::Again => "Again",
-            EndChoice::Leave => "Slides",
+            EndChoice::Leave => "Title",
             EndChoice::Pick(item) => self.menu.menu.items[item].label.as_str(),
         };
         match label {
