@@ -29,6 +29,7 @@ pub mod scene_source;
 pub mod scenery;
 pub mod screen;
 pub mod shot;
+pub mod slides;
 pub mod sound;
 pub mod stage;
 pub mod store;

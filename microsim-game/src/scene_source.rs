@@ -1,6 +1,6 @@
 //! Where the scenario of a scene comes from.
 
-use crate::platform;
+use crate::{platform, slides};
 use microsim_core::scenario;
 use std::path::PathBuf;
 use std::{fmt, io};
@@ -8,7 +8,7 @@ use std::{fmt, io};
 /// Where the scenario of a scene comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneSource {
-    /// A built-in scenario.
+    /// A built-in scenario, or a slide.
     Builtin(String),
     /// A scenario file.
     File(PathBuf),
@@ -37,12 +37,18 @@ impl SceneSource {
                 let text = text.and_then(|text| text.map_err(|_| io::Error::other("it is no text in UTF-8")));
                 text.map_err(|error| format!("cannot read {}: {error}", path.display()))
             }
-            Self::Builtin(name) => scenario::builtin(name).map(|found| found.text.to_owned()).ok_or_else(|| {
+            Self::Builtin(name) => builtin_text(name).map(str::to_owned).ok_or_else(|| {
                 let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();
                 format!("no built-in scenario {name:?}; there are: {}; a file ends in .toml", names.join(", "))
             }),
         }
     }
+}
+
+/// Text of a built-in scenario, or of a slide.
+fn builtin_text(name: &str) -> Option<&'static str> {
+    let slide = || slides::find(name).map(|slide| slide.text);
+    scenario::builtin(name).map(|found| found.text).or_else(slide)
 }
 
 impl fmt::Display for SceneSource {

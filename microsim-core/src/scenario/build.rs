@@ -9,6 +9,7 @@ use super::script::Script;
 use super::sections::checks::Checks;
 use super::sections::game::Game;
 use super::sections::group::{Group, Positions};
+use super::sections::slide::Slide;
 use super::spawner::Spawner;
 use crate::error::Error;
 use crate::float_environment::with_default_float_environment;
@@ -34,6 +35,8 @@ pub struct Built {
     pub checks: Checks,
     /// What makes a game of it.
     pub game: Option<Game>,
+    /// What makes a slide of it.
+    pub slide: Option<Slide>,
 }
 
 impl Scenario {
@@ -52,6 +55,7 @@ impl Scenario {
             script: Script::default(),
             checks: self.file.checks.clone(),
             game: self.file.game.clone(),
+            slide: self.file.slide.clone(),
         };
         let spawners = with_default_float_environment(|| self.fill(&mut built, &context));
         built.script = Script::new(self.file.commands.clone(), self.file.controllers.clone(), built.named.clone())

@@ -9,6 +9,7 @@ use super::sections::controller::{self, Controllers};
 use super::sections::game::{self, Game};
 use super::sections::group::{self, Group};
 use super::sections::output::{self, OutputPlan};
+use super::sections::slide::{self, Slide};
 use super::sections::spawn::{self, Definitions};
 use super::sections::{field, obstacle, prototype, world};
 use crate::WorldConfig;
@@ -35,6 +36,7 @@ pub(super) struct File {
     pub checks: Checks,
     pub output: OutputPlan,
     pub game: Option<Game>,
+    pub slide: Option<Slide>,
 }
 
 /// Reads a file. Reports every error that does not follow from another one.
@@ -67,6 +69,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
     let checks = checks::read(&mut root);
     let output = output::read(&mut root);
     let game = game::read(&mut root, &groups);
+    let slide = slide::read(&mut root, &groups, size);
     root.finish();
     group::check_size(&groups, config.max_particles, context);
     File {
@@ -82,6 +85,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
         checks,
         output,
         game,
+        slide,
     }
 }
 

@@ -68,6 +68,8 @@
 //! | `[[polygon]]` | `points`, `friction = 0.2` |
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `bacillus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
+//! | `[slide]` | `title`, `task`, `fact`, `source`, `time`, `stars = [for 3, for 2]`, all required (see [`Slide`]); does not go with `[game]` |
+//! | `[[slide.goal]]` | `reach = [[x0, y0], [x1, y1]]`; or `digested = "KIND"`, a kind of `[game.points]`, and `count = 1` |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
 //! | `[output]` | what is written while it runs: `events = true`, `pictures = true`, `snapshots = [times]`, `checkpoint_every = 0` steps |
 //! | `[output.measures]`, `[output.trajectories]` | `formats = ["csv"]`, `every = 0.1` (0: each step); for measures also `of = [names]` |
@@ -103,6 +105,7 @@ pub use script::{Refusal, Script};
 pub use sections::checks::{Checks, Violation};
 pub use sections::game::{Game, Points};
 pub use sections::output::{FramePlan, OutputPlan, TableFormat, TablePlan};
+pub use sections::slide::{Goal, Slide};
 
 use crate::config::WorldConfig;
 use crate::float_environment::with_default_float_environment;
@@ -168,6 +171,12 @@ impl Scenario {
     #[must_use]
     pub fn game(&self) -> Option<&Game> {
         self.file.game.as_ref()
+    }
+
+    /// What makes a slide of it, if anything does.
+    #[must_use]
+    pub fn slide(&self) -> Option<&Slide> {
+        self.file.slide.as_ref()
     }
 
     /// Settings of its world.

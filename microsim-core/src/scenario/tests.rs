@@ -219,3 +219,41 @@ fn a_game_names_its_points_and_needs_a_player() {
     let known = refused(&game.replace("player = true", "player = true\nrespawn = 1.0"));
     assert!(known.contains("respawn"), "{known}");
 }
+
+#[test]
+fn a_slide_has_goals_within_reach_and_a_time_for_each_star() {
+    let slide = format!(
+        "{DISH}[slide]\ntitle = \"T\"\ntask = \"Go.\"\nfact = \"Cells crawl.\"\nsource = \"A, 1900, B\"\ntime = 60.0\n\
+         stars = [20.0, 40.0]\n[[slide.goal]]\nreach = [[1.0, 2.0], [3.0, 4.0]]\n[[slide.goal]]\n\
+         digested = \"coccus\"\ncount = 3\n"
+    );
+    let scenario = Scenario::parse(&slide, &[]).unwrap();
+    let rules = scenario.slide().unwrap();
+    let reach = Goal::Reach { low: Vec2::new(1.0, 2.0), high: Vec2::new(3.0, 4.0) };
+    assert_eq!(rules.goals, [reach, Goal::Digest { kind: crate::Kind::Coccus, count: 3 }]);
+    assert_eq!([19.0, 20.0, 20.1, 40.0, 41.0].map(|time| rules.stars_for(time)), [3, 3, 2, 2, 1]);
+    let changes = [
+        ("player = true", "", "slide: nobody plays"),
+        ("time = 60.0", "time = 0.5", "slide.time: 0.5 is out of range (accepted: 1 to 3600)"),
+        ("time = 60.0", "", "missing field `time`"),
+        ("[20.0, 40.0]", "[50.0, 40.0]", "slide.stars"),
+        ("[20.0, 40.0]", "[50.0, 70.0]", "slide.stars"),
+        ("[1.0, 2.0]", "[5.0, 2.0]", "slide.goal.0.reach: not a box in the room"),
+        ("\"coccus\"", "\"cocus\"", "slide.goal.1.digested"),
+        ("count = 3", "count = 0", "slide.goal.1.count: 0 is out of range (accepted: 1 to 1000)"),
+        ("count = 3", "reach = [[1.0, 2.0], [3.0, 4.0]]", "does not go with `reach`"),
+        ("digested = \"coccus\"", "", "slide.goal.1: nothing to do"),
+        ("4.0]]", "4.0]]\ncount = 2", "slide.goal.0.count: does not go with `reach`"),
+        ("title", "titel", "titel"),
+        ("\"Go.\"", "\"\"", "slide.task: 0 characters"),
+        ("[slide]", "[game]\n[slide]", "does not go with [game]"),
+    ];
+    for (from, to, expected) in changes {
+        let problem = Scenario::parse(&slide.replacen(from, to, 1), &[]).unwrap_err().to_string();
+        assert!(problem.contains(expected), "{from} -> {to}: {problem}");
+    }
+    let long = slide.replace("Cells crawl.", &"word ".repeat(41));
+    assert!(Scenario::parse(&long, &[]).unwrap_err().to_string().contains("slide.fact: 41 words"));
+    let idle = slide.split("[[slide.goal]]").next().unwrap_or_default();
+    assert!(Scenario::parse(idle, &[]).unwrap_err().to_string().contains("slide.goal: nothing to do"));
+}

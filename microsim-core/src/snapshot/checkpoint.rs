@@ -42,10 +42,11 @@ impl Checkpoint {
         let (origin, player, named, script, spawners, checks, world): Content = decode(RUN.open(bytes)?)?;
         let world = World::from_snapshot(&world)?;
         let built = origin.scenario().and_then(|scenario| scenario.build());
-        let Built { script: file, chemicals, game, .. } = built.map_err(|problems| invalid(problems.to_string()))?;
+        let Built { script: file, chemicals, game, slide, .. } =
+            built.map_err(|problems| invalid(problems.to_string()))?;
         let script = script.with_spawner_states(file, spawners);
         let script = script.ok_or_else(|| invalid("the scenario has other organisms to come".to_owned()))?;
-        Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game } })
+        Ok(Self { origin, run: Built { world, player, named, script, checks, chemicals, game, slide } })
     }
 
     /// The first difference of two runs other than in their worlds: `player`, `names` of organisms, `script` (with its supplies

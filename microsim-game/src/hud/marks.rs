@@ -90,7 +90,7 @@ fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
 }
 
 /// An arrow at the edge of the picture that points to something outside.
-fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32) {
+pub(super) fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32) {
     let middle = 0.5 * pen.screen();
     // Below the status line, and not quite at the edge.
     let room = middle - Vec2::new(1.2, 2.4) * unit;

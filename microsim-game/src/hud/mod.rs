@@ -2,6 +2,8 @@
 //! colour alone.
 
 pub mod marks;
+pub mod places;
+pub mod tint;
 
 use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
 use crate::ui::font::TextSize;
@@ -14,8 +16,8 @@ const LAST_SECONDS: f32 = 10.0;
 /// What the status line says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status<'a> {
-    /// Points so far.
-    pub score: u32,
+    /// Points so far, or which goals are reached.
+    pub score: &'a str,
     /// Time left and time in all, s.
     pub time: [f32; 2],
     /// Whether nothing may flash.
@@ -35,7 +37,9 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let colour = if is_late { ALERT } else { READY };
     pen.canvas().rectangle(Vec2::ZERO, Vec2::new(bar.x * share, bar.y), colour);
     let middle = bar.y + 0.75 * line;
-    pen.label(Vec2::new(0.3 * line, middle), TextSize::Large, Align::Left, HALO, &format!("Score {}", status.score));
+    let fits = |size: &TextSize| pen.width(*size, status.score) <= 0.7 * screen.x;
+    let size = [TextSize::Large, TextSize::Body].into_iter().find(fits).unwrap_or(TextSize::Small);
+    pen.label(Vec2::new(0.3 * line, middle), size, Align::Left, HALO, status.score);
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));

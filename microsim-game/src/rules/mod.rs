@@ -1,7 +1,7 @@
 //! The rules of the game (seed, 3.3.2), over the core's worlds and events alone: no window, no clock, no drawing.
 //!
 //! ```text
-//!   mouse or bot --> Intent --> Round: world, record --> events --> Referee: score, time, gains
+//!   mouse or bot --> Intent --> Round: world, record --> events --> Referee: score, time, gains; Attempt: goals, stars
 //!                                 ^        |    \-----------------> hints: what the player should be shown
 //!                                 \- Replay <-/
 //! ```
@@ -9,8 +9,11 @@
 pub mod bot;
 pub mod game;
 pub mod hint;
+pub mod path;
 pub mod referee;
 pub mod round;
+pub mod slide;
+pub mod slide_bot;
 pub mod verdict;
 
 #[cfg(test)]

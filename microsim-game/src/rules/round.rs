@@ -1,6 +1,7 @@
 //! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
 use super::referee::{KindScore, Referee};
+use super::slide::Attempt;
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
@@ -17,6 +18,8 @@ pub struct Round {
     course: Course,
     player: OrganismId,
     referee: Referee,
+    /// If it is of a slide.
+    attempt: Option<Attempt>,
 }
 
 /// How a round ended.
@@ -30,6 +33,8 @@ pub struct RoundResult {
     pub undigested: u32,
     /// What was digested, by kind.
     pub kinds: Vec<(Kind, KindScore)>,
+    /// How the attempt at a slide ended, if it was one.
+    pub attempt: Option<Attempt>,
     /// The round as a [`Replay`]; `None` if it was a replay itself.
     pub record: Option<Vec<u8>>,
     /// Whether a replay differed from what was recorded.
@@ -49,7 +54,7 @@ impl Round {
     /// Sets up a round.
     ///
     /// # Errors
-    /// Says what is wrong with the scenario, or that it is no game.
+    /// Says what is wrong with the scenario, or that it is neither a game nor a slide.
     pub fn new(scenario: &Scenario) -> Result<Self, String> {
         let run = Box::new(scenario.build().map_err(|diagnostics| diagnostics.to_string())?);
         let (recorder, record) = Recorder::new(scenario.origin(), DIGEST_INTERVAL);
@@ -68,11 +73,13 @@ impl Round {
 
     fn of(name: &str, course: Course) -> Result<Self, String> {
         let run = course.run();
-        let (Some(game), Some(player)) = (&run.game, run.player) else {
-            return Err(format!("`{name}` is no game: it has no table [game]"));
+        let attempt = run.slide.clone().map(Attempt::new);
+        let game = attempt.as_ref().map(|attempt| Attempt::game(attempt.slide())).or_else(|| run.game.clone());
+        let (Some(game), Some(player)) = (game, run.player) else {
+            return Err(format!("`{name}` is no game: it has no table [game] or [slide]"));
         };
-        let referee = Referee::new(game.clone(), player, &run.world);
-        Ok(Self { name: name.to_owned(), course, player, referee })
+        let referee = Referee::new(game, player, &run.world);
+        Ok(Self { name: name.to_owned(), course, player, referee, attempt })
     }
 
     /// One step; in a replay the intent does not count. Nothing happens any more when the round is over.
@@ -95,7 +102,11 @@ impl Round {
                 }
             },
         }
-        self.referee.after_step(&self.course.run().world);
+        let world = &self.course.run().world;
+        self.referee.after_step(world);
+        if let Some(attempt) = &mut self.attempt {
+            attempt.after_step(world.time() as f32, world.centroid(self.player), self.referee.kinds());
+        }
     }
 
     /// What the player hears of the last step: what its cell does, the last seconds, and the end.
@@ -105,10 +116,11 @@ impl Round {
         events.chain(time)
     }
 
-    /// Whether time is up, or the replay ends.
+    /// Whether time is up, all goals of a slide are reached, or the replay ends.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
+        let is_won = self.attempt.as_ref().is_some_and(|attempt| attempt.time().is_some());
+        is_won || self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
     }
 
     /// Whether it is played again.
@@ -138,6 +150,7 @@ impl Round {
             time: self.referee.game().time,
             undigested: self.undigested(),
             kinds: self.referee.kinds().to_vec(),
+            attempt: self.attempt.clone(),
             record: self.record(),
             is_mismatch: self.mismatch().is_some(),
         }
@@ -165,6 +178,12 @@ impl Round {
     #[must_use]
     pub fn player(&self) -> OrganismId {
         self.player
+    }
+
+    /// How the attempt at a slide stands, if it is one.
+    #[must_use]
+    pub fn attempt(&self) -> Option<&Attempt> {
+        self.attempt.as_ref()
     }
 
     /// Score and time.

@@ -48,7 +48,15 @@ mod tests {
     fn result(undigested: u32, small: u32, rigid: u32) -> RoundResult {
         let entry = |count| KindScore { count, points: 10 * count };
         let kinds = vec![(Kind::Agar, entry(small)), (Kind::RigidCell, entry(rigid))];
-        RoundResult { score: 10 * (small + rigid), time: 90.0, kinds, undigested, record: None, is_mismatch: false }
+        RoundResult {
+            score: 10 * (small + rigid),
+            time: 90.0,
+            kinds,
+            undigested,
+            attempt: None,
+            record: None,
+            is_mismatch: false,
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
 use crate::stage::Stage;
+use crate::store::best_times::BestTimes;
 use crate::store::files::PlayerFolder;
 use crate::store::scores::Scores;
 use crate::store::settings::{self as kept, Settings};
@@ -17,9 +18,10 @@ use crate::ui::pen::{Align, Pen};
 use crate::viewer::Pace;
 use microsim_core::View;
 use microsim_core::glam::Vec2;
+use std::io;
 
 /// File of the last round that was played to its end: a replay, which `microsim replay` reads too.
-pub(super) const LAST_GAME: &str = "last-game.replay";
+const LAST_GAME: &str = "last-game.replay";
 /// How long a message is shown: at least, for each of its bytes, and at most, s.
 const MESSAGE_TIME: f32 = 4.0;
 const READING_TIME: f32 = 0.04;
@@ -54,6 +56,8 @@ pub struct AppContext {
     kept_settings: Settings,
     /// High scores.
     pub scores: Scores,
+    /// Best times for the slides.
+    pub best_times: BestTimes,
     /// How time passes in this frame.
     pub pace: Pace,
     /// Time since the program began, s.
@@ -79,6 +83,7 @@ impl AppContext {
     pub fn new(store: PlayerFolder, game: GameChoice, files: Vec<SceneSource>) -> Self {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
+        let (best_times, third_problem) = BestTimes::load(&store);
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
@@ -88,6 +93,7 @@ impl AppContext {
             kept_settings: settings.clone(),
             settings,
             scores,
+            best_times,
             pace: Pace { elapsed: 0.0, is_exact: false },
             time: 0.0,
             game,
@@ -98,7 +104,7 @@ impl AppContext {
             asked: Asked::default(),
             message: None,
         };
-        let problems: Vec<String> = problem.into_iter().chain(other_problem).collect();
+        let problems: Vec<String> = [problem, other_problem, third_problem].into_iter().flatten().collect();
         if !problems.is_empty() {
             context.tell(problems.join("\n"));
         }
@@ -114,6 +120,14 @@ impl AppContext {
         }
         let time = (READING_TIME * text.len() as f32).clamp(MESSAGE_TIME, LONGEST_TIME);
         self.message = Some((text, self.time + time));
+    }
+
+    /// Keeps a round that was played to its end, to be watched again. `kept` says whether what it earned was kept.
+    pub(super) fn keep_game(&mut self, record: Vec<u8>, kept: io::Result<()>) {
+        if let Err(error) = kept.and(self.store.write(LAST_GAME, &record)) {
+            self.tell(format!("cannot keep the game: {error}"));
+        }
+        self.last_game = Some(record);
     }
 
     /// Plays what was heard in this frame, unless frames are made for pictures.

@@ -1,25 +1,24 @@
 //! The end of a round: the score by kind, its place among the best, what was missed, and the next goal.
 
-use super::context::{AppContext, LAST_GAME};
+use super::context::AppContext;
+use super::end_menu::{EndChoice, EndMenu};
 use super::page::draw_shade;
 use super::scores::draw_table;
 use super::{MainScreen, Next, Screen};
 use crate::draw::palette::{HALO, READY};
-use crate::input::{Action, Input, Move};
+use crate::input::Input;
 use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
 use crate::rules::verdict;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
-use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+use crate::ui::menu::MenuLayout;
 use crate::ui::pen::{Align, Pen};
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
 const MENU_TOP: f32 = 0.62;
-/// Time for which the menu does not answer, s: the player may still be steering.
-const DELAY: f32 = 0.7;
 
 #[derive(Debug)]
 pub(super) struct End {
@@ -32,11 +31,7 @@ pub(super) struct End {
     missed: Option<String>,
     /// None after a replay.
     goal: Option<String>,
-    menu: Menu,
-    since: f32,
-    /// Whether the hand that steered has let go since, and then moved: before that a click picks nothing.
-    has_let_go: bool,
-    has_moved: bool,
+    menu: EndMenu,
 }
 
 impl End {
@@ -55,29 +50,14 @@ impl End {
             let (found, kept) = context.scores.add(score, &context.store);
             place = found;
             best = context.scores.of(&game, time).take(5).cloned().collect();
-            if let Err(error) = kept.and(context.store.write(LAST_GAME, &record)) {
-                context.tell(format!("cannot keep the game: {error}"));
-            }
-            context.last_game = Some(record);
+            context.keep_game(record, kept);
         }
-        let menu = Menu::new(["Play again", "Watch it again", "Title"].map(MenuItem::new).into());
+        let menu = EndMenu::new(&["Play again", "Watch it again", "Title"]);
         let doubt = if is_mismatch { ", not as it was played" } else { "" };
         let heading = format!("{points} points{doubt}");
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
         let goal = is_own.then(|| verdict::next_goal(points, better));
-        Self {
-            heading,
-            points,
-            kinds,
-            best,
-            place,
-            missed,
-            goal,
-            menu,
-            since: 0.0,
-            has_let_go: false,
-            has_moved: false,
-        }
+        Self { heading, points, kinds, best, place, missed, goal, menu }
     }
 
     fn draw_kinds(&self, pen: &mut Pen, top: f32) {
@@ -104,22 +84,9 @@ fn plain_name(kind: Kind) -> &'static str {
 
 impl Screen for End {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        self.since += context.pace.elapsed;
-        self.has_let_go |= !input.is_held;
-        self.has_moved |= self.has_let_go && input.has_moved;
-        if self.since < DELAY {
-            return Next::Stay;
-        }
-        let input = &Input { is_clicked: input.is_clicked && self.has_moved, ..input.clone() };
-        if input.presses(Action::Restart) {
-            return Next::Show(MainScreen::Round);
-        }
-        if input.step == Some(Move::Back) {
-            return Next::Show(MainScreen::Title);
-        }
-        match self.menu.update(input, &MenuLayout::middle(&context.pen, MENU_TOP)) {
-            Some(MenuChoice::Pick(0)) => Next::Show(MainScreen::Round),
-            Some(MenuChoice::Pick(1)) => Next::Show(MainScreen::Replay),
+        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
+            Some(EndChoice::Again | EndChoice::Pick(0)) => Next::Show(MainScreen::Round),
+            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::Replay),
             Some(_) => Next::Show(MainScreen::Title),
             None => Next::Stay,
         }
@@ -145,7 +112,7 @@ impl Screen for End {
         }
         self.draw_kinds(pen, 0.28 * screen.y + line);
         draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
-        self.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
+        self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
     }
 
     fn name(&self) -> String {

@@ -3,6 +3,7 @@
 
 pub mod context;
 mod end;
+mod end_menu;
 mod keys;
 mod page;
 mod pause;
@@ -11,6 +12,8 @@ mod play;
 mod sandbox;
 mod scores;
 mod settings;
+mod slide_end;
+mod slides;
 pub mod stack;
 mod title;
 
@@ -69,6 +72,8 @@ pub enum MainScreen {
     Title,
     /// A new round of the game.
     Round,
+    /// A slide, by its place in the list.
+    Slide(usize),
     /// The last round of the game again.
     Replay,
     /// A simulation.
@@ -82,6 +87,10 @@ pub enum Overlay {
     Pause(Paused),
     /// The end of a round.
     End(Box<RoundResult>),
+    /// The end of a slide: the result, and what was played.
+    SlideEnd(Box<RoundResult>, Paused),
+    /// The list of slides, from this one on.
+    Slides(usize),
     /// The list of simulations.
     Pick,
     /// High scores.
@@ -97,6 +106,8 @@ pub enum Overlay {
 pub enum Paused {
     /// A round that is played.
     Round,
+    /// A slide, by its place in the list.
+    Slide(usize),
     /// A replay.
     Replay,
     /// A simulation.
@@ -108,6 +119,7 @@ impl Paused {
     fn restart(self) -> Next {
         match self {
             Self::Round => Next::Show(MainScreen::Round),
+            Self::Slide(index) => Next::Show(MainScreen::Slide(index)),
             Self::Replay => Next::Show(MainScreen::Replay),
             Self::Simulation => Next::Stay,
         }

@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
+use crate::slides::SLIDES;
 use crate::ui::menu::{MenuChoice, MenuItem};
 
 #[derive(Debug)]
@@ -15,7 +16,7 @@ pub(super) struct Pause {
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
-            Paused::Round | Paused::Replay => ["Go on", "Restart", "Settings", "Title"].as_slice(),
+            Paused::Round | Paused::Slide(_) | Paused::Replay => ["Go on", "Restart", "Settings", "Title"].as_slice(),
             Paused::Simulation => &["Go on", "Settings", "Title"],
         };
         Self { page: MenuPage::new("Paused", labels.iter().map(|&label| MenuItem::new(label)).collect()), paused }
@@ -41,6 +42,10 @@ impl Screen for Pause {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
+        if let Paused::Slide(index) = self.paused {
+            let task = SLIDES.get(index).and_then(|slide| slide.read()).map(|slide| slide.task);
+            self.page.draw_note(&mut context.pen, &task.unwrap_or_default());
+        }
     }
 
     fn name(&self) -> String {

@@ -9,6 +9,8 @@ use super::play::Play;
 use super::sandbox::Sandbox;
 use super::scores::ScoreList;
 use super::settings::SettingsMenu;
+use super::slide_end::SlideEnd;
+use super::slides::SlideList;
 use super::title::Title;
 use super::{MainScreen, Next, Overlay, Screen};
 use crate::input::Input;
@@ -98,6 +100,7 @@ fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, Strin
     Ok(match main {
         MainScreen::Title => Box::new(Title::new(context)),
         MainScreen::Round => Box::new(Play::start(context)?),
+        MainScreen::Slide(index) => Box::new(Play::slide(index, context)?),
         MainScreen::Replay => Box::new(Play::replay(context)?),
         MainScreen::Simulation(stage) => Box::new(Sandbox::new(*stage, context)),
     })
@@ -107,6 +110,8 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
     match overlay {
         Overlay::Pause(paused) => Box::new(Pause::new(paused)),
         Overlay::End(result) => Box::new(End::new(*result, context)),
+        Overlay::SlideEnd(result, paused) => Box::new(SlideEnd::new(*result, paused, context)),
+        Overlay::Slides(focus) => Box::new(SlideList::new(focus, context)),
         Overlay::Pick => Box::new(Pick::new(context)),
         Overlay::Scores => Box::new(ScoreList::new(context)),
         Overlay::Settings => Box::new(SettingsMenu::new(context)),

@@ -37,8 +37,9 @@ struct Backdrop {
 type Target = fn() -> Next;
 
 /// What the menu offers; the last item only where the program can end of itself.
-const ITEMS: [(&str, Target); 6] = [
+const ITEMS: [(&str, Target); 7] = [
     ("Play", || Next::Show(MainScreen::Round)),
+    ("Slides", || Next::Open(Overlay::Slides(0))),
     ("Simulation", || Next::Open(Overlay::Pick)),
     ("Watch the last game", || Next::Show(MainScreen::Replay)),
     ("High scores", || Next::Open(Overlay::Scores)),

@@ -2,6 +2,7 @@
 
 use super::font::TextSize;
 use super::pen::{Align, Pen};
+use super::stars::{draw_stars, stars_width};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use microsim_core::glam::Vec2;
@@ -13,19 +14,27 @@ pub struct MenuItem {
     pub label: String,
     /// What it is set to, changed with left and right.
     pub value: Option<String>,
+    /// Stars that were got for it.
+    pub stars: Option<u32>,
 }
 
 impl MenuItem {
     /// Something to choose.
     #[must_use]
     pub fn new(label: impl Into<String>) -> Self {
-        Self { label: label.into(), value: None }
+        Self { label: label.into(), value: None, stars: None }
     }
 
     /// Something to set.
     #[must_use]
     pub fn with(label: impl Into<String>, value: impl Into<String>) -> Self {
-        Self { label: label.into(), value: Some(value.into()) }
+        Self { value: Some(value.into()), ..Self::new(label) }
+    }
+
+    /// Something to choose for which there are stars.
+    #[must_use]
+    pub fn rated(label: impl Into<String>, stars: u32) -> Self {
+        Self { stars: Some(stars), ..Self::new(label) }
     }
 
     /// Something that is on or off.
@@ -134,6 +143,11 @@ impl Menu {
         self.focus
     }
 
+    /// Moves the focus to an item, or to the last one.
+    pub fn set_focus(&mut self, item: usize) {
+        self.focus = item.min(self.items.len().saturating_sub(1));
+    }
+
     /// Whether a point lies on it.
     #[must_use]
     pub fn contains(&self, point: Vec2, layout: &MenuLayout) -> bool {
@@ -206,6 +220,10 @@ impl Menu {
         let mark = if has_focus { "> " } else { "  " };
         let label = format!("{mark}{}", item.label);
         pen.write(Vec2::new(low.x + inset, middle), layout.size, Align::Left, ink, &label);
+        if let Some(stars) = item.stars {
+            let radius = 0.24 * layout.item.y;
+            draw_stars(pen, Vec2::new(high.x - inset - 0.5 * stars_width(radius), middle), radius, stars, ink);
+        }
         if let Some(value) = &item.value {
             let text = if has_focus { format!("{value} >") } else { value.clone() };
             pen.write(Vec2::new(high.x - inset, middle), layout.size, Align::Right, ink, &text);

@@ -4,3 +4,4 @@ pub mod font;
 mod glyphs;
 pub mod menu;
 pub mod pen;
+pub mod stars;

@@ -2,12 +2,12 @@
 
 use crate::kind::Kind;
 use crate::scenario::reader::Fields;
-use crate::scenario::sections::group::Group;
+use crate::scenario::sections::group::{self, Group};
 
 /// Time that a game lasts if the file does not say, s (seed, 3.3.2).
 const TIME: f32 = 90.0;
 /// What can be taken in, and so can earn points.
-const PREY: [(&str, Kind); 4] =
+pub(super) const PREY: [(&str, Kind); 4] =
     [("agar", Kind::Agar), ("coccus", Kind::Coccus), ("bacillus", Kind::Bacillus), ("rigid_cell", Kind::RigidCell)];
 
 /// Rules of a game: the player scores by digesting what it has taken in.
@@ -55,9 +55,8 @@ pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group]) -> Option<Game> {
         }
     }
     fields.finish();
-    if is_game && !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
-        let accepted = "a [[spawn]] of an amoeboid_cell with `player = true`";
-        root.context.refuse("game", "nobody plays", accepted);
+    if is_game {
+        group::require_player(root, "game", groups);
     }
     is_game.then_some(Game { time, points })
 }

@@ -2,7 +2,7 @@
 
 use crate::scenario::diagnostic::in_words;
 use crate::scenario::grid::Grid;
-use crate::scenario::reader::ReadContext;
+use crate::scenario::reader::{Fields, ReadContext};
 use crate::scenario::sections::prototype::Prototype;
 use crate::{Controller, Exchange};
 use glam::Vec2;
@@ -85,6 +85,13 @@ impl Group {
     pub(crate) fn count_path(&self, context: &ReadContext<'_>) -> String {
         let count = format!("{}.count", self.path);
         if context.has(&count) { count } else { format!("{}.of", self.path) }
+    }
+}
+
+/// Refuses a table of what is played if there is nobody to play it.
+pub(crate) fn require_player(root: &Fields<'_>, table: &str, groups: &[Group]) {
+    if !groups.iter().any(|group| group.is_player && group.prototype.can_grow()) {
+        root.refuse(table, "nobody plays", "a [[spawn]] of an amoeboid_cell with `player = true`");
     }
 }
 

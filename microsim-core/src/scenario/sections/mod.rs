@@ -10,5 +10,6 @@ pub(crate) mod group;
 pub(crate) mod obstacle;
 pub(crate) mod output;
 pub(crate) mod prototype;
+pub(crate) mod slide;
 pub(crate) mod spawn;
 pub(crate) mod world;

@@ -90,7 +90,7 @@ fn read_positions(fields: &mut Fields<'_>, size: Vec2) -> Option<Positions> {
     let within = fields.get("within").unwrap_or([Vec2::ZERO, size]);
     let gap = fields.number("gap", 0.0, [0.0, 1000.0]);
     if !fields.has("at") {
-        return is_box_in(&within, size, fields).then_some(Positions::Random { count, within, gap });
+        return is_box_in("within", &within, size, fields).then_some(Positions::Random { count, within, gap });
     }
     for field in ["count", "within", "gap"].into_iter().filter(|field| fields.has(field)) {
         let accepted = "either `at`, or `count`, `within` and `gap`";
@@ -99,11 +99,12 @@ fn read_positions(fields: &mut Fields<'_>, size: Vec2) -> Option<Positions> {
     at.map(Positions::At)
 }
 
-fn is_box_in([low, high]: &[Vec2; 2], size: Vec2, fields: &Fields<'_>) -> bool {
+/// Whether a field's box lies in the room; reports it if it does not.
+pub(crate) fn is_box_in(field: &str, [low, high]: &[Vec2; 2], size: Vec2, fields: &Fields<'_>) -> bool {
     let is_box = Vec2::ZERO.cmple(*low).all() && low.cmplt(*high).all() && high.cmple(size).all();
     if !is_box {
         let accepted = format!("[lower left, upper right] corner within 0 to {} by 0 to {}", size.x, size.y);
-        fields.refuse("within", "not a box in the room", accepted);
+        fields.refuse(field, "not a box in the room", accepted);
     }
     is_box
 }

@@ -3,11 +3,12 @@
 use crate::camera::Camera;
 use crate::draw::canvas::Canvas;
 use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
+use crate::hud::tint;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
-use microsim_core::{Bond, Chemical, Constraint, MembraneRegion, OrganismView, View};
+use microsim_core::{Bond, Constraint, MembraneRegion, OrganismView, View};
 
 /// Draws a world's anatomy over its picture.
 pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
@@ -15,7 +16,7 @@ pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
     let canvas = pen.canvas();
     canvas.rectangle(Vec2::ZERO, screen, fade(INK, 0.55));
     for ((_, chemical), colour) in view.chemicals().zip([READY, ALERT, WAIT].into_iter().cycle()) {
-        draw_chemical(canvas, camera, chemical, colour);
+        tint::draw_chemical(canvas, camera, chemical, colour, 0.2);
     }
     for (bond, ends) in view.bonds() {
         let (width, colour) = stroke(bond);
@@ -29,22 +30,6 @@ pub(super) fn draw(pen: &mut Pen, view: View<'_>, camera: &Camera) {
         draw_segment(canvas, camera, ends, 2.4, ALERT);
     }
     draw_legend(pen);
-}
-
-/// The cells of a chemical's grid, the fuller the more of it is there.
-fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color) {
-    let most = chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value));
-    let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
-    for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
-        let low = cell * Vec2::new((k % columns) as f32, (k / columns) as f32);
-        let corners = [Vec2::new(0.0, cell.y), Vec2::new(cell.x, 0.0)];
-        let [upper_left, lower_right] = corners.map(|corner| camera.to_screen(low + corner));
-        let is_seen = lower_right.cmpge(Vec2::ZERO).all() && upper_left.cmple(camera.screen()).all();
-        let share = (value / most).max(0.0).sqrt();
-        if is_seen && share > 0.02 {
-            canvas.rectangle(upper_left, lower_right, fade(colour, 0.2 * share));
-        }
-    }
 }
 
 fn stroke(bond: Bond<'_>) -> (f32, Color) {

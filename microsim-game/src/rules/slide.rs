@@ -1,0 +1,98 @@
+//! An attempt at a slide: which goals are reached, when all are, and the stars for it.
+
+use super::referee::KindScore;
+use microsim_core::Kind;
+use microsim_core::glam::Vec2;
+use microsim_core::scenario::{Game, Goal, Points, Slide};
+
+/// How an attempt at a slide stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    slide: Slide,
+    /// What is done for each goal.
+    done: Vec<u32>,
+    /// When all goals were reached, s.
+    time: Option<f32>,
+}
+
+impl Attempt {
+    /// A new attempt.
+    #[must_use]
+    pub fn new(slide: Slide) -> Self {
+        let done = vec![0; slide.goals.len()];
+        Self { slide, done, time: None }
+    }
+
+    /// What a referee counts and how long: one point for each prey that a goal asks for.
+    #[must_use]
+    pub fn game(slide: &Slide) -> Game {
+        let each = Points { each: 1.0, per_area: 0.0 };
+        let kinds = slide.goals.iter().filter_map(|goal| match goal {
+            Goal::Digest { kind, .. } => Some((*kind, each)),
+            Goal::Reach { .. } => None,
+        });
+        Game { time: slide.time, points: kinds.collect() }
+    }
+
+    /// Looks after a step, at a time, at where the player is and what it has digested.
+    pub fn after_step(&mut self, time: f32, player: Option<Vec2>, digested: &[(Kind, KindScore)]) {
+        for (goal, done) in self.slide.goals.iter().zip(&mut self.done) {
+            *done = match *goal {
+                Goal::Reach { low, high } => {
+                    let is_in = |at: Vec2| low.cmple(at).all() && at.cmple(high).all();
+                    (*done).max(player.is_some_and(is_in).into())
+                }
+                Goal::Digest { kind, count } => {
+                    let found = digested.iter().find(|(of, _)| *of == kind);
+                    found.map_or(0, |(_, entry)| entry.count).min(count)
+                }
+            };
+        }
+        if self.time.is_none() && self.goals().all(|(goal, done)| done == wanted(goal)) {
+            self.time = Some(time);
+        }
+    }
+
+    /// All goals, and how much is done of each, at most [`wanted`].
+    pub fn goals(&self) -> impl Iterator<Item = (&Goal, u32)> {
+        self.slide.goals.iter().zip(self.done.iter().copied())
+    }
+
+    /// When all goals were reached, s; `None` before.
+    #[must_use]
+    pub fn time(&self) -> Option<f32> {
+        self.time
+    }
+
+    /// Stars, 0 before all goals are reached.
+    #[must_use]
+    pub fn stars(&self) -> u32 {
+        self.time.map_or(0, |time| self.slide.stars_for(time))
+    }
+
+    /// The slide.
+    #[must_use]
+    pub fn slide(&self) -> &Slide {
+        &self.slide
+    }
+
+    /// What is done and what is wanted, for the status line.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let sums = [false, true].map(|is_prey| {
+            let of_sort = self.goals().filter(|(goal, _)| matches!(goal, Goal::Digest { .. }) == is_prey);
+            of_sort.fold([0, 0], |[done, all], (goal, more)| [done + more, all + wanted(goal)])
+        });
+        let texts = sums.into_iter().zip(["Places", "Digested"]).filter(|([_, all], _)| *all > 0);
+        texts.map(|([done, all], what)| format!("{what} {done}/{all}")).collect::<Vec<_>>().join("  ")
+    }
+}
+
+/// How much a goal asks for: a count of prey, or one for an area.
+#[must_use]
+pub fn wanted(goal: &Goal) -> u32 {
+    match goal {
+        Goal::Reach { .. } => 1,
+        Goal::Digest { count, .. } => *count,
+    }
+}

@@ -1,0 +1,56 @@
+//! The menu at an end: it opens under a hand that may still be steering, and waits until that has let go.
+
+use super::context::AppContext;
+use crate::input::{Action, Input, Move};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+
+/// Time for which the menu does not answer, s.
+const DELAY: f32 = 0.7;
+
+/// The menu.
+#[derive(Debug)]
+pub(super) struct EndMenu {
+    pub menu: Menu,
+    since: f32,
+    /// Whether the hand that steered has let go since, and then moved: before that a click picks nothing.
+    has_let_go: bool,
+    has_moved: bool,
+}
+
+/// What the player wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum EndChoice {
+    /// The same again.
+    Again,
+    /// To leave.
+    Leave,
+    /// This item of the menu.
+    Pick(usize),
+}
+
+impl EndMenu {
+    pub(super) fn new(labels: &[&str]) -> Self {
+        let menu = Menu::new(labels.iter().map(|&label| MenuItem::new(label)).collect());
+        Self { menu, since: 0.0, has_let_go: false, has_moved: false }
+    }
+
+    pub(super) fn update(&mut self, input: &Input, context: &AppContext, layout: &MenuLayout) -> Option<EndChoice> {
+        self.since += context.pace.elapsed;
+        self.has_let_go |= !input.is_held;
+        self.has_moved |= self.has_let_go && input.has_moved;
+        if self.since < DELAY {
+            return None;
+        }
+        let input = &Input { is_clicked: input.is_clicked && self.has_moved, ..input.clone() };
+        if input.presses(Action::Restart) {
+            return Some(EndChoice::Again);
+        }
+        if input.step == Some(Move::Back) {
+            return Some(EndChoice::Leave);
+        }
+        match self.menu.update(input, layout) {
+            Some(MenuChoice::Pick(item)) => Some(EndChoice::Pick(item)),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The list of slides, with the stars that the player has got.
+
+use super::context::AppContext;
+use super::page::MenuPage;
+use super::{MainScreen, Next, Screen};
+use crate::input::{Input, Move};
+use crate::slides::SLIDES;
+use crate::ui::menu::{MenuChoice, MenuItem};
+
+#[derive(Debug)]
+pub(super) struct SlideList {
+    page: MenuPage,
+    notes: Vec<String>,
+}
+
+impl SlideList {
+    /// The list, with the focus on one slide.
+    pub(super) fn new(focus: usize, context: &AppContext) -> Self {
+        let slides = SLIDES.iter().filter_map(|builtin| Some((builtin.name, builtin.read()?)));
+        let (items, notes) = slides
+            .map(|(name, slide)| {
+                let best = context.best_times.of(name);
+                let note = best.map_or_else(|| slide.task.clone(), |time| format!("{} Best: {time:.1} s.", slide.task));
+                (MenuItem::rated(slide.title.clone(), context.best_times.stars(name, &slide)), note)
+            })
+            .unzip();
+        let mut page = MenuPage::new("Slides", items);
+        page.menu.set_focus(focus);
+        Self { page, notes }
+    }
+}
+
+impl Screen for SlideList {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        if input.step == Some(Move::Back) {
+            return Next::Back;
+        }
+        match self.page.update(input, &context.pen) {
+            Some(MenuChoice::Pick(item)) => Next::Show(MainScreen::Slide(item)),
+            _ => Next::Stay,
+        }
+    }
+
+    fn draw(&mut self, context: &mut AppContext) {
+        self.page.draw(&mut context.pen);
+        let note = self.notes.get(self.page.menu.focus()).map_or("", String::as_str);
+        self.page.draw_note(&mut context.pen, note);
+    }
+
+    fn name(&self) -> String {
+        "slides".to_owned()
+    }
+}

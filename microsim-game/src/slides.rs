@@ -1,0 +1,181 @@
+//! The slides that come with the game: a file in `slides/` and a line here for each, in the order of play.
+
+use microsim_core::scenario::{Scenario, Slide};
+
+/// A slide that comes with the game.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltinSlide {
+    /// Name of its scenario, which no built-in scenario has.
+    pub name: &'static str,
+    /// The file.
+    pub text: &'static str,
+}
+
+/// All of them.
+pub const SLIDES: &[BuiltinSlide] = &[
+    slide("first-steps", include_str!("../slides/first-steps.toml")),
+    slide("first-meal", include_str!("../slides/first-meal.toml")),
+    slide("narrow-gap", include_str!("../slides/narrow-gap.toml")),
+    slide("maze", include_str!("../slides/maze.toml")),
+    slide("scent", include_str!("../slides/scent.toml")),
+    slide("shy-prey", include_str!("../slides/shy-prey.toml")),
+    slide("thrombus", include_str!("../slides/thrombus.toml")),
+    slide("big-game", include_str!("../slides/big-game.toml")),
+    slide("red-cells", include_str!("../slides/red-cells.toml")),
+    slide("two-shapes", include_str!("../slides/two-shapes.toml")),
+    slide("flood", include_str!("../slides/flood.toml")),
+    slide("little-animals", include_str!("../slides/little-animals.toml")),
+];
+
+const fn slide(name: &'static str, text: &'static str) -> BuiltinSlide {
+    BuiltinSlide { name, text }
+}
+
+impl BuiltinSlide {
+    /// What the file says of it; `None` if it is broken, which a test excludes.
+    #[must_use]
+    pub fn read(&self) -> Option<Slide> {
+        Scenario::parse(self.text, &[]).ok()?.slide().cloned()
+    }
+}
+
+/// The slide of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static BuiltinSlide> {
+    SLIDES.iter().find(|slide| slide.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::bot::{Bot, Policy};
+    use crate::rules::round::Round;
+    use crate::rules::slide::Attempt;
+    use crate::rules::slide_bot::SlideBot;
+    use microsim_core::Intent;
+    use microsim_core::replay::Replay;
+    use microsim_core::scenario::builtin;
+    use std::collections::BTreeSet;
+
+    fn round(slide: &BuiltinSlide, seed: u64) -> Round {
+        let mut scenario = Scenario::parse(slide.text, &[]).unwrap_or_else(|found| panic!("{}: {found}", slide.name));
+        scenario.set_seed(seed);
+        Round::new(&scenario).unwrap_or_else(|problem| panic!("{}, seed {seed}: {problem}", slide.name))
+    }
+
+    /// Plays a slide to its end, or for some time, s.
+    fn play(mut round: Round, longest: f32, mut intent: impl FnMut(&Round) -> Intent) -> Round {
+        while !round.is_over() && round.world().time() < f64::from(longest) {
+            let intent = intent(&round);
+            round.step(intent);
+        }
+        round
+    }
+
+    type PlaySlide = fn(&BuiltinSlide, u64, f32) -> Round;
+
+    fn idle(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
+        play(round(slide, seed), longest, |_| Intent::REST.digesting(true))
+    }
+
+    fn random(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
+        let mut bot = Bot::new(Policy::Random, seed);
+        play(round(slide, seed), longest, |round| bot.intent(round.world(), round.player()).digesting(true))
+    }
+
+    fn skilled(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
+        let round = round(slide, seed);
+        let mut bot = SlideBot::new(round.world());
+        play(round, longest, |round| bot.intent(round))
+    }
+
+    /// Checks how many stars a bot gets.
+    fn check(slide: &BuiltinSlide, bot: PlaySlide, seed: u64, longest: f32, accepted: std::ops::RangeInclusive<u32>) {
+        let round = bot(slide, seed, longest);
+        let (stars, summary) = (stars(&round), round.attempt().map(Attempt::summary));
+        assert!(accepted.contains(&stars), "{}, seed {seed}: {stars} stars, {summary:?}", slide.name);
+    }
+
+    fn stars(round: &Round) -> u32 {
+        round.attempt().map_or(0, Attempt::stars)
+    }
+
+    fn all() -> impl Iterator<Item = (&'static BuiltinSlide, Slide)> {
+        SLIDES.iter().map(|slide| (slide, slide.read().unwrap_or_else(|| panic!("{} is broken", slide.name))))
+    }
+
+    #[test]
+    fn t87_every_slide_has_a_name_of_its_own_that_its_file_says() {
+        let names: BTreeSet<&str> = all().map(|(slide, _)| slide.name).collect();
+        let titles: BTreeSet<String> = all().map(|(_, slide)| slide.title).collect();
+        assert_eq!((names.len(), titles.len()), (SLIDES.len(), SLIDES.len()));
+        for (slide, _) in all() {
+            assert_eq!(Scenario::parse(slide.text, &[]).unwrap().name(), slide.name);
+            assert!(builtin(slide.name).is_none() && find(slide.name) == Some(slide), "{}", slide.name);
+        }
+    }
+
+    #[test]
+    fn t87_a_bot_that_sees_walls_gets_two_stars_on_every_slide() {
+        for (slide, rules) in all() {
+            check(slide, skilled, 1, rules.time, 2..=3);
+        }
+    }
+
+    #[test]
+    fn t87_chance_gets_at_most_one_star() {
+        for (slide, rules) in all() {
+            check(slide, random, 1, rules.stars[1] + 0.1, 0..=1);
+        }
+    }
+
+    #[test]
+    fn t87_nobody_wins_by_doing_nothing() {
+        for (slide, rules) in all() {
+            check(slide, idle, 1, 0.5 * rules.stars[0], 0..=0);
+        }
+    }
+
+    #[test]
+    fn t87_a_slide_that_is_not_done_in_time_is_lost() {
+        let text =
+            SLIDES[0].text.replace("time = 60.0", "time = 2.0").replace("stars = [15.0, 24.0]", "stars = [1.0, 2.0]");
+        let mut round = Round::new(&Scenario::parse(&text, &[]).unwrap()).unwrap();
+        (0..119).for_each(|_| round.step(Intent::REST));
+        assert!(!round.is_over());
+        round.step(Intent::REST);
+        let attempt = round.result().attempt.unwrap();
+        assert!(round.is_over() && attempt.time().is_none() && attempt.stars() == 0);
+    }
+
+    #[test]
+    fn t87_a_slide_is_played_again_to_the_bit_from_its_record() {
+        let round = skilled(&SLIDES[0], 1, 60.0);
+        let replay = Replay::read(&round.record().unwrap()).unwrap();
+        let again = play(Round::again(&replay).unwrap(), 60.0, |_| Intent::REST);
+        assert_eq!(again.attempt(), round.attempt());
+        assert!(again.mismatch().is_none() && stars(&again) == 3);
+    }
+
+    /// How the bots do on each slide over many seeds, as a table. `SLIDE` names one.
+    #[test]
+    #[ignore = "minutes for each of 12 slides"]
+    fn bots_do_as_well_as_their_skill_over_twenty_seeds() {
+        let only = std::env::var("SLIDE").unwrap_or_default();
+        for (slide, rules) in all().filter(|(slide, _)| slide.name.contains(&only)) {
+            let for_two_stars = rules.stars[1] + 0.1;
+            let counts = |bot: PlaySlide, seeds, longest| {
+                let rounds: Vec<Round> = (1..=seeds).map(|seed| bot(slide, seed, longest)).collect();
+                let mut times: Vec<f32> = rounds.iter().filter_map(|round| round.attempt()?.time()).collect();
+                times.sort_by(f32::total_cmp);
+                (([0, 1, 2, 3]).map(|wanted| rounds.iter().filter(|round| stars(round) == wanted).count()), times)
+            };
+            let (skilled, times) = counts(skilled, 20, rules.time);
+            println!("{}: skilled {skilled:?} {times:.0?}", slide.name);
+            let (random, _) = counts(random, 20, for_two_stars);
+            let (idle, _) = counts(idle, 2, rules.time);
+            println!("{}: random {random:?}, idle {idle:?}", slide.name);
+            assert!(skilled[2] + skilled[3] >= 18 && random[2] + random[3] == 0 && idle[0] == 2, "{}", slide.name);
+        }
+    }
+}
