@@ -52,6 +52,7 @@ mod tests {
     use crate::rules::round::Round;
     use crate::rules::slide::Attempt;
     use crate::rules::slide_bot::SlideBot;
+    use crate::sound::Cue;
     use microsim_core::Intent;
     use microsim_core::replay::Replay;
     use microsim_core::scenario::builtin;
@@ -155,6 +156,7 @@ mod tests {
         let again = play(Round::again(&replay).unwrap(), 60.0, |_| Intent::REST);
         assert_eq!(again.attempt(), round.attempt());
         assert!(again.mismatch().is_none() && stars(&again) == 3);
+        assert!(again.heard().any(|cue| cue == Cue::End), "the end is heard");
     }
 
     /// How the bots do on each slide over many seeds, as a table. `SLIDE` names one.

@@ -112,15 +112,18 @@ impl Round {
     /// What the player hears of the last step: what its cell does, the last seconds, and the end.
     pub fn heard(&self) -> impl Iterator<Item = Cue> + '_ {
         let events = self.world().events().iter().filter_map(|event| Cue::of(event, Some(self.player)));
-        let time = self.referee.begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
-        events.chain(time)
+        let second = self.referee.begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
+        events.chain(if self.is_won() { Some(Cue::End) } else { second })
+    }
+
+    fn is_won(&self) -> bool {
+        self.attempt.as_ref().is_some_and(|attempt| attempt.time().is_some())
     }
 
     /// Whether time is up, all goals of a slide are reached, or the replay ends.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        let is_won = self.attempt.as_ref().is_some_and(|attempt| attempt.time().is_some());
-        is_won || self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
+        self.is_won() || self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
     }
 
     /// Whether it is played again.
