@@ -73,6 +73,7 @@ mod tests {
         round
     }
 
+    /// Plays a slide with a seed to its end, or for some time, s.
     type PlaySlide = fn(&BuiltinSlide, u64, f32) -> Round;
 
     fn idle(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
@@ -90,11 +91,17 @@ mod tests {
         play(round, longest, |round| bot.intent(round))
     }
 
-    /// Checks how many stars a bot gets.
-    fn check(slide: &BuiltinSlide, bot: PlaySlide, seed: u64, longest: f32, accepted: std::ops::RangeInclusive<u32>) {
-        let round = bot(slide, seed, longest);
-        let (stars, summary) = (stars(&round), round.attempt().map(Attempt::summary));
-        assert!(accepted.contains(&stars), "{}, seed {seed}: {stars} stars, {summary:?}", slide.name);
+    /// Whether a bot gets an accepted number of stars, and prints how many; `MICROSIM_SEEDS` is how many seeds it plays.
+    fn judge(name: &str, bot: PlaySlide, longest: fn(&Slide) -> f32, is_accepted: fn(u32) -> bool) {
+        let seeds = std::env::var("MICROSIM_SEEDS").map_or(3, |count| count.parse().unwrap());
+        for (slide, rules) in all() {
+            let rounds: Vec<Round> = (1..=seeds).map(|seed| bot(slide, seed, longest(&rules))).collect();
+            let counts = [0, 1, 2, 3].map(|wanted| rounds.iter().filter(|round| stars(round) == wanted).count());
+            let times: Vec<f32> = rounds.iter().filter_map(|round| round.attempt()?.time()).collect();
+            println!("{}, {name}: 0 to 3 stars {counts:?}, times {times:.0?}", slide.name);
+            let accepted = rounds.iter().filter(|round| is_accepted(stars(round))).count();
+            assert!(10 * accepted >= 9 * rounds.len(), "{}, {name}: {counts:?}", slide.name);
+        }
     }
 
     fn stars(round: &Round) -> u32 {
@@ -119,22 +126,27 @@ mod tests {
     #[test]
     fn t87_a_bot_that_sees_walls_gets_two_stars_on_every_slide() {
         for (slide, rules) in all() {
-            check(slide, skilled, 1, rules.time, 2..=3);
+            let round = skilled(slide, 1, rules.time);
+            assert!(stars(&round) >= 2, "{}: {:?}", slide.name, round.attempt().map(Attempt::summary));
         }
     }
 
     #[test]
-    fn t87_chance_gets_at_most_one_star() {
-        for (slide, rules) in all() {
-            check(slide, random, 1, rules.stars[1] + 0.1, 0..=1);
-        }
+    #[ignore = "for release builds"]
+    fn t87_skill_earns_two_stars_with_any_seed() {
+        judge("skilled", skilled, |rules| rules.time, |stars| stars >= 2);
     }
 
     #[test]
-    fn t87_nobody_wins_by_doing_nothing() {
-        for (slide, rules) in all() {
-            check(slide, idle, 1, 0.5 * rules.stars[0], 0..=0);
-        }
+    #[ignore = "for release builds"]
+    fn t87_chance_earns_at_most_one_star_with_any_seed() {
+        judge("random", random, |rules| rules.stars[1] + 0.1, |stars| stars <= 1);
+    }
+
+    #[test]
+    #[ignore = "for release builds"]
+    fn t87_nobody_wins_by_doing_nothing_with_any_seed() {
+        judge("idle", idle, |rules| rules.time, |stars| stars == 0);
     }
 
     #[test]
@@ -157,27 +169,5 @@ mod tests {
         assert_eq!(again.attempt(), round.attempt());
         assert!(again.mismatch().is_none() && stars(&again) == 3);
         assert!(again.heard().any(|cue| cue == Cue::End), "the end is heard");
-    }
-
-    /// How the bots do on each slide over many seeds, as a table. `SLIDE` names one.
-    #[test]
-    #[ignore = "minutes for each of 12 slides"]
-    fn bots_do_as_well_as_their_skill_over_twenty_seeds() {
-        let only = std::env::var("SLIDE").unwrap_or_default();
-        for (slide, rules) in all().filter(|(slide, _)| slide.name.contains(&only)) {
-            let for_two_stars = rules.stars[1] + 0.1;
-            let counts = |bot: PlaySlide, seeds, longest| {
-                let rounds: Vec<Round> = (1..=seeds).map(|seed| bot(slide, seed, longest)).collect();
-                let mut times: Vec<f32> = rounds.iter().filter_map(|round| round.attempt()?.time()).collect();
-                times.sort_by(f32::total_cmp);
-                (([0, 1, 2, 3]).map(|wanted| rounds.iter().filter(|round| stars(round) == wanted).count()), times)
-            };
-            let (skilled, times) = counts(skilled, 20, rules.time);
-            println!("{}: skilled {skilled:?} {times:.0?}", slide.name);
-            let (random, _) = counts(random, 20, for_two_stars);
-            let (idle, _) = counts(idle, 2, rules.time);
-            println!("{}: random {random:?}, idle {idle:?}", slide.name);
-            assert!(skilled[2] + skilled[3] >= 18 && random[2] + random[3] == 0 && idle[0] == 2, "{}", slide.name);
-        }
     }
 }

@@ -223,7 +223,7 @@ fn a_game_names_its_points_and_needs_a_player() {
 #[test]
 fn a_slide_has_goals_within_reach_and_a_time_for_each_star() {
     let slide = format!(
-        "{DISH}[slide]\ntitle = \"T\"\ntask = \"Go.\"\nfact = \"Cells crawl.\"\nsource = \"A, 1900, B\"\ntime = 60.0\n\
+        "{DISH}[coccus.prey]\nradius = 0.6\n[[spawn]]\nof = \"prey\"\ncount = 3\n[slide]\ntitle = \"T\"\ntask = \"Go.\"\nfact = \"Cells crawl.\"\nsource = \"A, 1900, B\"\ntime = 60.0\n\
          stars = [20.0, 40.0]\n[[slide.goal]]\nreach = [[1.0, 2.0], [3.0, 4.0]]\n[[slide.goal]]\n\
          digested = \"coccus\"\ncount = 3\n"
     );
@@ -240,8 +240,14 @@ fn a_slide_has_goals_within_reach_and_a_time_for_each_star() {
         ("[20.0, 40.0]", "[50.0, 70.0]", "slide.stars"),
         ("[1.0, 2.0]", "[5.0, 2.0]", "slide.goal.0.reach: not a box in the room"),
         ("\"coccus\"", "\"cocus\"", "slide.goal.1.digested"),
-        ("count = 3", "count = 0", "slide.goal.1.count: 0 is out of range (accepted: 1 to 1000)"),
-        ("count = 3", "reach = [[1.0, 2.0], [3.0, 4.0]]", "does not go with `reach`"),
+        ("count = 3\n[slide]", "count = 2\n[slide]", "slide.goal.1.digested: 3 wanted, 2 spawned"),
+        ("\"coccus\"", "\"bacillus\"", "slide.goal.1.digested: 3 wanted, 0 spawned"),
+        (
+            "\"coccus\"\ncount = 3",
+            "\"coccus\"\ncount = 0",
+            "slide.goal.1.count: 0 is out of range (accepted: 1 to 1000)",
+        ),
+        ("\"coccus\"\ncount = 3", "\"coccus\"\nreach = [[1.0, 2.0], [3.0, 4.0]]", "does not go with `reach`"),
         ("digested = \"coccus\"", "", "slide.goal.1: nothing to do"),
         ("4.0]]", "4.0]]\ncount = 2", "slide.goal.0.count: does not go with `reach`"),
         ("title", "titel", "titel"),

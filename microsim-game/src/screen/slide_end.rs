@@ -21,12 +21,17 @@ const MENU_TOP: f32 = 0.6;
 
 /// A line of text: where its middle is, and how it is written.
 type Line = (Vec2, TextSize, Color, String);
+/// How a part of the text is written, and what it says.
+type Paragraph = (TextSize, Color, String);
+/// An item of the menu, and where it leads.
+type Item = (&'static str, fn(Paused) -> Next);
 
 #[derive(Debug)]
 pub(super) struct SlideEnd {
     played: Paused,
     stars: u32,
-    told: Vec<(TextSize, Color, String)>,
+    told: Vec<Paragraph>,
+    items: Vec<Item>,
     menu: EndMenu,
 }
 
@@ -46,41 +51,42 @@ impl SlideEnd {
         }
         let stars = attempt.as_ref().map_or(0, Attempt::stars);
         let told = attempt.as_ref().map(|attempt| told(attempt, is_best, is_mismatch)).unwrap_or_default();
-        Self { played, stars, told, menu: EndMenu::new(&labels(played, stars > 0)) }
+        let items = items(played, stars > 0);
+        let menu = EndMenu::new(&items.iter().map(|(label, _)| *label).collect::<Vec<_>>());
+        Self { played, stars, told, items, menu }
     }
 
-    /// The text in lines that fit into the picture, each with its place.
+    /// The text in lines that fit into the picture, each with its place: smaller, and then less of it, where there is no room.
+    /// The list of slides has the rest.
     fn lines(&self, pen: &Pen) -> Vec<Line> {
-        let lines = self.lines_of(pen, TextSize::Body);
-        if end_of(pen, &lines) <= MenuLayout::middle(pen, 1.0).corner.y {
-            return lines;
-        }
-        let mut lines = self.lines_of(pen, TextSize::Small);
-        lines.retain(|line| end_of(pen, std::slice::from_ref(line)) <= MenuLayout::middle(pen, 1.0).corner.y);
-        lines
-    }
-
-    /// The same with the fact in this size.
-    fn lines_of(&self, pen: &Pen, fact: TextSize) -> Vec<Line> {
-        let screen = pen.screen();
-        let width = (0.92 * screen.x).min(30.0 * pen.line(TextSize::Body));
-        let mut y = 0.09 * screen.y + 0.9 * pen.line(TextSize::Large);
-        let mut lines = Vec::new();
-        for (size, colour, text) in &self.told {
-            let size = if *size == TextSize::Body { fact } else { *size };
-            for line in pen.wrap(size, text, width) {
-                y += 0.5 * pen.line(size);
-                lines.push((Vec2::new(0.5 * screen.x, y), size, *colour, line));
-                y += 0.5 * pen.line(size);
-            }
-            y += 0.3 * pen.line(TextSize::Small);
-        }
-        lines
+        let room = MenuLayout::middle(pen, 1.0).corner.y;
+        let fits = |lines: &Vec<Line>| end_of(pen, lines) <= room;
+        let parts =
+            (1..=self.told.len()).rev().flat_map(|count| [TextSize::Body, TextSize::Small].map(|size| (count, size)));
+        parts.map(|(count, size)| lines_of(pen, &self.told[..count], size)).find(fits).unwrap_or_default()
     }
 
     fn layout(&self, pen: &Pen) -> MenuLayout {
         MenuLayout::middle(pen, MENU_TOP.max(end_of(pen, &self.lines(pen)) / pen.screen().y))
     }
+}
+
+/// Text in lines, with the fact in this size.
+fn lines_of(pen: &Pen, told: &[Paragraph], fact: TextSize) -> Vec<Line> {
+    let screen = pen.screen();
+    let width = (0.92 * screen.x).min(30.0 * pen.line(TextSize::Body));
+    let mut y = 0.09 * screen.y + 0.9 * pen.line(TextSize::Large);
+    let mut lines = Vec::new();
+    for (size, colour, text) in told {
+        let size = if *size == TextSize::Body { fact } else { *size };
+        for line in pen.wrap(size, text, width) {
+            y += 0.5 * pen.line(size);
+            lines.push((Vec2::new(0.5 * screen.x, y), size, *colour, line));
+            y += 0.5 * pen.line(size);
+        }
+        y += 0.3 * pen.line(TextSize::Small);
+    }
+    lines
 }
 
 /// Where lines end, drawing units from the upper edge.
@@ -93,14 +99,22 @@ fn slide_of(played: Paused) -> Option<usize> {
     if let Paused::Slide(index) = played { Some(index).filter(|&index| index < SLIDES.len()) } else { None }
 }
 
-fn labels(played: Paused, is_won: bool) -> Vec<&'static str> {
-    let has_next = is_won && slide_of(played).is_some_and(|index| index + 1 < SLIDES.len());
-    let next = has_next.then_some("Next slide");
-    let again = (played != Paused::Replay).then_some("Again");
-    next.into_iter().chain(again).chain(["Watch it again", "Slides", "Title"]).collect()
+/// What the menu offers after a slide.
+fn items(played: Paused, is_won: bool) -> Vec<Item> {
+    let mut items: Vec<Item> = Vec::new();
+    if is_won && slide_of(played).is_some_and(|index| index + 1 < SLIDES.len()) {
+        items.push(("Next slide", |played| Next::Show(MainScreen::Slide(slide_of(played).unwrap_or_default() + 1))));
+    }
+    if played != Paused::Replay {
+        items.push(("Again", Paused::restart));
+    }
+    items.push(("Watch it again", |_| Next::Show(MainScreen::Replay)));
+    items.push(("Slides", |played| Next::Open(Overlay::Slides(slide_of(played).unwrap_or_default()))));
+    items.push(("Title", |_| Next::Show(MainScreen::Title)));
+    items
 }
 
-fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<(TextSize, Color, String)> {
+fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
     let slide = attempt.slide();
     let doubt = if is_mismatch { ", not as it was played" } else { "" };
     let Some(time) = attempt.time() else {
@@ -123,18 +137,10 @@ impl Screen for SlideEnd {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         let layout = self.layout(&context.pen);
         let Some(choice) = self.menu.update(input, context, &layout) else { return Next::Stay };
-        let index = slide_of(self.played).unwrap_or_default();
-        let label = match choice {
-            EndChoice::Again => "Again",
-            EndChoice::Leave => "Title",
-            EndChoice::Pick(item) => self.menu.menu.items[item].label.as_str(),
-        };
-        match label {
-            "Next slide" => Next::Show(MainScreen::Slide(index + 1)),
-            "Again" => self.played.restart(),
-            "Watch it again" => Next::Show(MainScreen::Replay),
-            "Slides" => Next::Open(Overlay::Slides(index)),
-            _ => Next::Show(MainScreen::Title),
+        match choice {
+            EndChoice::Again => self.played.restart(),
+            EndChoice::Leave => Next::Show(MainScreen::Title),
+            EndChoice::Pick(item) => self.items[item].1(self.played),
         }
     }
 

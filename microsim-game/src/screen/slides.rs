@@ -1,4 +1,4 @@
-//! The list of slides, with the stars that the player has got.
+//! The list of slides, with the stars that the player has got and the facts that were found.
 
 use super::context::AppContext;
 use super::page::MenuPage;
@@ -20,7 +20,8 @@ impl SlideList {
         let (items, notes) = slides
             .map(|(name, slide)| {
                 let best = context.best_times.of(name);
-                let note = best.map_or_else(|| slide.task.clone(), |time| format!("{} Best: {time:.1} s.", slide.task));
+                let found = |time| format!("Best: {time:.1} s. {} ({})", slide.fact, slide.source);
+                let note = best.map_or_else(|| slide.task.clone(), found);
                 (MenuItem::rated(slide.title.clone(), context.best_times.stars(name, &slide)), note)
             })
             .unzip();

@@ -1,6 +1,7 @@
 //! Prototypes: the tables `[rigid_cell.NAME]`, `[agar.NAME]` and so on, one kind of table per kind of organism.
 
 use crate::error::Error;
+use crate::kind::Kind;
 use crate::organism::OrganismSpec;
 use crate::scenario::reader::{Fields, Read};
 use crate::{FieldValue, SpecField};
@@ -54,6 +55,11 @@ impl Prototype {
     fn new(name: String, spec: OrganismSpec) -> Result<Self, Error> {
         let extent = spec.extent()?;
         Ok(Self { name, spec, extent })
+    }
+
+    /// What kind of organism it is.
+    pub(crate) fn kind(&self) -> Kind {
+        self.spec.kind()
     }
 
     /// Whether anything can steer it.

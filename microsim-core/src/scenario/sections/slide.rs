@@ -64,7 +64,7 @@ impl Slide {
 pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group], size: Vec2) -> Option<Slide> {
     let (is_slide, is_game) = (root.has("slide"), root.has("game"));
     let mut fields = root.table("slide");
-    let slide = read_slide(&mut fields, is_slide || root.context.notes.is_some(), size);
+    let slide = read_slide(&mut fields, is_slide || root.context.notes.is_some(), groups, size);
     fields.finish();
     if is_slide {
         group::require_player(root, "slide", groups);
@@ -75,7 +75,7 @@ pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group], size: Vec2) -> Optio
     slide.filter(|_| is_slide)
 }
 
-fn read_slide(fields: &mut Fields<'_>, is_there: bool, size: Vec2) -> Option<Slide> {
+fn read_slide(fields: &mut Fields<'_>, is_there: bool, groups: &[Group], size: Vec2) -> Option<Slide> {
     if !is_there {
         return None;
     }
@@ -90,7 +90,7 @@ fn read_slide(fields: &mut Fields<'_>, is_there: bool, size: Vec2) -> Option<Sli
     if goals.is_empty() {
         fields.refuse("goal", "nothing to do", "[[slide.goal]] tables");
     }
-    let goals = goals.into_iter().filter_map(|goal| read_goal(goal, size)).collect();
+    let goals = goals.into_iter().filter_map(|goal| read_goal(goal, groups, size)).collect();
     Some(Slide { title, task, fact, source, time, stars, goals })
 }
 
@@ -121,7 +121,7 @@ fn read_stars(fields: &mut Fields<'_>, time: f32) -> [f32; 2] {
     stars
 }
 
-fn read_goal(mut fields: Fields<'_>, size: Vec2) -> Option<Goal> {
+fn read_goal(mut fields: Fields<'_>, groups: &[Group], size: Vec2) -> Option<Goal> {
     let reach: Option<[Vec2; 2]> = fields.get("reach");
     let digested: Option<String> = fields.get("digested");
     let count = fields.or("count", 1_u32);
@@ -134,7 +134,10 @@ fn read_goal(mut fields: Fields<'_>, size: Vec2) -> Option<Goal> {
             }
             Some(Goal::Reach { low, high })
         }
-        (None, Some(name)) => read_prey(&fields, &name).map(|kind| Goal::Digest { kind, count }),
+        (None, Some(name)) => {
+            let kind = read_prey(&fields, &name).inspect(|&kind| check_supply(&fields, groups, kind, count));
+            kind.map(|kind| Goal::Digest { kind, count })
+        }
         (Some(_), Some(_)) => {
             fields.refuse("digested", "does not go with `reach`", "one of the two");
             None
@@ -146,6 +149,20 @@ fn read_goal(mut fields: Fields<'_>, size: Vec2) -> Option<Goal> {
     };
     fields.finish();
     goal
+}
+
+/// Refuses a goal for which there is not enough prey.
+fn check_supply(fields: &Fields<'_>, groups: &[Group], kind: Kind, count: u32) {
+    let of_kind = || groups.iter().filter(|group| group.prototype.kind() == kind);
+    let all: u64 = of_kind().map(|group| u64::from(group.positions.count())).sum();
+    let comes_again = of_kind().any(|group| group.respawn.is_some());
+    if all == 0 || (all < u64::from(count) && !comes_again) {
+        fields.refuse(
+            "digested",
+            format!("{count} wanted, {all} spawned"),
+            "as many as are spawned, or respawned prey",
+        );
+    }
 }
 
 fn read_prey(fields: &Fields<'_>, name: &str) -> Option<Kind> {
