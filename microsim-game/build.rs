@@ -1,7 +1,10 @@
 //! Writes the font without what nothing here reads: instructions for coarse screens and tables of layout. Two thirds of it.
+//! Gives the program for Windows its icon and version.
 
 use std::collections::BTreeMap;
+use std::env;
 use std::path::Path;
+use std::process::Command;
 
 /// Tables that are kept: letters, their outlines and widths, and whose work they are.
 const KEPT: [&[u8; 4]; 9] = [b"cmap", b"glyf", b"head", b"hhea", b"hmtx", b"loca", b"maxp", b"name", b"OS/2"];
@@ -10,8 +13,43 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let font = epaint_default_fonts::UBUNTU_LIGHT;
     let small = without_instructions(font).unwrap_or_else(|| font.to_vec());
-    let out = std::env::var_os("OUT_DIR").expect("cargo names a folder");
+    let out = env::var_os("OUT_DIR").expect("cargo names a folder");
     std::fs::write(Path::new(&out).join("font.ttf"), small).expect("the folder can be written to");
+    if env::var("TARGET").is_ok_and(|target| target == "x86_64-pc-windows-gnu") {
+        add_windows_resources(Path::new(&out));
+    }
+}
+
+/// Icon and version as resources, by MinGW; where that is not installed, the program has neither.
+fn add_windows_resources(out: &Path) {
+    let (script, object) = (out.join("resources.rc"), out.join("resources.o"));
+    std::fs::write(&script, resource_script()).expect("the folder can be written to");
+    println!("cargo::rerun-if-changed=packaging/microsim.ico");
+    match Command::new("x86_64-w64-mingw32-windres").arg(script).arg(&object).status() {
+        Ok(status) if status.success() => println!("cargo::rustc-link-arg-bins={}", object.display()),
+        _ => println!("cargo::warning=no windres: the program has no icon"),
+    }
+}
+
+/// What windres reads.
+fn resource_script() -> String {
+    let part = |name: &str| env::var(format!("CARGO_PKG_VERSION{name}")).expect("cargo gives the version");
+    let numbers = [part("_MAJOR"), part("_MINOR"), part("_PATCH"), "0".into()].join(",");
+    format!(
+        r#"1 ICON "packaging/microsim.ico"
+1 VERSIONINFO FILEVERSION {numbers} PRODUCTVERSION {numbers}
+BEGIN
+    BLOCK "StringFileInfo" BEGIN BLOCK "040904b0" BEGIN
+        VALUE "FileDescription", "microsim"
+        VALUE "FileVersion", "{version}"
+        VALUE "ProductName", "microsim"
+        VALUE "ProductVersion", "{version}"
+    END END
+    BLOCK "VarFileInfo" BEGIN VALUE "Translation", 0x409, 1200 END
+END
+"#,
+        version = part(""),
+    )
 }
 
 /// A TrueType font without instructions; `None` if it is not built as the format's specification says (OpenType 1.9).

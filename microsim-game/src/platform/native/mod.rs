@@ -1,5 +1,7 @@
 //! A desktop: files, a command line, standard error.
 
+#[cfg(windows)]
+mod console;
 mod speaker;
 mod storage;
 mod window;
@@ -19,8 +21,10 @@ use std::{fs, io};
 /// Whether the program can end of itself.
 pub const CAN_QUIT: bool = true;
 
-/// The command line; the first word is the program's name.
+/// The command line; the first word is the program's name. What is said about it goes to where it was written.
 pub fn arguments() -> impl Iterator<Item = OsString> {
+    #[cfg(windows)]
+    console::attach();
     std::env::args_os()
 }
 
