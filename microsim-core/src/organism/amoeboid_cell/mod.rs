@@ -12,7 +12,7 @@ mod neutrophil;
 use super::blueprint::{Blueprint, FluidPlan};
 use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
-use crate::capability::crawl::amoebae::Crawl;
+use crate::capability::crawl::presets::Crawl;
 use crate::capability::crawl::{PseudopodParams, Pseudopods};
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
