@@ -6,7 +6,7 @@
 //!         one constraint         L = 1: base 0, so that a slot is a particle index; the generic path, same arithmetic
 //! ```
 //!
-//! The number of lanes is fixed here and never taken from the CPU: results do not depend on it.
+//! The number of lanes is fixed in `particle/block_range.rs` and never taken from the CPU: results do not depend on it.
 
 use crate::particle::Columns;
 pub(crate) use crate::particle::LANES;
