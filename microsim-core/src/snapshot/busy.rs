@@ -3,10 +3,11 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Event, Exchange, FieldKind, FleeParams,
-    FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle,
-    ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams, Refusal, Region,
-    RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emission, Emitter, Event, Exchange,
+    FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
+    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement,
+    Propulsion, PursueParams, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World,
+    WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -31,6 +32,8 @@ pub(super) fn world() -> World {
     world.fuse(taker, divider).unwrap();
     let joint = join(&mut world, toucher, divider, platform);
     world.events = events(eater, divider, sensor, joint);
+    let of_supplies = supply(&mut world, eater);
+    world.events.extend(of_supplies);
     let partners = colliders(divider, sensor);
     let reports = &mut world.contact_reports;
     reports.points = partners.map(|partner| contact(eater, partner)).to_vec();
@@ -129,6 +132,31 @@ fn blow(world: &mut World) {
     let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();
     world.remove_field(gone).unwrap();
     assert_eq!(fields.len(), world.fields().count());
+}
+
+/// Emitters of all that can be emitted, drains, and free places; returns their events.
+fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
+    let template = world.add_template({
+        let mut builder = Template::builder();
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+        builder.build().unwrap()
+    });
+    let region = Region::Box { low: Vec2::new(2.0, 80.0), high: Vec2::new(20.0, 88.0) };
+    let specs = OrganismSpec::defaults().into_iter().map(Emission::Organism);
+    let emitters = specs.chain([Emission::Template(template)]).map(|emission| {
+        let emitter = Emitter { angle: Some(0.0), ..Emitter::new(region, emission, 0.5) };
+        world.add_emitter(emitter).unwrap()
+    });
+    let emitters: Vec<_> = emitters.collect();
+    let gone = world.add_emitter(world.emitters().next().unwrap().1.clone()).unwrap();
+    world.remove_emitter(gone).unwrap();
+    assert_eq!(emitters.len(), world.emitters().count());
+    let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };
+    let drains = [None, Some(Kind::Coccus)].map(|kind| world.add_drain(Drain { region: corner, kind }).unwrap());
+    world.remove_drain(drains[0]).unwrap();
+    let outlets = [Outlet::Drain(drains[1]), Outlet::Side(Wall::Left)];
+    let drained = outlets.map(|outlet| Event::Drained { outlet, organism, kind: Kind::Agar, particles: 1 });
+    [drained[0], drained[1], Event::Emitted { emitter: emitters[0], organism }]
 }
 
 /// A custom body, with a muscle.

@@ -8,10 +8,11 @@ use crate::chemical::ChemicalSpec;
 use crate::collider::ContactReporting;
 use crate::collision::obstacle_record::{ObstacleRecord, PoseRecord};
 use crate::force_field::ForceField;
-use crate::id::{FieldId, JointId, ObstacleId, OrganismId};
+use crate::id::{DrainId, EmitterId, FieldId, JointId, ObstacleId, OrganismId};
 use crate::joint::JointSpec;
 use crate::organism::{OrganismSpec, Placement};
 use crate::particle::CollisionGroups;
+use crate::supply::{Drain, Emitter};
 use crate::template::Template;
 #[cfg(all(feature = "scenario", feature = "snapshot"))]
 use crate::{collision::obstacle_record::pose_of, id::TemplateId};
@@ -47,6 +48,12 @@ pub(crate) enum WorldChange {
     AddField(ForceField),
     SetField(FieldId, ForceField),
     RemoveField(FieldId),
+    AddEmitter(Box<Emitter>),
+    SetEmitter(EmitterId, Box<Emitter>),
+    RemoveEmitter(EmitterId),
+    AddDrain(Drain),
+    SetDrain(DrainId, Drain),
+    RemoveDrain(DrainId),
     SetGravity(Vec2),
     SetDamping(f32),
     SetMaxSpeed(f32),
@@ -139,6 +146,12 @@ impl WorldChange {
             Self::AddField(field) => drop(world.add_field(field).ok()?),
             Self::SetField(id, field) => world.set_field(id, field).ok()?,
             Self::RemoveField(id) => world.remove_field(id).ok()?,
+            Self::AddEmitter(emitter) => drop(world.add_emitter(*emitter).ok()?),
+            Self::SetEmitter(id, emitter) => world.set_emitter(id, *emitter).ok()?,
+            Self::RemoveEmitter(id) => world.remove_emitter(id).ok()?,
+            Self::AddDrain(drain) => drop(world.add_drain(drain).ok()?),
+            Self::SetDrain(id, drain) => world.set_drain(id, drain).ok()?,
+            Self::RemoveDrain(id) => world.remove_drain(id).ok()?,
             Self::SetGravity(gravity) => world.set_gravity(gravity).ok()?,
             Self::SetDamping(damping) => world.set_damping(damping).ok()?,
             Self::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,

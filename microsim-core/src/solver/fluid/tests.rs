@@ -25,7 +25,7 @@ fn project(fluid: &Fluid, particles: &mut Particles) {
 
 fn project_in(size: Vec2, fluid: &Fluid, particles: &mut Particles) {
     let (fluids, mut workspace) = (std::slice::from_ref(fluid), Workspace::default());
-    workspace.find_neighbours(fluids, particles, size);
+    workspace.find_neighbours(fluids, particles, [Vec2::ZERO, size]);
     workspace.project(fluids, particles, 1.0 / 480.0, Dispatch::default());
 }
 

@@ -11,7 +11,7 @@ use super::World;
 use super::change::WorldChange;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::ObstacleRecord;
-use crate::config::WorldConfig;
+use crate::config::{Side, WorldConfig};
 use crate::error::{Error, ErrorKind, in_range, out_of_range};
 use crate::float_environment::with_default_float_environment;
 use crate::id::ObstacleId;
@@ -233,10 +233,12 @@ pub(super) fn walls(config: &WorldConfig) -> Vec<Obstacle> {
     };
     let (across, along) =
         (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
-    vec![
+    let slabs = [
         slab(across, Vec2::new(half.x, -0.5 * thickness)),
         slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
         slab(along, Vec2::new(-0.5 * thickness, half.y)),
         slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
-    ]
+    ];
+    let sides = slabs.into_iter().zip(config.sides.in_order());
+    sides.map(|(slab, side)| Obstacle { is_enabled: side == Side::Wall, ..slab }).collect()
 }
