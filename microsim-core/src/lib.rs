@@ -108,7 +108,7 @@ pub mod prelude {
     };
     pub use crate::queries::QueryFilter;
     pub use crate::simulation::{Error, Inputs, Intent, World, WorldConfig};
-    pub use crate::supplies::{Drain, Emission, Emitter};
+    pub use crate::supplies::{Drain, Emitter, Recipe};
     pub use crate::views::{OrganismView, View};
     pub use glam::Vec2;
     pub use parry2d::math::Pose;
@@ -201,7 +201,7 @@ pub mod media {
 pub mod supplies {
     pub use crate::event::Outlet;
     pub use crate::id::{DrainId, EmitterId};
-    pub use crate::supply::{Drain, Emission, Emitter};
+    pub use crate::supply::{Drain, Emitter, Recipe};
 }
 
 /// Obstacles: fixed, moved, one-way, sensors.

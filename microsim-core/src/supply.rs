@@ -11,14 +11,26 @@ use serde::{Deserialize, Serialize};
 /// Most organisms that an emitter emits in a second.
 const FASTEST: f32 = 1000.0;
 
-/// What an emitter emits, one at a time.
+/// What can be put into a world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub enum Emission {
+pub enum Recipe {
     /// An organism, or a block of fluid ([`FluidBlockSpec`](crate::FluidBlockSpec)), which mixes with fluid of its kind.
     Organism(OrganismSpec),
     /// A body of a template of this world.
     Template(TemplateId),
+}
+
+impl From<OrganismSpec> for Recipe {
+    fn from(spec: OrganismSpec) -> Self {
+        Self::Organism(spec)
+    }
+}
+
+impl From<TemplateId> for Recipe {
+    fn from(template: TemplateId) -> Self {
+        Self::Template(template)
+    }
 }
 
 /// A region in which organisms come into the world, see [`crate::World::add_emitter`].
@@ -27,7 +39,7 @@ pub struct Emitter {
     /// Where their centres may be, at random.
     pub region: Region,
     /// What they are.
-    pub emission: Emission,
+    pub recipe: Recipe,
     /// How many come in a second where there is room, 0 to 1000. One that finds no room in a step tries another place in the next.
     pub rate: f32,
     /// Their velocity at first, units/s, components within ±1000; at most the speed limit counts.
@@ -39,8 +51,8 @@ pub struct Emitter {
 impl Emitter {
     /// One that emits things at rest, in random directions.
     #[must_use]
-    pub fn new(region: Region, emission: Emission, rate: f32) -> Self {
-        Self { region, emission, rate, velocity: Vec2::ZERO, angle: None }
+    pub fn new(region: Region, recipe: Recipe, rate: f32) -> Self {
+        Self { region, recipe, rate, velocity: Vec2::ZERO, angle: None }
     }
 
     /// Checks every number.
@@ -49,8 +61,8 @@ impl Emitter {
     /// Names the first one out of its range.
     pub fn validate(&self) -> Result<(), Error> {
         self.region.validate().map_err(|error| error.within("region"))?;
-        if let Emission::Organism(spec) = &self.emission {
-            spec.validate().map_err(|error| error.within("emission"))?;
+        if let Recipe::Organism(spec) = &self.recipe {
+            spec.validate().map_err(|error| error.within("recipe"))?;
         }
         in_range("rate", self.rate, 0.0, FASTEST)?;
         in_range("velocity.x", self.velocity.x, -1000.0, 1000.0)?;

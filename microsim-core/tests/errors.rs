@@ -6,11 +6,11 @@ use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
     Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec,
-    CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emission, Emitter, EmitterId, Error,
-    ErrorKind, Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent,
-    JointEnd, JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId,
-    OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, Region, RigidCellSpec, Rope, Template,
-    TemplateBuilder, TemplateId, World, WorldConfig,
+    CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error, ErrorKind,
+    Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd,
+    JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec,
+    Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template, TemplateBuilder,
+    TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -120,7 +120,7 @@ fn circle(radius: f32) -> ForceField {
 }
 
 fn emitter(rate: f32) -> Emitter {
-    Emitter::new(Region::All, Emission::Organism(CoccusSpec::default().into()), rate)
+    Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), rate)
 }
 
 fn drain(radius: f32) -> Drain {
@@ -280,12 +280,17 @@ const CASES: &[Case] = &[
     ("World::add_field", "OutOfRange", "region.radius", |r| r.world.add_field(circle(f32::NAN)).unwrap_err()),
     ("World::set_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.set_field(field, circle(1.0)).unwrap_err() }),
     ("World::remove_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.remove_field(field).unwrap_err() }),
+    ("World::set_scale", "Stale", "organism", |r| r.world.set_scale(r.stale, 1.0).unwrap_err()),
+    ("World::set_scale", "Unsupported", "organism", |r| r.world.set_scale(r.cell, 1.0).unwrap_err()),
+    ("World::set_scale", "OutOfRange", "scale", |r| r.world.set_scale(r.agar, 11.0).unwrap_err()),
+    ("World::replace", "Stale", "organism", |r| r.world.replace(r.stale, &emitter(1.0).recipe, AT(9.0, 9.0)).unwrap_err()),
+    ("World::replace", "OutsideWorld", "at", |r| r.world.replace(r.agar, &emitter(1.0).recipe, AT(-9.0, 9.0)).unwrap_err()),
     ("Emitter::validate", "OutOfRange", "rate", |_| emitter(f32::NAN).validate().unwrap_err()),
-    ("Emitter::validate", "OutOfRange", "emission.radius", |_| Emitter { emission: Emission::Organism(CoccusSpec { radius: -1.0, ..CoccusSpec::default() }.into()), ..emitter(1.0) }.validate().unwrap_err()),
+    ("Emitter::validate", "OutOfRange", "recipe.radius", |_| Emitter { recipe: Recipe::Organism(CoccusSpec { radius: -1.0, ..CoccusSpec::default() }.into()), ..emitter(1.0) }.validate().unwrap_err()),
     ("World::add_emitter", "OutOfRange", "rate", |r| r.world.add_emitter(emitter(-1.0)).unwrap_err()),
-    ("World::add_emitter", "Stale", "emission.template", |r| {
+    ("World::add_emitter", "Stale", "recipe.template", |r| {
         let template = single(&mut r.world);
-        let emitter = Emitter { emission: Emission::Template(template), ..emitter(1.0) };
+        let emitter = Emitter { recipe: Recipe::Template(template), ..emitter(1.0) };
         World::new(WorldConfig::default()).unwrap().add_emitter(emitter).unwrap_err()
     }),
     ("World::set_emitter", "Stale", "emitter", |r| { let id = r.stale_emitter(); r.world.set_emitter(id, emitter(1.0)).unwrap_err() }),

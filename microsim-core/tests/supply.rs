@@ -3,8 +3,8 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Drain, Emission, Emitter, Event, FluidBlockSpec, FluidParams, Inputs, Kind, Node,
-    OrganismId, Outlet, Placement, PlateletSpec, Region, Side, Sides, Template, Wall, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Drain, Emitter, Event, FluidBlockSpec, FluidParams, Inputs, Kind, Node, OrganismId,
+    Outlet, Placement, PlateletSpec, Recipe, Region, Side, Sides, Template, Wall, World, WorldConfig,
 };
 
 fn room(sides: Sides, gravity: Vec2) -> World {
@@ -12,8 +12,8 @@ fn room(sides: Sides, gravity: Vec2) -> World {
         .unwrap()
 }
 
-fn ball() -> Emission {
-    Emission::Organism(AgarSpec { radius: 0.5, ..AgarSpec::default() }.into())
+fn ball() -> Recipe {
+    Recipe::Organism(AgarSpec { radius: 0.5, ..AgarSpec::default() }.into())
 }
 
 fn area(x: [f32; 2], y: [f32; 2]) -> Region {
@@ -82,7 +82,7 @@ fn a_template_is_emitted_in_its_direction_at_its_speed() {
     let template = world.add_template(builder.build().unwrap());
     let (velocity, angle) = (Vec2::new(0.0, 3.0), Some(0.0));
     let spot = Region::Circle { centre: Vec2::new(20.0, 20.0), radius: 0.0 };
-    world.add_emitter(Emitter { velocity, angle, ..Emitter::new(spot, Emission::Template(template), 60.0) }).unwrap();
+    world.add_emitter(Emitter { velocity, angle, ..Emitter::new(spot, Recipe::Template(template), 60.0) }).unwrap();
     run(&mut world, 1);
     let body = world.view().organisms().next().unwrap();
     assert_eq!((body.kind(), body.velocity(), body.angle()), (Kind::Custom, velocity, Some(0.0)));

@@ -18,7 +18,7 @@ pub(crate) fn vessel() -> Result<World, Error> {
     let inlet = Region::Box { low: Vec2::new(5.0, 5.0), high: Vec2::new(10.0, SIZE.y - 5.0) };
     let disc = AgarSpec { radius: 1.0, ..AgarSpec::default() };
     for (what, rate) in [(OrganismSpec::from(RedCellSpec::default()), 4.0), (disc.into(), 2.0)] {
-        let emitter = Emitter::new(inlet, Emission::Organism(what), rate);
+        let emitter = Emitter::new(inlet, Recipe::Organism(what), rate);
         world.add_emitter(Emitter { velocity: Vec2::new(8.0, 0.0), ..emitter })?;
     }
     Ok(world)

@@ -3,11 +3,11 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emission, Emitter, Event, Exchange,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter, Event, Exchange,
     FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
     Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement,
-    Propulsion, PursueParams, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World,
-    WorldConfig,
+    Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams,
+    Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -142,13 +142,18 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
         builder.build().unwrap()
     });
     let region = Region::Box { low: Vec2::new(2.0, 80.0), high: Vec2::new(20.0, 88.0) };
-    let specs = OrganismSpec::defaults().into_iter().map(Emission::Organism);
-    let emitters = specs.chain([Emission::Template(template)]).map(|emission| {
-        let emitter = Emitter { angle: Some(0.0), ..Emitter::new(region, emission, 0.5) };
+    let angle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(Vec2::from).to_vec();
+    let pseudopods = Some(PseudopodParams::default());
+    let amoeba =
+        AmoeboidCellSpec { outline: angle, crawl: Crawl::Neutrophil, pseudopods, ..AmoeboidCellSpec::default() };
+    let specs = OrganismSpec::defaults().into_iter().chain([amoeba.into()]).map(Recipe::Organism);
+    let emitters = specs.chain([Recipe::Template(template)]).map(|recipe| {
+        let emitter = Emitter { angle: Some(0.0), ..Emitter::new(region, recipe, 0.5) };
         world.add_emitter(emitter).unwrap()
     });
     let emitters: Vec<_> = emitters.collect();
-    let gone = world.add_emitter(world.emitters().next().unwrap().1.clone()).unwrap();
+    let again = world.emitters().next().unwrap().1.clone();
+    let gone = world.add_emitter(again).unwrap();
     world.remove_emitter(gone).unwrap();
     assert_eq!(emitters.len(), world.emitters().count());
     let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };

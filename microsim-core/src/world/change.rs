@@ -12,7 +12,7 @@ use crate::id::{DrainId, EmitterId, FieldId, JointId, ObstacleId, OrganismId};
 use crate::joint::JointSpec;
 use crate::organism::{OrganismSpec, Placement};
 use crate::particle::CollisionGroups;
-use crate::supply::{Drain, Emitter};
+use crate::supply::{Drain, Emitter, Recipe};
 use crate::template::Template;
 #[cfg(all(feature = "scenario", feature = "snapshot"))]
 use crate::{collision::obstacle_record::pose_of, id::TemplateId};
@@ -48,16 +48,18 @@ pub(crate) enum WorldChange {
     AddField(ForceField),
     SetField(FieldId, ForceField),
     RemoveField(FieldId),
+    SetGravity(Vec2),
+    SetDamping(f32),
+    SetMaxSpeed(f32),
+    SetContactReporting(Option<ContactReporting>),
     AddEmitter(Box<Emitter>),
     SetEmitter(EmitterId, Box<Emitter>),
     RemoveEmitter(EmitterId),
     AddDrain(Drain),
     SetDrain(DrainId, Drain),
     RemoveDrain(DrainId),
-    SetGravity(Vec2),
-    SetDamping(f32),
-    SetMaxSpeed(f32),
-    SetContactReporting(Option<ContactReporting>),
+    SetScale(OrganismId, f32),
+    Replace(OrganismId, Box<(Recipe, Placement)>),
     /// One that has no record: an obstacle of a shape that cannot be written.
     Unrecordable,
 }
@@ -126,6 +128,8 @@ impl WorldChange {
                 world.set_user_data(id, u128::from(low) | (u128::from(high) << 64)).ok()?;
             }
             Self::SetCollisionGroups(id, groups) => world.set_collision_groups(id, groups).ok()?,
+            Self::SetScale(id, scale) => world.set_scale(id, scale).ok()?,
+            Self::Replace(id, new) => drop(world.replace(id, &new.0, new.1).ok()?),
             Self::Push(id, velocity) => world.push(id, velocity).ok()?,
             Self::Grow(id, nodes, particles) => world.grow(id, nodes, particles).ok()?,
             // The direction of a furrow was normalised when it was given.

@@ -20,6 +20,7 @@ mod phagocytosis;
 mod push;
 mod quarantine;
 pub(crate) mod query;
+mod replace;
 mod scale;
 mod settings;
 mod spawn;

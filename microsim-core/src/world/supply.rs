@@ -11,7 +11,7 @@ use crate::force_field::Region;
 use crate::id::{DrainId, EmitterId, OrganismId};
 use crate::organism::{Blueprint, Placement, Storage};
 use crate::rng::Rng;
-use crate::supply::{Drain, Emission, Emitter};
+use crate::supply::{Drain, Emitter, Recipe};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
@@ -35,10 +35,10 @@ impl World {
     /// the moment to set a controller, user data, joints.
     ///
     /// ```
-    /// # use microsim_core::{AgarSpec, Drain, Emission, Emitter, Inputs, Region, World, WorldConfig, glam::Vec2};
+    /// # use microsim_core::{AgarSpec, Drain, Recipe, Emitter, Inputs, Region, World, WorldConfig, glam::Vec2};
     /// # let mut world = World::new(WorldConfig { damping: 0.0, ..WorldConfig::default() })?;
     /// let inlet = Region::Box { low: Vec2::new(5.0, 5.0), high: Vec2::new(8.0, 85.0) };
-    /// let ball = Emission::Organism(AgarSpec::default().into());
+    /// let ball = Recipe::Organism(AgarSpec::default().into());
     /// world.add_emitter(Emitter { velocity: Vec2::new(20.0, 0.0), ..Emitter::new(inlet, ball, 10.0) })?;
     /// let outlet = Region::Box { low: Vec2::new(100.0, 0.0), high: Vec2::new(160.0, 90.0) };
     /// world.add_drain(Drain { region: outlet, kind: None })?;
@@ -202,15 +202,16 @@ impl World {
     /// Checks an emitter, and that this world can emit what it emits.
     pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
         emitter.validate()?;
-        self.blueprint_of(&emitter.emission).map(drop)
+        self.blueprint_of(&emitter.recipe).map(drop)
     }
 
-    fn blueprint_of(&self, emission: &Emission) -> Result<Blueprint, Error> {
-        match emission {
-            Emission::Organism(spec) => spec.blueprint(),
-            Emission::Template(id) => {
+    /// What a recipe amounts to in this world.
+    pub(super) fn blueprint_of(&self, recipe: &Recipe) -> Result<Blueprint, Error> {
+        match recipe {
+            Recipe::Organism(spec) => spec.blueprint(),
+            Recipe::Template(id) => {
                 let template = self.templates.get(id.0 as usize).cloned();
-                template.map(Blueprint::custom).ok_or_else(|| Error::new(ErrorKind::Stale, "emission.template"))
+                template.map(Blueprint::custom).ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
             }
         }
     }
@@ -224,11 +225,11 @@ impl World {
             return;
         }
         let placements = record.draw(size);
-        let (emission, velocity) = (record.emitter.emission.clone(), record.emitter.velocity);
+        let (recipe, velocity) = (record.emitter.recipe.clone(), record.emitter.velocity);
         let emitter = self.emitters.handle_at(index).map(EmitterId::of);
         let mut emitted = 0.0;
         for placement in placements {
-            let blueprint = self.blueprint_of(&emission);
+            let blueprint = self.blueprint_of(&recipe);
             let spawned = blueprint.and_then(|blueprint| self.spawn_blueprint(blueprint, placement));
             let (Ok(organism), Some(emitter)) = (spawned, emitter) else { continue };
             self.set_velocity(organism, velocity);
@@ -242,7 +243,8 @@ impl World {
         self.scratch.query_index.clear();
     }
 
-    fn set_velocity(&mut self, id: OrganismId, velocity: Vec2) {
+    /// Gives all that can move of an organism a velocity, at most the speed limit.
+    pub(super) fn set_velocity(&mut self, id: OrganismId, velocity: Vec2) {
         let velocity = velocity.clamp_length_max(self.config.speed_limit());
         for i in self.discs_of(id).collect::<Vec<_>>() {
             (self.particles.vx[i], self.particles.vy[i]) = (velocity.x, velocity.y);

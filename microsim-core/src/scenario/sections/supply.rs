@@ -4,7 +4,7 @@ use crate::scenario::reader::Fields;
 use crate::scenario::sections::group::Angle;
 use crate::scenario::sections::prototype;
 use crate::scenario::sections::spawn::{Definitions, is_box_in};
-use crate::{Drain, Emission, Emitter, Region, WorldConfig};
+use crate::{Drain, Emitter, Recipe, Region, WorldConfig};
 use glam::Vec2;
 
 /// What comes and goes while a world runs, emitters with the paths of their tables.
@@ -34,15 +34,15 @@ pub(crate) fn read(root: &mut Fields<'_>, definitions: &Definitions<'_>) -> Supp
 fn read_emitter(fields: &mut Fields<'_>, definitions: &Definitions<'_>) -> Option<Emitter> {
     let prototype = prototype::read_named(fields, definitions.prototypes);
     let region = read_region(fields, definitions.size);
-    let rate = fields.required("rate");
+    let rate = fields.required("rate").filter(|&rate| fields.is_within("rate", rate, [0.0, 1000.0]));
     let velocity = fields.or("velocity", Vec2::ZERO);
     let angle = match fields.or("angle", Angle::Random) {
         Angle::Radians(angle) => Some(angle),
         Angle::Random => None,
     };
     let (prototype, region, rate) = (prototype?, region?, rate?);
-    let emission = Emission::Organism(prototype.scaled(1.0).0);
-    let emitter = Emitter { region, emission, rate, velocity, angle };
+    let recipe = Recipe::Organism(prototype.scaled(1.0).0);
+    let emitter = Emitter { region, recipe, rate, velocity, angle };
     fields.context.check(&fields.path, emitter.validate()).map(|()| emitter)
 }
 

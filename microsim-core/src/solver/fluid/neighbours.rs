@@ -202,7 +202,7 @@ mod tests {
         let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
         for [support_radius, margin] in [[2.0, 0.0], [1.0, 0.25]] {
             let mut sorted = Sorted::default();
-            sorted.sort(&indices, &particles, Vec2::INFINITY, [support_radius, margin]);
+            sorted.sort(&indices, &particles, [Vec2::ZERO, Vec2::INFINITY], [support_radius, margin]);
             for group in &sorted.groups {
                 let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
                 for &member in &sorted.particles[group.members.clone()] {

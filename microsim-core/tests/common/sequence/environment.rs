@@ -3,7 +3,7 @@
 use super::{Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    CollisionGroups, Drain, Emission, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, OrganismId,
+    CollisionGroups, Drain, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, OrganismId, Recipe,
     Region,
 };
 
@@ -57,11 +57,11 @@ impl Sequence<'_> {
     pub(super) fn change_emitter(&mut self) -> Outcome {
         let (centre, count) = (self.place(), self.emitters.len());
         let template = self.templates.last().copied().filter(|_| self.choices.flag());
-        let emission = template.map_or_else(|| Emission::Organism(self.choices.spec()), Emission::Template);
+        let recipe = template.map_or_else(|| Recipe::Organism(self.choices.spec()), Recipe::Template);
         let emitter = Emitter {
             velocity: self.vector(30.0),
             angle: self.choices.flag().then_some(1.0),
-            ..Emitter::new(self.region(centre), emission, self.choices.number(0.0, 50.0))
+            ..Emitter::new(self.region(centre), recipe, self.choices.number(0.0, 50.0))
         };
         match self.choices.below(4) {
             0 if count > 0 => self.world.remove_emitter(self.emitters[self.choices.below(count)]),
@@ -100,8 +100,13 @@ impl Sequence<'_> {
     pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
         let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
         let gravity = self.vector(30.0);
-        match self.choices.below(6) {
+        match self.choices.below(8) {
             0 => self.world.set_gravity(gravity),
+            6 => self.world.set_scale(id, self.choices.number(0.7, 1.5)),
+            7 => {
+                let (spec, placement) = (self.choices.spec(), self.choices.placement(self.world.config().size));
+                self.world.replace(id, &spec.into(), placement).map(|new| self.handles.push(new))
+            }
             1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
             2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),
             3 => self.world.set_gravity_scale(id, self.choices.number(-2.0, 3.0)),

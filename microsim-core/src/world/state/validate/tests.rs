@@ -5,8 +5,8 @@ use crate::particle::sleep::Sleep;
 use crate::world::joint::JointRecord;
 use crate::world::supply::EmitterRecord;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Drain, Emission, Emitter,
-    Exchange, FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Drain, Emitter, Exchange,
+    FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Recipe,
     Region, World, WorldConfig, glam::Vec2,
 };
 
@@ -137,7 +137,7 @@ fn damage_to_joints_fields_and_muscles_is_found() {
         },
         "fields[0]: `kind.acceleration.x`",
     );
-    let emitter = Emitter::new(Region::All, Emission::Organism(CoccusSpec::default().into()), 1.0);
+    let emitter = Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), 1.0);
     let emitting = |w: &mut World, change: &dyn Fn(&mut EmitterRecord)| {
         let id = w.add_emitter(emitter.clone()).unwrap();
         change(w.emitters.get_mut(id.handle()).unwrap());
