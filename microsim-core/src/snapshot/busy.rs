@@ -2,7 +2,7 @@
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
+    AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
     CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter, Event, Exchange,
     FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
     Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement,
@@ -155,10 +155,16 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
     let again = world.emitters().next().unwrap().1.clone();
     let gone = world.add_emitter(again).unwrap();
     world.remove_emitter(gone).unwrap();
-    assert_eq!(emitters.len(), world.emitters().count());
     let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };
-    let drains = [None, Some(Kind::Coccus)].map(|kind| world.add_drain(Drain { region: corner, kind }).unwrap());
+    let strip = Region::Box { low: Vec2::ZERO, high: Vec2::new(0.1, 9.0) };
+    let drains = [(corner, None), (strip, Some(Kind::Coccus))];
+    let drains = drains.map(|(region, kind)| world.add_drain(Drain { region, kind }).unwrap());
+    let disc = Recipe::Organism(AgarSpec::default().into());
+    world.add_emitter(Emitter::new(corner, disc, 0.0)).unwrap();
     world.remove_drain(drains[0]).unwrap();
+    world.add_drain(Drain { region: corner, kind: None }).unwrap();
+    let gone = world.add_drain(Drain { region: corner, kind: None }).unwrap();
+    world.remove_drain(gone).unwrap();
     let outlets = [Outlet::Drain(drains[1]), Outlet::Side(Wall::Left)];
     let drained = outlets.map(|outlet| Event::Drained { outlet, organism, kind: Kind::Agar, particles: 1 });
     [drained[0], drained[1], Event::Emitted { emitter: emitters[0], organism }]
@@ -170,6 +176,8 @@ fn roped(world: &mut World) {
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
     let channel = builder.channel([1.0, 0.5]);
     builder.muscle(channel, Rope { a, b, max_length: 3.0 });
+    let c = builder.node(Node::disc(Vec2::new(4.0, 0.0), 1.0, 0.5));
+    builder.constraint(Bend::new([a, b, c], 0.0, 1.0));
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
