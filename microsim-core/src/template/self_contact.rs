@@ -49,7 +49,7 @@ mod tests {
         let place = |k: u8| Vec2::new(f32::from(k), 0.02 * f32::from(k % 3));
         let chain: Vec<u32> = (0..24).map(|k| builder.node(Node::disc(place(k), 1.0, 0.4))).collect();
         for part in chain.windows(3) {
-            builder.link(part[0], part[1], 0.0).constraint(Bend::new([part[0], part[1], part[2]], 0.9, 1e-3));
+            builder.link(part[0], part[1], 0.0).constraint(Bend::new([part[0], part[1], part[2]], 0.9, 1e-2));
         }
         if collides {
             builder.self_contacts(&chain);
