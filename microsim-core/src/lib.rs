@@ -72,7 +72,7 @@ mod spec_field;
 mod step;
 mod supply;
 mod template;
-mod walk;
+mod value_walk;
 mod world;
 
 pub use {glam, parry2d};
@@ -133,7 +133,7 @@ pub mod simulation {
 pub mod organisms {
     pub use crate::behavior::crawl::MembraneRegion;
     pub use crate::capability::crawl::PseudopodParams;
-    pub use crate::capability::crawl::amoebae::Crawl;
+    pub use crate::capability::crawl::presets::Crawl;
     pub use crate::capability::division::DivisionParams;
     pub use crate::capability::phagocytosis::{IngestionWay, MealPhase, PhagocytosisParams, PreyClass};
     pub use crate::id::OrganismId;

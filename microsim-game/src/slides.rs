@@ -48,9 +48,9 @@ pub fn find(name: &str) -> Option<&'static BuiltinSlide> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rules::attempt::Attempt;
     use crate::rules::bot::{Bot, Policy};
     use crate::rules::round::Round;
-    use crate::rules::slide::Attempt;
     use crate::rules::slide_bot::SlideBot;
     use crate::sound::Cue;
     use microsim_core::Intent;

@@ -4,74 +4,19 @@
 //! are the organisms. Nothing flows through the walls of the room or through obstacles.
 
 mod diffusion;
+mod spec;
 
 use crate::config::WorldConfig;
-use crate::error::{Error, in_range, out_of_range};
+use crate::error::Error;
 use diffusion::DiffusionGrid;
 use glam::Vec2;
-use serde::{Deserialize, Serialize};
-
-/// Most cells of one grid.
-const MAX_CELLS: usize = 1_000_000;
+#[cfg(feature = "snapshot")]
+use serde::Deserialize;
+use serde::Serialize;
+pub use spec::ChemicalSpec;
 
 /// Highest concentration, amount per square unit: what would be more is lost, so that no sum is infinite.
 const HIGHEST: f32 = 1e30;
-
-/// How a chemical spreads.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ChemicalSpec {
-    /// Diffusion coefficient, square units/s, 0 to 100 000, and at most what 256 rounds of diffusion in a step carry: about
-    /// 40 `spacing`² over the time of a step.
-    pub diffusion: f32,
-    /// Share that decays in a second where little of it does, 1/s, 0 to 100.
-    pub decay: f32,
-    /// Side of a cell of the grid, units, 0.1 to 1000; made a little smaller or larger so that cells fill the room.
-    pub spacing: f32,
-    /// Concentration everywhere to begin with, amount per square unit, 0 to 1 000 000.
-    pub initial: f32,
-}
-
-impl Default for ChemicalSpec {
-    fn default() -> Self {
-        Self { diffusion: 100.0, decay: 0.05, spacing: 2.0, initial: 0.0 }
-    }
-}
-
-impl ChemicalSpec {
-    /// Distance over which the concentration around a source falls to about a third: the root of diffusion over decay,
-    /// units.
-    #[must_use]
-    pub fn range(&self) -> f32 {
-        (self.diffusion / self.decay).sqrt()
-    }
-
-    /// Checks every field for a world of these settings.
-    ///
-    /// # Errors
-    /// Names the first field out of its range.
-    pub fn validate(&self, config: &WorldConfig) -> Result<(), Error> {
-        self.plan(config).map(drop)
-    }
-
-    /// Columns and rows of its grid, and the rounds of diffusion that a step takes.
-    fn plan(&self, config: &WorldConfig) -> Result<([usize; 2], u32), Error> {
-        in_range("diffusion", self.diffusion, 0.0, 1e5)?;
-        in_range("decay", self.decay, 0.0, 100.0)?;
-        in_range("spacing", self.spacing, 0.1, 1000.0)?;
-        in_range("initial", self.initial, 0.0, 1e6)?;
-        let count = config.size.to_array().map(|side| ((side / self.spacing + 0.5) as usize).max(1));
-        if count[0] * count[1] > MAX_CELLS {
-            let accepted = format!("so large that {MAX_CELLS} cells fill the room");
-            return Err(out_of_range("spacing", self.spacing.into(), accepted));
-        }
-        let cell = config.size / Vec2::from(count.map(|count| count as f32));
-        let rounds = diffusion::rounds(cell, self.diffusion, config.dt).map_err(|most| {
-            let accepted = format!("0 to {most} with this spacing and time step");
-            out_of_range("diffusion", self.diffusion.into(), accepted)
-        })?;
-        Ok((count, rounds))
-    }
-}
 
 /// A chemical in a room.
 #[derive(Clone, Debug, Serialize)]
@@ -311,21 +256,6 @@ mod tests {
         assert!((before - chemical.amount() - 0.02).abs() < 2e-3, "area times concentration");
         chemical.take(Vec2::new(30.0, 30.0), 1e6);
         assert!(chemical.values().iter().all(|&value| (0.0..=2.0).contains(&value)));
-    }
-
-    #[test]
-    fn bad_numbers_are_refused_by_name() {
-        let refuse = |spec: ChemicalSpec, field: &str| {
-            assert_eq!(spec.validate(&room(80.0, 60.0)).unwrap_err().field(), field);
-        };
-        let spec = ChemicalSpec::default;
-        refuse(ChemicalSpec { diffusion: -1.0, ..spec() }, "diffusion");
-        refuse(ChemicalSpec { diffusion: 1e5, spacing: 0.5, ..spec() }, "diffusion");
-        refuse(ChemicalSpec { decay: f32::NAN, ..spec() }, "decay");
-        refuse(ChemicalSpec { spacing: 0.0, ..spec() }, "spacing");
-        let fine = ChemicalSpec { spacing: 0.1, ..spec() };
-        assert_eq!(fine.validate(&room(2e4, 2e4)).unwrap_err().field(), "spacing");
-        refuse(ChemicalSpec { initial: f32::INFINITY, ..spec() }, "initial");
     }
 
     proptest! {

@@ -2,7 +2,7 @@
 
 use super::tests::worlds;
 use super::{Content, ObstacleRecord, WORLD};
-use crate::walk::{Leaf, PathSegment, Visitor, walk};
+use crate::value_walk::{Leaf, PathSegment, Visitor, walk};
 use serde::de::value::{Error, U32Deserializer};
 use serde::de::{
     self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, IntoDeserializer, MapAccess,

@@ -6,15 +6,15 @@
 //!                                 \- Replay <-/
 //! ```
 
+pub mod advice;
+pub mod attempt;
 pub mod bot;
 pub mod game;
 pub mod hint;
 pub mod path;
 pub mod referee;
 pub mod round;
-pub mod slide;
 pub mod slide_bot;
-pub mod verdict;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
+use super::attempt::Attempt;
 use super::referee::{KindScore, Referee};
-use super::slide::Attempt;
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};

@@ -1,9 +1,9 @@
 //! A bot that plays slides: it does one goal after another, and sees obstacles.
 
+use super::attempt::wanted;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::round::Round;
-use super::slide::wanted;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
 use microsim_core::{Intent, Kind, OrganismView, View, World};

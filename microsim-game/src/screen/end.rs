@@ -7,9 +7,9 @@ use super::scores::draw_table;
 use super::{MainScreen, Next, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
+use crate::rules::advice;
 use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
-use crate::rules::verdict;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::MenuLayout;
@@ -37,7 +37,7 @@ pub(super) struct End {
 impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
     pub(super) fn new(result: RoundResult, context: &mut AppContext) -> Self {
-        let missed = verdict::missed(&result);
+        let missed = advice::missed(&result);
         let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
         let game = context.game.label();
         let count = |is_rigid: bool| {
@@ -56,7 +56,7 @@ impl End {
         let doubt = if is_mismatch { ", not as it was played" } else { "" };
         let heading = format!("{points} points{doubt}");
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
-        let goal = is_own.then(|| verdict::next_goal(points, better));
+        let goal = is_own.then(|| advice::next_goal(points, better));
         Self { heading, points, kinds, best, place, missed, goal, menu }
     }
 

@@ -1,6 +1,7 @@
 //! The player's best time for each slide. Stars follow from it.
 
 use super::files::PlayerFolder;
+use crate::rules::attempt::stars_for;
 use microsim_core::scenario::Slide;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -54,7 +55,7 @@ impl BestTimes {
     /// The most stars that the player got for a slide.
     #[must_use]
     pub fn stars(&self, name: &str, slide: &Slide) -> u32 {
-        self.of(name).map_or(0, |time| slide.stars_for(time))
+        self.of(name).map_or(0, |time| stars_for(slide, time))
     }
 }
 

@@ -158,7 +158,7 @@ impl Cell<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capability::crawl::amoebae::Crawl;
+    use crate::capability::crawl::presets::Crawl;
     use crate::{AmoeboidCellSpec, Controller, Inputs, Intent, OrganismId, Placement, World, WorldConfig};
 
     fn a_cell(crawl: Crawl, seed: u64, controller: Controller) -> (World, OrganismId) {

@@ -1,12 +1,12 @@
 //! Crawling by pseudopods as a capability: an [`ExcitableNetwork`] on the membrane decides where it protrudes. This room holds
-//! [parameters](params), the [types of amoeba](amoebae) and the state; what drives the membrane is in [`crate::behavior::crawl`].
+//! [parameters](params), the [presets](presets) for types of amoeba and the state; what drives the membrane is in [`crate::behavior::crawl`].
 //!
 //! A pseudopod starts beside the last one, on alternating sides, or anywhere (Bosgraaf and Van Haastert 2009, "The ordered
 //! extension of pseudopodia by amoeboid cells in the absence of external cues"). The goal biases where, as a gradient does.
 
-pub(crate) mod amoebae;
 mod excitable_network;
 pub(crate) mod params;
+pub(crate) mod presets;
 
 use crate::geometry::ring::{rotate, unit_vector};
 use crate::rng::Rng;

@@ -13,7 +13,7 @@ mod outline;
 use super::blueprint::{Blueprint, FluidPlan};
 use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
-use crate::capability::crawl::amoebae::Crawl;
+use crate::capability::crawl::presets::Crawl;
 use crate::capability::crawl::{PseudopodParams, Pseudopods};
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::entry::{Entry, Note};
-use super::name::unknown;
+use super::unknown_name::unknown;
 use super::value::join;
 use crate::error::Error;
 use crate::scenario::diagnostic::{Diagnostic, Diagnostics, Findings, in_words};

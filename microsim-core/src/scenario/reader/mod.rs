@@ -10,7 +10,7 @@ mod fields;
 mod name;
 mod overrides;
 mod parameters;
-
+mod unknown_name;
 mod value;
 mod value_type;
 

@@ -1,6 +1,6 @@
 //! Overrides: `key=value` pairs that change a scenario before it is read.
 
-use super::name::unknown;
+use super::unknown_name::unknown;
 use super::value::SpannedValue;
 use std::borrow::Cow;
 use std::ops::Range;

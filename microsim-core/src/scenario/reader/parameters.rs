@@ -1,6 +1,7 @@
 //! Parameters: the table `[parameters]`, whose values stand wherever the text says `"$name"`.
 
-use super::name::{NAME, is_name, unknown};
+use super::name::{NAME, is_name};
+use super::unknown_name::unknown;
 use super::value::{SpannedValue, join};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

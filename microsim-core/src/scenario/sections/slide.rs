@@ -52,14 +52,6 @@ pub enum Goal {
     },
 }
 
-impl Slide {
-    /// Stars for reaching all goals after so many seconds: 1 to 3.
-    #[must_use]
-    pub fn stars_for(&self, time: f32) -> u32 {
-        1 + self.stars.iter().filter(|longest| time <= **longest).count() as u32
-    }
-}
-
 /// Reads the table, if the file has it, for a room of this size.
 pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group], size: Vec2) -> Option<Slide> {
     let (is_slide, is_game) = (root.has("slide"), root.has("game"));

@@ -6,12 +6,12 @@
 pub(crate) mod motion;
 pub(crate) mod sensor;
 pub(crate) mod table;
+mod walls;
 
 use super::World;
 use super::change::WorldChange;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::ObstacleRecord;
-use crate::config::{Side, WorldConfig};
 use crate::error::{Error, ErrorKind, in_range, out_of_range};
 use crate::float_environment::with_default_float_environment;
 use crate::id::ObstacleId;
@@ -19,11 +19,7 @@ use crate::particle::{CollisionGroups, Material};
 use glam::Vec2;
 use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
-
-/// Obstacles that every world has: its four walls.
-pub(crate) const WALLS: usize = 4;
-/// Their surface.
-const WALL_MATERIAL: Material = Material::DEFAULT;
+pub(crate) use walls::{WALLS, walls};
 
 impl World {
     /// Adds an obstacle: any `parry2d` shape.
@@ -219,26 +215,4 @@ pub(in crate::world) fn check_pose(field: &str, pose: &Pose) -> Result<(), Error
 pub(crate) fn nothing() -> Obstacle {
     let groups = CollisionGroups::NONE;
     Obstacle { groups, is_enabled: false, ..Obstacle::new(SharedShape::ball(0.0), Pose::IDENTITY) }
-}
-
-/// Thick slabs around the room, overlapping at the corners: so thick that nothing gets past their middle in a step. In the order
-/// of [`crate::Wall`].
-pub(super) fn walls(config: &WorldConfig) -> Vec<Obstacle> {
-    let size = config.size;
-    let thickness = size.x + size.y + 4.0 * config.max_displacement();
-    let half = size * 0.5;
-    let slab = |half_extents: Vec2, centre: Vec2| {
-        let shape = SharedShape::cuboid(half_extents.x, half_extents.y);
-        Obstacle { material: WALL_MATERIAL, ..Obstacle::new(shape, Pose::translation(centre.x, centre.y)) }
-    };
-    let (across, along) =
-        (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
-    let slabs = [
-        slab(across, Vec2::new(half.x, -0.5 * thickness)),
-        slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
-        slab(along, Vec2::new(-0.5 * thickness, half.y)),
-        slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
-    ];
-    let sides = slabs.into_iter().zip(config.sides.in_order());
-    sides.map(|(slab, side)| Obstacle { is_enabled: side == Side::Wall, ..slab }).collect()
 }

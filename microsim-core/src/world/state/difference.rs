@@ -2,7 +2,7 @@
 
 use crate::float_environment::with_default_float_environment;
 use crate::particle::NO_OWNER;
-use crate::walk::{Leaf, PathSegment, Visitor, walk};
+use crate::value_walk::{Leaf, PathSegment, Visitor, walk};
 use crate::world::World;
 use std::fmt;
 

@@ -7,7 +7,7 @@
 
 use crate::float_environment::with_default_float_environment;
 use crate::fnv::Fnv1a;
-use crate::walk::{Leaf, Visitor, walk};
+use crate::value_walk::{Leaf, Visitor, walk};
 use crate::world::World;
 use serde::Serialize;
 

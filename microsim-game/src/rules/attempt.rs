@@ -67,7 +67,7 @@ impl Attempt {
     /// Stars, 0 before all goals are reached.
     #[must_use]
     pub fn stars(&self) -> u32 {
-        self.time.map_or(0, |time| self.slide.stars_for(time))
+        self.time.map_or(0, |time| stars_for(&self.slide, time))
     }
 
     /// The slide.
@@ -94,5 +94,24 @@ pub fn wanted(goal: &Goal) -> u32 {
     match goal {
         Goal::Reach { .. } => 1,
         Goal::Digest { count, .. } => *count,
+    }
+}
+
+/// Stars for reaching all goals of a slide after so many seconds: 1 to 3.
+#[must_use]
+pub fn stars_for(slide: &Slide, time: f32) -> u32 {
+    1 + slide.stars.iter().filter(|longest| time <= **longest).count() as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sooner_the_more_stars() {
+        let text = String::new;
+        let (title, task, fact, source) = (text(), text(), text(), text());
+        let slide = Slide { title, task, fact, source, time: 60.0, stars: [20.0, 40.0], goals: Vec::new() };
+        assert_eq!([19.0, 20.0, 20.1, 40.0, 41.0].map(|time| stars_for(&slide, time)), [3, 3, 2, 2, 1]);
     }
 }
