@@ -18,6 +18,49 @@ const SLEEP_SPEED: f32 = 0.02;
 /// Time below the sleep speed after which a body falls asleep, s.
 const TIME_TO_SLEEP: f32 = 0.5;
 
+/// What gives crawling cells their grip: rigid and amoeboid cells. Bacteria, probes and templates with a
+/// [`Propulsion`](crate::Propulsion) swim: they need none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Substrate {
+    /// The slide, everywhere: the room is seen from above. What drives a cell gives its nodes their velocities, as in the thesis.
+    #[default]
+    Slide,
+    /// Only what a cell touches: obstacles, walls and other organisms. It pulls itself along them with a finite force, organisms
+    /// are pulled the other way, and a cell that touches nothing flies or falls.
+    Surfaces,
+}
+
+/// What one side of the room is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Side {
+    /// A wall.
+    #[default]
+    Wall,
+    /// Nothing: what is wholly beyond it is removed at the end of the step, with
+    /// [`Event::Drained`](crate::Event::Drained).
+    Open,
+}
+
+/// What the sides of the room are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Sides {
+    /// At y = 0.
+    pub bottom: Side,
+    /// At the room's height.
+    pub top: Side,
+    /// At x = 0.
+    pub left: Side,
+    /// At the room's width.
+    pub right: Side,
+}
+
+impl Sides {
+    /// All of them, in the order of [`Wall::ALL`](crate::Wall::ALL).
+    pub(crate) fn in_order(self) -> [Side; 4] {
+        [self.bottom, self.top, self.left, self.right]
+    }
+}
+
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldConfig {
@@ -45,6 +88,10 @@ pub struct WorldConfig {
     pub sleeps: bool,
     /// Most particles that the world accepts, 1 to 4 000 000.
     pub max_particles: u32,
+    /// What gives crawling cells their grip.
+    pub substrate: Substrate,
+    /// Which sides of the room are walls. Chemicals stay in it whatever they are.
+    pub sides: Sides,
 }
 
 impl Default for WorldConfig {
@@ -60,6 +107,8 @@ impl Default for WorldConfig {
             protects_membranes: true,
             sleeps: true,
             max_particles: 500_000,
+            substrate: Substrate::Slide,
+            sides: Sides::default(),
         }
     }
 }
@@ -88,6 +137,15 @@ impl WorldConfig {
         in_range("damping", self.damping, 0.0, 100.0)?;
         in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
+    }
+
+    /// Lower left and upper right corner of what the walls enclose, infinitely far where a side is open.
+    pub(crate) fn walls(&self) -> [Vec2; 2] {
+        let Sides { bottom, top, left, right } = self.sides;
+        let or = |side: Side, wall: f32, far: f32| if side == Side::Wall { wall } else { far };
+        let far = f32::INFINITY;
+        let low = Vec2::new(or(left, 0.0, -far), or(bottom, 0.0, -far));
+        [low, Vec2::new(or(right, self.size.x, far), or(top, self.size.y, far))]
     }
 
     /// Time of one substep, s.

@@ -1,9 +1,18 @@
 //! Events: what happened in a step. They are kept until the next step begins, in an order that depends on the state only.
 
-use crate::collider::{Collider, ContactPoint};
-use crate::id::{JointId, ObstacleId, OrganismId};
+use crate::collider::{Collider, ContactPoint, Wall};
+use crate::id::{DrainId, EmitterId, JointId, ObstacleId, OrganismId};
 use crate::kind::Kind;
 use serde::{Deserialize, Serialize};
+
+/// Where organisms and fluid leave a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Outlet {
+    /// A drain.
+    Drain(DrainId),
+    /// A side of the room that is open.
+    Side(Wall),
+}
 
 /// Something that happened in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -164,6 +173,24 @@ pub enum Event {
         /// Their fastest contact, with the impulse of all of them.
         contact: ContactPoint,
     },
+    /// An emitter put an organism into the world, at the end of the step.
+    Emitted {
+        /// Which one.
+        emitter: EmitterId,
+        /// The organism.
+        organism: OrganismId,
+    },
+    /// A drain or an open side took an organism, or particles of fluid, at the end of the step.
+    Drained {
+        /// Which one.
+        outlet: Outlet,
+        /// The organism. The handle is stale, but of fluid of which some is left.
+        organism: OrganismId,
+        /// What it is.
+        kind: Kind,
+        /// How many of its particles went.
+        particles: u32,
+    },
 }
 
 /// Why a cell does not divide or fuse.
@@ -213,7 +240,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 22] = [
+    pub const NAMES: [&str; 24] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -236,6 +263,8 @@ impl Event {
         "touch_began",
         "touch_ended",
         "hit",
+        "emitted",
+        "drained",
     ];
 
     /// Name of its kind, for counting.
@@ -264,6 +293,8 @@ impl Event {
             Self::TouchBegan { .. } => "touch_began",
             Self::TouchEnded { .. } => "touch_ended",
             Self::Hit { .. } => "hit",
+            Self::Emitted { .. } => "emitted",
+            Self::Drained { .. } => "drained",
         }
     }
 
@@ -288,6 +319,8 @@ impl Event {
             | Self::SensorLeft { organism, .. }
             | Self::TouchBegan { organism, .. }
             | Self::TouchEnded { organism, .. }
+            | Self::Emitted { organism, .. }
+            | Self::Drained { organism, .. }
             | Self::Quarantined { organism } => [Some(organism), None],
             Self::Hit { contact } => [Some(contact.organism), contact.partner.organism()],
             Self::ObstacleBlocked { .. } => [None, None],

@@ -101,7 +101,7 @@ impl Region {
         }
     }
 
-    fn validate(&self) -> Result<(), Error> {
+    pub(crate) fn validate(&self) -> Result<(), Error> {
         match *self {
             Self::All => Ok(()),
             Self::Circle { centre, radius } => {

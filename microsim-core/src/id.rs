@@ -43,7 +43,7 @@ impl OrganismId {
 }
 
 /// Names a template that was added to a world; valid as long as the world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct TemplateId(pub(crate) u32);
 
 /// Names one obstacle of a world until it is removed.
@@ -100,6 +100,40 @@ pub struct FieldId {
 }
 
 impl FieldId {
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
+    }
+}
+
+/// Names an emitter of a world until it is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct EmitterId {
+    index: u32,
+    generation: u32,
+}
+
+impl EmitterId {
+    pub(crate) fn of((index, generation): Handle) -> Self {
+        Self { index, generation }
+    }
+
+    pub(crate) fn handle(self) -> Handle {
+        (self.index, self.generation)
+    }
+}
+
+/// Names a drain of a world until it is removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct DrainId {
+    index: u32,
+    generation: u32,
+}
+
+impl DrainId {
     pub(crate) fn of((index, generation): Handle) -> Self {
         Self { index, generation }
     }

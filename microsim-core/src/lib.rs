@@ -70,6 +70,7 @@ pub mod snapshot;
 mod solver;
 mod spec_field;
 mod step;
+mod supply;
 mod template;
 mod value_walk;
 mod world;
@@ -79,7 +80,7 @@ pub use {glam, parry2d};
 #[doc(hidden)]
 pub use {
     bodies::*, contacts::*, controllers::*, forces::*, joints::*, measures::*, media::*, obstacles::*, organisms::*,
-    queries::*, simulation::*, views::*,
+    queries::*, simulation::*, supplies::*, views::*,
 };
 
 /// What most programs need: `use microsim_core::prelude::*;`.
@@ -107,6 +108,7 @@ pub mod prelude {
     };
     pub use crate::queries::QueryFilter;
     pub use crate::simulation::{Error, Inputs, Intent, World, WorldConfig};
+    pub use crate::supplies::{Drain, Emitter, Recipe};
     pub use crate::views::{OrganismView, View};
     pub use glam::Vec2;
     pub use parry2d::math::Pose;
@@ -115,7 +117,7 @@ pub mod prelude {
 
 /// The world: settings, inputs, steps, errors, and comparing two of them.
 pub mod simulation {
-    pub use crate::config::WorldConfig;
+    pub use crate::config::{Side, Sides, Substrate, WorldConfig};
     pub use crate::error::{Error, ErrorKind};
     pub use crate::float_environment::with_default_float_environment;
     pub use crate::inputs::{Inputs, Intent};
@@ -193,6 +195,13 @@ pub mod media {
     pub use crate::chemical::{Chemical, ChemicalSpec};
     pub use crate::id::ChemicalId;
     pub use crate::solver::fluid::{FluidMode, FluidParams};
+}
+
+/// Emitters and drains: what comes into a world and leaves it while it runs.
+pub mod supplies {
+    pub use crate::event::Outlet;
+    pub use crate::id::{DrainId, EmitterId};
+    pub use crate::supply::{Drain, Emitter, Recipe};
 }
 
 /// Obstacles: fixed, moved, one-way, sensors.

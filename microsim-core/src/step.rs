@@ -106,6 +106,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.find_pairs();
     find_neighbours(world);
     stop_sleepers(world);
+    world.find_grips();
     world.gather_joints();
     world.scale_gravity();
     finished(Phase::FindPairs);
@@ -150,6 +151,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
     let environment = senses::Environment { size, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, &mut scratch.tows, events);
+    let own = scratch.drives.len();
     drive::begin_tows(&scratch.tows, particles);
     phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
@@ -169,11 +171,12 @@ fn steer(world: &mut World, inputs: &Inputs) {
             sleep.wake_up(block, lane);
         }
     }
+    world.part_with_crawls(own);
 }
 
 fn find_neighbours(world: &mut World) {
     let World { config, particles, fluids, scratch, .. } = world;
-    scratch.fluid.find_neighbours(fluids, particles, config.size);
+    scratch.fluid.find_neighbours(fluids, particles, config.walls());
 }
 
 fn stop_sleepers(world: &mut World) {
@@ -185,6 +188,7 @@ fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
     drive::apply_tows(&scratch.tows, particles, config, h);
     drive::apply(&scratch.drives, particles, h);
+    drive::pull(&scratch.tractions, particles, h);
     scratch.forces.apply(particles, config.gravity, config.speed_limit(), h);
     let outside = outside_of(blocks.iter().map(Block::range), particles.len());
     let mut columns = particles.columns();
@@ -316,4 +320,5 @@ fn conclude(world: &mut World) {
     world.conclude_joints();
     let everything = std::iter::once(0..world.particles.len());
     integrate::for_each_chunk(&mut world.particles, everything, world.dispatch, integrate::move_origins);
+    world.supply();
 }

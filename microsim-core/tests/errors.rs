@@ -6,10 +6,11 @@ use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
     Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec,
-    CollisionGroups, ContactReporting, Controller, Distance, Error, ErrorKind, Exchange, FieldId, FieldKind,
-    FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec,
-    MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec,
-    ProbeSpec, RedCellSpec, Region, RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig,
+    CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error, ErrorKind,
+    Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd,
+    JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec,
+    Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template, TemplateBuilder,
+    TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -78,6 +79,18 @@ impl Room {
         field
     }
 
+    fn stale_emitter(&mut self) -> EmitterId {
+        let id = self.world.add_emitter(emitter(1.0)).unwrap();
+        self.world.remove_emitter(id).unwrap();
+        id
+    }
+
+    fn stale_drain(&mut self) -> DrainId {
+        let id = self.world.add_drain(drain(1.0)).unwrap();
+        self.world.remove_drain(id).unwrap();
+        id
+    }
+
     fn chemical(&mut self) -> ChemicalId {
         self.world.add_chemical(ChemicalSpec::default()).unwrap()
     }
@@ -104,6 +117,14 @@ impl Room {
 fn circle(radius: f32) -> ForceField {
     let (region, acceleration) = (Region::Circle { centre: Vec2::ONE, radius }, Vec2::X);
     ForceField { region, kind: FieldKind::Uniform { acceleration } }
+}
+
+fn emitter(rate: f32) -> Emitter {
+    Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), rate)
+}
+
+fn drain(radius: f32) -> Drain {
+    Drain { region: Region::Circle { centre: Vec2::ONE, radius }, kind: None }
 }
 
 /// A template of one disc.
@@ -259,6 +280,25 @@ const CASES: &[Case] = &[
     ("World::add_field", "OutOfRange", "region.radius", |r| r.world.add_field(circle(f32::NAN)).unwrap_err()),
     ("World::set_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.set_field(field, circle(1.0)).unwrap_err() }),
     ("World::remove_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.remove_field(field).unwrap_err() }),
+    ("World::set_scale", "Stale", "organism", |r| r.world.set_scale(r.stale, 1.0).unwrap_err()),
+    ("World::set_scale", "Unsupported", "organism", |r| r.world.set_scale(r.cell, 1.0).unwrap_err()),
+    ("World::set_scale", "OutOfRange", "scale", |r| r.world.set_scale(r.agar, 11.0).unwrap_err()),
+    ("World::replace", "Stale", "organism", |r| r.world.replace(r.stale, &emitter(1.0).recipe, AT(9.0, 9.0)).unwrap_err()),
+    ("World::replace", "OutsideWorld", "at", |r| r.world.replace(r.agar, &emitter(1.0).recipe, AT(-9.0, 9.0)).unwrap_err()),
+    ("Emitter::validate", "OutOfRange", "rate", |_| emitter(f32::NAN).validate().unwrap_err()),
+    ("Emitter::validate", "OutOfRange", "recipe.radius", |_| Emitter { recipe: Recipe::Organism(CoccusSpec { radius: -1.0, ..CoccusSpec::default() }.into()), ..emitter(1.0) }.validate().unwrap_err()),
+    ("World::add_emitter", "OutOfRange", "rate", |r| r.world.add_emitter(emitter(-1.0)).unwrap_err()),
+    ("World::add_emitter", "Stale", "recipe.template", |r| {
+        let template = single(&mut r.world);
+        let emitter = Emitter { recipe: Recipe::Template(template), ..emitter(1.0) };
+        World::new(WorldConfig::default()).unwrap().add_emitter(emitter).unwrap_err()
+    }),
+    ("World::set_emitter", "Stale", "emitter", |r| { let id = r.stale_emitter(); r.world.set_emitter(id, emitter(1.0)).unwrap_err() }),
+    ("World::remove_emitter", "Stale", "emitter", |r| { let id = r.stale_emitter(); r.world.remove_emitter(id).unwrap_err() }),
+    ("Drain::validate", "OutOfRange", "region.radius", |_| drain(-1.0).validate().unwrap_err()),
+    ("World::add_drain", "OutOfRange", "region.radius", |r| r.world.add_drain(drain(f32::NAN)).unwrap_err()),
+    ("World::set_drain", "Stale", "drain", |r| { let id = r.stale_drain(); r.world.set_drain(id, drain(1.0)).unwrap_err() }),
+    ("World::remove_drain", "Stale", "drain", |r| { let id = r.stale_drain(); r.world.remove_drain(id).unwrap_err() }),
     ("World::set_gravity", "OutOfRange", "gravity.y", |r| r.world.set_gravity(Vec2::new(0.0, 2000.0)).unwrap_err()),
     ("World::set_damping", "OutOfRange", "damping", |r| r.world.set_damping(-1.0).unwrap_err()),
     ("World::set_max_speed", "OutOfRange", "max_speed", |r| r.world.set_max_speed(0.0).unwrap_err()),

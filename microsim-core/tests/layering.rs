@@ -31,6 +31,7 @@ const LAYERS: &[(&str, &str)] = &[
         "arena capability collision error float_environment geometry id kind look particle rng shared solver spec_field \
         template",
     ),
+    ("supply", "error force_field id kind organism"),
     (
         "behavior",
         "actuation capability chemical event geometry id inputs organism particle solver::contraction solver::drive \
@@ -39,7 +40,7 @@ const LAYERS: &[(&str, &str)] = &[
     (
         "world",
         "arena behavior capability chemical collider collision config error event float_environment fnv force_field \
-        geometry id inputs joint kind organism parallel particle rng shared solver template value_walk",
+        geometry id inputs joint kind organism parallel particle rng shared solver supply template value_walk",
     ),
     // The step takes the world apart and hands each phase what it needs.
     ("step", "behavior capability float_environment inputs organism parallel particle solver world"),

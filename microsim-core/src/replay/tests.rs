@@ -8,9 +8,9 @@ use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use crate::scenario::{Built, Scenario, builtin};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CollisionGroups, ContactReporting, Controller, Error, Exchange,
-    FieldKind, ForceField, JointEnd, JointKind, JointSpec, Node, Obstacle, ObstacleMotion, Placement, Region, Template,
-    World,
+    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller, Drain,
+    Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node, Obstacle,
+    ObstacleMotion, OrganismSpec, Placement, Recipe, Region, Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -136,6 +136,10 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
     let rope = JointSpec::new(JointEnd::Centre(one), JointEnd::Centre(two), JointKind::Rope { max_length: 15.0 });
     let (obstacle, joint) = (world.obstacles().next(), world.joints().next());
     let field = world.fields().next().map(|(id, _)| id);
+    let at = world.centroid(two).unwrap();
+    let (emitter, drain) = (world.emitters().next().map(|it| it.0), world.drains().next().map(|it| it.0));
+    let inlet = Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), 10.0);
+    let outlet = Drain { region: Region::Circle { centre: Vec2::splat(8.0), radius: 5.0 }, kind: Some(Kind::Coccus) };
     match step {
         0 => drop(world.add_obstacle(Obstacle { motion: ObstacleMotion::Push, ..bar })?),
         1 => world.move_obstacle(obstacle.unwrap(), Pose::new(Vec2::new(20.0, 25.9), 0.01))?,
@@ -177,6 +181,14 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
         }
         27 => world.grow(last, 2, 3)?,
         28 => world.divide(last)?,
+        29 => drop(world.add_emitter(inlet)?),
+        30 => world.set_emitter(emitter.unwrap(), Emitter { rate: 30.0, ..inlet })?,
+        31 => world.set_scale(two, 1.05)?,
+        32 => drop(world.replace(two, &OrganismSpec::from(CoccusSpec::default()).into(), Placement::at(at.x, at.y))?),
+        45 => world.remove_emitter(emitter.unwrap())?,
+        46 => drop(world.add_drain(outlet)?),
+        47 => world.set_drain(drain.unwrap(), Drain { region: Region::All, ..outlet })?,
+        48 => world.remove_drain(drain.unwrap())?,
         _ => {}
     }
     Ok(())

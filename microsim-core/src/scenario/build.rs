@@ -67,7 +67,7 @@ impl Scenario {
 
     /// Puts everything into the world that is there from the beginning; returns the spawners of the rest.
     fn fill(&self, built: &mut Built, context: &ReadContext<'_>) -> Vec<Spawner> {
-        let File { config, chemicals, obstacles, groups, .. } = &self.file;
+        let File { config, chemicals, obstacles, groups, supplies, .. } = &self.file;
         for (name, spec) in chemicals {
             if let Some(id) = context.check(&format!("chemical.{name}"), built.world.add_chemical(*spec)) {
                 built.chemicals.push((name.clone(), id));
@@ -90,6 +90,12 @@ impl Scenario {
                 }
             }
             spawners.extend(Spawner::new(index, group, &there, &built.world));
+        }
+        for (path, emitter) in &supplies.emitters {
+            context.check(path, built.world.add_emitter(emitter.clone()));
+        }
+        for drain in &supplies.drains {
+            context.check("", built.world.add_drain(*drain));
         }
         spawners
     }

@@ -11,6 +11,7 @@ use super::sections::group::{self, Group};
 use super::sections::output::{self, OutputPlan};
 use super::sections::slide::{self, Slide};
 use super::sections::spawn::{self, Definitions};
+use super::sections::supply::{self, Supplies};
 use super::sections::{field, obstacle, prototype, world};
 use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
@@ -31,6 +32,7 @@ pub(super) struct File {
     pub chemicals: Chemicals,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
+    pub supplies: Supplies,
     pub controllers: Controllers,
     pub commands: Vec<Command>,
     pub checks: Checks,
@@ -65,6 +67,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
     let definitions = Definitions { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
     let mut groups = spawn::read(&mut root, &definitions);
     groups.extend(field::lay_out(plans, size, context));
+    let supplies = supply::read(&mut root, &definitions);
     let commands = command::read(&mut root, &groups, &controllers, duration);
     let checks = checks::read(&mut root);
     let output = output::read(&mut root);
@@ -80,6 +83,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
         chemicals,
         obstacles,
         groups,
+        supplies,
         controllers,
         commands,
         checks,

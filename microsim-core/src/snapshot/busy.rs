@@ -2,11 +2,12 @@
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Event, Exchange, FieldKind, FleeParams,
-    FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle,
-    ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams, Refusal, Region,
-    RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
+    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter, Event, Exchange,
+    FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
+    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement,
+    Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams,
+    Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -31,6 +32,8 @@ pub(super) fn world() -> World {
     world.fuse(taker, divider).unwrap();
     let joint = join(&mut world, toucher, divider, platform);
     world.events = events(eater, divider, sensor, joint);
+    let of_supplies = supply(&mut world, eater);
+    world.events.extend(of_supplies);
     let partners = colliders(divider, sensor);
     let reports = &mut world.contact_reports;
     reports.points = partners.map(|partner| contact(eater, partner)).to_vec();
@@ -131,12 +134,50 @@ fn blow(world: &mut World) {
     assert_eq!(fields.len(), world.fields().count());
 }
 
+/// Emitters of all that can be emitted, drains, and free places; returns their events.
+fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
+    let template = world.add_template({
+        let mut builder = Template::builder();
+        builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+        builder.build().unwrap()
+    });
+    let region = Region::Box { low: Vec2::new(2.0, 80.0), high: Vec2::new(20.0, 88.0) };
+    let angle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(Vec2::from).to_vec();
+    let pseudopods = Some(PseudopodParams::default());
+    let amoeba =
+        AmoeboidCellSpec { outline: angle, crawl: Crawl::Neutrophil, pseudopods, ..AmoeboidCellSpec::default() };
+    let specs = OrganismSpec::defaults().into_iter().chain([amoeba.into()]).map(Recipe::Organism);
+    let emitters = specs.chain([Recipe::Template(template)]).map(|recipe| {
+        let emitter = Emitter { angle: Some(0.0), ..Emitter::new(region, recipe, 0.5) };
+        world.add_emitter(emitter).unwrap()
+    });
+    let emitters: Vec<_> = emitters.collect();
+    let again = world.emitters().next().unwrap().1.clone();
+    let gone = world.add_emitter(again).unwrap();
+    world.remove_emitter(gone).unwrap();
+    let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };
+    let strip = Region::Box { low: Vec2::ZERO, high: Vec2::new(0.1, 9.0) };
+    let drains = [(corner, None), (strip, Some(Kind::Coccus))];
+    let drains = drains.map(|(region, kind)| world.add_drain(Drain { region, kind }).unwrap());
+    let disc = Recipe::Organism(AgarSpec::default().into());
+    world.add_emitter(Emitter::new(corner, disc, 0.0)).unwrap();
+    world.remove_drain(drains[0]).unwrap();
+    world.add_drain(Drain { region: corner, kind: None }).unwrap();
+    let gone = world.add_drain(Drain { region: corner, kind: None }).unwrap();
+    world.remove_drain(gone).unwrap();
+    let outlets = [Outlet::Drain(drains[1]), Outlet::Side(Wall::Left)];
+    let drained = outlets.map(|outlet| Event::Drained { outlet, organism, kind: Kind::Agar, particles: 1 });
+    [drained[0], drained[1], Event::Emitted { emitter: emitters[0], organism }]
+}
+
 /// A custom body, with a muscle.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
     let channel = builder.channel([1.0, 0.5]);
     builder.muscle(channel, Rope { a, b, max_length: 3.0 });
+    let c = builder.node(Node::disc(Vec2::new(4.0, 0.0), 1.0, 0.5));
+    builder.constraint(Bend::new([a, b, c], 0.0, 1.0));
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();

@@ -1,10 +1,12 @@
 //! Drives: velocities that a body gives to its own particles, for example the front of a crawling cell, and tows, velocities of
 //! a body as a whole.
 
+use super::force;
 use super::lanes::LANES;
 use crate::config::WorldConfig;
 use crate::geometry::ring::direction_or;
 use crate::particle::Particles;
+use crate::particle::mass_properties::MassProperties;
 use glam::Vec2;
 
 /// Time in which a rod turns most of the way to its heading, s.
@@ -27,6 +29,34 @@ pub(crate) fn apply(drives: &[Drive], particles: &mut Particles, h: f32) {
         let limit = super::ratio_limit(change.length_squared(), drive.max_acceleration * h);
         particles.vx[i] += change.x * limit;
         particles.vy[i] += change.y * limit;
+    }
+}
+
+/// The drives of a body that pulls itself along what it touches.
+#[derive(Debug)]
+pub(crate) struct Traction {
+    pub drives: Vec<Drive>,
+    /// Unit vector of the only directions in which they act; `None`: all.
+    pub along: Option<Vec2>,
+    /// Particles of the organisms that are pulled the other way; none where something fixed is touched.
+    pub on: Vec<u32>,
+}
+
+/// Pulls bodies along, and what they touch the other way. Wanted velocities are relative to what is touched.
+pub(crate) fn pull(tractions: &[Traction], particles: &mut Particles, h: f32) {
+    for Traction { drives, along, on } in tractions {
+        let ground = MassProperties::of(particles, on).map_or(Vec2::ZERO, |ground| ground.velocity);
+        let mut given = Vec2::ZERO;
+        for drive in drives {
+            let i = drive.particle as usize;
+            let change = ground + drive.velocity - particles.velocity(i);
+            let change = along.map_or(change, |along| along * change.dot(along));
+            let change = change * super::ratio_limit(change.length_squared(), drive.max_acceleration * h);
+            particles.vx[i] += change.x;
+            particles.vy[i] += change.y;
+            given += change * super::lanes::ratio(1.0, particles.inv_mass[i]);
+        }
+        force::push(particles, on, -given);
     }
 }
 

@@ -4,6 +4,7 @@
 //! differ in place, direction and size.
 
 mod role;
+mod self_contact;
 
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;
@@ -23,7 +24,7 @@ pub struct Node {
     pub mass: f32,
     /// Radius, units, 0 to 1000.
     pub radius: f32,
-    /// What it collides with; never with particles of its own instance.
+    /// What it collides with; with nodes of its own instance only after [`TemplateBuilder::self_contacts`].
     pub groups: CollisionGroups,
     /// Its surface.
     pub material: Material,

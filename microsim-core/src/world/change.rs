@@ -8,10 +8,11 @@ use crate::chemical::ChemicalSpec;
 use crate::collider::ContactReporting;
 use crate::collision::obstacle_record::{ObstacleRecord, PoseRecord};
 use crate::force_field::ForceField;
-use crate::id::{FieldId, JointId, ObstacleId, OrganismId};
+use crate::id::{DrainId, EmitterId, FieldId, JointId, ObstacleId, OrganismId};
 use crate::joint::JointSpec;
 use crate::organism::{OrganismSpec, Placement};
 use crate::particle::CollisionGroups;
+use crate::supply::{Drain, Emitter, Recipe};
 use crate::template::Template;
 #[cfg(all(feature = "scenario", feature = "snapshot"))]
 use crate::{collision::obstacle_record::pose_of, id::TemplateId};
@@ -51,6 +52,14 @@ pub(crate) enum WorldChange {
     SetDamping(f32),
     SetMaxSpeed(f32),
     SetContactReporting(Option<ContactReporting>),
+    AddEmitter(Box<Emitter>),
+    SetEmitter(EmitterId, Box<Emitter>),
+    RemoveEmitter(EmitterId),
+    AddDrain(Drain),
+    SetDrain(DrainId, Drain),
+    RemoveDrain(DrainId),
+    SetScale(OrganismId, f32),
+    Replace(OrganismId, Box<(Recipe, Placement)>),
     /// One that has no record: an obstacle of a shape that cannot be written.
     Unrecordable,
 }
@@ -119,6 +128,8 @@ impl WorldChange {
                 world.set_user_data(id, u128::from(low) | (u128::from(high) << 64)).ok()?;
             }
             Self::SetCollisionGroups(id, groups) => world.set_collision_groups(id, groups).ok()?,
+            Self::SetScale(id, scale) => world.set_scale(id, scale).ok()?,
+            Self::Replace(id, new) => drop(world.replace(id, &new.0, new.1).ok()?),
             Self::Push(id, velocity) => world.push(id, velocity).ok()?,
             Self::Grow(id, nodes, particles) => world.grow(id, nodes, particles).ok()?,
             // The direction of a furrow was normalised when it was given.
@@ -139,6 +150,12 @@ impl WorldChange {
             Self::AddField(field) => drop(world.add_field(field).ok()?),
             Self::SetField(id, field) => world.set_field(id, field).ok()?,
             Self::RemoveField(id) => world.remove_field(id).ok()?,
+            Self::AddEmitter(emitter) => drop(world.add_emitter(*emitter).ok()?),
+            Self::SetEmitter(id, emitter) => world.set_emitter(id, *emitter).ok()?,
+            Self::RemoveEmitter(id) => world.remove_emitter(id).ok()?,
+            Self::AddDrain(drain) => drop(world.add_drain(drain).ok()?),
+            Self::SetDrain(id, drain) => world.set_drain(id, drain).ok()?,
+            Self::RemoveDrain(id) => world.remove_drain(id).ok()?,
             Self::SetGravity(gravity) => world.set_gravity(gravity).ok()?,
             Self::SetDamping(damping) => world.set_damping(damping).ok()?,
             Self::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,

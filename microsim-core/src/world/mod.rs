@@ -8,6 +8,7 @@ pub(crate) mod contact_report;
 pub(crate) mod contacts;
 mod controller;
 mod force_field;
+mod grip;
 mod inputs;
 pub(crate) mod joint;
 pub(crate) mod measure;
@@ -19,10 +20,12 @@ mod phagocytosis;
 mod push;
 mod quarantine;
 pub(crate) mod query;
+mod replace;
 mod scale;
 mod settings;
 mod spawn;
 pub(crate) mod state;
+pub(crate) mod supply;
 mod vacancies;
 pub(crate) mod view;
 mod wake;
@@ -49,11 +52,12 @@ use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contact_record::ContactRecorder;
 use crate::solver::contraction::Contraction;
-use crate::solver::drive::{Drive, Tow};
+use crate::solver::drive::{Drive, Tow, Traction};
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::force::Forces;
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::solver::joint::Joints;
+use crate::supply::Drain;
 use crate::template::Template;
 use change::{Changes, WorldChange};
 use contact_report::ContactReports;
@@ -65,6 +69,7 @@ use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
 use query::QueryIndex;
 use serde::{Deserialize, Serialize};
+use supply::EmitterRecord;
 use vacancies::Vacancies;
 
 /// A room with organisms in it. Cloning it is a snapshot: the clone has the same future and answers every question alike.
@@ -108,6 +113,8 @@ pub struct World {
     pub(crate) obstacle_table: ObstacleTable,
     presences: Presences,
     pub(crate) contact_reports: ContactReports,
+    pub(crate) emitters: Arena<Box<EmitterRecord>>,
+    pub(crate) drains: Arena<Box<Drain>>,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -137,6 +144,8 @@ pub(crate) struct Scratch {
     pub obstacle_paths: Vec<ObstaclePath>,
     pub fluid: fluid::Workspace,
     pub drives: Vec<Drive>,
+    /// Of crawling cells where the slide gives no grip.
+    pub tractions: Vec<Traction>,
     pub tows: Vec<Tow>,
     pub contractions: Vec<Contraction>,
     pub forces: Forces,
@@ -177,6 +186,8 @@ impl Clone for World {
             obstacle_table,
             presences,
             contact_reports,
+            emitters,
+            drains,
             obstacles,
             changes,
             scratch,
@@ -200,6 +211,8 @@ impl Clone for World {
         self.obstacle_table.clone_from(obstacle_table);
         self.presences.clone_from(presences);
         self.contact_reports.clone_from(contact_reports);
+        self.emitters.clone_from(emitters);
+        self.drains.clone_from(drains);
         self.obstacles.clone_from(obstacles);
         self.changes.clone_from(changes);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
@@ -230,6 +243,8 @@ impl World {
             obstacle_table: ObstacleTable::default(),
             presences: Presences::default(),
             contact_reports: ContactReports::default(),
+            emitters: Arena::default(),
+            drains: Arena::default(),
             blocks: Shared::default(),
             sleep: Sleep::default(),
             fluids: Vec::new(),

@@ -1,11 +1,47 @@
 //! Size of an organism relative to its size when spawned.
 
 use super::World;
+use super::change::WorldChange;
+use crate::error::{Error, in_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Storage};
 use crate::solver::lanes::LANES;
 
+/// Largest radius of a disc that is scaled, units: of a template's node times the scale of its placement.
+const LARGEST: f32 = 1e5;
+
 impl World {
+    /// Sets the size of a body of a template, single discs among them, relative to its size when it was spawned: its radii, lengths
+    /// and areas; its mass stays. It takes on the size within the next steps and pushes away what is in its place, at up to the
+    /// speed limit: let it grow a little in each step. Prey that is digested shrinks whatever this says, and returns to its size
+    /// when spawned.
+    ///
+    /// # Errors
+    /// When the handle is stale; when the organism is frozen, held by another, or holds fluid, whose size is that of its spec; and
+    /// when the scale is not 0.1 to 10, or makes a disc larger than 100 000 units.
+    pub fn set_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
+        with_default_float_environment(|| self.check_scale(id, scale))?;
+        with_default_float_environment(|| self.scale_body(id, scale));
+        self.wake_up_touching(id);
+        self.changed(|| WorldChange::SetScale(id, scale));
+        Ok(())
+    }
+
+    fn check_scale(&self, id: OrganismId, scale: f32) -> Result<(), Error> {
+        let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
+        let Storage::Lane { block, .. } = organism.body else {
+            return Err(Error::unsupported("organism", "a body of a template"));
+        };
+        if organism.is_quarantined || organism.is_held() {
+            return Err(Error::unsupported("organism", "one that is not frozen or held"));
+        }
+        let nodes = self.templates[self.blocks[block as usize].template as usize].nodes();
+        let largest = nodes.iter().fold(0.0, |most, node| if node.radius > most { node.radius } else { most });
+        let most = LARGEST / (largest * organism.spawn_scale);
+        in_range("scale", scale, 0.1, if most < 10.0 { most } else { 10.0 })
+    }
+
     /// Scale of an organism's constraints.
     pub(crate) fn scale_of(&self, organism: &Organism) -> f32 {
         match organism.body {
@@ -22,8 +58,8 @@ impl World {
         self.organisms.get(id).map_or(1.0, |organism| self.scale_of(organism) / organism.spawn_scale)
     }
 
-    /// Sets the size of a templated organism relative to its size when spawned.
-    pub(in crate::world) fn set_scale(&mut self, id: OrganismId, factor: f32) {
+    /// The same without checks.
+    pub(in crate::world) fn scale_body(&mut self, id: OrganismId, factor: f32) {
         let Some(organism) = self.organisms.get(id) else { return };
         let Storage::Lane { block: index, first } = organism.body else { return };
         let block = &mut self.blocks[index as usize];
@@ -39,5 +75,44 @@ impl World {
     pub(in crate::world) fn area_of(&self, id: OrganismId) -> f32 {
         let scale = self.present_scale(id);
         self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * (scale * scale))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, World, WorldConfig};
+    use glam::Vec2;
+
+    #[test]
+    fn a_body_grows_in_place_and_pushes_its_neighbours_away() {
+        let mut world = World::new(WorldConfig { damping: 2.0, ..WorldConfig::default() }).unwrap();
+        let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(50.0, 45.0)).unwrap();
+        let width = |world: &World| {
+            let (low, high): (Vec2, Vec2) = world.view().organism(cell).unwrap().bounds();
+            high.x - low.x
+        };
+        let before = width(&world);
+        let ball = world.spawn(&AgarSpec::default().into(), Placement::at(50.0 + 0.5 * before + 1.1, 45.0)).unwrap();
+        let from = world.centroid(ball).unwrap().x;
+        for k in 1..=100u8 {
+            world.set_scale(cell, 1.0 + 0.005 * f32::from(k)).unwrap();
+            world.step(&Inputs::new());
+            world.validate().unwrap();
+        }
+        (0..60).for_each(|_| world.step(&Inputs::new()));
+        assert!((width(&world) / before - 1.5).abs() < 0.03, "{} after {before}", width(&world));
+        assert!(world.centroid(ball).unwrap().x > from + 0.2 * before);
+    }
+
+    #[test]
+    fn sizes_that_cannot_be_are_refused() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(50.0, 45.0)).unwrap();
+        let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(90.0, 45.0)).unwrap();
+        assert_eq!(world.set_scale(cell, 1.1).unwrap_err().field(), "organism");
+        assert_eq!(world.set_scale(platelet, f32::NAN).unwrap_err().field(), "scale");
+        assert_eq!(world.set_scale(platelet, 10.1).unwrap_err().field(), "scale");
+        world.remove(platelet).unwrap();
+        assert_eq!(world.set_scale(platelet, 1.0).unwrap_err().field(), "organism");
     }
 }

@@ -79,7 +79,8 @@ impl World {
         Ok(())
     }
 
-    fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
+    /// Puts what a blueprint says into the world.
+    pub(super) fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
         let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
@@ -267,7 +268,8 @@ impl World {
 }
 
 impl Blueprint {
-    fn custom(template: Template) -> Self {
+    /// Of a template of the embedder's own.
+    pub(super) fn custom(template: Template) -> Self {
         let outline: Vec<Vec2> =
             template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         let area = crate::geometry::polygon::signed_area(&outline);

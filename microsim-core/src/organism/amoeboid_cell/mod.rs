@@ -8,6 +8,7 @@
 
 mod amoeba;
 mod neutrophil;
+mod outline;
 
 use super::blueprint::{Blueprint, FluidPlan};
 use super::spec::{Spec, SpecTable};
@@ -17,7 +18,7 @@ use crate::capability::crawl::{PseudopodParams, Pseudopods};
 use crate::capability::division::DivisionParams;
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::error::{Error, out_of_range};
-use crate::geometry::polygon::perimeter;
+use crate::geometry::polygon::{perimeter, signed_area};
 use crate::geometry::ring::{GOLDEN_ANGLE, ellipse, unit_vector};
 use crate::kind::Kind;
 use crate::look::Look;
@@ -44,6 +45,9 @@ const AMOEBA_NODE: f32 = 0.6;
 pub struct AmoeboidCellSpec {
     /// Semi-axes at rest, units, each at least three node radii and at most 500.
     pub radii: Vec2,
+    /// Corners of its outline when spawned, around it in either direction, units from its place, within ±500; none for the ellipse
+    /// of `radii`. The membrane's nodes lie on it. It is as long as its membrane from then on, and rounds up as cells do.
+    pub outline: Vec<Vec2>,
     /// Radius of a membrane node, units, 0.1 to 10. The seed's 0.78 for cells of any size.
     pub node_radius: f32,
     /// Rest spacing of the cytoplasm in node radii, 1.2 to 3: particles are wider than half a gap (T17) and narrower than
@@ -67,6 +71,7 @@ impl Default for AmoeboidCellSpec {
     fn default() -> Self {
         Self {
             radii: Vec2::new(11.0, 11.0),
+            outline: Vec::new(),
             node_radius: 0.78,
             cytoplasm_spacing: 1.65,
             viscosity: 25.0,
@@ -129,10 +134,11 @@ impl Spec for AmoeboidCellSpec {
             return Err(Error::unsupported("pseudopods", "a type of amoeba as `crawl`"));
         }
         let chain = self.chain()?;
-        let cytoplasm = self.cytoplasm();
+        let cytoplasm = self.cytoplasm(&chain);
         if cytoplasm.points.len() < LEAST_CYTOPLASM {
             let accepted = format!("large enough for {LEAST_CYTOPLASM} cytoplasm particles at this spacing");
-            return Err(out_of_range("radii", cytoplasm.points.len() as f64, accepted));
+            let field = if self.outline.is_empty() { "radii" } else { "outline" };
+            return Err(out_of_range(field, cytoplasm.points.len() as f64, accepted));
         }
         Ok(Blueprint {
             fluid: Some(cytoplasm),
@@ -142,7 +148,7 @@ impl Spec for AmoeboidCellSpec {
             speed: self.speed,
             engulfer: Some(self.phagocytosis),
             divider: Some(self.division),
-            ..Blueprint::of(Kind::AmoeboidCell, std::f32::consts::PI * self.radii.x * self.radii.y)
+            ..Blueprint::of(Kind::AmoeboidCell, self.area())
         })
     }
 
@@ -152,6 +158,7 @@ impl Spec for AmoeboidCellSpec {
 
     fn scale(&mut self, scale: f32) -> bool {
         self.radii *= scale;
+        self.outline.iter_mut().for_each(|corner| *corner *= scale);
         true
     }
 }
@@ -169,8 +176,18 @@ impl AmoeboidCellSpec {
         }
     }
 
+    fn area(&self) -> f32 {
+        match self.outline.as_slice() {
+            [] => std::f32::consts::PI * self.radii.x * self.radii.y,
+            outline => signed_area(outline).abs(),
+        }
+    }
+
     /// Centres of the chain: as many as fit without a gap.
     fn chain(&self) -> Result<Vec<Vec2>, Error> {
+        if !self.outline.is_empty() {
+            return outline::chain(&self.outline, self.node_radius);
+        }
         let radii = self.radii - Vec2::splat(self.node_radius);
         let around = perimeter(&ellipse(radii, 256));
         let count = around / (2.0 * self.node_radius);
@@ -190,10 +207,20 @@ impl AmoeboidCellSpec {
         builder.build()
     }
 
-    fn cytoplasm(&self) -> FluidPlan {
+    fn cytoplasm(&self, chain: &[Vec2]) -> FluidPlan {
         let spacing = self.cytoplasm_spacing * self.node_radius;
-        let radii = self.radii - Vec2::splat(self.node_radius);
         let params = FluidParams { spacing, particle_mass: 1.0, viscosity: self.viscosity, ..FluidParams::default() };
+        let points = if self.outline.is_empty() {
+            self.ellipse_of(params)
+        } else {
+            outline::fill(chain, spacing, self.node_radius + 0.5 * spacing)
+        };
+        FluidPlan { params, points, is_enclosed: true }
+    }
+
+    /// Cytoplasm in an ellipse.
+    fn ellipse_of(&self, params: FluidParams) -> Vec<Vec2> {
+        let (spacing, radii) = (params.spacing, self.radii - Vec2::splat(self.node_radius));
         // The middle of a link is nearer to the centre than its ends.
         let sagitta = self.node_radius * self.node_radius / (2.0 * radii.min_element());
         let inside = radii - Vec2::splat(self.node_radius + sagitta);
@@ -204,7 +231,7 @@ impl AmoeboidCellSpec {
             let share = (at / room).length();
             if share > 1.0 { at / share } else { at }
         });
-        FluidPlan { params, points, is_enclosed: true }
+        points
     }
 }
 

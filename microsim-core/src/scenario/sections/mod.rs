@@ -12,4 +12,5 @@ pub(crate) mod output;
 pub(crate) mod prototype;
 pub(crate) mod slide;
 pub(crate) mod spawn;
+pub(crate) mod supply;
 pub(crate) mod world;

@@ -51,6 +51,16 @@ pub(crate) fn read_named(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Op
     None
 }
 
+/// The same where `of` may be missing.
+pub(crate) fn read_optional(fields: &mut Fields<'_>, prototypes: &Prototypes) -> Option<Prototype> {
+    let of: String = fields.get("of")?;
+    let known = prototypes.get(&of);
+    if known.is_none() {
+        fields.refuse_unknown("of", "prototype", &of, prototypes.keys().map(String::as_str));
+    }
+    known.cloned().flatten()
+}
+
 impl Prototype {
     fn new(name: String, spec: OrganismSpec) -> Result<Self, Error> {
         let extent = spec.extent()?;

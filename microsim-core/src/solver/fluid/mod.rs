@@ -143,7 +143,7 @@ impl Fluid {
     pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
         let mut sorted = Sorted::default();
         let support_radius = SUPPORT * self.params.spacing;
-        sorted.sort(&self.particles, particles, Vec2::ZERO, [support_radius, 0.0]);
+        sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0]);
         sorted.read(particles, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
@@ -155,11 +155,12 @@ impl Fluid {
 }
 
 impl Workspace {
-    /// Finds the neighbours of all particles for the step that begins, in a room of this size.
-    pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, size: Vec2) {
+    /// Finds the neighbours of all particles for the step that begins, between walls of which these are the lower left and the upper
+    /// right corner.
+    pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, walls: [Vec2; 2]) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
         for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, size, [fluid.support_radius(), fluid.margin()]);
+            sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()]);
         }
     }
 

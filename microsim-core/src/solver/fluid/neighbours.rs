@@ -70,12 +70,12 @@ pub(super) struct Walls {
 }
 
 impl Sorted {
-    /// Sorts particles in a room of this size, for searches as far as `margin` beyond `support_radius`, in units of it.
+    /// Sorts particles between walls, of which these are the lower left and the upper right corner, for searches as far as `margin` beyond `support_radius`, in units of it.
     pub(super) fn sort(
         &mut self,
         indices: &[u32],
         particles: &Particles,
-        size: Vec2,
+        walls: [Vec2; 2],
         [support_radius, margin]: [f32; 2],
     ) {
         let inverse = 1.0 / support_radius;
@@ -84,7 +84,7 @@ impl Sorted {
         let (low, high) = bounds(&self.found);
         // On the grid of origins, so that differences from origins are exact.
         self.low = low.floor();
-        self.walls = Walls { low: -self.low * inverse, high: (size - self.low) * inverse };
+        self.walls = Walls { low: (walls[0] - self.low) * inverse, high: (walls[1] - self.low) * inverse };
         let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * support_radius;
         self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
         self.particles.clear();
@@ -202,7 +202,7 @@ mod tests {
         let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
         for [support_radius, margin] in [[2.0, 0.0], [1.0, 0.25]] {
             let mut sorted = Sorted::default();
-            sorted.sort(&indices, &particles, Vec2::INFINITY, [support_radius, margin]);
+            sorted.sort(&indices, &particles, [Vec2::ZERO, Vec2::INFINITY], [support_radius, margin]);
             for group in &sorted.groups {
                 let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
                 for &member in &sorted.particles[group.members.clone()] {

@@ -25,7 +25,7 @@ fn project(fluid: &Fluid, particles: &mut Particles) {
 
 fn project_in(size: Vec2, fluid: &Fluid, particles: &mut Particles) {
     let (fluids, mut workspace) = (std::slice::from_ref(fluid), Workspace::default());
-    workspace.find_neighbours(fluids, particles, size);
+    workspace.find_neighbours(fluids, particles, [Vec2::ZERO, size]);
     workspace.project(fluids, particles, 1.0 / 480.0, Dispatch::default());
 }
 
@@ -115,14 +115,14 @@ fn neighbours_found_once_per_step_are_enough() {
         let after = |searches: usize| {
             let (fluid, mut particles) = block(mode, spacing);
             let (fluids, mut workspace) = ([Fluid::new(fluid.params, true), fluid], Workspace::default());
-            workspace.find_neighbours(&fluids[1..], &particles, Vec2::INFINITY);
+            workspace.find_neighbours(&fluids[1..], &particles, [Vec2::ZERO, Vec2::INFINITY]);
             for substep in 0..8 {
                 for i in 0..200 {
                     (particles.prev_x[i], particles.prev_y[i]) = (particles.x[i], particles.y[i]);
                     particles.x[i] += 0.005 * (particles.y[i] - 50.0);
                 }
                 if substep < searches {
-                    workspace.find_neighbours(&fluids, &particles, Vec2::INFINITY);
+                    workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY]);
                 }
                 workspace.project(&fluids, &mut particles, 1.0 / 480.0, Dispatch::default());
             }

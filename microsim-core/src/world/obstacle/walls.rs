@@ -1,7 +1,7 @@
 //! The walls of a world: four obstacles that it always has, before those that are added.
 
 use crate::collision::obstacle::Obstacle;
-use crate::config::WorldConfig;
+use crate::config::{Side, WorldConfig};
 use crate::particle::Material;
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -24,10 +24,12 @@ pub(crate) fn walls(config: &WorldConfig) -> Vec<Obstacle> {
     };
     let (across, along) =
         (Vec2::new(half.x + thickness, 0.5 * thickness), Vec2::new(0.5 * thickness, half.y + thickness));
-    vec![
+    let slabs = [
         slab(across, Vec2::new(half.x, -0.5 * thickness)),
         slab(across, Vec2::new(half.x, size.y + 0.5 * thickness)),
         slab(along, Vec2::new(-0.5 * thickness, half.y)),
         slab(along, Vec2::new(size.x + 0.5 * thickness, half.y)),
-    ]
+    ];
+    let sides = slabs.into_iter().zip(config.sides.in_order());
+    sides.map(|(slab, side)| Obstacle { is_enabled: side == Side::Wall, ..slab }).collect()
 }

@@ -29,7 +29,7 @@ impl World {
             let progress = before + self.config.dt / params.digestion_time[meal.class as usize];
             meal.phase = MealPhase::Digesting(progress);
             let shrunk = self.present_scale(meal.prey) * (digested_scale(progress) / digested_scale(before));
-            self.set_scale(meal.prey, shrunk);
+            self.scale_body(meal.prey, shrunk);
             if progress >= 1.0 {
                 eaten += self.consume(id, meal.prey);
             }
@@ -71,7 +71,7 @@ impl World {
             let present = self.present_scale(id);
             if present < 1.0 {
                 let grown = present + self.config.dt / REGROWTH_TIME;
-                self.set_scale(id, if grown < 1.0 { grown } else { 1.0 });
+                self.scale_body(id, if grown < 1.0 { grown } else { 1.0 });
             }
         }
     }

@@ -43,7 +43,7 @@ impl World {
                 let scale = 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 };
                 // Recently released prey is still smaller than its full size.
                 let present = self.present_scale(meal.prey);
-                self.set_scale(meal.prey, if scale < present { scale } else { present });
+                self.scale_body(meal.prey, if scale < present { scale } else { present });
             }
             let side = match meal.way {
                 IngestionWay::Gate => self.advance_gate(id, meal, &params, elapsed),

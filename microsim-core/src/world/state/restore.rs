@@ -15,12 +15,14 @@ use crate::particle::sleep::Sleep;
 use crate::shared::Shared;
 use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
+use crate::supply::Drain;
 use crate::template::Template;
 use crate::world::contact_report::ContactReports;
 use crate::world::contacts::Touching;
 use crate::world::joint::JointRecord;
 use crate::world::obstacle::sensor::Presences;
 use crate::world::obstacle::table::ObstacleTable;
+use crate::world::supply::EmitterRecord;
 use crate::world::{Guard, World};
 use serde::Deserialize;
 
@@ -45,6 +47,8 @@ pub(crate) struct WorldState {
     obstacle_table: ObstacleTable,
     presences: Presences,
     contact_reports: ContactReports,
+    emitters: Arena<Box<EmitterRecord>>,
+    drains: Arena<Box<Drain>>,
 }
 
 impl World {
@@ -75,6 +79,8 @@ impl World {
         world.guard = state.guard;
         world.joints = state.joints;
         world.fields = state.fields;
+        world.emitters = state.emitters;
+        world.drains = state.drains;
         world.particles.restore_skipped()?;
         world.organisms.complete();
         validate::structure::check(&world)

@@ -169,6 +169,12 @@ impl<'a> OrganismView<'a> {
         u128::from(high) << 64 | u128::from(low)
     }
 
+    /// Size of its body relative to its size when spawned, see [`World::set_scale`].
+    #[must_use]
+    pub fn scale(self) -> f32 {
+        self.view.world.present_scale(self.id)
+    }
+
     /// Share of gravity that acts on it.
     #[must_use]
     pub fn gravity_scale(self) -> f32 {

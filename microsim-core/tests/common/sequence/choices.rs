@@ -5,7 +5,7 @@ use microsim_core::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, BacillusSpec, BrownianParams, ChemicalId, ChemotaxisParams,
     CoccusSpec, Controller, FleeParams, FluidBlockSpec, FluidMode, FluidParams, IngestionWay, OrganismSpec,
     PersistentWalkParams, Placement, PlateletSpec, ProbeSpec, PursueParams, RedCellSpec, RigidCellSpec,
-    RunAndTumbleParams, WorldConfig,
+    RunAndTumbleParams, Side, Sides, Substrate, WorldConfig,
 };
 
 /// Numbers of which few are legal everywhere.
@@ -53,8 +53,18 @@ impl Choices<'_> {
             seed: u64::from(self.byte()),
             protects_membranes: self.byte() < 230,
             max_particles: if self.byte() < 230 { 2500 } else { 150 },
+            substrate: if self.byte() < 200 { Substrate::Slide } else { Substrate::Surfaces },
+            sides: if self.byte() < 200 { Sides::default() } else { self.sides() },
             ..Default::default()
         }
+    }
+
+    fn side(&mut self) -> Side {
+        if self.flag() { Side::Open } else { Side::Wall }
+    }
+
+    fn sides(&mut self) -> Sides {
+        Sides { bottom: self.side(), top: self.side(), left: self.side(), right: self.side() }
     }
 
     pub(super) fn placement(&mut self, size: Vec2) -> Placement {

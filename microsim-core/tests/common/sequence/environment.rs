@@ -1,7 +1,11 @@
-//! Calls for joints, force fields and settings.
+//! Calls for joints, force fields, emitters, drains and settings.
 
 use super::{Outcome, Sequence};
-use microsim_core::{CollisionGroups, FieldKind, ForceField, JointEnd, JointKind, JointSpec, OrganismId, Region};
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    CollisionGroups, Drain, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, OrganismId, Recipe,
+    Region,
+};
 
 impl Sequence<'_> {
     fn joint_end(&mut self, id: OrganismId) -> JointEnd {
@@ -42,6 +46,41 @@ impl Sequence<'_> {
         }
     }
 
+    fn region(&mut self, centre: Vec2) -> Region {
+        match self.choices.below(3) {
+            0 => Region::All,
+            1 => Region::Circle { centre, radius: self.choices.number(0.0, 40.0) },
+            _ => Region::Box { low: self.place(), high: centre },
+        }
+    }
+
+    pub(super) fn change_emitter(&mut self) -> Outcome {
+        let (centre, count) = (self.place(), self.emitters.len());
+        let template = self.templates.last().copied().filter(|_| self.choices.flag());
+        let recipe = template.map_or_else(|| Recipe::Organism(self.choices.spec()), Recipe::Template);
+        let emitter = Emitter {
+            velocity: self.vector(30.0),
+            angle: self.choices.flag().then_some(1.0),
+            ..Emitter::new(self.region(centre), recipe, self.choices.number(0.0, 50.0))
+        };
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_emitter(self.emitters[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_emitter(self.emitters[self.choices.below(count)], emitter),
+            _ => self.world.add_emitter(emitter).map(|emitter| self.emitters.push(emitter)),
+        }
+    }
+
+    pub(super) fn change_drain(&mut self) -> Outcome {
+        let (centre, count) = (self.place(), self.drains.len());
+        let kind = [None, Some(Kind::Coccus), Some(Kind::FluidBlock), Some(Kind::AmoeboidCell)][self.choices.below(4)];
+        let drain = Drain { region: self.region(centre), kind };
+        match self.choices.below(4) {
+            0 if count > 0 => self.world.remove_drain(self.drains[self.choices.below(count)]),
+            1 if count > 0 => self.world.set_drain(self.drains[self.choices.below(count)], drain),
+            _ => self.world.add_drain(drain).map(|drain| self.drains.push(drain)),
+        }
+    }
+
     pub(super) fn change_field(&mut self) -> Outcome {
         let (centre, acceleration, count) = (self.place(), self.choices.number(-200.0, 200.0), self.fields.len());
         let kind = match self.choices.below(3) {
@@ -49,11 +88,7 @@ impl Sequence<'_> {
             1 => FieldKind::Radial { centre, acceleration },
             _ => FieldKind::Vortex { centre, acceleration },
         };
-        let region = match self.choices.below(3) {
-            0 => Region::All,
-            1 => Region::Circle { centre, radius: self.choices.number(0.0, 40.0) },
-            _ => Region::Box { low: self.place(), high: centre },
-        };
+        let region = self.region(centre);
         let field = ForceField { region, kind };
         match self.choices.below(4) {
             0 if count > 0 => self.world.remove_field(self.fields[self.choices.below(count)]),
@@ -65,8 +100,13 @@ impl Sequence<'_> {
     pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
         let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
         let gravity = self.vector(30.0);
-        match self.choices.below(6) {
+        match self.choices.below(8) {
             0 => self.world.set_gravity(gravity),
+            6 => self.world.set_scale(id, self.choices.number(0.7, 1.5)),
+            7 => {
+                let (spec, placement) = (self.choices.spec(), self.choices.placement(self.world.config().size));
+                self.world.replace(id, &spec.into(), placement).map(|new| self.handles.push(new))
+            }
             1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
             2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),
             3 => self.world.set_gravity_scale(id, self.choices.number(-2.0, 3.0)),

@@ -13,7 +13,8 @@ mod organism;
 use choices::Choices;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    ChemicalId, Error, FieldId, Inputs, InstructionSet, JointId, ObstacleId, OrganismId, TemplateId, World,
+    ChemicalId, DrainId, EmitterId, Error, FieldId, Inputs, InstructionSet, JointId, ObstacleId, OrganismId,
+    TemplateId, World,
 };
 
 /// Most calls and steps of a sequence.
@@ -44,6 +45,8 @@ struct Sequence<'a> {
     chemicals: Vec<ChemicalId>,
     joints: Vec<JointId>,
     fields: Vec<FieldId>,
+    emitters: Vec<EmitterId>,
+    drains: Vec<DrainId>,
     inputs: Inputs,
     tally: Tally,
 }
@@ -66,6 +69,8 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
         chemicals: Vec::new(),
         joints: Vec::new(),
         fields: Vec::new(),
+        emitters: Vec::new(),
+        drains: Vec::new(),
         inputs: Inputs::new(),
         tally: Tally::default(),
     };
@@ -95,7 +100,7 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
 impl Sequence<'_> {
     /// One call, and its name.
     fn call(&mut self) -> (&'static str, Outcome) {
-        match self.choices.below(34) {
+        match self.choices.below(36) {
             0..=6 => ("spawn", self.spawn()),
             7..=12 => ("step", self.step()),
             13..=15 => ("input", self.with_handle(Self::input)),
@@ -114,6 +119,8 @@ impl Sequence<'_> {
             29..=30 => ("joint", self.with_two_handles(Self::change_joint)),
             31 => ("field", self.change_field()),
             32 => ("setting", self.with_handle(Self::change_setting)),
+            33 => ("emitter", self.change_emitter()),
+            34 => ("drain", self.change_drain()),
             _ => match self.choices.below(8) {
                 which @ 0..=3 => ("set_instruction_set", self.set_instruction_set(which % 2 == 1)),
                 4..=5 => ("snapshot", self.write_and_read()),

@@ -1,6 +1,7 @@
 //! Tables: particles, free indices, blocks, fluids, obstacles.
 
 use super::{Check, Subject};
+use crate::config::{Side, Sides};
 use crate::particle::{CollisionGroups, NO_OWNER, Particles};
 use crate::solver::block::Block;
 use crate::template::Role;
@@ -50,9 +51,12 @@ fn check_entry(world: &World, i: usize) -> Check {
 fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     let (p, size) = (&world.particles, world.config.size);
     let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
-    let beyond = if is_held { Vec2::splat(BEYOND_WALLS * p.radius[i]) } else { size };
+    let Sides { bottom, top, left, right } = world.config.sides;
+    let beyond = |side: Side, far: f32| if is_held && side == Side::Wall { BEYOND_WALLS * p.radius[i] } else { far };
+    let low = Vec2::new(beyond(left, size.x), beyond(bottom, size.y));
+    let high = Vec2::new(beyond(right, size.x), beyond(top, size.y));
     let at = p.position(i);
-    let is_inside = at.cmpge(-beyond).all() && at.cmple(size + beyond).all();
+    let is_inside = at.cmpge(-low).all() && at.cmple(size + high).all();
     disc.must(is_inside, || format!("it is at {at}, outside the room of {size}"))
 }
 

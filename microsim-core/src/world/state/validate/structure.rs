@@ -37,6 +37,7 @@ pub(in crate::world) fn check(world: &World) -> Check {
     check_fluids(world)?;
     check_joints(world)?;
     check_fields(world)?;
+    check_supplies(world)?;
     check_particles(world, &owned)
 }
 
@@ -46,6 +47,22 @@ fn check_fields(world: &World) -> Check {
     none.must(world.fields.is_sound(), || "the free slots of force fields are not the empty ones".to_owned())?;
     for ((k, _), field) in world.fields.iter() {
         field.validate().map_err(|error| none.violation(format!("fields[{k}]: {error}")))?;
+    }
+    Ok(())
+}
+
+/// Emitters and drains have numbers in their ranges, and emit what the world knows.
+fn check_supplies(world: &World) -> Check {
+    let none = Subject::default();
+    let is_sound = world.emitters.is_sound() && world.drains.is_sound();
+    none.must(is_sound, || "the free slots of emitters or drains are not the empty ones".to_owned())?;
+    for ((k, _), record) in world.emitters.iter() {
+        let checked = world.check_emitter(&record.emitter);
+        checked.map_err(|error| none.violation(format!("emitters[{k}]: {error}")))?;
+        none.must_range(&format!("debt of emitter {k}"), record.owed, 0.0, 1.0)?;
+    }
+    for ((k, _), drain) in world.drains.iter() {
+        drain.validate().map_err(|error| none.violation(format!("drains[{k}]: {error}")))?;
     }
     Ok(())
 }

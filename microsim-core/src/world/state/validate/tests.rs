@@ -3,10 +3,11 @@
 use crate::capability::crawl::Pseudopods;
 use crate::particle::sleep::Sleep;
 use crate::world::joint::JointRecord;
+use crate::world::supply::EmitterRecord;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, Crawl, Exchange, FieldKind, FluidBlockSpec,
-    ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Region, World, WorldConfig,
-    glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Drain, Emitter, Exchange,
+    FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Recipe,
+    Region, World, WorldConfig, glam::Vec2,
 };
 
 /// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
@@ -135,6 +136,20 @@ fn damage_to_joints_fields_and_muscles_is_found() {
             **w.fields.get_mut(id.handle()).unwrap() = wind(Vec2::NAN);
         },
         "fields[0]: `kind.acceleration.x`",
+    );
+    let emitter = Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), 1.0);
+    let emitting = |w: &mut World, change: &dyn Fn(&mut EmitterRecord)| {
+        let id = w.add_emitter(emitter.clone()).unwrap();
+        change(w.emitters.get_mut(id.handle()).unwrap());
+    };
+    finds(|w| emitting(w, &|it| it.emitter.rate = -1.0), "emitters[0]: `rate`");
+    finds(|w| emitting(w, &|it| it.owed = f32::NAN), "debt of emitter 0 is NaN");
+    finds(
+        |w| {
+            let id = w.add_drain(Drain { region: Region::All, kind: None }).unwrap();
+            w.drains.get_mut(id.handle()).unwrap().region = Region::Circle { centre: Vec2::NAN, radius: 1.0 };
+        },
+        "drains[0]: `region.centre.x`",
     );
     finds(|w| w.blocks[0].contraction.push([1.0; 8]), "has not the channels of its template");
     finds(

@@ -1,0 +1,289 @@
+//! What comes into a world by emitters, and what leaves it by drains and open sides, at the end of each step.
+
+use super::World;
+use super::change::WorldChange;
+use crate::collider::Wall;
+use crate::config::Side;
+use crate::error::{Error, ErrorKind};
+use crate::event::{Event, Outlet};
+use crate::float_environment::with_default_float_environment;
+use crate::force_field::Region;
+use crate::id::{DrainId, EmitterId, OrganismId};
+use crate::organism::{Blueprint, Placement, Storage};
+use crate::rng::Rng;
+use crate::supply::{Drain, Emitter, Recipe};
+use glam::Vec2;
+use serde::{Deserialize, Serialize};
+use std::f32::consts::TAU;
+
+/// Streams of random numbers from here on are for emitters; those of organisms lie below.
+const STREAM: u64 = 5 << 60;
+/// Places that are drawn for one in a circle.
+const DRAWS: usize = 16;
+
+/// An emitter, and what it still has to emit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EmitterRecord {
+    pub emitter: Emitter,
+    /// How many it owes.
+    pub owed: f32,
+    rng: Rng,
+}
+
+impl World {
+    /// Adds an emitter. At the end of each step it emits what is due, if there is room for it, with [`Event::Emitted`]:
+    /// the moment to set a controller, user data, joints.
+    ///
+    /// ```
+    /// # use microsim_core::{AgarSpec, Drain, Recipe, Emitter, Inputs, Region, World, WorldConfig, glam::Vec2};
+    /// # let mut world = World::new(WorldConfig { damping: 0.0, ..WorldConfig::default() })?;
+    /// let inlet = Region::Box { low: Vec2::new(5.0, 5.0), high: Vec2::new(8.0, 85.0) };
+    /// let ball = Recipe::Organism(AgarSpec::default().into());
+    /// world.add_emitter(Emitter { velocity: Vec2::new(20.0, 0.0), ..Emitter::new(inlet, ball, 10.0) })?;
+    /// let outlet = Region::Box { low: Vec2::new(100.0, 0.0), high: Vec2::new(160.0, 90.0) };
+    /// world.add_drain(Drain { region: outlet, kind: None })?;
+    /// (0..600).for_each(|_| world.step(&Inputs::new()));
+    /// assert!((40..60).contains(&world.organisms().count())); // 10 a second, each for about 4.7 s
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Names the number that is out of its range, and a template that is not one of this world's.
+    pub fn add_emitter(&mut self, emitter: Emitter) -> Result<EmitterId, Error> {
+        with_default_float_environment(|| self.check_emitter(&emitter))?;
+        let (index, generation) = self.emitters.next_handle();
+        let rng = Rng::new(self.config.seed, STREAM + (u64::from(generation) << 32) + u64::from(index));
+        let record = EmitterRecord { emitter: emitter.clone(), owed: 0.0, rng };
+        let id = EmitterId::of(self.emitters.insert(Box::new(record)));
+        self.changed(|| WorldChange::AddEmitter(Box::new(emitter)));
+        Ok(id)
+    }
+
+    /// Replaces an emitter by another one, under the same handle: to change its rate, for example.
+    ///
+    /// # Errors
+    /// As for [`World::add_emitter`], and when the handle is stale.
+    pub fn set_emitter(&mut self, id: EmitterId, emitter: Emitter) -> Result<(), Error> {
+        with_default_float_environment(|| self.check_emitter(&emitter))?;
+        let record = self.emitters.get_mut(id.handle()).ok_or_else(|| Error::stale("emitter"))?;
+        record.emitter = emitter.clone();
+        self.changed(|| WorldChange::SetEmitter(id, Box::new(emitter)));
+        Ok(())
+    }
+
+    /// Removes an emitter.
+    ///
+    /// # Errors
+    /// When the handle is stale.
+    pub fn remove_emitter(&mut self, id: EmitterId) -> Result<(), Error> {
+        self.emitters.remove(id.handle()).ok_or_else(|| Error::stale("emitter"))?;
+        self.changed(|| WorldChange::RemoveEmitter(id));
+        Ok(())
+    }
+
+    /// All emitters, in a stable order.
+    pub fn emitters(&self) -> impl Iterator<Item = (EmitterId, &Emitter)> {
+        self.emitters.iter().map(|(handle, record)| (EmitterId::of(handle), &record.emitter))
+    }
+
+    /// Adds a drain. At the end of each step it takes what is in its region, but for prey that somebody holds: [`Event::Drained`].
+    ///
+    /// # Errors
+    /// Names the number that is out of its range.
+    pub fn add_drain(&mut self, drain: Drain) -> Result<DrainId, Error> {
+        drain.validate()?;
+        let id = DrainId::of(self.drains.insert(Box::new(drain)));
+        self.changed(|| WorldChange::AddDrain(drain));
+        Ok(id)
+    }
+
+    /// Replaces a drain by another one, under the same handle.
+    ///
+    /// # Errors
+    /// Names the number that is out of its range, and a handle that is stale.
+    pub fn set_drain(&mut self, id: DrainId, drain: Drain) -> Result<(), Error> {
+        drain.validate()?;
+        **self.drains.get_mut(id.handle()).ok_or_else(|| Error::stale("drain"))? = drain;
+        self.changed(|| WorldChange::SetDrain(id, drain));
+        Ok(())
+    }
+
+    /// Removes a drain.
+    ///
+    /// # Errors
+    /// When the handle is stale.
+    pub fn remove_drain(&mut self, id: DrainId) -> Result<(), Error> {
+        self.drains.remove(id.handle()).ok_or_else(|| Error::stale("drain"))?;
+        self.changed(|| WorldChange::RemoveDrain(id));
+        Ok(())
+    }
+
+    /// All drains, in a stable order.
+    pub fn drains(&self) -> impl Iterator<Item = (DrainId, &Drain)> {
+        self.drains.iter().map(|(handle, drain)| (DrainId::of(handle), &**drain))
+    }
+
+    /// Takes what is in drains and beyond open sides, then emits what is due.
+    pub(crate) fn supply(&mut self) {
+        let drains: Vec<_> = self.drains().map(|(id, drain)| (id, *drain)).collect();
+        for (id, drain) in drains {
+            self.take_all(Outlet::Drain(id), &drain, |at| drain.region.contains(at));
+        }
+        let size = self.config.size;
+        for (wall, side) in Wall::ALL.into_iter().zip(self.config.sides.in_order()) {
+            if side == Side::Open {
+                let everything = Drain { region: Region::All, kind: None };
+                self.take_all(Outlet::Side(wall), &everything, |at| is_beyond(at, wall, size));
+            }
+        }
+        for index in 0..self.emitters.slot_count() as u32 {
+            self.emit(index);
+        }
+    }
+
+    /// Takes the organisms, and the particles of fluid, that are where an outlet takes them.
+    fn take_all(&mut self, outlet: Outlet, drain: &Drain, takes: impl Fn(Vec2) -> bool) {
+        let ids: Vec<OrganismId> = self.organisms().collect();
+        for organism in ids {
+            let Some(it) = self.organisms.get(organism) else { continue };
+            let kind = it.kind;
+            if it.is_held() || drain.kind.is_some_and(|only| only != kind) {
+                continue;
+            }
+            let particles = if matches!(it.body, Storage::Loose { membrane: None, .. }) && !it.is_quarantined {
+                self.take_fluid(organism, &takes)
+            } else if self.is_taken(organism, outlet, &takes) {
+                let count = it.particles().count() as u32;
+                // The handle is of an organism that lives.
+                let _ = self.remove(organism);
+                count
+            } else {
+                0
+            };
+            if particles > 0 {
+                self.events.push(Event::Drained { outlet, organism, kind, particles });
+            }
+        }
+    }
+
+    /// Whether an organism is taken: by a drain if its centre is in it, by a side if all of it is beyond.
+    fn is_taken(&self, id: OrganismId, outlet: Outlet, takes: &impl Fn(Vec2) -> bool) -> bool {
+        let Some(organism) = self.organisms.get(id) else { return false };
+        match outlet {
+            Outlet::Drain(_) => takes(self.centre_of(organism)),
+            Outlet::Side(_) => organism.particles().all(|i| takes(self.particles.position(i as usize))),
+        }
+    }
+
+    /// Takes particles of fluid, and the organism with the last of them; returns how many.
+    fn take_fluid(&mut self, id: OrganismId, takes: &impl Fn(Vec2) -> bool) -> u32 {
+        let Some(organism) = self.organisms.get(id) else { return 0 };
+        let is_taken = |i: &u32| takes(self.particles.position(*i as usize));
+        let mut taken: Vec<u32> = organism.fluid_particles.iter().copied().filter(is_taken).collect();
+        let count = taken.len() as u32;
+        if taken.len() == organism.fluid_particles.len() {
+            // The handle is of an organism that lives.
+            let _ = self.remove(id);
+        } else if count > 0 {
+            taken.sort_unstable();
+            let stays = |i: &u32| taken.binary_search(i).is_err();
+            if let Some(fluid) = organism.fluid {
+                self.fluids[fluid as usize].particles.retain(stays);
+            }
+            if let Some(organism) = self.organisms.get_mut(id) {
+                organism.fluid_particles.retain(stays);
+            }
+            taken.iter().for_each(|&i| self.particles.remove(i));
+            self.scratch.query_index.clear();
+        }
+        count
+    }
+
+    /// Checks an emitter, and that this world can emit what it emits.
+    pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
+        emitter.validate()?;
+        self.blueprint_of(&emitter.recipe).map(drop)
+    }
+
+    /// What a recipe amounts to in this world.
+    pub(super) fn blueprint_of(&self, recipe: &Recipe) -> Result<Blueprint, Error> {
+        match recipe {
+            Recipe::Organism(spec) => spec.blueprint(),
+            Recipe::Template(id) => {
+                let template = self.templates.get(id.0 as usize).cloned();
+                template.map(Blueprint::custom).ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
+            }
+        }
+    }
+
+    /// Emits what is due at an emitter, each at one place that is drawn.
+    fn emit(&mut self, index: u32) {
+        let (dt, size) = (self.config.dt, self.config.size);
+        let Some(record) = self.emitters.at_mut(index) else { return };
+        record.owed += record.emitter.rate * dt;
+        if record.owed < 1.0 {
+            return;
+        }
+        let placements = record.draw(size);
+        let (recipe, velocity) = (record.emitter.recipe.clone(), record.emitter.velocity);
+        let emitter = self.emitters.handle_at(index).map(EmitterId::of);
+        let mut emitted = 0.0;
+        for placement in placements {
+            let blueprint = self.blueprint_of(&recipe);
+            let spawned = blueprint.and_then(|blueprint| self.spawn_blueprint(blueprint, placement));
+            let (Ok(organism), Some(emitter)) = (spawned, emitter) else { continue };
+            self.set_velocity(organism, velocity);
+            self.events.push(Event::Emitted { emitter, organism });
+            emitted += 1.0;
+        }
+        if let Some(record) = self.emitters.at_mut(index) {
+            let owed = record.owed - emitted;
+            record.owed = if owed > 1.0 { 1.0 } else { owed };
+        }
+        self.scratch.query_index.clear();
+    }
+
+    /// Gives all that can move of an organism a velocity, at most the speed limit.
+    pub(super) fn set_velocity(&mut self, id: OrganismId, velocity: Vec2) {
+        let velocity = velocity.clamp_length_max(self.config.speed_limit());
+        for i in self.discs_of(id).collect::<Vec<_>>() {
+            (self.particles.vx[i], self.particles.vy[i]) = (velocity.x, velocity.y);
+        }
+    }
+}
+
+impl EmitterRecord {
+    /// Places for as many as it owes.
+    fn draw(&mut self, size: Vec2) -> Vec<Placement> {
+        let Self { emitter, owed, rng } = self;
+        let place = |_| {
+            let at = draw_in(emitter.region, size, rng);
+            let angle = emitter.angle.unwrap_or_else(|| rng.range(0.0, TAU));
+            Placement::at(at.x, at.y).turned(angle)
+        };
+        (0..*owed as u32).map(place).collect()
+    }
+}
+
+/// A point in a region, drawn at random.
+fn draw_in(region: Region, size: Vec2, rng: &mut Rng) -> Vec2 {
+    let mut in_box = |low: Vec2, high: Vec2| Vec2::new(rng.range(low.x, high.x), rng.range(low.y, high.y));
+    match region {
+        Region::All => in_box(Vec2::ZERO, size),
+        Region::Box { low, high } => in_box(low, high),
+        Region::Circle { centre, radius } => {
+            let mut draws = (0..DRAWS).map(|_| in_box(Vec2::NEG_ONE, Vec2::ONE));
+            centre + radius * draws.find(|draw| draw.length_squared() <= 1.0).unwrap_or(Vec2::ZERO)
+        }
+    }
+}
+
+/// Whether a point is outside the room beyond one of its sides.
+fn is_beyond(at: Vec2, side: Wall, size: Vec2) -> bool {
+    match side {
+        Wall::Bottom => at.y < 0.0,
+        Wall::Top => at.y > size.y,
+        Wall::Left => at.x < 0.0,
+        Wall::Right => at.x > size.x,
+    }
+}

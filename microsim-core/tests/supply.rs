@@ -1,0 +1,157 @@
+//! Emitters, drains and open sides.
+#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+
+use microsim_core::glam::Vec2;
+use microsim_core::{
+    AgarSpec, AmoeboidCellSpec, Drain, Emitter, Event, FluidBlockSpec, FluidParams, Inputs, Kind, Node, OrganismId,
+    Outlet, Placement, PlateletSpec, Recipe, Region, Side, Sides, Template, Wall, World, WorldConfig,
+};
+
+fn room(sides: Sides, gravity: Vec2) -> World {
+    World::new(WorldConfig { size: Vec2::new(80.0, 40.0), damping: 0.0, gravity, sides, ..WorldConfig::default() })
+        .unwrap()
+}
+
+fn ball() -> Recipe {
+    Recipe::Organism(AgarSpec { radius: 0.5, ..AgarSpec::default() }.into())
+}
+
+fn area(x: [f32; 2], y: [f32; 2]) -> Region {
+    Region::Box { low: Vec2::new(x[0], y[0]), high: Vec2::new(x[1], y[1]) }
+}
+
+/// Takes steps and counts what is emitted and drained, organisms and particles.
+fn run(world: &mut World, steps: u32) -> (usize, usize, u32) {
+    let (mut emitted, mut drained, mut particles) = (0, 0, 0);
+    for _ in 0..steps {
+        world.step(&Inputs::new());
+        for event in world.events() {
+            match event {
+                Event::Emitted { .. } => emitted += 1,
+                Event::Drained { particles: count, .. } => (drained, particles) = (drained + 1, particles + count),
+                _ => {}
+            }
+        }
+        world.validate().unwrap();
+    }
+    (emitted, drained, particles)
+}
+
+#[test]
+fn an_emitter_keeps_its_rate_and_a_drain_takes_what_comes() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let velocity = Vec2::new(15.0, 0.0);
+    let emitter = Emitter { velocity, ..Emitter::new(area([2.0, 4.0], [2.0, 38.0]), ball(), 6.0) };
+    let emitter = world.add_emitter(emitter).unwrap();
+    let drain = world.add_drain(Drain { region: area([60.0, 80.0], [0.0, 40.0]), kind: None }).unwrap();
+    let (emitted, drained, _) = run(&mut world, 600);
+    assert!((58..=60).contains(&emitted), "{emitted} in 10 s at 6 a second");
+    assert_eq!(world.organisms().count(), emitted - drained);
+    // 57 units at 15 units/s.
+    assert!((drained as f32 / (6.0 * (10.0 - 3.8)) - 1.0).abs() < 0.1, "{drained}");
+    world.remove_emitter(emitter).unwrap();
+    let balls = world.organisms().count();
+    world.set_drain(drain, Drain { region: Region::All, kind: Some(Kind::Platelet) }).unwrap();
+    let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(10.0, 20.0)).unwrap();
+    world.step(&Inputs::new());
+    let gone = |event: &Event| match *event {
+        Event::Drained { outlet, organism, kind, .. } => Some((outlet, organism, kind)),
+        _ => None,
+    };
+    let gone: Vec<_> = world.events().iter().filter_map(gone).collect();
+    assert_eq!(gone, [(Outlet::Drain(drain), platelet, Kind::Platelet)]);
+    assert_eq!((world.kind(platelet), world.organisms().count()), (None, balls), "no ball goes");
+}
+
+#[test]
+fn an_emitter_without_room_waits_and_makes_up_for_nothing() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let spot = Region::Circle { centre: Vec2::new(20.0, 20.0), radius: 0.0 };
+    world.add_emitter(Emitter::new(spot, ball(), 30.0)).unwrap();
+    assert_eq!(run(&mut world, 120).0, 1);
+    let first = world.organisms().next().unwrap();
+    world.remove(first).unwrap();
+    assert_eq!(run(&mut world, 4).0, 1);
+}
+
+#[test]
+fn a_template_is_emitted_in_its_direction_at_its_speed() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let mut builder = Template::builder();
+    let _ = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    let template = world.add_template(builder.build().unwrap());
+    let (velocity, angle) = (Vec2::new(0.0, 3.0), Some(0.0));
+    let spot = Region::Circle { centre: Vec2::new(20.0, 20.0), radius: 0.0 };
+    world.add_emitter(Emitter { velocity, angle, ..Emitter::new(spot, Recipe::Template(template), 60.0) }).unwrap();
+    run(&mut world, 1);
+    let body = world.view().organisms().next().unwrap();
+    assert_eq!((body.kind(), body.velocity(), body.angle()), (Kind::Custom, velocity, Some(0.0)));
+}
+
+fn water(world: &mut World, x: f32, y: f32) -> OrganismId {
+    let fluid = FluidParams { spacing: 1.0, ..FluidParams::default() };
+    world.spawn(&FluidBlockSpec { size: Vec2::new(8.0, 8.0), fluid }.into(), Placement::at(x, y)).unwrap()
+}
+
+#[test]
+fn fluid_goes_particle_by_particle_and_its_organism_with_the_last() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let water = water(&mut world, 20.0, 20.0);
+    let all = world.view().organism(water).unwrap().particles().count() as u32;
+    let drain = world.add_drain(Drain { region: area([20.0, 80.0], [0.0, 40.0]), kind: None }).unwrap();
+    let (_, drained, half) = run(&mut world, 1);
+    assert!(drained == 1 && half.abs_diff(all / 2) <= all / 8, "{half} of {all}");
+    assert_eq!(world.view().organism(water).unwrap().particles().count() as u32, all - half);
+    world.set_drain(drain, Drain { region: Region::All, kind: Some(Kind::FluidBlock) }).unwrap();
+    assert_eq!(run(&mut world, 1), (0, 1, all - half));
+    assert_eq!((world.kind(water), world.census().particles), (None, 0));
+}
+
+#[test]
+fn what_is_beyond_an_open_side_is_gone_and_other_sides_hold() {
+    let right = Sides { right: Side::Open, ..Sides::default() };
+    let mut world = room(right, Vec2::new(30.0, 0.0));
+    let ball = world.spawn(&AgarSpec::default().into(), Placement::at(70.0, 20.0)).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(50.0, 20.0)).unwrap();
+    let water = water(&mut world, 20.0, 30.0);
+    let all = world.census().particles;
+    let (_, _, gone) = run(&mut world, 300);
+    assert_eq!([ball, cell, water].map(|id| world.kind(id)), [None; 3]);
+    assert_eq!((gone as u64, world.organisms().count()), (all as u64, 0));
+    let mut world = room(right, Vec2::new(-30.0, 0.0));
+    let ball = world.spawn(&AgarSpec::default().into(), Placement::at(70.0, 20.0)).unwrap();
+    run(&mut world, 300);
+    assert!(world.centroid(ball).is_some_and(|at| at.x < 2.0), "the left side is a wall");
+    world.push(ball, Vec2::new(20.0, 0.0)).unwrap();
+    world.set_gravity(Vec2::ZERO).unwrap();
+    let mut last = Vec::new();
+    for _ in 0..400 {
+        world.step(&Inputs::new());
+        last.extend(world.events().iter().filter(|event| matches!(event, Event::Drained { .. })).copied());
+    }
+    assert_eq!(
+        last,
+        [Event::Drained { outlet: Outlet::Side(Wall::Right), organism: ball, kind: Kind::Agar, particles: 1 }]
+    );
+}
+
+#[test]
+fn supplies_are_part_of_the_future_and_of_the_digest() {
+    let build = || {
+        let mut world = room(Sides { top: Side::Open, ..Sides::default() }, Vec2::new(0.0, 5.0));
+        world.add_emitter(Emitter::new(area([2.0, 78.0], [2.0, 10.0]), ball(), 25.0)).unwrap();
+        world.add_drain(Drain { region: area([30.0, 50.0], [20.0, 30.0]), kind: None }).unwrap();
+        world
+    };
+    let (mut one, mut other) = (build(), build());
+    run(&mut one, 200);
+    run(&mut other, 100);
+    let mut other = other.clone();
+    assert_ne!(one.digest(), other.digest());
+    run(&mut other, 100);
+    assert_eq!(one.digest(), other.digest());
+    let id = one.emitters().next().unwrap().0;
+    let emitter = one.emitters().next().unwrap().1.clone();
+    one.set_emitter(id, Emitter { rate: 26.0, ..emitter }).unwrap();
+    assert_ne!(one.digest(), other.digest());
+}
