@@ -8,9 +8,9 @@ use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use crate::scenario::{Built, Scenario, builtin};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CollisionGroups, ContactReporting, Controller, Error, Exchange,
-    FieldKind, ForceField, JointEnd, JointKind, JointSpec, Node, Obstacle, ObstacleMotion, Placement, Region, Template,
-    World,
+    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CollisionGroups, ContactReporting, Controller, DivisionParams, Error,
+    Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Node, Obstacle, ObstacleMotion,
+    PhagocytosisParams, Placement, Region, Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -172,11 +172,15 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
             world.set_exchange(one, Exchange { chemical, secretion: 1.0, uptake: 0.0 })?;
         }
         26 => {
-            let cell = AmoeboidCellSpec { radii: Vec2::splat(4.0), ..AmoeboidCellSpec::default() };
+            let division = DivisionParams { least_particles: 10, ..DivisionParams::default() };
+            let cell = AmoeboidCellSpec { radii: Vec2::splat(4.0), division, ..AmoeboidCellSpec::default() };
             world.spawn(&cell.into(), Placement::at(20.0, 6.0))?;
         }
         27 => world.grow(last, 2, 3)?,
-        28 => world.divide(last)?,
+        28 => world.shrink(last, 2)?,
+        29 => world.set_speed(last, 5.0)?,
+        30 => world.set_phagocytosis(last, PhagocytosisParams { hold_time: 0.1, ..PhagocytosisParams::default() })?,
+        31 => world.divide(last)?,
         _ => {}
     }
     Ok(())

@@ -169,6 +169,12 @@ impl<'a> OrganismView<'a> {
         u128::from(high) << 64 | u128::from(low)
     }
 
+    /// Speed with which it moves to its goals, units/s; less while it digests.
+    #[must_use]
+    pub fn speed(self) -> f32 {
+        self.organism.speed
+    }
+
     /// Share of gravity that acts on it.
     #[must_use]
     pub fn gravity_scale(self) -> f32 {
