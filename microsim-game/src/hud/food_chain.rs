@@ -68,7 +68,7 @@ pub fn draw_changes(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
             match change {
                 Change::Speed => draw_bristles(pen, &outline, middle, k as usize, 3.0 * unit),
                 Change::StickyFront => {
-                    draw_dots(pen, &outline, front.unwrap_or(middle), radius, (0.8 + 0.3 * more) * unit)
+                    draw_dots(pen, &outline, front.unwrap_or(middle), radius, (0.8 + 0.3 * more) * unit);
                 }
                 Change::Stomach => {
                     let at = middle + Vec2::new(0.32 * radius * (2.0 * (more % 2.0) - 1.0), 0.2 * radius * more);
