@@ -9,7 +9,6 @@ use crate::screen::context::{AppContext, Asked};
 use crate::screen::stack::Stack;
 use crate::screen::{MainScreen, Next};
 use crate::shot::Shot;
-use crate::stage::Stage;
 use crate::timings::Timings;
 use crate::viewer::Pace;
 use macroquad::window::{clear_background, next_frame, screen_dpi_scale, screen_height, screen_width, set_fullscreen};
@@ -21,6 +20,9 @@ use std::time::Duration;
 const EXACT_FRAME: f32 = 1.0 / 60.0;
 /// Shortest frame, s: where nothing waits for the screen, the loop would run hot.
 const SHORTEST_FRAME: f32 = 1.0 / 250.0;
+
+/// Time after a change between window and full screen in which the keyboard is lost without a pause, s.
+const RESIZING_TIME: f32 = 1.0;
 
 /// How the program runs.
 #[derive(Clone, Debug, Default)]
@@ -57,6 +59,8 @@ pub struct App {
     shot: Shot,
     frame: u32,
     is_full: bool,
+    /// When the window was last asked to fill the screen or not to, s: it may lose the keyboard over that.
+    resized: f32,
     /// When this frame began.
     began: Duration,
     /// What input and steps took in the last frame, s.
@@ -74,7 +78,19 @@ impl App {
         let screens = Stack::new(first, &mut context);
         let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
         let began = platform::now();
-        Self { screens, context, device, options, shot, frame: 0, is_full: false, began, updating: 0.0, timings }
+        Self {
+            screens,
+            context,
+            device,
+            options,
+            shot,
+            frame: 0,
+            is_full: false,
+            resized: f32::NEG_INFINITY,
+            began,
+            updating: 0.0,
+            timings,
+        }
     }
 
     /// Runs until the player leaves or all frames have been shown.
@@ -126,10 +142,12 @@ impl App {
         }
         // Read even with a script: unread events pile up.
         let input = self.device.read(&context.settings.keys);
-        match &mut self.options.script {
+        let mut input = match &mut self.options.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
             None => input,
-        }
+        };
+        input.has_lost_focus &= !is_of_resizing(context.time - self.resized);
+        input
     }
 
     /// Returns whether the program goes on.
@@ -143,12 +161,13 @@ impl App {
             return false;
         }
         platform::show_buttons(self.screens.is_scene(), self.context.settings.hold_to_digest);
-        if let Some(stage) = self.open_dropped(input) {
-            self.screens.go(Next::Show(MainScreen::Simulation(Box::new(stage))), &mut self.context);
+        if let Some(screen) = self.open_dropped(input) {
+            self.screens.go(Next::Show(screen), &mut self.context);
         }
         let context = &mut self.context;
         if !self.options.is_exact() && context.settings.full_screen != self.is_full {
             self.is_full = context.settings.full_screen;
+            self.resized = context.time;
             set_fullscreen(self.is_full);
         }
         true
@@ -167,14 +186,14 @@ impl App {
         }
     }
 
-    /// Opens scenario files that are dropped on the window. The first is shown, unless that would end a round; the others
+    /// Opens scenario files that are dropped on the window, games as games. The first is shown, unless that would end a round; the others
     /// come into the list of simulations.
-    fn open_dropped(&mut self, input: &Input) -> Option<Stage> {
+    fn open_dropped(&mut self, input: &Input) -> Option<MainScreen> {
         let sources: Vec<SceneSource> = input.dropped.iter().rev().cloned().map(SceneSource::File).collect();
         let mut opened: Vec<_> = sources.iter().filter_map(|file| Some((file, self.context.open(file)?))).collect();
         let are_good = opened.len() == sources.len();
         let is_at_stake = self.screens.is_at_stake();
-        let shown = opened.pop_if(|_| !is_at_stake).map(|(_, stage)| stage);
+        let shown = opened.pop_if(|_| !is_at_stake).map(|(_, screen)| screen);
         match opened.as_slice() {
             // The message about a bad file stays.
             _ if !are_good => {}
@@ -229,6 +248,11 @@ impl App {
     }
 }
 
+/// Whether the keyboard is lost because the window was resized so long before, s.
+fn is_of_resizing(since: f32) -> bool {
+    since < RESIZING_TIME
+}
+
 /// Where a picture of this name goes, so that none that is there is lost. Scenarios may have any name.
 fn free_path(name: &str) -> PathBuf {
     let name = name.replace(|letter: char| !letter.is_alphanumeric() && !"-_.".contains(letter), "-");
@@ -250,4 +274,15 @@ fn physical_size() -> (u32, u32) {
     let scale = screen_dpi_scale();
     let side = |units: f32| ((units * scale) as u32).max(1);
     (side(screen_width()), side(screen_height()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_screen_does_not_leave_it_paused_but_another_window_does() {
+        assert!(is_of_resizing(0.0) && is_of_resizing(0.9));
+        assert!(!is_of_resizing(1.1) && !is_of_resizing(f32::INFINITY));
+    }
 }

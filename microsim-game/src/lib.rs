@@ -36,6 +36,7 @@ pub mod store;
 pub mod timings;
 pub mod ui;
 pub mod viewer;
+mod waiting;
 mod window;
 
 use app::{App, RunOptions};
@@ -138,6 +139,9 @@ impl Start {
             _ => "microsim".to_owned(),
         };
         window::open(&title, options.size, async move || {
+            if !options.is_exact() {
+                waiting::show().await;
+            }
             let mut context = AppContext::new(folder, game, files);
             context.last_game = record.or(context.last_game);
             App::new(first, context, options).run().await

@@ -1,5 +1,6 @@
 //! Where the scenario of a scene comes from.
 
+use crate::rules::food_chain;
 use crate::{platform, slides};
 use microsim_core::scenario;
 use std::path::PathBuf;
@@ -8,7 +9,7 @@ use std::{fmt, io};
 /// Where the scenario of a scene comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneSource {
-    /// A built-in scenario, or a slide.
+    /// A built-in scenario, a slide, or the food chain.
     Builtin(String),
     /// A scenario file.
     File(PathBuf),
@@ -45,10 +46,11 @@ impl SceneSource {
     }
 }
 
-/// Text of a built-in scenario, or of a slide.
+/// Text of a built-in scenario, of a slide, or of the food chain.
 fn builtin_text(name: &str) -> Option<&'static str> {
     let slide = || slides::find(name).map(|slide| slide.text);
-    scenario::builtin(name).map(|found| found.text).or_else(slide)
+    let chain = || (name == food_chain::NAME).then_some(food_chain::TEXT);
+    scenario::builtin(name).map(|found| found.text).or_else(slide).or_else(chain)
 }
 
 impl fmt::Display for SceneSource {

@@ -8,9 +8,9 @@ use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use crate::scenario::{Built, Scenario, builtin};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller, Drain,
-    Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node, Obstacle,
-    ObstacleMotion, OrganismSpec, Placement, Recipe, Region, Template, World,
+    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller, DivisionParams,
+    Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node, Obstacle,
+    ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -176,15 +176,19 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
             world.set_exchange(one, Exchange { chemical, secretion: 1.0, uptake: 0.0 })?;
         }
         26 => {
-            let cell = AmoeboidCellSpec { radii: Vec2::splat(4.0), ..AmoeboidCellSpec::default() };
+            let division = DivisionParams { least_particles: 10, ..DivisionParams::default() };
+            let cell = AmoeboidCellSpec { radii: Vec2::splat(4.0), division, ..AmoeboidCellSpec::default() };
             world.spawn(&cell.into(), Placement::at(20.0, 6.0))?;
         }
         27 => world.grow(last, 2, 3)?,
-        28 => world.divide(last)?,
-        29 => drop(world.add_emitter(inlet)?),
-        30 => world.set_emitter(emitter.unwrap(), Emitter { rate: 30.0, ..inlet })?,
-        31 => world.set_scale(two, 1.05)?,
-        32 => drop(world.replace(two, &OrganismSpec::from(CoccusSpec::default()).into(), Placement::at(at.x, at.y))?),
+        28 => world.shrink(last, 2)?,
+        29 => world.set_speed(last, 5.0)?,
+        30 => world.set_phagocytosis(last, PhagocytosisParams { hold_time: 0.1, ..PhagocytosisParams::default() })?,
+        31 => world.divide(last)?,
+        32 => drop(world.add_emitter(inlet)?),
+        33 => world.set_emitter(emitter.unwrap(), Emitter { rate: 30.0, ..inlet })?,
+        34 => world.set_scale(two, 1.05)?,
+        35 => drop(world.replace(two, &OrganismSpec::from(CoccusSpec::default()).into(), Placement::at(at.x, at.y))?),
         45 => world.remove_emitter(emitter.unwrap())?,
         46 => drop(world.add_drain(outlet)?),
         47 => world.set_drain(drain.unwrap(), Drain { region: Region::All, ..outlet })?,

@@ -4,6 +4,7 @@ use super::World;
 use crate::capability::controller::Controller;
 use crate::capability::division::Order;
 use crate::capability::exchange::Exchange;
+use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::chemical::ChemicalSpec;
 use crate::collider::ContactReporting;
 use crate::collision::obstacle_record::{ObstacleRecord, PoseRecord};
@@ -62,6 +63,9 @@ pub(crate) enum WorldChange {
     Replace(OrganismId, Box<(Recipe, Placement)>),
     /// One that has no record: an obstacle of a shape that cannot be written.
     Unrecordable,
+    Shrink(OrganismId, u32),
+    SetSpeed(OrganismId, f32),
+    SetPhagocytosis(OrganismId, Box<PhagocytosisParams>),
 }
 
 /// The changes since the last step, and those before it.
@@ -161,6 +165,9 @@ impl WorldChange {
             Self::SetMaxSpeed(speed) => world.set_max_speed(speed).ok()?,
             Self::SetContactReporting(reporting) => world.set_contact_reporting(reporting).ok()?,
             Self::Unrecordable => return None,
+            Self::Shrink(id, particles) => world.shrink(id, particles).ok()?,
+            Self::SetSpeed(id, speed) => world.set_speed(id, speed).ok()?,
+            Self::SetPhagocytosis(id, params) => world.set_phagocytosis(id, *params).ok()?,
         }
         Some(())
     }

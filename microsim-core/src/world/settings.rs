@@ -2,6 +2,7 @@
 
 use super::change::WorldChange;
 use super::{World, obstacle};
+use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
 use crate::float_environment::with_default_float_environment;
@@ -89,6 +90,33 @@ impl World {
         self.wake_up(id);
         self.wake_up_touching(id);
         self.changed(|| WorldChange::SetGravityScale(id, scale));
+        Ok(())
+    }
+
+    /// Sets the speed with which an organism moves to its goals, units/s, 0 to 1000. Cells that divide pass it on.
+    ///
+    /// # Errors
+    /// When the handle is stale, the speed is out of its range, or the organism's controller could not follow its law with it.
+    pub fn set_speed(&mut self, id: OrganismId, speed: f32) -> Result<(), Error> {
+        in_range("speed", speed, 0.0, 1000.0)?;
+        let organism = self.organisms.get_mut(id).ok_or_else(|| Error::stale("organism"))?;
+        organism.controller.check_body(&organism.locomotion, speed, &self.config)?;
+        organism.speed = speed;
+        self.changed(|| WorldChange::SetSpeed(id, speed));
+        Ok(())
+    }
+
+    /// Sets how a cell takes in and digests from now on; what is going in goes on in the way in which it began. Cells that
+    /// divide pass it on.
+    ///
+    /// # Errors
+    /// When the handle is stale, the organism takes in nothing, or a field is out of its range.
+    pub fn set_phagocytosis(&mut self, id: OrganismId, params: PhagocytosisParams) -> Result<(), Error> {
+        params.validate()?;
+        let organism = self.organisms.get_mut(id).ok_or_else(|| Error::stale("organism"))?;
+        let engulfer = organism.engulfer.as_mut();
+        engulfer.ok_or_else(|| Error::unsupported("organism", "an organism that takes in prey"))?.params = params;
+        self.changed(|| WorldChange::SetPhagocytosis(id, Box::new(params)));
         Ok(())
     }
 
@@ -261,6 +289,32 @@ mod tests {
         }
         world.remove(ball).unwrap();
         assert_eq!(world.set_user_data(ball, 0).unwrap_err().field(), "organism");
+    }
+
+    #[test]
+    fn a_cell_changes_its_speed_and_its_way_of_eating() {
+        use crate::{Intent, PhagocytosisParams};
+        let way = |speed: f32| {
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+            world.set_speed(cell, speed).unwrap();
+            let inputs = Inputs::from(vec![(cell, Intent::toward(Vec2::new(150.0, 45.0)).unwrap())]);
+            (0..90).for_each(|_| world.step(&inputs));
+            world.centroid(cell).unwrap().x - 40.0
+        };
+        assert!(way(12.0) > 1.7 * way(6.0), "{} {}", way(12.0), way(6.0));
+        let mut world = room();
+        let ball = agar(&mut world, 20.0, 45.0);
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+        let params = PhagocytosisParams { hold_time: 0.1, ..PhagocytosisParams::default() };
+        world.set_phagocytosis(cell, params).unwrap();
+        assert_eq!(world.view().organism(cell).unwrap().phagocytosis().unwrap().hold_time, 0.1);
+        assert_eq!(world.set_phagocytosis(ball, params).unwrap_err().field(), "organism");
+        let bad = PhagocytosisParams { hold_time: -1.0, ..params };
+        assert_eq!(world.set_phagocytosis(cell, bad).unwrap_err().field(), "hold_time");
+        assert_eq!(world.set_speed(cell, f32::NAN).unwrap_err().field(), "speed");
+        world.remove(ball).unwrap();
+        assert_eq!(world.set_speed(ball, 1.0).unwrap_err().field(), "organism");
     }
 
     #[test]

@@ -119,7 +119,7 @@ impl Canvas {
         if radius - 0.5 * width < SMALLEST_HOLE {
             return self.sprite(centre, radius + 0.5 * width, Tile::Disc, colour);
         }
-        let pieces = (4.0 + 2.0 * radius.max(0.0).sqrt()).min(16.0) as u16;
+        let pieces = (8.0 + 4.0 * radius.max(0.0).sqrt()).min(48.0) as u16;
         let count = 2 * pieces;
         self.reserve(count.into(), 3 * usize::from(count));
         let first = self.mesh.vertices.len() as u16;
@@ -258,6 +258,8 @@ mod tests {
         };
         assert_eq!(places(1.25), [(-1.75, -1.75), (1.75, -1.75), (1.75, 1.75), (-1.75, 1.75)].map(Vec2::from));
         let ring = places(8.0);
+        // Off a circle by less than a tenth of a pixel, not a heptagon.
+        assert!(8.0 * (1.0 - (std::f32::consts::TAU / ring.len() as f32).cos()) < 0.25);
         assert!(ring.len() > 8 && ring.iter().all(|at| (7.49..8.51).contains(&at.length())));
     }
 }

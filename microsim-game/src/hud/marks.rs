@@ -62,7 +62,7 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, ta
         let tip = if is_seen { taken.place(tip - down, half) + down } else { tip };
         match readiness {
             Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
-            Readiness::Ready => draw_at_edge(pen, at, unit),
+            Readiness::Ready => draw_at_edge(pen, at, unit, READY),
             _ if !is_seen => {}
             Readiness::TooLarge(share) => draw_too_large(pen, tip, unit, share),
             Readiness::NoRoom => {
@@ -90,13 +90,13 @@ fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
 }
 
 /// An arrow at the edge of the picture that points to something outside.
-pub(super) fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32) {
+pub(super) fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32, colour: Color) {
     let middle = 0.5 * pen.screen();
     // Below the status line, and not quite at the edge.
     let room = middle - Vec2::new(1.2, 2.4) * unit;
     let offset = at - middle;
     let share = (room / offset.abs().max(Vec2::splat(1.0))).min_element();
-    arrow(pen, middle + offset * share.min(1.0), offset.normalize_or_zero(), 0.8 * unit, READY);
+    arrow(pen, middle + offset * share.min(1.0), offset.normalize_or_zero(), 0.8 * unit, colour);
 }
 
 /// An arrow with its tip at a point, in a dark rim that shows it on any ground.

@@ -1,7 +1,9 @@
 //! What the game draws above the scene: score, time, and marks at what matters (seed, 3.3.2). No mark tells anything by its
 //! colour alone.
 
+pub mod food_chain;
 pub mod marks;
+pub mod own;
 pub mod places;
 pub mod tint;
 

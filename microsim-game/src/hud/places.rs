@@ -24,7 +24,7 @@ pub fn draw_places<'a>(pen: &mut Pen, style: &Style<'_>, goals: impl Iterator<It
         }
         let is_seen = low.cmplt(pen.screen()).all() && high.cmpgt(Vec2::ZERO).all();
         if done == 0 && !is_seen {
-            draw_at_edge(pen, 0.5 * (low + high), unit);
+            draw_at_edge(pen, 0.5 * (low + high), unit, READY);
         }
     }
 }

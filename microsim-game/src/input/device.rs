@@ -39,6 +39,7 @@ impl Device {
         Input {
             cursor,
             has_moved,
+            steer: steer(is_key_down),
             is_held: is_mouse_button_down(MouseButton::Left),
             is_clicked: is_mouse_button_pressed(MouseButton::Left),
             // A notch is 1 on some systems and 120 on others.
@@ -72,6 +73,13 @@ const MOVES: [(KeyCode, Move); 7] = [
     (KeyCode::Escape, Move::Back),
 ];
 
+/// Where the arrow keys point that are down.
+fn steer(is_down: impl Fn(KeyCode) -> bool) -> Vec2 {
+    let ways =
+        [(KeyCode::Up, -Vec2::Y), (KeyCode::Down, Vec2::Y), (KeyCode::Left, -Vec2::X), (KeyCode::Right, Vec2::X)];
+    ways.into_iter().filter(|(key, _)| is_down(*key)).map(|(_, way)| way).sum::<Vec2>().normalize_or_zero()
+}
+
 /// Listens for the loss of the keyboard, which miniquad reports as being minimised.
 #[derive(Debug, Default)]
 struct Focus {
@@ -85,5 +93,19 @@ impl miniquad::EventHandler for Focus {
 
     fn window_minimized_event(&mut self) {
         self.is_lost = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrow_keys_steer_in_eight_directions_and_opposite_ones_cancel() {
+        let held = |keys: &'static [KeyCode]| steer(|key| keys.contains(&key));
+        assert_eq!(held(&[]), Vec2::ZERO);
+        assert_eq!(held(&[KeyCode::Left]), -Vec2::X);
+        assert!((held(&[KeyCode::Up, KeyCode::Right]) - Vec2::new(0.5_f32.sqrt(), -(0.5_f32.sqrt()))).length() < 1e-6);
+        assert_eq!(held(&[KeyCode::Up, KeyCode::Down]), Vec2::ZERO);
     }
 }

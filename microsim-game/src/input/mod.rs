@@ -19,6 +19,8 @@ pub enum Action {
     ZoomIn,
     /// Look from farther away, while held.
     ZoomOut,
+    /// Become two cells, in the food chain.
+    Divide,
     /// Stop or go on.
     Pause,
     /// One step while stopped.
@@ -45,10 +47,10 @@ pub enum Action {
 
 impl Action {
     /// All of them, in the order of the settings.
-    pub const ALL: [Self; 14] = {
+    pub const ALL: [Self; 15] = {
         use Action::*;
         [
-            Consume, ZoomIn, ZoomOut, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots, Panel,
+            Consume, ZoomIn, ZoomOut, Divide, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots, Panel,
             Screenshot, FullScreen,
         ]
     };
@@ -71,6 +73,7 @@ impl Action {
             Self::Consume => ["consume", "Digest (hold)"],
             Self::ZoomIn => ["zoom-in", "Zoom in"],
             Self::ZoomOut => ["zoom-out", "Zoom out"],
+            Self::Divide => ["divide", "Divide (food chain)"],
             Self::Pause => ["pause", "Pause"],
             Self::Step => ["step", "Single step"],
             Self::Slower => ["slower", "Slower"],
@@ -122,6 +125,8 @@ pub struct Input {
     pub cursor: Vec2,
     /// Whether the cursor has moved since the last frame.
     pub has_moved: bool,
+    /// Where the arrow keys point that are down, of length 1 or 0, downwards positive.
+    pub steer: Vec2,
     /// Whether the left button is down.
     pub is_held: bool,
     /// Whether it went down in this frame.

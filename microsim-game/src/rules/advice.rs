@@ -54,6 +54,7 @@ mod tests {
             kinds,
             undigested,
             attempt: None,
+            life: None,
             record: None,
             is_mismatch: false,
         }

@@ -31,6 +31,12 @@ impl GameChoice {
         Ok(scenario)
     }
 
+    /// Whether it is a game or a slide, and not a simulation to look at.
+    #[must_use]
+    pub fn is_game(&self) -> bool {
+        self.scenario(1).is_ok_and(|scenario| scenario.game().is_some() || scenario.slide().is_some())
+    }
+
     /// Key of its high scores: the scenario and what was changed of it.
     #[must_use]
     pub fn label(&self) -> String {

@@ -9,8 +9,12 @@
 pub mod advice;
 pub mod attempt;
 pub mod bot;
+pub mod brake;
+pub mod chain_bot;
+pub mod food_chain;
 pub mod game;
 pub mod hint;
+pub mod lesson;
 pub mod path;
 pub mod referee;
 pub mod round;

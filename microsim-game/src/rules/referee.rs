@@ -57,6 +57,11 @@ impl Referee {
         Self { game, player, steps, steps_left: steps, held, gains, kinds }
     }
 
+    /// Watches another player from now on.
+    pub fn follow(&mut self, player: OrganismId) {
+        self.player = player;
+    }
+
     /// Looks at the world after a step. When time is up, nothing counts any more.
     pub fn after_step(&mut self, world: &World) {
         self.gains.clear();

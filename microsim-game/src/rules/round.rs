@@ -1,6 +1,8 @@
 //! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
 use super::attempt::Attempt;
+use super::food_chain::change::Change;
+use super::food_chain::{self, Fate, FoodChain};
 use super::referee::{KindScore, Referee};
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
@@ -20,6 +22,8 @@ pub struct Round {
     referee: Referee,
     /// If it is of a slide.
     attempt: Option<Attempt>,
+    /// If it is one of the food chain.
+    chain: Option<FoodChain>,
 }
 
 /// How a round ended.
@@ -35,10 +39,23 @@ pub struct RoundResult {
     pub kinds: Vec<(Kind, KindScore)>,
     /// How the attempt at a slide ended, if it was one.
     pub attempt: Option<Attempt>,
+    /// How a food chain ended, if it was one.
+    pub life: Option<Life>,
     /// The round as a [`Replay`]; `None` if it was a replay itself.
     pub record: Option<Vec<u8>>,
     /// Whether a replay differed from what was recorded.
     pub is_mismatch: bool,
+}
+
+/// How a food chain ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Life {
+    /// How long the player's line lived, s.
+    pub time: f32,
+    /// How it ended; unknown in a replay.
+    pub fate: Option<Fate>,
+    /// Seed of the round: what its player shares.
+    pub seed: u64,
 }
 
 /// Where the intents of a round come from.
@@ -79,7 +96,8 @@ impl Round {
             return Err(format!("`{name}` is no game: it has no table [game] or [slide]"));
         };
         let referee = Referee::new(game, player, &run.world);
-        Ok(Self { name: name.to_owned(), course, player, referee, attempt })
+        let chain = (name == food_chain::NAME).then(|| FoodChain::new(&run.world, player));
+        Ok(Self { name: name.to_owned(), course, player, referee, attempt, chain })
     }
 
     /// One step; in a replay the intent does not count. Nothing happens any more when the round is over.
@@ -89,6 +107,9 @@ impl Round {
         }
         match &mut self.course {
             Course::Live { run, recorder, record } => {
+                if let Some(chain) = &mut self.chain {
+                    chain.before_step(&mut run.world, self.player);
+                }
                 let mut inputs = Inputs::new();
                 inputs.set(self.player, intent);
                 run.step(&inputs);
@@ -104,8 +125,27 @@ impl Round {
         }
         let world = &self.course.run().world;
         self.referee.after_step(world);
+        if let Some(chain) = &mut self.chain {
+            self.player = chain.after_step(world, self.player);
+            self.referee.follow(self.player);
+        }
         if let Some(attempt) = &mut self.attempt {
             attempt.after_step(world.time() as f32, world.centroid(self.player), self.referee.kinds());
+        }
+    }
+
+    /// Changes the player's cell, if this change of a food chain is offered.
+    pub fn choose(&mut self, change: Change) {
+        if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
+            chain.choose(change, &mut run.world, self.player);
+        }
+    }
+
+    /// Divides the player's cell, in a food chain: the sister that rests is a second life.
+    pub fn divide(&mut self) {
+        if let (Course::Live { run, .. }, Some(_)) = (&mut self.course, &self.chain) {
+            // Refused if it is gone.
+            let _ = run.world.divide(self.player);
         }
     }
 
@@ -113,17 +153,24 @@ impl Round {
     pub fn heard(&self) -> impl Iterator<Item = Cue> + '_ {
         let events = self.world().events().iter().filter_map(|event| Cue::of(event, Some(self.player)));
         let second = self.referee.begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
-        events.chain(if self.is_won() { Some(Cue::End) } else { second })
+        events.chain(if self.is_won() || self.is_dead() { Some(Cue::End) } else { second })
     }
 
     fn is_won(&self) -> bool {
         self.attempt.as_ref().is_some_and(|attempt| attempt.time().is_some())
     }
 
-    /// Whether time is up, all goals of a slide are reached, or the replay ends.
+    fn is_dead(&self) -> bool {
+        self.chain.as_ref().is_some_and(FoodChain::is_over)
+    }
+
+    /// Whether time is up, all goals of a slide are reached, nobody of the player's line lives, or the replay ends.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        self.is_won() || self.referee.is_over() || matches!(self.course, Course::Replay { is_over: true, .. })
+        self.is_won()
+            || self.is_dead()
+            || self.referee.is_over()
+            || matches!(self.course, Course::Replay { is_over: true, .. })
     }
 
     /// Whether it is played again.
@@ -154,9 +201,15 @@ impl Round {
             undigested: self.undigested(),
             kinds: self.referee.kinds().to_vec(),
             attempt: self.attempt.clone(),
+            life: self.life(),
             record: self.record(),
             is_mismatch: self.mismatch().is_some(),
         }
+    }
+
+    fn life(&self) -> Option<Life> {
+        let (world, fate) = (self.world(), self.chain.as_ref()?.fate());
+        Some(Life { time: world.time() as f32, fate, seed: world.config().seed })
     }
 
     fn undigested(&self) -> u32 {
@@ -187,6 +240,18 @@ impl Round {
     #[must_use]
     pub fn attempt(&self) -> Option<&Attempt> {
         self.attempt.as_ref()
+    }
+
+    /// How the food chain stands, if it is one.
+    #[must_use]
+    pub fn chain(&self) -> Option<&FoodChain> {
+        self.chain.as_ref()
+    }
+
+    /// The changes of which the player may choose one now.
+    #[must_use]
+    pub fn offer(&self) -> Option<[Change; 3]> {
+        if self.is_replay() { None } else { self.chain.as_ref()?.offer() }
     }
 
     /// Score and time.

@@ -8,6 +8,7 @@ use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_core::{Event, Inputs, Intent, Kind, OrganismView, Role};
+use std::path::{Path, PathBuf};
 
 fn scenario(seed: u64, time: f32) -> Scenario {
     let text = builtin("game").unwrap().text;
@@ -307,11 +308,16 @@ fn a_command_moves_the_cell_at_once_and_turns_it_soon() {
     }
 }
 
+/// All files in a folder and those below it.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
 #[test]
 fn the_rules_know_no_window() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/rules");
-    for file in std::fs::read_dir(folder).unwrap() {
-        let path = file.unwrap().path();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/rules");
+    for path in files(&folder) {
         let text = std::fs::read_to_string(&path).unwrap();
         let forbidden = concat!("macro", "quad");
         assert!(!text.contains(forbidden), "{}", path.display());

@@ -1,10 +1,13 @@
 //! What all screens share: the pen, the settings, the scores and the message.
 
+use super::{MainScreen, Paused};
 use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
 use crate::platform::Speaker;
+use crate::rules::food_chain::change::Change;
 use crate::rules::game::GameChoice;
+use crate::rules::lesson::Lessons;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
@@ -64,10 +67,16 @@ pub struct AppContext {
     pub time: f32,
     /// The game that is played.
     pub game: GameChoice,
+    /// A game that the player has opened beside it.
+    pub(super) other_game: Option<GameChoice>,
     /// Scenario files that the player has named or dropped, for the list.
     pub files: Vec<SceneSource>,
     /// The last round that was played to its end, as a replay.
     pub last_game: Option<Vec<u8>>,
+    /// What was explained so far.
+    pub(super) lessons: Lessons,
+    /// The change of the body that was chosen, for the food chain below the choice.
+    pub(super) chosen: Option<Change>,
     /// Whether the screen that draws has nothing above it.
     pub is_top: bool,
     /// Whether a picture is wanted.
@@ -97,8 +106,11 @@ impl AppContext {
             pace: Pace { elapsed: 0.0, is_exact: false },
             time: 0.0,
             game,
+            other_game: None,
             files,
             last_game,
+            lessons: Lessons::default(),
+            chosen: None,
             is_top: true,
             wants_picture: false,
             asked: Asked::default(),
@@ -185,14 +197,24 @@ impl AppContext {
         self.save_settings();
     }
 
-    /// Opens a simulation, or tells what is wrong with it. A file moves to the front of the list of simulations.
-    pub fn open(&mut self, source: &SceneSource) -> Option<Stage> {
+    /// Opens a simulation, or a game, or tells what is wrong with it. A file moves to the front of the list of simulations.
+    pub fn open(&mut self, source: &SceneSource) -> Option<MainScreen> {
         let stage = Stage::open(source, &[]).map_err(|problem| self.tell(problem)).ok()?;
+        let game = GameChoice { source: source.clone(), overrides: Vec::new(), seed: None };
         if matches!(source, SceneSource::File(_)) {
             self.files.retain(|known| known != source);
             self.files.insert(0, source.clone());
         }
-        Some(stage)
+        if !game.is_game() {
+            return Some(MainScreen::Simulation(Box::new(stage)));
+        }
+        self.other_game = Some(game);
+        Some(MainScreen::OtherGame)
+    }
+
+    /// The game that is played, or the one beside it.
+    pub(super) fn game_of(&self, played: Paused) -> &GameChoice {
+        self.other_game.as_ref().filter(|_| played == Paused::OtherGame).unwrap_or(&self.game)
     }
 
     /// Time for what moves of itself in marks and background; `None` if the player wants less motion.

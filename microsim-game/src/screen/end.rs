@@ -4,7 +4,7 @@ use super::context::AppContext;
 use super::end_menu::{EndChoice, EndMenu};
 use super::page::draw_shade;
 use super::scores::draw_table;
-use super::{MainScreen, Next, Screen};
+use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
 use crate::rules::advice;
@@ -32,14 +32,15 @@ pub(super) struct End {
     /// None after a replay.
     goal: Option<String>,
     menu: EndMenu,
+    played: Paused,
 }
 
 impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
-    pub(super) fn new(result: RoundResult, context: &mut AppContext) -> Self {
+    pub(super) fn new(result: RoundResult, played: Paused, context: &mut AppContext) -> Self {
         let missed = advice::missed(&result);
         let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
-        let game = context.game.label();
+        let game = context.game_of(played).label();
         let count = |is_rigid: bool| {
             let of_kind = kinds.iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
             of_kind.map(|(_, entry)| entry.count).sum()
@@ -57,7 +58,7 @@ impl End {
         let heading = format!("{points} points{doubt}");
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
         let goal = is_own.then(|| advice::next_goal(points, better));
-        Self { heading, points, kinds, best, place, missed, goal, menu }
+        Self { heading, points, kinds, best, place, missed, goal, menu, played }
     }
 
     fn draw_kinds(&self, pen: &mut Pen, top: f32) {
@@ -85,7 +86,11 @@ fn plain_name(kind: Kind) -> &'static str {
 impl Screen for End {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
-            Some(EndChoice::Again | EndChoice::Pick(0)) => Next::Show(MainScreen::Round),
+            // A replay leads on to a round of the game.
+            Some(EndChoice::Again | EndChoice::Pick(0)) if self.played == Paused::Replay => {
+                Next::Show(MainScreen::Round)
+            }
+            Some(EndChoice::Again | EndChoice::Pick(0)) => self.played.restart(),
             Some(EndChoice::Pick(1)) => Next::Show(MainScreen::Replay),
             Some(_) => Next::Show(MainScreen::Title),
             None => Next::Stay,

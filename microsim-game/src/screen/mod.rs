@@ -1,14 +1,18 @@
 //! Screens: each is a file with one type that reads input and draws. A screen says as data what comes [`Next`]; the
 //! [`stack`] builds it.
 
+mod choose;
 pub mod context;
 mod end;
 mod end_menu;
+mod food_chain;
+mod food_chain_end;
 mod keys;
 mod page;
 mod pause;
 mod pick;
 mod play;
+mod quit;
 mod sandbox;
 mod scores;
 mod settings;
@@ -18,9 +22,11 @@ pub mod stack;
 mod title;
 
 use crate::input::Input;
-use crate::rules::round::RoundResult;
+use crate::rules::food_chain::change::Change;
+use crate::rules::round::{Life, RoundResult};
 use crate::stage::Stage;
 use context::AppContext;
+use macroquad::miniquad;
 use std::fmt;
 
 /// What the program is showing.
@@ -72,8 +78,12 @@ pub enum MainScreen {
     Title,
     /// A new round of the game.
     Round,
+    /// A new round of a game that was opened beside it, a file or one of the list of simulations.
+    OtherGame,
     /// A slide, by its place in the list.
     Slide(usize),
+    /// The food chain, with a seed.
+    FoodChain(u64),
     /// The last round of the game again.
     Replay,
     /// A simulation.
@@ -85,10 +95,18 @@ pub enum MainScreen {
 pub enum Overlay {
     /// The menu that stops a main screen.
     Pause(Paused),
-    /// The end of a round.
-    End(Box<RoundResult>),
+    /// The end of a round, and what was played.
+    End(Box<RoundResult>, Paused),
     /// The end of a slide: the result, and what was played.
     SlideEnd(Box<RoundResult>, Paused),
+    /// The end of a food chain: the result, how long it was, and what was played.
+    FoodChainEnd(Box<RoundResult>, Life, Paused),
+    /// The way into the food chain.
+    FoodChain,
+    /// The choice of a change of the body, and what is played.
+    Choose([Change; 3], Paused),
+    /// Whether to end the program.
+    Quit,
     /// The list of slides, from this one on.
     Slides(usize),
     /// The list of simulations.
@@ -106,8 +124,12 @@ pub enum Overlay {
 pub enum Paused {
     /// A round that is played.
     Round,
+    /// A round of the game beside it.
+    OtherGame,
     /// A slide, by its place in the list.
     Slide(usize),
+    /// The food chain, with its seed.
+    FoodChain(u64),
     /// A replay.
     Replay,
     /// A simulation.
@@ -119,9 +141,17 @@ impl Paused {
     fn restart(self) -> Next {
         match self {
             Self::Round => Next::Show(MainScreen::Round),
+            Self::OtherGame => Next::Show(MainScreen::OtherGame),
             Self::Slide(index) => Next::Show(MainScreen::Slide(index)),
+            Self::FoodChain(seed) => Next::Show(MainScreen::FoodChain(seed)),
             Self::Replay => Next::Show(MainScreen::Replay),
             Self::Simulation => Next::Stay,
         }
     }
+}
+
+/// Every round has a seed of its own, except for pictures that must come out the same.
+fn new_seed(context: &AppContext) -> u64 {
+    let milliseconds = 1000.0 * miniquad::date::now();
+    if context.pace.is_exact { 1 } else { milliseconds as u64 }
 }

@@ -16,7 +16,9 @@ pub(super) struct Pause {
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
-            Paused::Round | Paused::Slide(_) | Paused::Replay => ["Go on", "Restart", "Settings", "Title"].as_slice(),
+            Paused::Round | Paused::OtherGame | Paused::Slide(_) | Paused::FoodChain(_) | Paused::Replay => {
+                ["Go on", "Restart", "Settings", "Title"].as_slice()
+            }
             Paused::Simulation => &["Go on", "Settings", "Title"],
         };
         Self { page: MenuPage::new("Paused", labels.iter().map(|&label| MenuItem::new(label)).collect()), paused }

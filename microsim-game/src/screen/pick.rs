@@ -2,11 +2,31 @@
 
 use super::context::AppContext;
 use super::page::MenuPage;
-use super::{MainScreen, Next, Screen};
+use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::scene_source::SceneSource;
 use crate::ui::menu::{MenuChoice, MenuItem};
 use microsim_core::scenario;
+
+/// Names of built-in scenarios for people.
+const TITLES: &[(&str, &str)] = &[
+    ("absorb-agar", "A first meal"),
+    ("absorb-rigid", "A large meal"),
+    ("crawl", "A cell crawls"),
+    ("crowd", "Many cells"),
+    ("dam-break", "A dam breaks"),
+    ("demo", "A bit of everything"),
+    ("divide", "A cell divides"),
+    ("empty", "An empty room"),
+    ("game", "The game"),
+    ("grow", "A cell grows"),
+    ("hunt", "A neutrophil hunts"),
+    ("leak-stress", "Stress test: leaks"),
+    ("platelets", "A field of platelets"),
+    ("pond", "A pond"),
+    ("ram-stress", "Stress test: collisions"),
+    ("squeeze", "Through a narrow gap"),
+];
 
 #[derive(Debug)]
 pub(super) struct Pick {
@@ -21,9 +41,16 @@ impl Pick {
         let builtins =
             scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), found.summary));
         let sources: Vec<_> = files.chain(builtins).collect();
-        let items = sources.iter().map(|(source, _)| MenuItem::new(source.to_string())).collect();
+        let items = sources.iter().map(|(source, _)| MenuItem::new(title(source))).collect();
         Self { page: MenuPage::new("Simulation", items), sources }
     }
+}
+
+/// What a scenario is called for people; a file by its name.
+fn title(source: &SceneSource) -> String {
+    let name = source.to_string();
+    let known = TITLES.iter().find(|(known, _)| matches!(source, SceneSource::Builtin(_)) && *known == name);
+    known.map_or(name, |(_, title)| (*title).to_owned())
 }
 
 impl Screen for Pick {
@@ -32,8 +59,7 @@ impl Screen for Pick {
             return Next::Back;
         }
         let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
-        let stage = context.open(&self.sources[item].0);
-        stage.map_or(Next::Stay, |stage| Next::Show(MainScreen::Simulation(Box::new(stage))))
+        context.open(&self.sources[item].0).map_or(Next::Stay, Next::Show)
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -44,5 +70,20 @@ impl Screen for Pick {
 
     fn name(&self) -> String {
         "scenarios".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_scenario_has_a_name_for_people() {
+        for found in scenario::builtins() {
+            let name = title(&SceneSource::Builtin(found.name.to_owned()));
+            assert!(name != found.name && name.starts_with(char::is_uppercase), "{name}");
+        }
+        assert_eq!(TITLES.len(), scenario::builtins().len());
+        assert_eq!(title(&SceneSource::File("a/crawl.toml".into())), "crawl.toml");
     }
 }

@@ -1,21 +1,25 @@
 //! The game, 90 seconds to eat, and slides.
 
 use super::context::AppContext;
-use super::{Next, Overlay, Paused, Screen};
+use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
-use crate::hud::{self, Status, marks, places, tint};
+use crate::hud::{self, Status, food_chain, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
+use crate::rules::brake::Brake;
+use crate::rules::food_chain::change::is_own;
+use crate::rules::food_chain::{NAME, threats_and_victims};
 use crate::rules::game::GameChoice;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
 use crate::slides::SLIDES;
 use crate::sound::Cue;
+use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
-use macroquad::miniquad;
-use microsim_core::Intent;
+use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
+use microsim_core::{Intent, View};
 
 /// Units that are seen from bottom to top at first; more as the cell grows.
 const VIEW: f32 = 62.0;
@@ -24,6 +28,10 @@ const TASK_TIME: f64 = 9.0;
 /// How strong the tint of a chemical is at most.
 const SCENT: f32 = 0.6;
 const ADVICE_TIME: f64 = 7.0;
+/// Distance of the goal to which arrow keys steer, units: speed does not depend on it.
+const STEERED: f32 = 30.0;
+/// Time until the cell starves that fills the bar, s.
+const FULL_RESERVE: f32 = 60.0;
 
 /// A round on the screen.
 #[derive(Debug)]
@@ -38,15 +46,20 @@ pub(super) struct Play {
     /// Area of the cell at the beginning, and what the camera has made of its growth.
     first_area: f32,
     grown: f32,
+    /// Whether the mouse steers, and what happens after.
+    is_crawling: bool,
+    brake: Brake,
+    /// What is written on the key that divides the cell.
+    divide_key: String,
 }
 
 impl Play {
-    /// A new round.
+    /// A new round of the game, or of the one beside it.
     ///
     /// # Errors
     /// Says what is wrong with the scenario, for the player to read.
-    pub(super) fn start(context: &AppContext) -> Result<Self, String> {
-        Ok(Self::new(context.game.round(seed(context))?, Paused::Round, context))
+    pub(super) fn start(played: Paused, context: &AppContext) -> Result<Self, String> {
+        Ok(Self::new(context.game_of(played).round(new_seed(context))?, played, context))
     }
 
     /// A slide.
@@ -56,7 +69,16 @@ impl Play {
     pub(super) fn slide(index: usize, context: &AppContext) -> Result<Self, String> {
         let name = SLIDES.get(index).map_or("", |slide| slide.name);
         let game = GameChoice { source: name.into(), overrides: Vec::new(), seed: None };
-        Ok(Self::new(game.round(seed(context))?, Paused::Slide(index), context))
+        Ok(Self::new(game.round(new_seed(context))?, Paused::Slide(index), context))
+    }
+
+    /// The food chain.
+    ///
+    /// # Errors
+    /// As for [`Play::start`].
+    pub(super) fn food_chain(seed: u64, context: &AppContext) -> Result<Self, String> {
+        let game = GameChoice { source: NAME.into(), overrides: Vec::new(), seed: Some(seed) };
+        Ok(Self::new(game.round(seed)?, Paused::FoodChain(seed), context))
     }
 
     /// The last round again.
@@ -74,21 +96,37 @@ impl Play {
         let camera = first_view(world, Some(round.player()), VIEW, context.pen.screen());
         let first_area = world.view().organism(round.player()).map_or(1.0, |cell| cell.cytoplasm_area());
         let viewer = Viewer::new(world, camera);
-        Self { round, played, viewer, gains: marks::Gains::default(), heard: Vec::new(), first_area, grown: 1.0 }
+        let (is_crawling, brake) = (false, Brake::default());
+        let (gains, divide_key) = (marks::Gains::default(), context.settings.keys.label(Action::Divide));
+        Self { round, played, viewer, gains, heard: Vec::new(), first_area, grown: 1.0, is_crawling, brake, divide_key }
     }
 
-    fn intent(&self, input: &Input, context: &AppContext) -> Intent {
-        let goal = input.is_held.then(|| self.viewer.camera.to_room(input.cursor));
-        let moving = goal.and_then(|goal| Intent::toward(goal).ok()).unwrap_or(Intent::REST);
-        moving.digesting(context.settings.digests(input))
+    /// Where the player steers to: by mouse, or by arrow keys.
+    fn goal(&self, input: &Input) -> Option<Vec2> {
+        let cell = self.round.world().view().organism(self.round.player())?;
+        let by_keys = cell.centroid() + STEERED * Vec2::new(input.steer.x, -input.steer.y);
+        let by_mouse = || self.is_crawling.then(|| self.viewer.camera.to_room(input.cursor));
+        if input.steer == Vec2::ZERO { by_mouse() } else { Some(by_keys) }
+    }
+
+    /// Notes whether the mouse steers: while its button is down, or from one click to the next.
+    fn note_hand(&mut self, input: &Input, is_toggled: bool) {
+        if !is_toggled {
+            self.is_crawling = input.is_held;
+        } else if input.is_clicked {
+            self.is_crawling ^= true;
+        }
     }
 
     fn run(&mut self, input: &Input, context: &AppContext) {
-        let intent = self.intent(input, context);
-        let Self { round, viewer, gains, heard, .. } = self;
+        self.note_hand(input, context.settings.click_to_crawl);
+        let (goal, digests) = (self.goal(input), context.settings.digests(input));
+        let Self { round, viewer, gains, heard, brake, .. } = self;
         heard.clear();
-        viewer.run(context.pace, 1.0, round, |round| {
-            round.step(intent);
+        viewer.run(context.pace, context.settings.pace(), round, |round| {
+            let cell = round.world().view().organism(round.player());
+            let intent = cell.map_or(Intent::REST, |cell| brake.intent(cell, goal));
+            round.step(intent.digesting(digests));
             heard.extend(round.heard());
             gains.add(round.referee().gains());
             round.world()
@@ -104,15 +142,67 @@ impl Play {
         self.viewer.camera.zoom(self.grown / step, 0.5 * context.pen.screen());
         self.grown = step;
         let at = self.viewer.place_of(self.round.world(), Some(self.round.player()));
-        let looks_ahead = input.is_held && !self.round.is_replay() && context.motion().is_some();
+        let looks_ahead = self.is_crawling && !self.round.is_replay() && context.motion().is_some();
         let cursor = looks_ahead.then_some(input.cursor);
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
+    }
+
+    /// What is new in the food chain is explained when it is there first.
+    fn chain_advice(&self, has_buttons: bool) -> Option<String> {
+        let time = self.round.world().time();
+        let parts = [
+            (0.0, format!("Hold {} to crawl, and push your front against food.", held_to_crawl(has_buttons))),
+            (6.0, "The clock shows how long your food lasts: without more you starve.".to_owned()),
+            (22.0, "Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.".to_owned()),
+            (30.0, "A giant follows your scent. It does not fit through the gaps.".to_owned()),
+            (38.0, format!("{} divides your cell: the sister is a second life.", self.divide_key)),
+        ];
+        parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
+    }
+
+    fn draw_chain(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>) {
+        let (Some(chain), player) = (self.round.chain(), self.round.player()) else { return };
+        food_chain::draw_others(pen, style, &threats_and_victims(view, player));
+        if let Some(cell) = view.organism(player) {
+            food_chain::draw_changes(pen, style, cell);
+        }
+        if chain.is_bitten(player) {
+            food_chain::draw_bitten(pen);
+        }
+    }
+
+    fn draw_status(&self, pen: &mut Pen, is_calm: bool) {
+        let note = match (self.round.is_replay(), self.round.mismatch()) {
+            (false, _) => "",
+            (true, None) => "Replay",
+            (true, Some(_)) => "Replay, not as it was played",
+        };
+        let referee = self.round.referee();
+        let of_game = || {
+            let points = || format!("Score {}", referee.score());
+            let score = self.round.attempt().map_or_else(points, Attempt::summary);
+            (score, [referee.time_left(), referee.game().time])
+        };
+        let (score, time) = self.life().unwrap_or_else(of_game);
+        hud::draw_status(pen, &Status { score: &score, time, is_calm, note });
+    }
+
+    /// What the status says of a food chain: how long the line has lived, and time until the cell starves.
+    fn life(&self) -> Option<(String, [f32; 2])> {
+        let (chain, world) = (self.round.chain()?, self.round.world());
+        let cell = world.view().organism(self.round.player())?;
+        let sisters = world.view().organisms().filter(|other| is_own(*other)).count().saturating_sub(1);
+        let time = world.time() as f32;
+        let reserve = chain.reserve(cell, time).min(FULL_RESERVE);
+        Some((food_chain::summary(time, chain.size(cell), sisters), [reserve, FULL_RESERVE]))
     }
 
     fn advice(&self, hints: &Hints, key: Option<&str>, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
         if self.round.is_replay() {
             None
+        } else if self.round.chain().is_some() {
+            self.chain_advice(has_buttons)
         } else if let Some(attempt) = self.round.attempt() {
             let what = held_to_crawl(has_buttons);
             (time < TASK_TIME).then(|| format!("{} Hold {what} to crawl.", attempt.slide().task))
@@ -125,12 +215,6 @@ impl Play {
             None
         }
     }
-}
-
-/// Every round has a seed of its own, except for pictures that must come out the same.
-fn seed(context: &AppContext) -> u64 {
-    let milliseconds = 1000.0 * miniquad::date::now();
-    if context.pace.is_exact { 1 } else { milliseconds as u64 }
 }
 
 /// What the player holds to crawl.
@@ -146,15 +230,24 @@ impl Screen for Play {
         if input.presses(Action::Restart) {
             return self.played.restart();
         }
+        if let Some(change) = context.chosen.take() {
+            self.round.choose(change);
+        }
+        if input.presses(Action::Divide) {
+            self.round.divide();
+        }
         self.run(input, context);
         context.play(&self.heard);
         self.look(input, context);
         if self.round.is_over() {
             let result = Box::new(self.round.result());
-            let is_slide = result.attempt.is_some();
-            return Next::Open(if is_slide { Overlay::SlideEnd(result, self.played) } else { Overlay::End(result) });
+            return Next::Open(match (result.attempt.is_some(), result.life) {
+                (true, _) => Overlay::SlideEnd(result, self.played),
+                (false, Some(life)) => Overlay::FoodChainEnd(result, life, self.played),
+                (false, None) => Overlay::End(result, self.played),
+            });
         }
-        Next::Stay
+        self.round.offer().map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -174,26 +267,24 @@ impl Screen for Play {
         let key = context.settings.hold_to_digest.then(label);
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
-        let advice = self.advice(&hints, key.as_deref(), covered > 0.0);
+        let lesson = context.lessons.pass(&hints, context.time);
+        let advice = self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(str::to_owned));
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
+        if let Some(cell) = view.organism(self.round.player()) {
+            own::draw_own(pen, &style, cell);
+        }
+        places::draw_food(pen, &style, view);
         if let Some(attempt) = self.round.attempt() {
-            places::draw_food(pen, &style, view);
             places::draw_places(pen, &style, attempt.goals());
         }
+        self.draw_chain(pen, &style, view);
         marks::draw_held(pen, &style, &mut taken, &hints.held);
-        self.gains.draw(pen, &style, &mut taken);
+        if self.round.chain().is_none() {
+            self.gains.draw(pen, &style, &mut taken);
+        }
         marks::draw_targets(pen, &style, &mut taken, &hints.targets);
-        let referee = self.round.referee();
-        let note = match (self.round.is_replay(), self.round.mismatch()) {
-            (false, _) => "",
-            (true, None) => "Replay",
-            (true, Some(_)) => "Replay, not as it was played",
-        };
-        let time = [referee.time_left(), referee.game().time];
-        let points = || format!("Score {}", referee.score());
-        let score = &self.round.attempt().map_or_else(points, Attempt::summary);
-        hud::draw_status(pen, &Status { score, time, is_calm: context.settings.reduced_motion, note });
+        self.draw_status(pen, context.settings.reduced_motion);
         if let Some(advice) = advice {
             hud::draw_advice(pen, &advice, covered);
         }

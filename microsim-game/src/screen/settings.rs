@@ -17,10 +17,12 @@ const EFFORT: usize = 1;
 const TEXT: usize = 2;
 const MOTION: usize = 3;
 const DIGESTION: usize = 4;
-const SOUND: usize = 5;
-const ARROWS: usize = 6;
-const FULL_SCREEN: usize = 7;
-const KEYS: usize = 8;
+const CRAWL: usize = 5;
+const PACE: usize = 6;
+const SOUND: usize = 7;
+const ARROWS: usize = 8;
+const FULL_SCREEN: usize = 9;
+const KEYS: usize = 10;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
@@ -36,6 +38,8 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
         MenuItem::switch("Reduced motion", settings.reduced_motion),
         MenuItem::switch("Hold to digest", settings.hold_to_digest),
+        MenuItem::switch("Click to crawl", settings.click_to_crawl),
+        MenuItem::with("Speed of rounds", format!("{:.0} %", 100.0 * settings.pace())),
         MenuItem::with("Sound", format!("{:.0} %", 100.0 * settings.loudness())),
         MenuItem::switch("Classic arrows", settings.classic_arrows),
         MenuItem::switch("Full screen", settings.full_screen),
@@ -62,6 +66,9 @@ impl Screen for SettingsMenu {
             MenuChoice::Less(TEXT) => settings.change_text_size(-1),
             MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
             MenuChoice::Pick(DIGESTION) | MenuChoice::Less(DIGESTION) => settings.hold_to_digest ^= true,
+            MenuChoice::Pick(CRAWL) | MenuChoice::Less(CRAWL) => settings.click_to_crawl ^= true,
+            MenuChoice::Pick(PACE) => settings.change_pace(false),
+            MenuChoice::Less(PACE) => settings.change_pace(true),
             MenuChoice::Pick(SOUND) => settings.change_sound(true),
             MenuChoice::Less(SOUND) => settings.change_sound(false),
             MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,

@@ -1,18 +1,22 @@
 //! The screens that are open: a main screen, and overlays above it.
 
+use super::choose::Choose;
 use super::context::AppContext;
 use super::end::End;
+use super::food_chain::FoodChainMenu;
+use super::food_chain_end::FoodChainEnd;
 use super::keys::KeysMenu;
 use super::pause::Pause;
 use super::pick::Pick;
 use super::play::Play;
+use super::quit::Quit;
 use super::sandbox::Sandbox;
 use super::scores::ScoreList;
 use super::settings::SettingsMenu;
 use super::slide_end::SlideEnd;
 use super::slides::SlideList;
 use super::title::Title;
-use super::{MainScreen, Next, Overlay, Screen};
+use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::Input;
 
 /// The open screens, the topmost last.
@@ -99,8 +103,10 @@ impl Stack {
 fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, String> {
     Ok(match main {
         MainScreen::Title => Box::new(Title::new(context)),
-        MainScreen::Round => Box::new(Play::start(context)?),
+        MainScreen::Round => Box::new(Play::start(Paused::Round, context)?),
+        MainScreen::OtherGame => Box::new(Play::start(Paused::OtherGame, context)?),
         MainScreen::Slide(index) => Box::new(Play::slide(index, context)?),
+        MainScreen::FoodChain(seed) => Box::new(Play::food_chain(seed, context)?),
         MainScreen::Replay => Box::new(Play::replay(context)?),
         MainScreen::Simulation(stage) => Box::new(Sandbox::new(*stage, context)),
     })
@@ -109,8 +115,12 @@ fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, Strin
 fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
     match overlay {
         Overlay::Pause(paused) => Box::new(Pause::new(paused)),
-        Overlay::End(result) => Box::new(End::new(*result, context)),
+        Overlay::End(result, played) => Box::new(End::new(*result, played, context)),
         Overlay::SlideEnd(result, paused) => Box::new(SlideEnd::new(*result, paused, context)),
+        Overlay::FoodChainEnd(result, life, paused) => Box::new(FoodChainEnd::new(*result, life, paused, context)),
+        Overlay::FoodChain => Box::new(FoodChainMenu::new(context)),
+        Overlay::Choose(offer, paused) => Box::new(Choose::new(offer, paused)),
+        Overlay::Quit => Box::new(Quit::new()),
         Overlay::Slides(focus) => Box::new(SlideList::new(focus, context)),
         Overlay::Pick => Box::new(Pick::new(context)),
         Overlay::Scores => Box::new(ScoreList::new(context)),

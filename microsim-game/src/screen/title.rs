@@ -24,6 +24,7 @@ const SCENE_TIME: f64 = 90.0;
 pub(super) struct Title {
     backdrop: Option<Backdrop>,
     menu: Menu,
+    targets: Vec<(&'static str, Target)>,
 }
 
 #[derive(Debug)]
@@ -36,24 +37,34 @@ struct Backdrop {
 /// Where an item of the menu leads.
 type Target = fn() -> Next;
 
-/// What the menu offers; the last item only where the program can end of itself.
-const ITEMS: [(&str, Target); 7] = [
+/// What the menu may offer.
+const ITEMS: [(&str, Target); 8] = [
     ("Play", || Next::Show(MainScreen::Round)),
     ("Slides", || Next::Open(Overlay::Slides(0))),
+    ("Food chain", || Next::Open(Overlay::FoodChain)),
     ("Simulation", || Next::Open(Overlay::Pick)),
-    ("Watch the last game", || Next::Show(MainScreen::Replay)),
+    (WATCH, || Next::Show(MainScreen::Replay)),
     ("High scores", || Next::Open(Overlay::Scores)),
     ("Settings", || Next::Open(Overlay::Settings)),
-    ("Quit", || Next::Quit),
+    (QUIT, || Next::Open(Overlay::Quit)),
 ];
+/// Offered only if a game was played, and where the program can end of itself.
+const WATCH: &str = "Watch the last game";
+const QUIT: &str = "Quit";
 
 impl Title {
     /// The title, with its backdrop at the beginning.
     pub(super) fn new(context: &AppContext) -> Self {
-        let items = if platform::CAN_QUIT { &ITEMS[..] } else { &ITEMS[..ITEMS.len() - 1] };
-        let items = items.iter().map(|&(label, _)| MenuItem::new(label)).collect();
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items) }
+        let targets = offered(context.last_game.is_some(), platform::CAN_QUIT);
+        let items = targets.iter().map(|&(label, _)| MenuItem::new(label)).collect();
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets }
     }
+}
+
+/// What the menu offers now.
+fn offered(has_played: bool, can_quit: bool) -> Vec<(&'static str, Target)> {
+    let is_offered = |label| (label != WATCH || has_played) && (label != QUIT || can_quit);
+    ITEMS.into_iter().filter(|&(label, _)| is_offered(label)).collect()
 }
 
 impl Backdrop {
@@ -91,10 +102,10 @@ impl Screen for Title {
             }
         }
         if platform::CAN_QUIT && input.step == Some(Move::Back) {
-            return Next::Quit;
+            return Next::Open(Overlay::Quit);
         }
         match self.menu.update(input, &MenuLayout::title(&context.pen)) {
-            Some(MenuChoice::Pick(item)) => ITEMS[item].1(),
+            Some(MenuChoice::Pick(item)) => self.targets[item].1(),
             _ => Next::Stay,
         }
     }
@@ -130,5 +141,19 @@ impl Screen for Title {
 
     fn name(&self) -> String {
         "title".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_game_is_watched_only_after_one_and_a_page_has_no_quit() {
+        let labels =
+            |has_played, can_quit| offered(has_played, can_quit).into_iter().map(|item| item.0).collect::<Vec<_>>();
+        assert!(labels(false, true).contains(&QUIT) && !labels(false, true).contains(&WATCH));
+        assert!(labels(true, false).contains(&WATCH) && !labels(true, false).contains(&QUIT));
+        assert_eq!(labels(true, true).len(), ITEMS.len());
     }
 }

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub const FILE: &str = "settings.toml";
 /// Sizes of text, relative to the usual one.
 const TEXT_SIZES: [f32; 4] = [0.85, 1.0, 1.25, 1.5];
+/// Speeds of time in rounds.
+const PACES: [f32; 3] = [1.0, 0.75, 0.5];
 /// Steps from silence to the full loudness.
 const SOUND_STEPS: usize = 4;
 
@@ -22,6 +24,10 @@ pub struct Settings {
     pub reduced_motion: bool,
     /// Food is digested only while a key is held, as in the seed; otherwise as soon as it is inside.
     pub hold_to_digest: bool,
+    /// A click starts and stops the crawl, in place of a button that is held.
+    pub click_to_crawl: bool,
+    /// Which of the speeds of time in rounds.
+    pub pace: usize,
     /// Which of the steps from silence to the full loudness.
     pub sound: usize,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
@@ -42,6 +48,8 @@ impl Default for Settings {
             text_size: 1,
             reduced_motion: false,
             hold_to_digest: false,
+            click_to_crawl: false,
+            pace: 0,
             sound: 3,
             classic_arrows: false,
             sight: String::new(),
@@ -59,12 +67,25 @@ impl Settings {
         fn newer<T: PartialEq>(own: T, earlier: &T, other: T) -> T {
             if own == *earlier { other } else { own }
         }
-        let Self { text_size, reduced_motion, hold_to_digest, sound, classic_arrows, sight, effort, full_screen, keys } =
-            earlier;
+        let Self {
+            text_size,
+            reduced_motion,
+            hold_to_digest,
+            click_to_crawl,
+            pace,
+            sound,
+            classic_arrows,
+            sight,
+            effort,
+            full_screen,
+            keys,
+        } = earlier;
         Self {
             text_size: newer(self.text_size, text_size, others.text_size),
             reduced_motion: newer(self.reduced_motion, reduced_motion, others.reduced_motion),
             hold_to_digest: newer(self.hold_to_digest, hold_to_digest, others.hold_to_digest),
+            click_to_crawl: newer(self.click_to_crawl, click_to_crawl, others.click_to_crawl),
+            pace: newer(self.pace, pace, others.pace),
             sound: newer(self.sound, sound, others.sound),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
             sight: newer(self.sight, sight, others.sight),
@@ -84,6 +105,18 @@ impl Settings {
     #[must_use]
     pub fn text_factor(&self) -> f32 {
         TEXT_SIZES[self.text_size.min(TEXT_SIZES.len() - 1)]
+    }
+
+    /// How fast time passes in rounds.
+    #[must_use]
+    pub fn pace(&self) -> f32 {
+        PACES[self.pace.min(PACES.len() - 1)]
+    }
+
+    /// The next speed of time, or the one before.
+    pub fn change_pace(&mut self, is_back: bool) {
+        let by = if is_back { PACES.len() - 1 } else { 1 };
+        self.pace = (self.pace.min(PACES.len() - 1) + by) % PACES.len();
     }
 
     /// Loudness of what is heard, 0 to 1.
@@ -125,6 +158,16 @@ mod tests {
         let held = Settings { hold_to_digest: true, ..Settings::default() };
         assert_eq!([&free, &holding].map(|input| Settings::default().digests(input)), [true, true]);
         assert_eq!([&free, &holding].map(|input| held.digests(input)), [false, true]);
+    }
+
+    #[test]
+    fn time_passes_slower_if_the_player_asks() {
+        let mut settings = Settings { pace: 99, ..Settings::default() };
+        assert_eq!((Settings::default().pace(), settings.pace()), (1.0, 0.5));
+        settings.change_pace(false);
+        assert_eq!(settings.pace(), 1.0);
+        settings.change_pace(true);
+        assert_eq!(settings.pace(), 0.5);
     }
 
     #[test]

@@ -101,7 +101,8 @@ impl MenuLayout {
     /// At the left edge.
     #[must_use]
     pub fn side(pen: &Pen, top: f32) -> Self {
-        let item = Vec2::new(12.5 * pen.line(TextSize::Small), 1.4 * pen.line(TextSize::Small));
+        let high = 1.4 * pen.line(TextSize::Small);
+        let item = Vec2::new((12.5 * pen.line(TextSize::Small)).min(pen.screen().x - high), high);
         let corner = Vec2::new(0.5 * item.y, top);
         Self::of_height(corner, item, pen.screen().y - 0.3 * item.y, TextSize::Small)
     }

@@ -60,6 +60,15 @@ impl Pen {
         Self { canvas: Canvas::bare(), font: None, factor: 1.0, scale: 1.0, screen: USUAL }
     }
 
+    /// One for a picture of this size, and the width that text would have in it.
+    #[cfg(test)]
+    pub(crate) fn measured(screen: Vec2, wish: f32) -> (Self, impl Fn(TextSize, &str) -> f32) {
+        let pen = Self { screen, factor: factor(screen) * wish, ..Self::bare() };
+        let (font, factor) = (font::load().unwrap(), pen.factor);
+        let advance = move |size: TextSize, letter| font.metrics(letter, (size.usual() * factor).round()).advance_width;
+        (pen, move |size, text: &str| text.chars().map(|letter| advance(size, letter)).sum())
+    }
+
     /// Adapts to a picture of this size, and to the player's wish.
     pub fn fit(&mut self, screen: Vec2, wish: f32) {
         (self.screen, self.factor) = (screen, factor(screen) * wish);

@@ -1,4 +1,4 @@
-//! Cells that change their membrane: growth, division (with its furrow) and fusion.
+//! Cells that change their membrane: growth, shrinkage, division (with its furrow) and fusion.
 //!
 //! Parameters and state are in [`crate::capability::division`], the contraction of the furrow in
 //! [`crate::behavior::division`], changes of single rings in [`crate::organism::ring_surgery`].
@@ -8,6 +8,7 @@ mod furrow;
 mod furrow_plan;
 mod fusion;
 mod growth;
+mod shrinkage;
 mod transfer;
 
 use crate::capability::division::{Divider, Order};

@@ -175,6 +175,12 @@ impl<'a> OrganismView<'a> {
         self.view.world.present_scale(self.id)
     }
 
+    /// Speed with which it moves to its goals, units/s; less while it digests.
+    #[must_use]
+    pub fn speed(self) -> f32 {
+        self.organism.speed
+    }
+
     /// Share of gravity that acts on it.
     #[must_use]
     pub fn gravity_scale(self) -> f32 {

@@ -115,18 +115,29 @@ impl Sandbox {
 
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let (world, census) = (self.stage.world(), self.stage.census());
-        let (name, time) = (self.stage.name(), world.time());
-        let mut text = format!("{name}   {time:.2} s   {} bodies   {} particles", census.bodies, census.particles);
-        if !is_exact {
-            text += &format!("   step {:.2} ms", self.viewer.step_ms());
+        let mut parts = vec![self.stage.name().to_owned(), format!("{:.2} s", world.time())];
+        if self.is_paused {
+            parts.push("PAUSED".to_owned());
         }
         if SPEEDS[self.speed] != 1.0 {
-            text += &format!("   {} x", SPEEDS[self.speed]);
+            parts.push(format!("{} x", SPEEDS[self.speed]));
         }
-        text += if self.is_paused { "   PAUSED" } else { "" };
+        parts.push(format!("{} bodies", census.bodies));
+        parts.push(format!("{} particles", census.particles));
+        if !is_exact {
+            parts.push(format!("step {:.2} ms", self.viewer.step_ms()));
+        }
         let line = pen.line(TextSize::Small);
+        let width = pen.screen().x - 0.8 * line;
+        let text = fitting(&parts, |text| pen.width(TextSize::Small, text) <= width);
         pen.label(Vec2::new(0.4 * line, 0.8 * line), TextSize::Small, Align::Left, HALO, &text);
     }
+}
+
+/// As many parts of a line as fit, the first one in any case.
+fn fitting(parts: &[String], fits: impl Fn(&str) -> bool) -> String {
+    let mut lines = (1..=parts.len()).rev().map(|count| parts[..count].join("   "));
+    lines.find(|line| fits(line)).unwrap_or_else(|| parts[0].clone())
 }
 
 impl Screen for Sandbox {
@@ -190,5 +201,26 @@ impl Screen for Sandbox {
 
     fn name(&self) -> String {
         format!("{}-{}", self.stage.name(), self.stage.world().step_index())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_status_fits_small_and_narrow_windows() {
+        let parts = ["leak-stress", "123.45 s", "PAUSED", "0.25 x", "1234 bodies", "123456 particles", "step 12.34 ms"];
+        let parts = parts.map(str::to_owned);
+        for (width, height) in [(420.0, 260.0), (300.0, 700.0), (1280.0, 720.0)] {
+            for wish in [0.85, 1.0, 1.5] {
+                let (pen, measure) = Pen::measured(Vec2::new(width, height), wish);
+                let text = fitting(&parts, |text| measure(TextSize::Small, text) <= width);
+                assert!(measure(TextSize::Small, &text) <= width, "{width} {wish}: {text}");
+                assert!(text.starts_with("leak-stress   123.45 s"), "{width} {wish}: {text}");
+                let panel = panel::place(&pen);
+                assert!(panel.corner.x + panel.item.x <= width, "{width} {wish}: the panel");
+            }
+        }
     }
 }

@@ -8,8 +8,8 @@ use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, FluidBlockSpec, Intent, OrganismId, OrganismSpec,
-    Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Error, ErrorKind, FluidBlockSpec, Intent,
+    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
 };
 
 /// How near the cursor must be to something, pixels.
@@ -22,6 +22,10 @@ const DRAG_SHARE: f32 = 0.8;
 /// Radius in which things are pushed, units, and the change of their velocity in each step, units/s.
 const PUSH_RADIUS: f32 = 9.0;
 const PUSH: f32 = 1.6;
+
+/// Why tools do nothing.
+const NOBODY: &str = "There is nobody to steer: follow somebody first.";
+const NOTHING: &str = "There is nothing here.";
 
 /// What the mouse does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,7 +92,7 @@ impl Tools {
         self.spawn = (self.spawn + if is_back { SPAWNS.len() - 1 } else { 1 }) % SPAWNS.len();
     }
 
-    /// Uses the tool as the mouse says. Returns what went wrong.
+    /// Uses the tool as the mouse says. Returns what went wrong, or why it does nothing.
     pub(super) fn use_on(
         &mut self,
         stage: &mut Stage,
@@ -112,6 +116,12 @@ impl Tools {
         let found = nearest(stage.world(), at, REACH / camera.scale());
         match (self.tool, found) {
             (Tool::Spawn, _) => return self.put_in(stage, at).err(),
+            (Tool::Steer, _) if stage.player().is_none() => return Some(NOBODY.to_owned()),
+            (Tool::Remove | Tool::Drag, None) => return Some(NOTHING.to_owned()),
+            (Tool::Follow, None) => {
+                stage.set_player(None);
+                return Some("Nobody is followed now.".to_owned());
+            }
             (Tool::Remove, Some(id)) => return stage.world_mut().remove(id).err().map(|error| error.to_string()),
             (Tool::Follow, _) => stage.set_player(found),
             (Tool::Drag, _) => self.grasped = found,
@@ -124,7 +134,7 @@ impl Tools {
         let (name, spec) = SPAWNS[self.spawn];
         let placement = Placement::at(at.x, at.y).steered_by(controller(name));
         let world = stage.world_mut();
-        world.spawn(&spec(), placement).map(drop).map_err(|error| format!("{name}: {error}"))
+        world.spawn(&spec(), placement).map(drop).map_err(|error| refusal(name, &error))
     }
 
     /// Moves the view with the hand, if that is the tool; nobody is followed then.
@@ -164,6 +174,16 @@ impl Tools {
             }
             _ => {}
         }
+    }
+}
+
+/// Why something is not put in, for people.
+fn refusal(name: &str, error: &Error) -> String {
+    match error.kind() {
+        ErrorKind::Overlap { .. } => format!("No room here: {name}"),
+        ErrorKind::OutsideWorld { .. } => format!("Outside the walls: {name}"),
+        ErrorKind::TooMany { .. } => "The room is full.".to_owned(),
+        _ => format!("{name}: {error}"),
     }
 }
 
@@ -241,6 +261,21 @@ mod tests {
     }
 
     #[test]
+    fn tools_say_why_they_do_nothing() {
+        let mut stage = stage();
+        let size = stage.world().config().size;
+        let camera = Camera::whole(size, Vec2::new(640.0, 360.0));
+        let click = Input { cursor: Vec2::new(300.0, 200.0), is_clicked: true, is_held: true, ..Input::default() };
+        for (tool, _) in Tool::ALL {
+            let mut tools = Tools { tool, ..Tools::default() };
+            let told = tools.use_on(&mut stage, &camera, &click, false, false);
+            let acts = matches!(tool, Tool::Push | Tool::Spawn | Tool::Look);
+            assert_eq!(told.is_none(), acts, "{tool:?}: {told:?}");
+            stage = super::tests::stage();
+        }
+    }
+
+    #[test]
     fn looking_around_holds_the_room_under_the_cursor() {
         let (mut stage, mut tools) = (stage(), Tools { tool: Tool::Look, ..Tools::default() });
         let size = stage.world().config().size;
@@ -260,7 +295,9 @@ mod tests {
         let mut stage = stage();
         let mut tools = Tools { tool: Tool::Spawn, ..Tools::default() };
         tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap();
-        assert!(tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap_err().starts_with("agar"));
+        assert!(tools.put_in(&mut stage, Vec2::new(62.0, 45.0)).unwrap_err().starts_with("No room here"));
+        let outside = tools.put_in(&mut stage, Vec2::new(-20.0, 45.0)).unwrap_err();
+        assert!(outside.starts_with("Outside"), "{outside}");
         (tools.tool, tools.hand) = (Tool::Push, Some(Vec2::new(60.0, 45.0)));
         for _ in 0..60 {
             tools.step(&mut stage);

@@ -1,0 +1,174 @@
+//! What the food chain shows: who can bite and who can be bitten, and how the player's body has changed.
+
+use super::marks::{Style, draw_at_edge};
+use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
+use crate::rules::food_chain::Other;
+use crate::rules::food_chain::change::Change;
+use crate::ui::font::TextSize;
+use crate::ui::pen::{Align, Pen};
+use microsim_core::OrganismView;
+use microsim_core::glam::Vec2;
+
+/// Distance within which threats outside the picture are pointed at, units.
+const WARNED: f32 = 90.0;
+/// Nodes of the outline between two marks of a change.
+const SPACING: usize = 4;
+
+/// Draws a warning over each amoeba that can bite, an arrow at the edge of the picture to a near one outside, and a ring around
+/// each that can be bitten.
+pub fn draw_others(pen: &mut Pen, style: &Style<'_>, [threats, victims]: &[Vec<Other>; 2]) {
+    let unit = pen.line(TextSize::Body);
+    for threat in threats {
+        let (at, radius) = place(style, threat);
+        if is_seen(pen, at, radius) {
+            let top = Vec2::new(at.x, (at.y - radius - 0.9 * unit).max(2.6 * unit));
+            draw_warning(pen, top, 0.7 * unit);
+        } else if threat.distance < WARNED {
+            draw_at_edge(pen, at, unit, ALERT);
+        }
+    }
+    for victim in victims {
+        let (at, radius) = place(style, victim);
+        if is_seen(pen, at, radius) {
+            pen.canvas().arc(at, radius + 0.4 * unit, 0.2 * unit, 1.0, fade(INK, 0.5));
+            pen.canvas().arc(at, radius + 0.4 * unit, 0.1 * unit, 1.0, READY);
+        }
+    }
+}
+
+fn place(style: &Style<'_>, other: &Other) -> (Vec2, f32) {
+    (style.camera.to_screen(other.at), other.half_extent * style.camera.scale())
+}
+
+fn is_seen(pen: &Pen, at: Vec2, radius: f32) -> bool {
+    (at + radius).cmpgt(Vec2::ZERO).all() && (at - radius).cmplt(pen.screen()).all()
+}
+
+/// A triangle with an exclamation mark: told by its shape too.
+fn draw_warning(pen: &mut Pen, at: Vec2, size: f32) {
+    for (size, colour) in [(1.25 * size, INK), (size, ALERT)] {
+        let corners = [Vec2::new(0.0, -1.0), Vec2::new(0.95, 0.75), Vec2::new(-0.95, 0.75)];
+        pen.canvas().corner(corners.map(|corner| at + size * corner), colour);
+    }
+    pen.canvas().segment(at + Vec2::new(0.0, -0.45 * size), at + Vec2::new(0.0, 0.2 * size), 0.26 * size, INK);
+    pen.canvas().circle(at + Vec2::new(0.0, 0.5 * size), 0.15 * size, 0.3 * size, INK);
+}
+
+/// Draws each change on the body of the player's cell: a quick body has bristles, a sticky front dots along it, a second
+/// stomach a ring inside, a thrifty body grains, a thick coat a second rim, a wide mouth an arc ahead; more of each for more.
+pub fn draw_changes(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
+    let unit = 0.2 * pen.line(TextSize::Body);
+    let outline: Vec<Vec2> = cell.outline().map(|at| style.camera.to_screen(at)).collect();
+    let middle = style.camera.to_screen(cell.centroid());
+    let front = cell.front().map(|front| style.camera.to_screen(front));
+    let radius = outline.iter().map(|at| at.distance(middle)).sum::<f32>() / outline.len().max(1) as f32;
+    for change in Change::ALL {
+        for k in 0..change.count(cell).min(4) {
+            let more = k as f32;
+            match change {
+                Change::Speed => draw_bristles(pen, &outline, middle, k as usize, 3.0 * unit),
+                Change::StickyFront => {
+                    draw_dots(pen, &outline, front.unwrap_or(middle), radius, (0.8 + 0.3 * more) * unit);
+                }
+                Change::Stomach => {
+                    let at = middle + Vec2::new(0.32 * radius * (2.0 * (more % 2.0) - 1.0), 0.2 * radius * more);
+                    pen.canvas().arc(at, 0.22 * radius, 0.8 * unit, 1.0, fade(READY, 0.8));
+                }
+                Change::Thrift => draw_grains(pen, middle, radius, k, unit),
+                Change::Coat => draw_rim(pen, &outline, middle, (2.0 + 1.6 * more) * unit, unit),
+                Change::WideMouth => {
+                    let to = front.map_or(Vec2::X, |front| (front - middle).normalize_or(Vec2::X));
+                    let (at, side) = (middle + to * (radius + (2.0 + 2.0 * more) * unit), to.perp() * 0.5 * radius);
+                    pen.canvas().segment(at - side - to * 0.2 * radius, at, unit, fade(WAIT, 0.9));
+                    pen.canvas().segment(at + side - to * 0.2 * radius, at, unit, fade(WAIT, 0.9));
+                }
+            }
+        }
+    }
+}
+
+fn draw_bristles(pen: &mut Pen, outline: &[Vec2], middle: Vec2, first: usize, length: f32) {
+    for at in outline.iter().skip(first).step_by(SPACING) {
+        let out = (*at - middle).normalize_or_zero();
+        pen.canvas().segment(*at + 0.2 * length * out, *at + length * out, 0.25 * length, fade(HALO, 0.9));
+    }
+}
+
+fn draw_dots(pen: &mut Pen, outline: &[Vec2], front: Vec2, radius: f32, size: f32) {
+    for at in outline.iter().filter(|at| at.distance(front) < radius) {
+        pen.canvas().circle(*at, 0.5 * size, size, fade(WAIT, 0.9));
+    }
+}
+
+fn draw_grains(pen: &mut Pen, middle: Vec2, radius: f32, turn: u32, size: f32) {
+    for k in 0..6 {
+        let angle = (k as f32 + 0.4 * turn as f32) * std::f32::consts::TAU / 6.0;
+        let at = middle + Vec2::from_angle(angle) * radius * (0.45 + 0.1 * turn as f32);
+        pen.canvas().circle(at, 0.5 * size, size, fade(HALO, 0.8));
+    }
+}
+
+fn draw_rim(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32) {
+    let rim: Vec<Vec2> = outline.iter().map(|at| *at + (*at - middle).normalize_or_zero() * out).collect();
+    for k in 0..rim.len() {
+        pen.canvas().segment(rim[k], rim[(k + 1) % rim.len()], width, fade(HALO, 0.7));
+    }
+}
+
+/// What the status line says: time that the line has lived, and size; and whether a sister waits.
+#[must_use]
+pub fn summary(time: f32, size: f32, sisters: usize) -> String {
+    let more = if sisters > 0 { format!("  second life: {sisters}") } else { String::new() };
+    format!("Lived {:.0} s  size {size:.1}{more}", time.floor())
+}
+
+/// Writes that the player is being bitten.
+pub fn draw_bitten(pen: &mut Pen) {
+    let at = Vec2::new(0.5, 0.2) * pen.screen();
+    pen.label(at, TextSize::Large, Align::Centre, ALERT, "Bitten: get away!");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    fn drawn(draw: impl Fn(&mut Pen, &Style<'_>)) -> Pen {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let mut pen = Pen::bare();
+        draw(&mut pen, &style);
+        pen
+    }
+
+    #[test]
+    fn threats_are_warned_of_and_victims_ringed_by_shape_and_colour() {
+        let other = |x: f32, distance: f32| Other { at: Vec2::new(x, 45.0), half_extent: 8.0, distance };
+        let mut seen = drawn(|pen, style| draw_others(pen, style, &[vec![other(80.0, 20.0)], vec![]]));
+        assert!(seen.canvas().count(ALERT) > 0 && seen.canvas().count(READY) == 0);
+        let mut outside = drawn(|pen, style| draw_others(pen, style, &[vec![other(400.0, 80.0)], vec![]]));
+        assert!(outside.canvas().count(ALERT) > 0, "an arrow");
+        let mut far = drawn(|pen, style| draw_others(pen, style, &[vec![other(400.0, 100.0)], vec![]]));
+        assert_eq!(far.canvas().count(ALERT), 0);
+        let mut victim = drawn(|pen, style| draw_others(pen, style, &[vec![], vec![other(80.0, 20.0)]]));
+        assert!(victim.canvas().count(READY) > 0 && victim.canvas().count(ALERT) == 0);
+    }
+
+    #[test]
+    fn every_change_is_seen_on_the_body() {
+        for change in Change::ALL {
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+            let corners = |world: &World| {
+                let cell = world.view().organism(cell).unwrap();
+                drawn(|pen, style| draw_changes(pen, style, cell)).canvas().corners().count()
+            };
+            let plain = corners(&world);
+            change.make(&mut world, cell).unwrap();
+            let once = corners(&world);
+            change.make(&mut world, cell).unwrap();
+            assert!(plain == 0 && once > 0 && corners(&world) > once, "{change:?}: {plain}, {once}");
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The player's own cell has a rim that no other has, in every way of looking.
+
+use super::marks::Style;
+use crate::draw::palette::{INK, READY, fade};
+use crate::ui::font::TextSize;
+use crate::ui::pen::Pen;
+use microsim_core::OrganismView;
+use microsim_core::glam::Vec2;
+
+/// Draws the rim.
+pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
+    let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
+    let width = 0.1 * pen.line(TextSize::Body);
+    for (width, colour) in [(2.2 * width, fade(INK, 0.35)), (width, fade(READY, 0.7))] {
+        for k in 0..outline.len() {
+            pen.canvas().segment(outline[k], outline[(k + 1) % outline.len()], width, colour);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    #[test]
+    fn the_players_own_cell_has_a_rim_on_its_outline() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let mut pen = Pen::bare();
+        let cell = world.view().organism(cell).unwrap();
+        draw_own(&mut pen, &style, cell);
+        let (low, high) = cell.bounds();
+        let (a, b) = (camera.to_screen(low), camera.to_screen(high));
+        let is_near = |at: Vec2| at.cmpgt(a.min(b) - 6.0).all() && at.cmplt(a.max(b) + 6.0).all();
+        let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
+        assert!(corners.len() >= 8 * cell.outline().len() && corners.into_iter().all(is_near));
+    }
+}

@@ -1,0 +1,141 @@
+//! Changes of the player's body: at each doubling of its size one of three. They are kept as the cell's user data, so that
+//! daughters and replays have them.
+
+use microsim_core::{Error, OrganismId, OrganismView, PhagocytosisParams, World};
+
+/// Bit of the user data that marks the cells of the player's line.
+const OWN: u128 = 1;
+/// Bits of the user data for the number of each change, from the fourth bit on.
+const BITS: u32 = 4;
+const MOST: u128 = (1 << BITS) - 1;
+
+/// What can change about the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// It crawls faster.
+    Speed,
+    /// Food sticks to its front: it goes in sooner and from the side.
+    StickyFront,
+    /// It digests sooner, makes more of food and hardly slows down over it.
+    Stomach,
+    /// It needs less to live on.
+    Thrift,
+    /// Bites take less of it.
+    Coat,
+    /// It takes in larger prey.
+    WideMouth,
+}
+
+impl Change {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Speed, Self::StickyFront, Self::Stomach, Self::Thrift, Self::Coat, Self::WideMouth];
+
+    /// What players call it, and what it does.
+    #[must_use]
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Speed => ["Quick body", "You crawl 15 % faster."],
+            Self::StickyFront => ["Sticky front", "Food goes in after half the time, and also beside your front."],
+            Self::Stomach => ["Second stomach", "You digest in 60 % of the time and grow a fifth more by it."],
+            Self::Thrift => ["Thrifty body", "You need a quarter less to live on."],
+            Self::Coat => ["Thick coat", "Bites take half as much."],
+            Self::WideMouth => ["Wide mouth", "You take in prey that is a third larger."],
+        }
+    }
+
+    /// How often a cell has changed like this.
+    #[must_use]
+    pub fn count(self, cell: OrganismView<'_>) -> u32 {
+        (cell.user_data() >> self.shift() & MOST) as u32
+    }
+
+    fn shift(self) -> u32 {
+        BITS * (1 + self as u32)
+    }
+
+    /// Changes a cell once more, at most fifteen times.
+    ///
+    /// # Errors
+    /// When the cell is gone.
+    pub fn make(self, world: &mut World, cell: OrganismId) -> Result<(), Error> {
+        let Some(view) = world.view().organism(cell).filter(|view| u128::from(self.count(*view)) < MOST) else {
+            return Ok(());
+        };
+        let (data, speed) = (view.user_data(), view.speed());
+        let params = view.phagocytosis().copied();
+        world.set_user_data(cell, data + (1 << self.shift()))?;
+        match (self, params) {
+            (Self::Speed, _) => world.set_speed(cell, 1.15 * speed),
+            (Self::StickyFront | Self::Stomach | Self::WideMouth, Some(params)) => {
+                world.set_phagocytosis(cell, self.of_eating(params))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn of_eating(self, mut params: PhagocytosisParams) -> PhagocytosisParams {
+        match self {
+            Self::StickyFront => {
+                params.hold_time *= 0.5;
+                params.heading_cosine = (params.heading_cosine - 0.4).max(-1.0);
+            }
+            Self::Stomach => {
+                params.digestion_time = params.digestion_time.map(|time| (0.6 * time).max(0.05));
+                params.digestion_speed = 0.5 * (1.0 + params.digestion_speed);
+                params.growth_yield = (1.2 * params.growth_yield).min(4.0);
+            }
+            _ => params.size_ratio = (0.75 * params.size_ratio).max(0.1),
+        }
+        params
+    }
+}
+
+/// How often a cell has changed.
+#[must_use]
+pub fn changes(cell: OrganismView<'_>) -> u32 {
+    Change::ALL.into_iter().map(|change| change.count(cell)).sum()
+}
+
+/// Whether a cell is of the player's line.
+#[must_use]
+pub fn is_own(cell: OrganismView<'_>) -> bool {
+    cell.user_data() & OWN != 0
+}
+
+/// Marks a cell as the first of the player's line.
+///
+/// # Errors
+/// When it is gone.
+pub fn mark_own(world: &mut World, cell: OrganismId) -> Result<(), Error> {
+    world.set_user_data(cell, OWN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use microsim_core::{AmoeboidCellSpec, Placement, WorldConfig};
+
+    #[test]
+    fn changes_are_counted_in_the_cell_and_do_what_they_say() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let before = *world.view().organism(cell).unwrap().phagocytosis().unwrap();
+        assert!(!is_own(world.view().organism(cell).unwrap()));
+        mark_own(&mut world, cell).unwrap();
+        for change in Change::ALL {
+            (0..2).for_each(|_| change.make(&mut world, cell).unwrap());
+        }
+        let view = world.view().organism(cell).unwrap();
+        assert!(is_own(view) && changes(view) == 12);
+        assert_eq!(Change::ALL.map(|change| change.count(view)), [2; 6]);
+        assert!((view.speed() - 1.3225 * AmoeboidCellSpec::default().speed).abs() < 1e-4);
+        let after = view.phagocytosis().unwrap();
+        assert!((after.hold_time - 0.25 * before.hold_time).abs() < 1e-6 && after.size_ratio < 0.6 * before.size_ratio);
+        (0..20).for_each(|_| Change::Coat.make(&mut world, cell).unwrap());
+        let view = world.view().organism(cell).unwrap();
+        assert_eq!((Change::Coat.count(view), Change::WideMouth.count(view)), (15, 2), "none runs over");
+        world.remove(cell).unwrap();
+        assert!(Change::Speed.make(&mut world, cell).is_ok(), "nothing to change");
+    }
+}

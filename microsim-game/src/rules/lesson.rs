@@ -1,0 +1,64 @@
+//! Marks are explained when they are seen first, one at a time.
+
+use super::hint::{Hints, Readiness};
+
+/// Time for which an explanation is shown, s.
+const TIME: f32 = 6.0;
+/// What a mark is called here, and its explanation.
+const LESSONS: [&str; 3] = [
+    "A green arrow: you are large enough to take this cell in.",
+    "The bar over a cell says how much of the needed size you have. Small food makes you grow.",
+    "\"full\": only one such cell has room inside. Digest it first.",
+];
+
+/// What was explained so far, and what is being explained.
+#[derive(Clone, Debug, Default)]
+pub struct Lessons {
+    is_told: [bool; LESSONS.len()],
+    shown: Option<(usize, f32)>,
+}
+
+impl Lessons {
+    /// What to tell now, at a time of the program, s.
+    pub fn pass(&mut self, hints: &Hints, time: f32) -> Option<&'static str> {
+        self.shown = self.shown.filter(|(_, until)| time < *until);
+        if self.shown.is_none() {
+            let places = hints.targets.iter().map(|target| match target.readiness {
+                Readiness::Ready => 0,
+                Readiness::TooLarge(_) => 1,
+                Readiness::NoRoom => 2,
+            });
+            if let Some(new) = places.filter(|&place| !self.is_told[place]).min() {
+                (self.is_told[new], self.shown) = (true, Some((new, time + TIME)));
+            }
+        }
+        self.shown.map(|(place, _)| LESSONS[place])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hint::PreyTarget;
+    use super::*;
+    use microsim_core::glam::Vec2;
+    use microsim_core::{AgarSpec, Placement, World, WorldConfig};
+
+    #[test]
+    fn every_mark_is_explained_once_and_one_at_a_time() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0)).unwrap();
+        let hints = |all: &[Readiness]| {
+            let target = |&readiness| PreyTarget { prey, at: Vec2::ZERO, half_extent: 1.0, readiness };
+            Hints { targets: all.iter().map(target).collect(), held: Vec::new() }
+        };
+        let both = hints(&[Readiness::TooLarge(0.7), Readiness::NoRoom]);
+        let mut lessons = Lessons::default();
+        assert_eq!(lessons.pass(&hints(&[]), 0.0), None);
+        assert_eq!(lessons.pass(&both, 1.0), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&hints(&[]), 6.9), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&both, 7.1), Some(LESSONS[2]));
+        assert_eq!(lessons.pass(&both, 13.2), None);
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 14.0), Some(LESSONS[0]));
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 30.0), None);
+    }
+}

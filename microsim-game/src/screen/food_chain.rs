@@ -1,0 +1,59 @@
+//! The way into the food chain: today's water, which is the same for everybody, or another one.
+
+use super::context::AppContext;
+use super::page::MenuPage;
+use super::{MainScreen, Next, Screen, new_seed};
+use crate::input::{Input, Move};
+use crate::rules::food_chain::NAME;
+use crate::ui::menu::{MenuChoice, MenuItem};
+use macroquad::miniquad;
+
+/// Length of a day, s.
+const DAY: f64 = 86400.0;
+/// Time that the rules allow, s: scores of the food chain are kept under it.
+pub(super) const LONGEST: f32 = 3600.0;
+const ABOUT: &str = "Your cell starves unless it eats, and larger amoebae gnaw at it: flee through the gaps, which are too \
+                     narrow for giants. Each time that you double you choose a change of your body.";
+
+#[derive(Debug)]
+pub(super) struct FoodChainMenu {
+    page: MenuPage,
+    note: String,
+}
+
+impl FoodChainMenu {
+    pub(super) fn new(context: &AppContext) -> Self {
+        let items = ["Today's water", "Other water", "Back"].map(MenuItem::new);
+        let best = context.scores.of(NAME, LONGEST).next();
+        let best = best.map_or(String::new(), |score| format!(" Your best: {} s.", score.points));
+        Self { page: MenuPage::new("Food chain", items.into()), note: format!("{ABOUT}{best}") }
+    }
+}
+
+impl Screen for FoodChainMenu {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        if input.step == Some(Move::Back) {
+            return Next::Back;
+        }
+        match self.page.update(input, &context.pen) {
+            Some(MenuChoice::Pick(0)) => Next::Show(MainScreen::FoodChain(todays_seed(context))),
+            Some(MenuChoice::Pick(1)) => Next::Show(MainScreen::FoodChain(new_seed(context))),
+            Some(_) => Next::Back,
+            None => Next::Stay,
+        }
+    }
+
+    fn draw(&mut self, context: &mut AppContext) {
+        self.page.draw(&mut context.pen);
+        self.page.draw_note(&mut context.pen, &self.note);
+    }
+
+    fn name(&self) -> String {
+        "food-chain".to_owned()
+    }
+}
+
+/// The number of the day, but for pictures that must come out the same.
+fn todays_seed(context: &AppContext) -> u64 {
+    if context.pace.is_exact { 1 } else { (miniquad::date::now() / DAY) as u64 }
+}

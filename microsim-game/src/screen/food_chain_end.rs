@@ -1,0 +1,98 @@
+//! The end of a food chain: how long the cell lived, what ended it, and the way to the same water again.
+
+use super::context::AppContext;
+use super::end_menu::{EndChoice, EndMenu};
+use super::food_chain::LONGEST;
+use super::page::draw_shade;
+use super::{MainScreen, Next, Paused, Screen, new_seed};
+use crate::draw::palette::{HALO, READY, fade};
+use crate::input::Input;
+use crate::rules::food_chain::{Fate, NAME};
+use crate::rules::round::{Life, RoundResult};
+use crate::store::scores::Score;
+use crate::ui::font::TextSize;
+use crate::ui::menu::MenuLayout;
+use crate::ui::pen::Align;
+use macroquad::color::Color;
+use microsim_core::Kind;
+use microsim_core::glam::Vec2;
+
+/// Share of the picture's height above the menu.
+const MENU_TOP: f32 = 0.62;
+const STARVED: &str = "It starved. An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the \
+                       end.";
+const EATEN: &str = "A larger amoeba ate it, bite by bite. Entamoeba histolytica kills living cells like this: trogocytosis \
+                     (Ralston and others, 2014, Nature 508).";
+
+#[derive(Debug)]
+pub(super) struct FoodChainEnd {
+    life: Life,
+    played: Paused,
+    lines: Vec<(TextSize, Color, String)>,
+    menu: EndMenu,
+}
+
+impl FoodChainEnd {
+    /// The end of one that was played, which is kept among the best, or replayed.
+    pub(super) fn new(result: RoundResult, life: Life, played: Paused, context: &mut AppContext) -> Self {
+        let count = |is_rigid: bool| {
+            let of_sort = result.kinds.iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
+            of_sort.map(|(_, entry)| entry.count).sum()
+        };
+        let points = life.time as u32;
+        let game = if let Paused::FoodChain(_) = played { NAME.to_owned() } else { context.game_of(played).label() };
+        let score = Score { game, time: LONGEST, points, small: count(false), rigid: count(true) };
+        let place = result.record.and_then(|record| {
+            let (place, kept) = context.scores.add(score, &context.store);
+            context.keep_game(record, kept);
+            place
+        });
+        let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
+        let mut lines = vec![(TextSize::Large, HALO, format!("Your line lived {:.0} s{doubt}", life.time.floor()))];
+        match place {
+            Some(0) => lines.push((TextSize::Body, READY, "The best so far!".to_owned())),
+            Some(place) => lines.push((TextSize::Body, READY, format!("Number {} so far", place + 1))),
+            None => {}
+        }
+        let told = life.fate.map(|fate| if fate == Fate::Starved { STARVED } else { EATEN });
+        lines.extend(told.map(|told| (TextSize::Body, HALO, told.to_owned())));
+        let share = format!("Water {}. The same again: microsim-game {NAME} --play --seed {}", life.seed, life.seed);
+        lines.push((TextSize::Small, fade(HALO, 0.85), share));
+        Self { life, played, lines, menu: EndMenu::new(&["Same water", "Other water", "Watch it again", "Title"]) }
+    }
+}
+
+impl Screen for FoodChainEnd {
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        let again = || match self.played {
+            Paused::Round | Paused::OtherGame => self.played.restart(),
+            _ => Next::Show(MainScreen::FoodChain(self.life.seed)),
+        };
+        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
+            Some(EndChoice::Again | EndChoice::Pick(0)) => again(),
+            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::FoodChain(new_seed(context))),
+            Some(EndChoice::Pick(2)) => Next::Show(MainScreen::Replay),
+            Some(_) => Next::Show(MainScreen::Title),
+            None => Next::Stay,
+        }
+    }
+
+    fn draw(&mut self, context: &mut AppContext) {
+        let pen = &mut context.pen;
+        draw_shade(pen);
+        let mut y = 0.14 * pen.screen().y;
+        for (size, colour, text) in &self.lines {
+            for line in pen.wrap(*size, text, 0.92 * pen.screen().x) {
+                let at = Vec2::new(0.5 * pen.screen().x, y);
+                pen.write(at, *size, Align::Centre, *colour, &line);
+                y += pen.line(*size);
+            }
+            y += 0.3 * pen.line(TextSize::Small);
+        }
+        self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
+    }
+
+    fn name(&self) -> String {
+        format!("food-chain-end-{:.0}", self.life.time.floor())
+    }
+}
