@@ -1,6 +1,6 @@
 //! Tension, bending and area limit of closed rings, in lanes: up to eight rings with equally many nodes are gathered into a
-//! block, where node `k` of each is slot `k`, and projected side by side. Each node waits for the one before it, so that one
-//! ring alone takes almost as long as eight.
+//! block, where node `k` of each is slot `k`, and projected side by side. Each node waits for the one before it, whatever the
+//! number of lanes.
 //!
 //! - Tension: `C = |x_b - x_a| - l` with a compliance when stretched; when slack, a small share of it only, so that the ring
 //!   does not buckle under its own compression;
