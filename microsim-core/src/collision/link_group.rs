@@ -85,7 +85,7 @@ mod tests {
         let (mut rng, mut hits) = (Rng::new(2, 6), 0);
         let mut place = || Vec2::new(rng.range(0.0, 9.0), rng.range(0.0, 9.0));
         let links: Vec<[Vec2; 2]> = (0..11).map(|_| [place(), place()]).collect();
-        for _ in 0..500 {
+        for _ in 0..1000 {
             let disc = Disc { at: place(), swept_radius: 0.7, index: 0 };
             for first in [0, 8] {
                 let group = LinkGroup::of(first, links[first..].iter().map(|ends| (*ends, 0.5)));
