@@ -9,8 +9,8 @@ use crate::organism::table::Organisms;
 use crate::parallel;
 use crate::particle::outside_of;
 use crate::solver::block::Block;
-use crate::solver::membrane::Membrane;
-use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
+use crate::solver::membrane::{self, Membrane};
+use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, untangle};
 use crate::world::World;
 use glam::Vec2;
 
@@ -232,9 +232,7 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
             },
         );
     });
-    for (membrane, ring) in membranes(organisms) {
-        membrane.project(ring, particles, h);
-    }
+    membrane::project(membranes(organisms), particles, h, *dispatch);
     contraction::project(&scratch.contractions, particles, h);
     scratch.joints.follow(obstacles, &mut scratch.obstacle_paths);
     scratch.joints.project(particles, h);
@@ -247,14 +245,14 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
-    let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, .. } = world;
+    let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, dispatch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, &mut scratch.impacts, &mut scratch.contact_records);
     }
-    guard.wrong_side +=
-        u64::from(ring_contact::project(&mut broad_phase.ring_contacts, particles, &mut scratch.contact_records));
+    let (rings, recorder) = (&mut broad_phase.ring_contacts, &mut scratch.contact_records);
+    guard.wrong_side += u64::from(ring_contact::project(rings, particles, recorder, *dispatch));
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);
     }
@@ -277,7 +275,8 @@ fn update_velocities(world: &mut World, h: f32) {
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
-    guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
+    let rings = &scratch.broad_phase.ring_contacts;
+    guard.wrong_side += u64::from(ring_contact::keep_sides(rings, particles, *dispatch));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
@@ -288,7 +287,7 @@ fn repair_membranes(world: &mut World) {
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
         guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles, &mut outline));
         let contacts = &scratch.broad_phase.ring_contacts;
-        let caught = ring_contact::catch_strays(ring, place, &outline, contacts, particles);
+        let caught = strays::catch_strays(ring, place, &outline, contacts, particles);
         guard.net_fired += u64::from(caught);
     }
 }

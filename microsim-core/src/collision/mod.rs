@@ -5,6 +5,7 @@ mod bodies;
 pub(crate) mod broad_phase;
 mod disc_grid;
 pub(crate) mod exemptions;
+mod link_group;
 pub(crate) mod obstacle;
 pub(crate) mod obstacle_path;
 pub(crate) mod obstacle_record;

@@ -1,13 +1,12 @@
 //! Discs near rings of linked particles: the links that each may touch during a step, and the side on which it stays.
 
 use super::aabb::Aabb;
-use super::bodies::{Bodies, BodyProxy};
+use super::bodies::Bodies;
 use super::combine;
 use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
-use crate::geometry::segment::nearest_on_segment;
-use crate::particle::Particles;
-use glam::Vec2;
+use super::link_group::LinkGroup;
+use crate::particle::{LANES, Particles};
 use std::ops::Range;
 
 /// A closed ring of linked particles, counter-clockwise: what is to the left of its links is inside.
@@ -31,6 +30,13 @@ impl Ring<'_> {
 pub(crate) struct Link {
     pub a: u32,
     pub b: u32,
+}
+
+/// A link that a disc may touch, and its place in the ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FoundLink {
+    pub link: Link,
+    pub place: u32,
 }
 
 /// Which ring holds an owner with all its particles.
@@ -84,11 +90,44 @@ pub(crate) struct RingContact {
 /// All discs near rings, found once per step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RingContacts {
+    /// Those of a ring lie side by side.
     pub contacts: Vec<RingContact>,
-    links: Vec<Link>,
-    found: Vec<(u32, u32)>,
+    pub found: FoundLinks,
+    /// Scratch of the search: links of a ring, discs in its box, and which of these are near which links.
+    groups: Vec<LinkGroup>,
+    discs: Vec<Disc>,
+    near: Vec<(u32, u32)>,
     /// The ring that each particle is a node of, by particle.
     ring_of: Vec<u32>,
+}
+
+/// The links near discs, and the rings that they are of.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FoundLinks {
+    links: Vec<FoundLink>,
+    /// Of one ring after the other.
+    nodes: Vec<u32>,
+    /// Where each ring ends there.
+    ends: Vec<usize>,
+}
+
+impl FoundLinks {
+    /// The links that a disc may touch, in the order of the ring.
+    #[inline(always)]
+    pub(crate) fn links_of(&self, contact: &RingContact) -> &[FoundLink] {
+        &self.links[contact.links.start as usize..contact.links.end as usize]
+    }
+
+    /// The nodes of the ring in this place.
+    pub(crate) fn nodes_of(&self, place: usize) -> &[u32] {
+        &self.nodes[if place > 0 { self.ends[place - 1] } else { 0 }..self.ends[place]]
+    }
+
+    fn clear(&mut self) {
+        self.links.clear();
+        self.nodes.clear();
+        self.ends.clear();
+    }
 }
 
 /// In no ring.
@@ -107,11 +146,6 @@ pub(super) struct RingQuery<'a> {
 }
 
 impl RingContacts {
-    /// The links that a disc may touch.
-    pub(crate) fn links_of(&self, contact: &RingContact) -> &[Link] {
-        &self.links[contact.range()]
-    }
-
     /// The contacts of the ring in this place, which lie side by side.
     pub(crate) fn of_ring(&self, place: usize) -> &[RingContact] {
         let first = self.contacts.partition_point(|contact| contact.ring < place);
@@ -119,15 +153,10 @@ impl RingContacts {
         &self.contacts[first..first + count]
     }
 
-    /// The contacts, to be worked on, and all links.
-    pub(crate) fn parts(&mut self) -> (&mut [RingContact], &[Link]) {
-        (&mut self.contacts, &self.links)
-    }
-
     /// Finds the discs near some rings.
     pub(super) fn find(&mut self, rings: &[Ring<'_>], near: RingQuery<'_>) {
         self.contacts.clear();
-        self.links.clear();
+        self.found.clear();
         self.note_nodes(rings, near.particles.len());
         for (ring, k) in rings.iter().zip(0..) {
             self.find_near(*ring, k, near);
@@ -137,19 +166,38 @@ impl RingContacts {
 
     /// Finds the links of one ring that each disc may touch, disc by disc.
     fn find_near(&mut self, ring: Ring<'_>, place: u32, near: RingQuery<'_>) {
-        let Self { found, ring_of, .. } = self;
-        let links: Vec<LinkProxy> = (0..ring.nodes.len()).map(|link| LinkProxy::of(ring, link, near)).collect();
-        let aabb = links.iter().fold(Aabb::EMPTY, |aabb, link| aabb.union(link.aabb));
-        let bodies: Vec<&BodyProxy> = near.bodies.in_box(aabb.low(), aabb.high()).collect();
+        let Self { groups, discs, near: found, ring_of, .. } = self;
+        let p = near.particles;
+        let link = |k: usize| {
+            let Link { a, b } = ring.link(k);
+            ([a, b].map(|node| p.position(node as usize)), p.radius[a as usize] + 0.5 * near.margin)
+        };
+        let count = ring.nodes.len();
+        groups.clear();
+        groups.extend((0..count).step_by(LANES).map(|first| LinkGroup::of(first, (first..count).map(link))));
+        let aabb = groups.iter().fold(Aabb::EMPTY, |aabb, group| aabb.union(group.aabb));
+        let (low, high) = (aabb.low(), aabb.high());
+        discs.clear();
+        // Nodes of a ring keep apart as discs.
+        let mut add = |disc: &Disc| {
+            if disc.aabb().overlaps(aabb) && ring_of[disc.index as usize] != place {
+                discs.push(*disc);
+            }
+        };
+        near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body)).for_each(&mut add);
+        near.disc_grids.into_iter().for_each(|grid| grid.in_box(low, high).for_each(&mut add));
+        discs.sort_unstable_by_key(|disc| disc.index);
         found.clear();
-        for (link, k) in links.iter().zip(0..) {
-            // Nodes of a ring keep apart as discs.
-            let discs = link.near_discs(&bodies, near).filter(|disc| ring_of[disc.index as usize] != place);
-            let touching = discs.filter(|disc| may_touch(near.particles, disc.index, link.nodes, near.exemptions));
-            // Nested loops; `extend` would ask the nested iterators for one disc after the other.
-            touching.for_each(|disc| found.push((disc.index, k)));
+        for disc in &*discs {
+            let aabb = disc.aabb();
+            for group in groups.iter().filter(|group| aabb.overlaps(group.aabb)) {
+                let places = group.near(disc).into_iter().zip(group.first..).filter(|(is_near, _)| *is_near);
+                let touching = places
+                    .map(|(_, k)| k)
+                    .filter(|&k| may_touch(near.particles, disc.index, ring.link(k as usize), near.exemptions));
+                touching.for_each(|k| found.push((disc.index, k)));
+            }
         }
-        found.sort_unstable();
     }
 
     fn note_nodes(&mut self, rings: &[Ring<'_>], particles: usize) {
@@ -163,11 +211,14 @@ impl RingContacts {
     /// Turns what was found near one ring into one contact for each disc.
     fn group(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
         let p = near.particles;
-        for group in self.found.chunk_by(|a, b| a.0 == b.0) {
-            let (particle, first) = (group[0].0, self.links.len() as u32);
-            self.links.extend(group.iter().map(|&(_, k)| ring.link(k as usize)));
+        let Self { contacts, found: FoundLinks { links, nodes, ends }, .. } = self;
+        nodes.extend_from_slice(ring.nodes);
+        ends.push(nodes.len());
+        for group in self.near.chunk_by(|a, b| a.0 == b.0) {
+            let (particle, first) = (group[0].0, links.len() as u32);
+            links.extend(group.iter().map(|&(_, place)| FoundLink { link: ring.link(place as usize), place }));
             let (i, node) = (particle as usize, ring.nodes[0] as usize);
-            self.contacts.push(RingContact {
+            contacts.push(RingContact {
                 particle,
                 ring: place,
                 side: side_of(p.owner[i], ring, near.containments),
@@ -175,55 +226,9 @@ impl RingContacts {
                 friction: combine(p.material[i], p.material[node]).0,
                 touched: None,
                 is_close: true,
-                links: first..self.links.len() as u32,
+                links: first..links.len() as u32,
             });
         }
-    }
-}
-
-impl RingContact {
-    /// Its links in the list of all.
-    pub(crate) fn range(&self) -> Range<usize> {
-        self.links.start as usize..self.links.end as usize
-    }
-}
-
-/// A link as the search sees it.
-struct LinkProxy {
-    nodes: Link,
-    ends: [Vec2; 2],
-    /// Radius of its nodes and half of the margin.
-    half_width: f32,
-    /// The box around all places within that of it, and some more: rounding takes nothing away that is near.
-    aabb: Aabb,
-}
-
-impl LinkProxy {
-    fn of(ring: Ring<'_>, k: usize, near: RingQuery<'_>) -> Self {
-        let (p, nodes) = (near.particles, ring.link(k));
-        let ends = [p.position(nodes.a as usize), p.position(nodes.b as usize)];
-        let half_width = p.radius[nodes.a as usize] + 0.5 * near.margin;
-        let (low, high) = (ends[0].min(ends[1]) - half_width, ends[0].max(ends[1]) + half_width);
-        Self { nodes, ends, half_width, aabb: Aabb::new(low, high).shrunk(0.0) }
-    }
-
-    /// Discs of these bodies and of the grids that may touch it.
-    fn near_discs<'a>(
-        &'a self,
-        bodies: &'a [&'a BodyProxy],
-        near: RingQuery<'a>,
-    ) -> impl Iterator<Item = &'a Disc> + 'a {
-        let bodies = bodies.iter().filter(|body| body.aabb.overlaps(self.aabb));
-        let in_bodies = bodies.flat_map(move |body| near.bodies.discs_of(body));
-        let in_grids = near.disc_grids.into_iter().flat_map(|grid| grid.in_box(self.aabb.low(), self.aabb.high()));
-        in_bodies.chain(in_grids).filter(|disc| self.is_near(disc))
-    }
-
-    #[inline(always)]
-    fn is_near(&self, disc: &Disc) -> bool {
-        let distance = disc.swept_radius + self.half_width;
-        let way = || disc.at - nearest_on_segment(self.ends[0], self.ends[1], disc.at);
-        disc.aabb().overlaps(self.aabb) && way().length_squared() < distance * distance
     }
 }
 

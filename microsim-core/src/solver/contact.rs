@@ -95,23 +95,27 @@ fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
 }
 
 /// Inverse mass with which something presses on something of inverse mass `other`, see [`HEAVIEST`].
+#[inline(always)]
 pub(crate) fn no_heavier(inv_mass: f32, other: f32) -> f32 {
     let least = other / HEAVIEST;
     if inv_mass > 0.0 && inv_mass < least { least } else { inv_mass }
 }
 
 /// The move that takes back slip along a surface, by at most `most`.
+#[inline(always)]
 pub(crate) fn friction(slip: Vec2, normal: Vec2, most: f32) -> Vec2 {
     let along = slip - normal * slip.dot(normal);
     -along * super::ratio_limit(along.length_squared(), most)
 }
 
+#[inline(always)]
 pub(crate) fn shift(p: &mut Particles, i: usize, by: Vec2) {
     p.x[i] += by.x;
     p.y[i] += by.y;
 }
 
 /// How far particle `i` has moved since the substep began.
+#[inline(always)]
 pub(crate) fn moved(p: &Particles, i: usize) -> Vec2 {
     Vec2::new(p.x[i] - p.prev_x[i], p.y[i] - p.prev_y[i])
 }

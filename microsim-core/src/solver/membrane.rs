@@ -2,20 +2,13 @@
 //!
 //! Edge `i` links ring nodes `i` and `i + 1`. Three things together make it hug its content without wrinkles (no single
 //! one does): a perimeter that contracts towards that of a circle around the content, a one-sided area limit, and
-//! bending towards the circle's curvature. Once per step [`Membrane::relax`] finds the targets; per substep
-//! [`Membrane::project`] applies
-//!
-//! - tension: `C = |x_b - x_a| - l` with a compliance when stretched; when slack, a small share of it only, so that the
-//!   ring does not buckle under its own compression;
-//! - bending: `C = x_i - (x_{i-s} + x_{i+s}) / 2 - n h_s`, `h_s = R (1 - cos(2 pi s / M))` the sagitta of the circle, for
-//!   strides `s = 2` and `1` (Mueller et al. 2007, section 4, a stretch of the midpoint);
-//! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed;
-//!
-//! and [`Membrane::limit_strain`], last in the substep, keeps every link below [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance
-//! joint that will respect a maximum length limit").
+//! bending towards the circle's curvature. Once per step [`Membrane::relax`] finds the targets; per substep [`project`]
+//! applies them, see [`ring_lanes`], and [`Membrane::limit_strain`], last in the substep, keeps every link below
+//! [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance joint that will respect a maximum length limit").
 
-use super::constraint::{MeasuredRing, Rope};
-use super::lanes::{Pair, ratio};
+use super::constraint::Rope;
+use super::instruction_set::Dispatch;
+use super::ring_lanes::{self, RingTarget, STRIDES};
 use crate::geometry::ring::unit_vector;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
@@ -28,18 +21,6 @@ pub(crate) const STRAIN_LIMIT: f32 = 1.25;
 const TAUT: f32 = 1.2;
 /// ... and how many sweeps that may take.
 const STRAIN_SWEEPS: usize = 8;
-/// Inverse stiffness of a stretched link (length/force).
-const TENSION_COMPLIANCE: f32 = 1e-5;
-/// Share of the tension correction that a slack link gets in a substep of [`SUBSTEP`], in shorter ones less ...
-const SLACK_SHARE: f32 = 0.05;
-/// ... and the share of its present length below which it is rigid.
-const SHORTEST: f32 = 0.5;
-/// Substep up to which a slack link is soft by a compliance, s.
-const SUBSTEP: f32 = 1.0 / 480.0;
-/// Bending: stride, and inverse stiffness over inverse mass, s2.
-const BENDING: [(usize, f32); 2] = [(2, 1.24e-4), (1, 5.9e-5)];
-/// Inverse stiffness of the area limit.
-const AREA_COMPLIANCE: f32 = 1e-4;
 /// Resting perimeter relative to the circle around the content, and what is added while driven.
 const PERIMETER_AT_REST: f32 = 0.98;
 const PERIMETER_DRIVEN: f32 = 0.22;
@@ -164,30 +145,18 @@ impl Membrane {
         self.rest_perimeter += (target - self.rest_perimeter) * share(dt, time);
     }
 
-    /// One substep's tension, bending and area limit.
-    pub(crate) fn project(&self, ring: &[u32], particles: &mut Particles, h: f32) {
+    /// What a substep of `h` aims at. `circle` is that of another membrane and becomes its own.
+    fn target<'a>(&'a self, ring: &'a [u32], h: f32, circle: &mut Circle) -> RingTarget<'a> {
         let length = self.rest_perimeter / ring.len() as f32;
-        tighten(ring, length, particles, h);
         let around = ring.len() as f32 / self.lobes;
-        let step = unit_vector(PI / around);
-        let radius = 0.5 * length / step.y;
-        for (stride, compliance) in BENDING {
-            let cosine = unit_vector(TAU * stride as f32 / around).x;
-            let (rise, alpha) = (radius * (1.0 - cosine), compliance / (h * h));
-            if self.stiffness.len() == ring.len() {
-                bend(ring, stride, rise, |k| alpha / self.stiffness[k], particles);
-            } else {
-                bend(ring, stride, rise, |_| alpha, particles);
-            }
+        if circle.links != around {
+            *circle = Circle::of(around);
         }
-        let particles = &mut particles.columns();
-        let measured = MeasuredRing::measure(ring, &Span::LOOSE, particles);
-        let excess = measured.area[0] - self.target_area;
-        if excess > 0.0 {
-            let fastest = self.rest_perimeter * h * self.rest_length;
-            let error = if excess < fastest { excess } else { fastest };
-            measured.enforce([error], [true], AREA_COMPLIANCE / (h * h), particles);
-        }
+        let radius = 0.5 * length / circle.sine;
+        let rises = circle.cosines.map(|cosine| radius * (1.0 - cosine));
+        let fastest = self.rest_perimeter * h * self.rest_length;
+        let stiffness = if self.stiffness.len() == ring.len() { self.stiffness.as_slice() } else { &[] };
+        RingTarget { ring, length, rises, area: self.target_area, fastest, stiffness }
     }
 
     /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows, in sweeps forwards and backwards.
@@ -195,7 +164,7 @@ impl Membrane {
         let particles = &mut particles.columns();
         let max_length = TAUT * self.rest_length;
         let mut shorten = |k: usize| {
-            let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
+            let (a, b) = (ring[k], ring[if k + 1 < ring.len() { k + 1 } else { 0 }]);
             let is_long = particles.between(a as usize, b as usize).length_squared() > max_length * max_length;
             if is_long {
                 Rope { a, b, max_length }.shorten(&[Span::LOOSE], particles);
@@ -212,6 +181,35 @@ impl Membrane {
     }
 }
 
+/// One substep's tension, bending and area limit of membranes that share no node.
+pub(crate) fn project<'a>(
+    membranes: impl Iterator<Item = (&'a Membrane, &'a [u32])>,
+    particles: &mut Particles,
+    h: f32,
+    dispatch: Dispatch,
+) {
+    let mut circle = Circle::of(1.0);
+    let targets = membranes.map(|(membrane, ring)| membrane.target(ring, h, &mut circle)).collect();
+    ring_lanes::project(targets, particles, h, dispatch);
+}
+
+/// A circle of links; most membranes have the same one.
+struct Circle {
+    /// How many links go once around.
+    links: f32,
+    /// Of half of the angle of a link.
+    sine: f32,
+    /// Of the angle of each of [`STRIDES`].
+    cosines: [f32; 2],
+}
+
+impl Circle {
+    fn of(links: f32) -> Self {
+        let cosines = STRIDES.map(|stride| unit_vector(TAU * stride as f32 / links).x);
+        Self { links, sine: unit_vector(PI / links).y, cosines }
+    }
+}
+
 /// Neighbouring nodes, in the order of the ring.
 pub(crate) fn links(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
@@ -224,46 +222,6 @@ fn perimeter(ring: &[u32], particles: &Particles) -> f32 {
 /// First-order approach to a target within `time`, for steps short against it.
 fn share(dt: f32, time: f32) -> f32 {
     dt / (dt + time)
-}
-
-fn tighten(ring: &[u32], length: f32, particles: &mut Particles, h: f32) {
-    let particles = &mut particles.columns();
-    let alpha = TENSION_COMPLIANCE / (h * h);
-    let shorter = if h < SUBSTEP { (h * h) / (SUBSTEP * SUBSTEP) } else { 1.0 };
-    let slack_share = shorter / (shorter + (1.0 - SLACK_SHARE) / SLACK_SHARE);
-    for (a, b) in links(ring) {
-        let pair = Pair::<1>::load(particles, a as usize, b as usize);
-        let (present, weight) = (pair.length(0), pair.weight(0));
-        let lack = length - present;
-        let share = if lack < 0.0 {
-            ratio(lack, present * (weight + alpha))
-        } else if present < SHORTEST * length {
-            ratio(SHORTEST * length - present, present * weight)
-        } else {
-            slack_share * ratio(lack, present * (weight + alpha))
-        };
-        pair.push(particles, [share]);
-    }
-}
-
-/// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it. All nodes weigh the same, so
-/// `alpha` of a node is relative to their inverse mass.
-#[inline(always)]
-fn bend(ring: &[u32], stride: usize, rise: f32, alpha: impl Fn(usize) -> f32, p: &mut Particles) {
-    let count = ring.len();
-    for k in 0..count {
-        let node = ring[k] as usize;
-        let (before, after) = (ring[(k + count - stride) % count] as usize, ring[(k + stride) % count] as usize);
-        let chord = p.between(before, after);
-        // Counter-clockwise, so outwards is to the right of the chord.
-        let outwards = -chord.perp().normalize_or_zero();
-        let error = p.between(before, node) - chord * 0.5 - outwards * rise;
-        // Gradient 1 for the node and -1/2 for each neighbour: the squares add up to 1.5.
-        let correction = error / (1.5 + alpha(k));
-        super::contact::shift(p, node, -correction);
-        super::contact::shift(p, before, correction * 0.5);
-        super::contact::shift(p, after, correction * 0.5);
-    }
 }
 
 #[cfg(test)]
@@ -288,7 +246,7 @@ mod tests {
         for _ in 0..600 {
             membrane.relax(&indices, p, content, false, Flexibility::LEAST, 1.0 / 60.0);
             for _ in 0..8 {
-                membrane.project(&indices, p, 1.0 / 480.0);
+                project([(&membrane, indices.as_slice())].into_iter(), p, 1.0 / 480.0, Dispatch::default());
                 membrane.limit_strain(&indices, p);
             }
         }
@@ -324,7 +282,9 @@ mod tests {
         let mut p = ring(40, 1.15 * 40.0 / TAU);
         let indices: Vec<u32> = (0..40).collect();
         let membrane = Membrane::new(1.0, 0.5, 40);
-        (0..400).for_each(|_| membrane.project(&indices, &mut p, 1.0 / 480.0));
+        for _ in 0..400 {
+            project([(&membrane, indices.as_slice())].into_iter(), &mut p, 1.0 / 480.0, Dispatch::default());
+        }
         assert!(longest_link(&p) < 1.01, "longest {}", longest_link(&p));
     }
 

@@ -19,6 +19,9 @@ pub(crate) mod membrane;
 pub(crate) mod muscle;
 pub(crate) mod obstacle;
 pub(crate) mod ring_contact;
+mod ring_lanes;
+mod ring_relation;
+pub(crate) mod strays;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod untangle;

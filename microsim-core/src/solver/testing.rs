@@ -1,9 +1,11 @@
 //! What every constraint must obey, as a shared check for the tests of each.
 
-use crate::collision::broad_phase::SearchInput;
+use crate::collision::broad_phase::{BroadPhase, SearchInput};
 use crate::collision::exemptions::Exemptions;
+use crate::collision::ring::{Containment, Ring, RingContacts};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::geometry::ring::unit_vector;
+use crate::particle::sleep::Sleep;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
 use glam::Vec2;
 
@@ -99,4 +101,23 @@ pub(crate) fn overlapping(p: &Particles) -> Vec<(u32, u32)> {
         found.extend(others.map(|&j| (i as u32, j as u32)));
     }
     found
+}
+
+/// A ring of owner 0 and a disc of owner `owner` at some place; the contacts between them.
+pub(crate) fn ring_and_disc(outline: &[Vec2], at: Vec2, owner: u32) -> (Particles, RingContacts, Vec<u32>) {
+    let mut p = Particles::default();
+    let particle = |at, owner| Particle { owner, ..disc(at, 1.0) };
+    let nodes: Vec<u32> = outline.iter().map(|&at| p.insert(&particle(at, 0))).collect();
+    p.link_ring(&nodes);
+    p.insert(&particle(at, owner));
+    let mut broad_phase = BroadPhase::default();
+    let exemptions = Exemptions::default();
+    let input = SearchInput {
+        rings: &[Ring { owner: 0, nodes: &nodes, holds: None }],
+        containments: &[Containment::Free, Containment::Free, Containment::Inside(0), Containment::Passing(0)],
+        size: Vec2::ONE,
+        ..search_input(&p, &exemptions, DisplacementLimits { step: 50.0, substep: 50.0, dt: 1.0 })
+    };
+    broad_phase.find_pairs(input, &mut Sleep::default(), 1);
+    (p, broad_phase.ring_contacts.into_inner(), nodes)
 }

@@ -73,7 +73,11 @@ impl World {
         let discs = found.contacts.iter().map(|&Contact { i, j, touched, .. }| Near::Discs { i, j, touched });
         let links = found.ring_contacts.contacts.iter().flat_map(|contact| {
             let (i, touched) = (contact.particle, contact.touched);
-            found.ring_contacts.links_of(contact).iter().map(move |&link| Near::DiscAndLink { i, link, touched })
+            found.ring_contacts.found.links_of(contact).iter().map(move |found| Near::DiscAndLink {
+                i,
+                link: found.link,
+                touched,
+            })
         });
         discs.chain(links)
     }
