@@ -5,7 +5,6 @@ use crate::failure::Failure;
 use crate::sanitize;
 use crate::verbs::Verb;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
-use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
@@ -39,20 +38,17 @@ impl Args {
         let color = color_asked_for(std::env::args_os().skip(1));
         let read = Self::command().color(color).try_get_matches();
         read.and_then(|matches| Self::from_arg_matches(&matches)).map_err(|said| {
-            let printed = print(&said).and_then(|()| std::io::stdout().flush());
+            let printed = harmless(color).as_ref().unwrap_or(&said).print().and_then(|()| std::io::stdout().flush());
             let code = ExitCode::from(u8::try_from(said.exit_code()).unwrap_or(2));
             printed.map_or_else(|error| Failure::from(error).report(&Console::new(color, false, false)), |()| code)
         })
     }
 }
 
-/// Prints what clap says; without colours if it may quote what controls a terminal: an argument may be the name of a file.
-fn print(said: &clap::Error) -> std::io::Result<()> {
-    let is_clean = |argument: OsString| matches!(sanitize::line(&argument.to_string_lossy()), Cow::Borrowed(_));
-    if !said.use_stderr() || std::env::args_os().all(is_clean) {
-        return said.print();
-    }
-    write!(std::io::stderr(), "{}", sanitize::lines(&said.render().to_string()))
+/// What clap says of the same arguments without what controls a terminal, which it would quote: one may be the name of a file.
+fn harmless(color: ColorChoice) -> Option<clap::Error> {
+    let clean = |argument: OsString| sanitize::line(&argument.to_string_lossy()).into_owned();
+    Args::command().color(color).try_get_matches_from(std::env::args_os().map(clean)).err()
 }
 
 /// The value of `--color`, found before clap parses, so that clap's own messages obey it too.

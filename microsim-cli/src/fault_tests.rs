@@ -183,8 +183,8 @@ fn a_run_survives_every_fault() {
 }
 
 #[test]
-fn pictures_survive_every_crash() {
-    a_run_survives("pictures", &[Fault::Crash], true, 2);
+fn pictures_survive_every_power_cut() {
+    a_run_survives("pictures", &[Fault::PowerCut], true, 2);
 }
 
 #[test]
