@@ -20,6 +20,7 @@ mod title;
 use crate::input::Input;
 use crate::rules::round::RoundResult;
 use crate::stage::Stage;
+use crate::ui::menu::Menu;
 use context::AppContext;
 use std::fmt;
 
@@ -33,6 +34,11 @@ pub trait Screen: fmt::Debug {
 
     /// What pictures of it are called.
     fn name(&self) -> String;
+
+    /// The menu that it shows.
+    fn menu(&self) -> Option<&Menu> {
+        None
+    }
 
     /// Whether it waits for a key, which then does nothing else.
     fn waits_for_key(&self) -> bool {
