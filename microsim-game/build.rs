@@ -1,7 +1,11 @@
-//! Writes the font without what nothing here reads: instructions for coarse screens and tables of layout. Two thirds of it.
+//! Writes the font without what nothing here reads: letters that are never written, instructions for coarse screens and tables of
+//! layout. Nine tenths of it.
 //! Gives the program for Windows its icon and version.
 
-use std::collections::BTreeMap;
+#[path = "src/ui/letters.rs"]
+mod letters;
+
+use std::collections::{BTreeMap, BTreeSet};
 use std::env;
 use std::path::Path;
 use std::process::Command;
@@ -11,8 +15,9 @@ const KEPT: [&[u8; 4]; 9] = [b"cmap", b"glyf", b"head", b"hhea", b"hmtx", b"loca
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/ui/letters.rs");
     let font = epaint_default_fonts::UBUNTU_LIGHT;
-    let small = without_instructions(font).unwrap_or_else(|| font.to_vec());
+    let small = smaller(font).unwrap_or_else(|| font.to_vec());
     let out = env::var_os("OUT_DIR").expect("cargo names a folder");
     std::fs::write(Path::new(&out).join("font.ttf"), small).expect("the folder can be written to");
     if env::var("TARGET").is_ok_and(|target| target == "x86_64-pc-windows-gnu") {
@@ -52,8 +57,9 @@ END
     )
 }
 
-/// A TrueType font without instructions; `None` if it is not built as the format's specification says (OpenType 1.9).
-fn without_instructions(font: &[u8]) -> Option<Vec<u8>> {
+/// A TrueType font with nothing but the letters that are written, and without instructions; `None` if it is not built as the
+/// format's specification says (OpenType 1.9).
+fn smaller(font: &[u8]) -> Option<Vec<u8>> {
     let mut tables: BTreeMap<&[u8], Vec<u8>> = BTreeMap::new();
     for k in 0..usize::from(u16_at(font, 4)?) {
         let entry = font.get(12 + 16 * k..28 + 16 * k)?;
@@ -66,9 +72,13 @@ fn without_instructions(font: &[u8]) -> Option<Vec<u8>> {
     let (old, places) = (tables.get(&b"glyf"[..])?, tables.get(&b"loca"[..])?);
     let place =
         |k| if has_long_offsets { Some(u32_at(places, 4 * k)?) } else { Some(2 * u32::from(u16_at(places, 2 * k)?)) };
+    let glyph_of = |k| old.get(place(k)? as usize..place(k + 1)? as usize);
+    let wanted = wanted(font, glyph_of)?;
     let (mut glyphs, mut offsets) = (Vec::new(), vec![0u32]);
     for k in 0..usize::from(u16_at(&tables[&b"maxp"[..]], 4)?) {
-        glyphs.extend(glyph(old.get(place(k)? as usize..place(k + 1)? as usize)?)?);
+        if wanted.contains(&k) {
+            glyphs.extend(without_instructions(glyph_of(k)?)?);
+        }
         glyphs.resize(glyphs.len().next_multiple_of(4), 0);
         offsets.push(glyphs.len() as u32);
     }
@@ -78,8 +88,45 @@ fn without_instructions(font: &[u8]) -> Option<Vec<u8>> {
     Some(file(&font[..4], &tables))
 }
 
+/// Numbers of the glyphs of all letters, and of those that they are composed of.
+fn wanted<'a>(font: &[u8], glyph_of: impl Fn(usize) -> Option<&'a [u8]>) -> Option<BTreeSet<usize>> {
+    let face = ttf_parser::Face::parse(font, 0).ok()?;
+    let mut open: Vec<usize> =
+        letters::letters().filter_map(|letter| Some(face.glyph_index(letter)?.0.into())).collect();
+    let mut found = BTreeSet::new();
+    while let Some(k) = open.pop() {
+        if found.insert(k) {
+            open.extend(parts(glyph_of(k)?)?);
+        }
+    }
+    Some(found)
+}
+
+/// Numbers of the glyphs that a glyph is composed of.
+fn parts(glyph: &[u8]) -> Option<Vec<usize>> {
+    const HAS_WORDS: u16 = 1;
+    const HAS_SCALE: u16 = 8;
+    const HAS_MORE: u16 = 0x20;
+    const HAS_TWO_SCALES: u16 = 0x40;
+    const HAS_MATRIX: u16 = 0x80;
+    let mut found = Vec::new();
+    if u16_at(glyph, 0).map_or(0, u16::cast_signed) >= 0 {
+        return Some(found);
+    }
+    let mut at = 10;
+    loop {
+        let flags = u16_at(glyph, at)?;
+        found.push(u16_at(glyph, at + 2)?.into());
+        let length = |flag, length| if flags & flag != 0 { length } else { 0 };
+        at += 6 + length(HAS_WORDS, 2) + length(HAS_SCALE, 2) + length(HAS_TWO_SCALES, 4) + length(HAS_MATRIX, 8);
+        if flags & HAS_MORE == 0 {
+            return Some(found);
+        }
+    }
+}
+
 /// A glyph without its instructions; one that is composed of others has few, and stays as it is.
-fn glyph(old: &[u8]) -> Option<Vec<u8>> {
+fn without_instructions(old: &[u8]) -> Option<Vec<u8>> {
     let contours = u16_at(old, 0).map_or(0, u16::cast_signed);
     if contours <= 0 {
         return Some(old.to_vec());

@@ -3,14 +3,9 @@
 //   node run.mjs PAGE GOLDEN [PICTURES [PART...]]     PAGE: the built folder; GOLDEN: microsim-core/tests/golden
 //                                                     PART: a function below, such as `title`; all of them unless given
 import fs from "node:fs";
-import http from "node:http";
 import path from "node:path";
-import { chromium } from "playwright-core";
-
-const [folder, golden, pictures = fs.mkdtempSync("/tmp/microsim-page-"), ...wanted] = process.argv.slice(2);
-const TYPES = { ".css": "text/css", ".html": "text/html", ".js": "text/javascript", ".png": "image/png",
-    ".txt": "text/plain", ".wasm": "application/wasm", ".webmanifest": "application/manifest+json" };
-const SIZE = { width: 640, height: 360 };
+import { check, checkPicture, complaints, finish, golden, kept, look, open, picture, profile, root, screenshot, wanted } from "./browser.mjs";
+import { goldenDigests } from "./golden.mjs";
 
 // A game that one cell wins in seconds: two pellets lie before it.
 const TABLE = `schema = 1
@@ -39,99 +34,6 @@ of = "pellet"
 at = [63.0, 25.0]
 `;
 
-// --- A server and a browser -------------------------------------------------------------------------------------------
-
-const server = http.createServer((request, response) => {
-    const name = path.join(folder, path.normalize(new URL(request.url, "http://page").pathname));
-    const file = name.endsWith("/") ? `${name}index.html` : name;
-    fs.readFile(file, (error, bytes) => {
-        response.writeHead(error ? 404 : 200, { "content-type": TYPES[path.extname(file)] ?? "application/octet-stream" });
-        response.end(bytes);
-    });
-});
-await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
-const root = `http://127.0.0.1:${server.address().port}/`;
-const browser = await chromium.launch({
-    executablePath: "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-        "--ignore-gpu-blocklist"],
-});
-const complaints = [];
-
-/** A fresh browser profile with one tab; what its console complains of is kept. */
-async function profile(options = {}) {
-    const context = await browser.newContext({ viewport: SIZE, acceptDownloads: true, ...options });
-    const page = await context.newPage();
-    page.on("console", (line) => ["error", "warning"].includes(line.type()) && !/GL Driver Message|GPU stall/.test(line.text()) && complaints.push(line.text()));
-    page.on("pageerror", (error) => complaints.push(String(error)));
-    return page;
-}
-
-async function open(page, address) {
-    const began = Date.now();
-    await page.goto("about:blank");
-    await page.goto(root + address);
-    await page.locator("#loading").waitFor({ state: "hidden", timeout: 60_000 });
-    return Date.now() - began;
-}
-
-/** Name and place of a picture that the game saves of itself. */
-async function picture(page) {
-    const waiting = page.waitForEvent("download", { timeout: 30_000 });
-    await page.keyboard.press("F12", { delay: 300 });
-    const download = await waiting;
-    const name = download.suggestedFilename();
-    const file = path.join(pictures, `${String(++pictureCount).padStart(2, "0")}-${name}`);
-    await download.saveAs(file);
-    return { name, file };
-}
-let pictureCount = 0;
-
-async function screenshot(page, name) {
-    const file = path.join(pictures, `${name}.png`);
-    await page.screenshot({ path: file });
-    return file;
-}
-
-/** How many different colours a picture has, and how bright it is on average. */
-async function look(file) {
-    const page = await browser.newPage();
-    const found = await page.evaluate(async (data) => {
-        const bitmap = await createImageBitmap(await (await fetch(data)).blob());
-        const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-        const context = canvas.getContext("2d");
-        context.drawImage(bitmap, 0, 0);
-        const { data: texels } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-        const colours = new Set();
-        let sum = 0;
-        for (let k = 0; k < texels.length; k += 4) {
-            colours.add((texels[k] << 16) | (texels[k + 1] << 8) | texels[k + 2]);
-            sum += texels[k] + texels[k + 1] + texels[k + 2];
-        }
-        return { colours: colours.size, mean: (4 * sum) / (3 * texels.length) };
-    }, `data:image/png;base64,${fs.readFileSync(file, "base64")}`);
-    await page.close();
-    return found;
-}
-
-// --- Checks -----------------------------------------------------------------------------------------------------------
-
-let passed = 0;
-const failed = [];
-function check(name, isGood, note = "") {
-    if (isGood) passed += 1;
-    else failed.push(name);
-    console.log(`${isGood ? "ok     " : "FAILED "} ${name}${note === "" ? "" : `: ${note}`}`);
-}
-async function checkPicture(name, file) {
-    const { colours, mean } = await look(file);
-    check(`${name}: there is something to see`, colours > 500 && mean > 10, `${colours} colours, mean ${mean.toFixed(0)}`);
-}
-const kept = (page, name) => page.evaluate((name) => {
-    const value = localStorage.getItem(`microsim/${name}`);
-    return value === null ? null : atob(value);
-}, name);
-
 async function title() {
     const page = await profile();
     const cold = await open(page, "");
@@ -149,20 +51,12 @@ async function digests() {
     const page = await profile();
     for (const simd of ["yes", "no"]) {
         await open(page, `?scenario=empty&optics=drawn&simd=${simd}`);
-        for (const [name, expected] of goldenDigests()) {
+        for (const [name, expected] of goldenDigests(golden)) {
             const found = await page.evaluate((name) => microsim.digest(name, 300), name);
             check(`digest after 300 steps, simd ${simd}: ${name}`, found === expected, `${found}, golden ${expected}`);
         }
     }
     await page.context().close();
-}
-
-/** Scenarios and their golden digests after 300 steps. */
-function goldenDigests() {
-    const digest = /^step 300 .*digest ([0-9a-f]{16})$/m;
-    const files = fs.readdirSync(golden).filter((file) => file.endsWith(".txt")).sort();
-    const found = files.map((file) => [path.basename(file, ".txt"), digest.exec(fs.readFileSync(path.join(golden, file), "utf8"))?.[1]]);
-    return found.filter(([, expected]) => expected !== undefined);
 }
 
 /** Presses the key for the next optics until the settings say that it was seen. */
@@ -276,6 +170,62 @@ async function optics() {
     }
 }
 
+/** Menus are drawn, but their items are buttons of the page as well, for screen readers and for the Tab key. */
+async function menus() {
+    const page = await profile();
+    await open(page, "?optics=drawn");
+    const items = (screen) => page.getByRole("group", { name: screen, exact: true }).getByRole("button");
+    const focused = () => page.evaluate(() => document.activeElement.textContent);
+    const titles = await items("title").allTextContents();
+    check("menus: those of the title are in the page", titles.join() === "Play,Slides,Simulation,Watch the last game,High scores,Settings", titles.join());
+    await page.keyboard.press("Tab", { delay: 100 });
+    check("menus: the Tab key leads to them", (await focused()) === "Play", await focused());
+    for (let k = 1; k < titles.length; k += 1) {
+        await page.keyboard.press("ArrowDown", { delay: 100 });
+        await page.waitForFunction((title) => document.activeElement.textContent === title, titles[k], { timeout: 10_000 });
+    }
+    await page.keyboard.press("Enter", { delay: 100 });
+    const sound = page.getByRole("button", { name: /^Sound: / });
+    await sound.waitFor({ timeout: 10_000 });
+    const before = await sound.textContent();
+    await sound.focus();
+    await page.keyboard.press("ArrowLeft", { delay: 100 });
+    await page.waitForFunction((before) => document.activeElement.textContent !== before, before, { timeout: 10_000 });
+    check("menus: values are changed by keys", /^Sound: /.test(await focused()), `${before}, then ${await focused()}`);
+    await page.keyboard.press("Escape", { delay: 100 });
+    await items("title").first().waitFor({ timeout: 10_000 });
+    await items("title").filter({ hasText: "Play" }).dispatchEvent("click");
+    await items("title").first().waitFor({ state: "detached", timeout: 10_000 });
+    check("menus: a click starts a round, which has no menu", (await page.locator("#items button").count()) === 0);
+    await page.context().close();
+}
+
+/** A browser may take the graphics away, and give them back with nothing in them. */
+async function loss() {
+    for (const optics of ["drawn", "phase-contrast"]) {
+        const page = await profile();
+        await open(page, `?play&seed=1&optics=${optics}&quality=low`);
+        await page.waitForTimeout(1500);
+        await page.keyboard.press("Escape", { delay: 300 });
+        await page.waitForTimeout(500);
+        const before = await look(await screenshot(page, `before-loss-${optics}`));
+        await page.evaluate(async () => {
+            const loss = gl.getExtension("WEBGL_lose_context");
+            loss.loseContext();
+            await new Promise((ended) => setTimeout(ended, 500));
+            loss.restoreContext();
+        });
+        await page.waitForTimeout(1500);
+        const after = await look(await screenshot(page, `after-loss-${optics}`));
+        const isSame = Math.abs(before.mean - after.mean) < 2 && after.colours > 0.8 * before.colours;
+        check(`loss, ${optics}: the picture comes back`, isSame, `${JSON.stringify(before)}, then ${JSON.stringify(after)}`);
+        await page.keyboard.press("Escape", { delay: 300 });
+        const { name } = await picture(page);
+        check(`loss, ${optics}: the round goes on`, /^microsim-game-\d/.test(name), name);
+        await page.context().close();
+    }
+}
+
 async function hiding() {
     const page = await profile();
     await open(page, "?play&seed=1&optics=drawn");
@@ -354,7 +304,7 @@ async function mistakes() {
     complaints.length = before;
 }
 
-for (const part of [title, digests, settings, round, files, optics, hiding, phones, fingers, offline, mistakes]) {
+for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, offline, mistakes]) {
     if (wanted.length > 0 && !wanted.includes(part.name)) continue;
     try {
         await part();
@@ -362,8 +312,4 @@ for (const part of [title, digests, settings, round, files, optics, hiding, phon
         check(part.name, false, error.stack);
     }
 }
-check("no complaint in any console", complaints.length === 0, complaints.slice(0, 5).join(" | "));
-console.log(`${passed} passed, ${failed.length} failed; pictures in ${pictures}`);
-await browser.close();
-server.close();
-process.exit(failed.length === 0 ? 0 : 1);
+await finish();

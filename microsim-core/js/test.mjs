@@ -1,10 +1,11 @@
-// Tests of the package in node: node test.mjs PACKAGE GOLDEN
+// Tests of the package in node: node test.mjs PACKAGE GOLDEN [MICROSIM]     MICROSIM: the command line, for its times beside
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [folder, golden] = process.argv.slice(2);
+const [folder, golden, native] = process.argv.slice(2);
 const { load } = await import(pathToFileURL(path.resolve(folder, "index.js")));
 const microsim = await load();
 const programs = ["microsim.wasm", "microsim-simd.wasm"];
@@ -30,12 +31,19 @@ function run(program, name) {
     return { digest, time: times.sort((a, b) => a - b)[150] };
 }
 
-console.log("    ms a step, without and with 128-bit instructions:");
+/** The same time of the native program. */
+function nativeTime(name) {
+    const output = execFileSync(native, ["bench", name, "--steps", "300", "--warmup", "0", "--json", "--quiet"]);
+    return JSON.parse(output).step_ms.median;
+}
+
+console.log(`    ms a step, without and with 128-bit instructions${native ? ", and native" : ""}:`);
 for (const name of microsim.builtins) {
     const [, expected] = /^step 300 .*digest ([0-9a-f]{16})$/m.exec(fs.readFileSync(path.join(golden, `${name}.txt`), "utf8"));
     const found = [narrow, wide].map((program) => run(program, name));
     found.forEach(({ digest }, k) => assert.equal(digest, expected, `${name} with ${programs[k]}`));
-    console.log(`    ${name.padEnd(14)} ${found.map(({ time }) => time.toFixed(3).padStart(8)).join("")}`);
+    const times = found.map(({ time }) => time).concat(native ? nativeTime(name) : []);
+    console.log(`    ${name.padEnd(14)} ${times.map((time) => time.toFixed(3).padStart(8)).join("")}`);
 }
 
 const world = microsim.open("game", { seed: 7 });

@@ -10,6 +10,7 @@ use crate::screen::stack::Stack;
 use crate::screen::{MainScreen, Next};
 use crate::shot::Shot;
 use crate::timings::Timings;
+use crate::ui::menu::Menu;
 use crate::viewer::Pace;
 use macroquad::window::{clear_background, next_frame, screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use microsim_core::glam::Vec2;
@@ -66,6 +67,8 @@ pub struct App {
     /// What input and steps took in the last frame, s.
     updating: f32,
     timings: Timings,
+    /// The screen and the menu that were shown last by other means than their drawing.
+    shown_menu: [String; 2],
 }
 
 impl App {
@@ -90,6 +93,7 @@ impl App {
             began,
             updating: 0.0,
             timings,
+            shown_menu: Default::default(),
         }
     }
 
@@ -161,6 +165,9 @@ impl App {
             return false;
         }
         platform::show_buttons(self.screens.is_scene(), self.context.settings.hold_to_digest);
+        if platform::SHOWS_MENUS {
+            self.show_menu();
+        }
         if let Some(screen) = self.open_dropped(input) {
             self.screens.go(Next::Show(screen), &mut self.context);
         }
@@ -171,6 +178,16 @@ impl App {
             set_fullscreen(self.is_full);
         }
         true
+    }
+
+    /// Shows the menu by other means than its drawing, where it has changed.
+    fn show_menu(&mut self) {
+        let screen = if self.screens.is_scene() { String::new() } else { self.screens.name() };
+        let shown = [screen, self.screens.menu().map(Menu::lines).unwrap_or_default()];
+        if self.shown_menu != shown {
+            platform::show_menu(&shown[0], &shown[1]);
+            self.shown_menu = shown;
+        }
     }
 
     /// Keys that do the same on every screen.

@@ -6,17 +6,25 @@ const LONGEST_FILE = 16 << 20;
 const DELAY = 0.06;
 
 const encode = (text) => new TextEncoder().encode(text);
+const decode = (bytes) => new TextDecoder().decode(bytes);
 const element = (id) => document.getElementById(id);
 
 /** Files by name that were picked, dropped or part of the address. */
 export const files = new Map();
 /** Names of buttons that are held, and of those pressed since the game last asked. */
 export const held = new Set(), pressed = [];
+/** Whether the game shows a scene, in which all keys are its own. */
+export let isScene = false;
+
+/** Keys that move through menus, as the game calls them. */
+const MOVES = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right", Escape: "escape" };
 
 const dropped = [];
 const address = new URLSearchParams(location.search);
 const words = ["microsim-game"];
 let question = "";
+/** The item of the menu that was pointed at by keyboard or screen reader, and whether the page follows the game's own focus. */
+let item = null, isFollowing = false;
 
 /** Shows why the game cannot go on. */
 export function fail(problem) {
@@ -100,7 +108,7 @@ function keep(name, bytes) {
 function rename(name, other) {
     const value = kept(name);
     if (value === null) return false;
-    localStorage.setItem(STORE + new TextDecoder().decode(other), value);
+    localStorage.setItem(STORE + decode(other), value);
     localStorage.removeItem(STORE + name);
     return true;
 }
@@ -137,8 +145,48 @@ function playSound(rate, bytes) {
 const fingers = matchMedia("(pointer: coarse)");
 
 function showButtons(areWanted, which) {
+    isScene = areWanted;
     element("buttons").hidden = !(areWanted && fingers.matches);
     element("digest").hidden = which !== "digest";
+}
+
+function newItem(k) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.onfocus = () => (item = isFollowing ? item : k);
+    button.onclick = () => {
+        item = k;
+        pressed.push("enter");
+    };
+    button.onkeydown = (event) => {
+        if (!(event.key in MOVES)) return;
+        event.preventDefault();
+        pressed.push(MOVES[event.key]);
+    };
+    return button;
+}
+
+/** Puts a menu that the game draws into the page, for screen readers. */
+function showMenu(screen, bytes) {
+    const group = element("items");
+    const [focus, ...labels] = decode(bytes).split("\n");
+    const hadFocus = group.contains(document.activeElement);
+    while (group.children.length > labels.length) group.lastChild.remove();
+    labels.forEach((label, k) => ((group.children[k] ?? group.appendChild(newItem(k))).textContent = label));
+    group.ariaLabel = screen || "Scene";
+    group.hidden = labels.length === 0;
+    if (hadFocus) {
+        isFollowing = true;
+        (group.children[focus] ?? element("glcanvas")).focus({ preventScroll: true });
+        isFollowing = false;
+    }
+    return true;
+}
+
+function takeItem() {
+    const taken = item;
+    item = null;
+    return encode(String(taken ?? ""));
 }
 
 function hasFloatTargets() {
@@ -154,6 +202,7 @@ const answers = {
     "file": (name) => files.get(name) ?? null,
     "float targets": hasFloatTargets,
     "has storage": () => (storageWorks() ? encode("") : null),
+    "item": takeItem,
     "held": () => encode([...held].join("\n")),
     "kept": readKept,
     "pressed": () => encode(pressed.splice(0).join("\n")),
@@ -161,18 +210,19 @@ const answers = {
 
 const orders = {
     "download": download,
-    "fail": (_, bytes) => fail(new TextDecoder().decode(bytes)),
+    "fail": (_, bytes) => fail(decode(bytes)),
     "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
-    "print": (_, bytes) => console.log(new TextDecoder().decode(bytes)),
+    "print": (_, bytes) => console.log(decode(bytes)),
     "rename": rename,
     "show buttons": (which) => showButtons(true, which),
+    "show menu": showMenu,
     "sound": playSound,
 };
 
 let found = new Uint8Array();
 const bytesAt = (at, length) => new Uint8Array(wasm_memory.buffer, at, length).slice();
-const textAt = (at, length) => new TextDecoder().decode(bytesAt(at, length));
+const textAt = (at, length) => decode(bytesAt(at, length));
 
 /** Functions that the program imports; the loader's own are there already. */
 export const functions = {

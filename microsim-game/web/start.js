@@ -1,7 +1,8 @@
 // Loads the game, and connects the page's own buttons with it.
 
-import { digest, fail, files, functions, give, held, kept, pressed, readAddress } from "./host.js";
+import { digest, fail, files, functions, give, held, isScene, kept, pressed, readAddress } from "./host.js";
 import { linkTo, linked } from "./link.js";
+import { restorable } from "./restore.js";
 
 const element = (id) => document.getElementById(id);
 const canvasElement = element("glcanvas");
@@ -9,6 +10,8 @@ const canvasElement = element("glcanvas");
 /** A program of one 128-bit instruction, which only browsers that have those accept. */
 const WIDE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11]);
 const isWide = globalThis.WebAssembly?.validate(WIDE) && new URLSearchParams(location.search).get("simd") !== "no";
+/** How long to wait for the graphics to come back, ms. */
+const PATIENCE = 5000;
 const PROGRAM = isWide ? "game-simd.wasm" : "game.wasm";
 
 /** A response whose reading moves the progress bar. */
@@ -44,7 +47,7 @@ async function readLink() {
 async function load(path) {
     const response = await fetch(path);
     if (!response.ok) throw new Error(`${path}: ${response.status}`);
-    Object.assign(importObject.env, functions);
+    Object.assign(importObject.env, functions, { init_webgl: openContext });
     const program = await WebAssembly.compileStreaming(counted(response));
     add_missing_functions_stabs(program);
     const instance = await WebAssembly.instantiate(program, importObject);
@@ -53,6 +56,34 @@ async function load(path) {
     if (wasm_exports.crate_version() !== version) throw new Error("gl.js is not that of this program");
     if (wasm_exports.microsim_crate_version() !== 1) throw new Error("host.js is not that of this program");
     wasm_exports.main();
+}
+
+let restore = null;
+
+/** As the loader's own, with a context that can be lost. */
+function openContext(version) {
+    init_webgl(version);
+    ({ gl, restore } = restorable(gl));
+}
+
+/** Holds the game while the browser has taken the graphics away, and goes on when they are back; a round pauses then. */
+function survive() {
+    const frame = animation;
+    let waiting;
+    canvasElement.addEventListener("webglcontextlost", (event) => {
+        event.preventDefault();
+        animation = () => {};
+        waiting = setTimeout(() => fail("The graphics were taken away, as after sleep."), PATIENCE);
+    });
+    canvasElement.addEventListener("webglcontextrestored", () => {
+        clearTimeout(waiting);
+        restore();
+        wasm_exports.focus(false);
+        wasm_exports.focus(true);
+        element("failure").hidden = true;
+        animation = frame;
+        requestAnimationFrame(frame);
+    });
 }
 
 function connectFiles() {
@@ -122,6 +153,8 @@ function connectKeys() {
     // Full screen and pictures are the game's, not the browser's.
     canvasElement.addEventListener("keydown", (event) => {
         if (event.code === "F11" || event.code === "F12") event.preventDefault();
+        // From a menu the key goes on through the page; in a scene it is the game's.
+        if (event.code === "Tab" && !isScene && !element("items").hidden) event.stopImmediatePropagation();
     });
     canvasElement.addEventListener("pointerdown", () => {
         element("menu").open = false;
@@ -132,7 +165,6 @@ function connectKeys() {
 function watch() {
     addEventListener("error", (event) => fail(event.message));
     addEventListener("unhandledrejection", (event) => fail(String(event.reason)));
-    canvasElement.addEventListener("webglcontextlost", () => fail("The graphics were taken away, as after sleep."));
     element("reload").onclick = () => location.reload();
 }
 
@@ -142,6 +174,7 @@ connectLinks();
 connectButtons();
 connectTouches();
 connectKeys();
+survive();
 if (document.createElement("canvas").getContext("webgl2") === null) {
     fail("This browser has no WebGL 2, or it is switched off.");
 } else {

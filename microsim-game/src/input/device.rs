@@ -49,6 +49,7 @@ impl Device {
                 .filter(|&action| is_key_pressed(keys.of(action)) || is_in(&buttons.pressed, action.name()))
                 .collect(),
             step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step).or(button_step),
+            item: buttons.item,
             key: get_last_key_pressed(),
             dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,

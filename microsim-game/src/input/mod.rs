@@ -139,6 +139,8 @@ pub struct Input {
     pub pressed: Vec<Action>,
     /// A move through a menu.
     pub step: Option<Move>,
+    /// The item of a menu that is pointed at in another way than with the cursor.
+    pub item: Option<usize>,
     /// The key that went down in this frame, whatever it does.
     pub key: Option<KeyCode>,
     /// Files that were dropped on the window.

@@ -18,4 +18,6 @@ pub struct ScreenButtons {
     pub held: Vec<String>,
     /// Those that went down since they were last asked for.
     pub pressed: Vec<String>,
+    /// The item of the shown menu that was pointed at since it was last asked for.
+    pub item: Option<usize>,
 }

@@ -12,7 +12,7 @@ use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
-use crate::ui::menu::MenuLayout;
+use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::{Align, Pen};
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
@@ -118,6 +118,10 @@ impl Screen for End {
         self.draw_kinds(pen, 0.28 * screen.y + line);
         draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
         self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.menu.menu)
     }
 
     fn name(&self) -> String {

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{Next, Screen};
 use crate::input::keys::Keys;
 use crate::input::{Action, Input, Move};
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 
 /// The menu of keys.
 #[derive(Debug)]
@@ -61,6 +61,10 @@ impl Screen for KeysMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
     }
 
     fn name(&self) -> String {

@@ -25,6 +25,7 @@ use crate::input::Input;
 use crate::rules::food_chain::change::Change;
 use crate::rules::round::{Life, RoundResult};
 use crate::stage::Stage;
+use crate::ui::menu::Menu;
 use context::AppContext;
 use macroquad::miniquad;
 use std::fmt;
@@ -39,6 +40,11 @@ pub trait Screen: fmt::Debug {
 
     /// What pictures of it are called.
     fn name(&self) -> String;
+
+    /// The menu that it shows.
+    fn menu(&self) -> Option<&Menu> {
+        None
+    }
 
     /// Whether it waits for a key, which then does nothing else.
     fn waits_for_key(&self) -> bool {

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
 use crate::slides::SLIDES;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 
 #[derive(Debug)]
 pub(super) struct Pause {
@@ -48,6 +48,10 @@ impl Screen for Pause {
             let task = SLIDES.get(index).and_then(|slide| slide.read()).map(|slide| slide.task);
             self.page.draw_note(&mut context.pen, &task.unwrap_or_default());
         }
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
     }
 
     fn name(&self) -> String {

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::scene_source::SceneSource;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use microsim_core::scenario;
 
 /// Names of built-in scenarios for people.
@@ -66,6 +66,10 @@ impl Screen for Pick {
         self.page.draw(&mut context.pen);
         let summary = self.sources.get(self.page.menu.focus()).map_or("", |(_, summary)| *summary);
         self.page.draw_note(&mut context.pen, summary);
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
     }
 
     fn name(&self) -> String {

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{Next, Overlay, Screen};
 use crate::input::{Input, Move};
 use crate::sound::Cue;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 
 #[derive(Debug)]
 pub(super) struct SettingsMenu {
@@ -86,6 +86,10 @@ impl Screen for SettingsMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
     }
 
     fn name(&self) -> String {

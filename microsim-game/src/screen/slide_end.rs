@@ -10,7 +10,7 @@ use crate::rules::attempt::Attempt;
 use crate::rules::round::RoundResult;
 use crate::slides::SLIDES;
 use crate::ui::font::TextSize;
-use crate::ui::menu::MenuLayout;
+use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::{Align, Pen};
 use crate::ui::stars::draw_stars;
 use macroquad::color::Color;
@@ -154,6 +154,10 @@ impl Screen for SlideEnd {
         }
         let layout = self.layout(pen);
         self.menu.menu.draw(pen, &layout);
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.menu.menu)
     }
 
     fn name(&self) -> String {

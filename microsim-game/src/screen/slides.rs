@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen};
 use crate::input::{Input, Move};
 use crate::slides::SLIDES;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 
 #[derive(Debug)]
 pub(super) struct SlideList {
@@ -46,6 +46,10 @@ impl Screen for SlideList {
         self.page.draw(&mut context.pen);
         let note = self.notes.get(self.page.menu.focus()).map_or("", String::as_str);
         self.page.draw_note(&mut context.pen, note);
+    }
+
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
     }
 
     fn name(&self) -> String {

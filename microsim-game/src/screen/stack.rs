@@ -18,6 +18,7 @@ use super::slides::SlideList;
 use super::title::Title;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::Input;
+use crate::ui::menu::Menu;
 
 /// The open screens, the topmost last.
 #[derive(Debug)]
@@ -53,6 +54,12 @@ impl Stack {
     #[must_use]
     pub fn is_scene(&self) -> bool {
         self.screens.last().is_some_and(|screen| screen.is_scene())
+    }
+
+    /// The menu of the topmost screen, unless that waits for a key.
+    #[must_use]
+    pub fn menu(&self) -> Option<&Menu> {
+        self.screens.last().filter(|screen| !screen.waits_for_key())?.menu()
     }
 
     /// Whether leaving the screens would lose a round.

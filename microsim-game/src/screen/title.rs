@@ -139,6 +139,10 @@ impl Screen for Title {
         pen.label(corner, TextSize::Small, Align::Right, HALO, version);
     }
 
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.menu)
+    }
+
     fn name(&self) -> String {
         "title".to_owned()
     }

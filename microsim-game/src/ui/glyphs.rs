@@ -1,6 +1,7 @@
 //! Letters: all that can be written, in every size, as one texture for one scale.
 
 use super::font::{TITLE, TextSize};
+use super::letters::letters;
 use crate::draw::canvas::Canvas;
 use macroquad::color::Color;
 use macroquad::texture::Texture2D;
@@ -53,13 +54,13 @@ impl Glyphs {
 
     /// Width of text, drawing units.
     pub(super) fn width(&self, size: TextSize, text: &str) -> f32 {
-        letters(&self.all, size, text).map(|glyph| glyph.advance).sum::<f32>() / self.density
+        glyphs(&self.all, size, text).map(|glyph| glyph.advance).sum::<f32>() / self.density
     }
 
     /// Writes text from a point on its base line on.
     pub(super) fn write(&mut self, at: Vec2, size: TextSize, colour: Color, text: &str) {
         let mut pen = (at * self.density).round();
-        for &Glyph { corner, side, offset, advance } in letters(&self.all, size, text) {
+        for &Glyph { corner, side, offset, advance } in glyphs(&self.all, size, text) {
             let low = (pen + offset).round();
             let on_sheet = [corner, [corner[0] + side[0], corner[1] + side[1]]].map(|place| point(place) / self.sheet);
             let on_screen = [low, low + point(side)].map(|place| place / self.density);
@@ -77,7 +78,7 @@ impl Glyphs {
 type GlyphMap = BTreeMap<(TextSize, char), Glyph>;
 
 /// The glyphs of a text.
-fn letters<'a>(all: &'a GlyphMap, size: TextSize, text: &'a str) -> impl Iterator<Item = &'a Glyph> {
+fn glyphs<'a>(all: &'a GlyphMap, size: TextSize, text: &'a str) -> impl Iterator<Item = &'a Glyph> {
     let of = move |letter| all.get(&(size, letter));
     text.chars().filter_map(move |letter| of(letter).or_else(|| of(MISSING)))
 }
@@ -89,7 +90,7 @@ fn point([x, y]: [usize; 2]) -> Vec2 {
 fn characters(size: TextSize) -> Vec<char> {
     match size {
         TextSize::Huge => TITLE.chars().collect(),
-        _ => (' '..='~').chain('\u{a1}'..='\u{ff}').collect(),
+        _ => letters().collect(),
     }
 }
 

@@ -155,8 +155,22 @@ impl Menu {
         layout.row(point).is_some_and(|row| row < self.items.len())
     }
 
+    /// What is read aloud: the number of the item in focus, then a line for each item.
+    #[must_use]
+    pub fn lines(&self) -> String {
+        let line = |item: &MenuItem| {
+            let value = item.value.iter().map(|value| format!(": {value}"));
+            let stars = item.stars.iter().map(|stars| format!(", {stars} stars"));
+            value.chain(stars).fold(format!("\n{}", item.label), |line, part| line + &part)
+        };
+        self.items.iter().fold(self.focus.to_string(), |lines, item| lines + &line(item))
+    }
+
     /// Moves through the menu by mouse and keyboard.
     pub fn update(&mut self, input: &Input, layout: &MenuLayout) -> Option<MenuChoice> {
+        if let Some(item) = input.item {
+            self.set_focus(item);
+        }
         let choice = self.click(input, layout).or_else(|| self.walk(input));
         if input.wheel != 0.0 && self.contains(input.cursor, layout) {
             self.focus =
@@ -268,6 +282,18 @@ mod tests {
         menu.update(&step(Move::Down), &LAYOUT);
         assert_eq!(menu.update(&step(Move::Left), &LAYOUT), Some(MenuChoice::Less(1)));
         assert_eq!(menu.update(&step(Move::Right), &LAYOUT), Some(MenuChoice::Pick(1)));
+    }
+
+    #[test]
+    fn what_is_read_aloud_can_be_pointed_at_and_chosen() {
+        let mut menu = menu();
+        menu.items[2] = MenuItem::rated("c", 3);
+        assert_eq!(menu.lines(), "0\na\nb: 1\nc, 3 stars\nd\ne");
+        assert_eq!(menu.update(&Input { item: Some(4), ..Input::default() }, &LAYOUT), None);
+        assert_eq!((menu.focus, menu.first), (4, 2));
+        let chosen = Input { item: Some(1), ..step(Move::Confirm) };
+        assert_eq!(menu.update(&chosen, &LAYOUT), Some(MenuChoice::Pick(1)));
+        assert_eq!(menu.update(&Input { item: Some(9), ..step(Move::Confirm) }, &LAYOUT), Some(MenuChoice::Pick(4)));
     }
 
     #[test]

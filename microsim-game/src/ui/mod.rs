@@ -2,6 +2,7 @@
 
 pub mod font;
 mod glyphs;
+mod letters;
 pub mod menu;
 pub mod pen;
 pub mod stars;

@@ -25,6 +25,8 @@ const LONGEST: u64 = 1 << 28;
 
 /// Whether the program can end of itself.
 pub const CAN_QUIT: bool = true;
+/// Whether menus are shown by more than their drawing.
+pub const SHOWS_MENUS: bool = false;
 
 /// The command line; the first word is the program's name. What is said about it goes to where it was written.
 pub fn arguments() -> impl Iterator<Item = OsString> {
@@ -110,6 +112,9 @@ pub fn screen_buttons() -> ScreenButtons {
 
 /// Nothing: there are no buttons on the screen to show or hide.
 pub fn show_buttons(_: bool, _: bool) {}
+
+/// Nothing: menus are drawn only.
+pub fn show_menu(_: &str, _: &str) {}
 
 /// Height at the lower edge that buttons cover, drawing units.
 #[must_use]

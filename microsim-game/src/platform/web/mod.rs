@@ -16,6 +16,8 @@ use std::{io, panic};
 
 /// Whether the program can end of itself: a page is closed.
 pub const CAN_QUIT: bool = false;
+/// Whether menus are shown by more than their drawing.
+pub const SHOWS_MENUS: bool = true;
 
 /// The command line that the page's address stands for; the first word is the program's name.
 pub fn arguments() -> impl Iterator<Item = OsString> {
@@ -72,13 +74,20 @@ pub fn dropped_files() -> Vec<PathBuf> {
 /// What the buttons of the page say.
 #[must_use]
 pub fn screen_buttons() -> ScreenButtons {
-    ScreenButtons { held: lines("held"), pressed: lines("pressed") }
+    let item = lines("item").concat().parse().ok();
+    ScreenButtons { held: lines("held"), pressed: lines("pressed"), item }
 }
 
 /// Shows the page's buttons, on devices that have no keys, or hides them; that for digestion only if it `digests`.
 pub fn show_buttons(are_wanted: bool, digests: bool) {
     let order = if are_wanted { "show buttons" } else { "hide buttons" };
     host::tell(order, if digests { "digest" } else { "" }, &[]);
+}
+
+/// Puts the menu that is drawn into the page too, where screen readers find it: the screen's name, empty for a scene, and the
+/// menu's lines.
+pub fn show_menu(screen: &str, lines: &str) {
+    host::tell("show menu", screen, lines.as_bytes());
 }
 
 /// Height at the lower edge that buttons cover, drawing units; 0 if there are none.

@@ -199,6 +199,10 @@ impl Screen for Sandbox {
         true
     }
 
+    fn menu(&self) -> Option<&Menu> {
+        self.shows.panel.then_some(&self.panel)
+    }
+
     fn name(&self) -> String {
         format!("{}-{}", self.stage.name(), self.stage.world().step_index())
     }
