@@ -16,12 +16,14 @@ pub(crate) mod free_fall;
 pub(crate) mod granular_column;
 pub(crate) mod granular_energy;
 pub(crate) mod hydrostatic_rest;
+pub(crate) mod oscillations;
 pub(crate) mod packing;
 pub(crate) mod pendulum;
 pub(crate) mod persistent_walk;
 pub(crate) mod plot;
 pub(crate) mod point_source;
 pub(crate) mod refinement;
+pub(crate) mod relaxation;
 pub(crate) mod restitution;
 pub(crate) mod run_and_tumble;
 pub(crate) mod scene;
@@ -43,10 +45,11 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 23] = [
+pub(crate) const ALL: [Experiment; 25] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
+    oscillations::EXPERIMENT,
     catenary::EXPERIMENT,
     coulomb::EXPERIMENT,
     restitution::EXPERIMENT,
@@ -64,6 +67,7 @@ pub(crate) const ALL: [Experiment; 23] = [
     angle_of_repose::EXPERIMENT,
     granular_energy::EXPERIMENT,
     constriction::EXPERIMENT,
+    relaxation::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
     crawl::EXPERIMENT,
