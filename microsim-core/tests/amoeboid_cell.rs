@@ -273,10 +273,16 @@ fn a_deformed_cell_becomes_round_without_overshoot() {
         let [left, rise] = relaxed(&mut long, cell, 4.0);
         assert!(left < 1.2 && rise < 0.03, "radius {radius}: aspect {left}, rose by {rise}");
     }
-    let (mut pressed, cell) = common::squeeze(&AmoeboidCellSpec::default().into());
-    run(&mut pressed, &Inputs::new(), 180);
-    assert!(aspect(&pressed, cell) > 1.25, "aspect {}", aspect(&pressed, cell));
-    let probes: Vec<OrganismId> = pressed.view().organisms().map(|o| o.id()).filter(|&id| id != cell).collect();
+    let (mut pressed, cell) = a_cell();
+    let probes = [-1.0, 1.0].map(|side| {
+        let press = Controller::patrol(vec![Vec2::new(80.0, 45.0)], false);
+        let spec = ProbeSpec { radius: 11.0, speed: 4.0, mass: 1000.0, max_acceleration: 400.0 };
+        pressed.spawn(&spec.into(), Placement::at(80.0 + 23.0 * side, 45.0).steered_by(press)).unwrap()
+    });
+    while aspect(&pressed, cell) < 1.5 {
+        run(&mut pressed, &Inputs::new(), 1);
+        assert!(pressed.time() < 5.0, "aspect {}", aspect(&pressed, cell));
+    }
     probes.into_iter().for_each(|probe| pressed.remove(probe).unwrap());
     let [left, rise] = relaxed(&mut pressed, cell, 3.0);
     assert!(left < 1.05 && rise < 0.03, "pressed: aspect {left}, rose by {rise}");

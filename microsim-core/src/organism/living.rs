@@ -132,12 +132,13 @@ impl Organism {
         self.locomotion.crawling_front().is_some()
     }
 
-    /// Rate at which its shape is damped, 1/s, if it is a cell at rest: it neither crawls nor divides nor takes anything in. Twice
+    /// Rate at which its shape is damped, 1/s, if it is a cell at rest: it neither crawls nor divides, fuses or takes anything in. Twice
     /// the angular frequency of the slowest change of shape, which falls with the content `n` as `n^(-3/4)`, so that it returns
     /// to a circle in the least time without overshoot.
     pub(crate) fn shape_damping(&self) -> Option<f32> {
         let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
-        let is_busy = self.crawls() || self.furrow().is_some() || self.meals().iter().any(ingests);
+        let divides = |divider: &Divider| divider.furrow.is_some() || divider.lobes > 1.0;
+        let is_busy = self.crawls() || self.divider.as_ref().is_some_and(divides) || self.meals().iter().any(ingests);
         let root = (self.fluid_particles.len() as f32).sqrt();
         (!is_busy && !self.is_quarantined && root > 0.0).then(|| SHAPE_DAMPING / (root * root.sqrt()))
     }
