@@ -10,7 +10,7 @@ use crate::parallel;
 use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::Membrane;
-use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, shape_damping, untangle};
+use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, untangle};
 use crate::world::World;
 use glam::Vec2;
 
@@ -272,11 +272,6 @@ fn update_velocities(world: &mut World, h: f32) {
     // Drag acts on the membrane only: the cytoplasm of a crawling cell is not damped.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
-    }
-    for (_, cell) in organisms.with_membrane() {
-        if let Some(rate) = cell.shape_damping() {
-            shape_damping::damp_shape(cell.particles(), particles, rate, h);
-        }
     }
     guard.wrong_side += u64::from(ring_contact::keep_sides(&scratch.broad_phase.ring_contacts, particles));
     contact::apply_restitution(&mut scratch.impacts, particles);

@@ -6,7 +6,7 @@ use crate::capability::controller::Controller;
 use crate::capability::crawl::Pseudopods;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, Prey};
+use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
 use crate::capability::progress::Progress;
 use crate::id::OrganismId;
 use crate::kind::Kind;
@@ -16,9 +16,6 @@ use crate::solver::fluid::{self, Fluid};
 use crate::solver::membrane::{Flexibility, Membrane, MembraneContent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
-
-/// Rate at which the shape of a cell at rest is damped, 1/s, times its number of particles of cytoplasm to the power of 3/4.
-const SHAPE_DAMPING: f32 = 585.0;
 
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -130,17 +127,6 @@ impl Organism {
     /// Whether it is crawling in this step.
     pub(crate) fn crawls(&self) -> bool {
         self.locomotion.crawling_front().is_some()
-    }
-
-    /// Rate at which its shape is damped, 1/s, if it is a cell at rest: it neither crawls nor divides, fuses or takes anything in. Twice
-    /// the angular frequency of the slowest change of shape, which falls with the content `n` as `n^(-3/4)`, so that it returns
-    /// to a circle in the least time without overshoot.
-    pub(crate) fn shape_damping(&self) -> Option<f32> {
-        let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
-        let divides = |divider: &Divider| divider.furrow.is_some() || divider.lobes > 1.0;
-        let is_busy = self.crawls() || self.divider.as_ref().is_some_and(divides) || self.meals().iter().any(ingests);
-        let root = (self.fluid_particles.len() as f32).sqrt();
-        (!is_busy && !self.is_quarantined && root > 0.0).then(|| SHAPE_DAMPING / (root * root.sqrt()))
     }
 
     /// Finds this step's tension of its membrane, if it has one.

@@ -19,7 +19,6 @@ pub(crate) mod membrane;
 pub(crate) mod muscle;
 pub(crate) mod obstacle;
 pub(crate) mod ring_contact;
-pub(crate) mod shape_damping;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod untangle;
