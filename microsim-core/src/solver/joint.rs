@@ -121,10 +121,14 @@ impl Joint {
         if !(length > 0.0 && length < f64::INFINITY && weight > 0.0) {
             return;
         }
-        let normal = Vec2::from(across.map(|way| (way / length) as f32));
-        let opening = b.moved - a.moved;
-        let before = length_of([0, 1].map(|k| across[k] - f64::from(opening[k])));
-        let lambda = self.law.multiplier([before, length], normal.dot(opening), weight, h);
+        let moved = (b.moved - a.moved).to_array().map(f64::from);
+        let earlier = [0, 1].map(|k| across[k] - moved[k]);
+        let before = length_of(earlier);
+        // As in `ConservativeDistance`: along the line when the substep began, unless it has changed too much for that.
+        let (way, long) = if 2.0 * length_of(moved) < before { (earlier, before) } else { (across, length) };
+        let cosine = (way[0] * across[0] + way[1] * across[1]) / (long * length);
+        let normal = Vec2::from(way.map(|way| (way / long) as f32));
+        let lambda = self.law.multiplier([before, length], weight, cosine as f32, h);
         let force = lambda.abs() / (h * h);
         self.is_broken = force > self.law.break_force;
         self.force = if force > self.force { force } else { self.force };
@@ -140,8 +144,9 @@ fn length_of([x, y]: [f64; 2]) -> f64 {
 }
 
 impl Law {
-    /// Multiplier for ends that were so far apart when the substep began, and are now, and have opened so far since.
-    fn multiplier(&self, [before, length]: [f64; 2], opening: f32, weight: f32, h: f32) -> f32 {
+    /// Multiplier for ends that were so far apart when the substep began, and are now; `cosine` is that of the angle between the
+    /// line through them and the line along which they are moved.
+    fn multiplier(&self, [before, length]: [f64; 2], weight: f32, cosine: f32, h: f32) -> f32 {
         let wanted = self.speed.map_or(f64::from(self.length), |speed| before + f64::from(speed * h));
         let error = (length - if wanted > 0.0 { wanted } else { 0.0 }) as f32;
         if self.only_pulls && error <= 0.0 {
@@ -149,9 +154,11 @@ impl Law {
         }
         let (alpha, gamma) = self.spring.map_or((0.0, 0.0), |[frequency, damping_ratio]| {
             let omega = TAU * frequency;
-            (weight / (omega * omega * h * h), 2.0 * damping_ratio / (omega * h))
+            let alpha = weight / (omega * omega * h * h);
+            (alpha, 2.0 * damping_ratio / (omega * h) - alpha / (alpha + weight))
         });
-        let lambda = ratio(-error - gamma * opening, (1.0 + gamma) * weight + alpha);
+        let opening = (length - before) as f32;
+        let lambda = ratio(-error - gamma * opening, (1.0 + gamma) * weight * cosine + alpha);
         let most = self.max_force * h * h;
         lambda.clamp(-most, most)
     }

@@ -135,6 +135,38 @@ impl<const L: usize> Pair<L> {
         each(|l| (b[l] - b_prev[l]) - (a[l] - a_prev[l]))
     }
 
+    /// By how much the square of their distance has grown since the substep began.
+    #[inline(always)]
+    pub(crate) fn growth(&self, particles: &Columns<'_>) -> [f32; L] {
+        let dx = self.parted(particles.x, particles.prev_x);
+        let dy = self.parted(particles.y, particles.prev_y);
+        each(|l| dx[l] * (2.0 * self.across_x[l] - dx[l]) + dy[l] * (2.0 * self.across_y[l] - dy[l]))
+    }
+
+    /// The two where they were when the substep began; where they are, in lanes where they have moved by half their distance or
+    /// more against each other since.
+    #[inline(always)]
+    pub(crate) fn earlier(&self, particles: &Columns<'_>) -> Self {
+        let dx = self.parted(particles.x, particles.prev_x);
+        let dy = self.parted(particles.y, particles.prev_y);
+        let (x, y) = (each::<L>(|l| self.across_x[l] - dx[l]), each::<L>(|l| self.across_y[l] - dy[l]));
+        let moved = each::<L>(|l| dx[l] * dx[l] + dy[l] * dy[l]);
+        let before = each::<L>(|l| x[l] * x[l] + y[l] * y[l]);
+        let is_near = |l: usize| 4.0 * moved[l] < before[l];
+        Self {
+            across_x: each(|l| if is_near(l) { x[l] } else { self.across_x[l] }),
+            across_y: each(|l| if is_near(l) { y[l] } else { self.across_y[l] }),
+            squared: each(|l| if is_near(l) { before[l] } else { self.squared[l] }),
+            ..*self
+        }
+    }
+
+    /// Scalar product of the vectors of two pairs.
+    #[inline(always)]
+    pub(crate) fn dot(&self, other: &Self, lane: usize) -> f32 {
+        self.across_x[lane] * other.across_x[lane] + self.across_y[lane] * other.across_y[lane]
+    }
+
     /// Moves both slots apart by `share` of the vector between them, times their inverse masses (together if negative).
     #[inline(always)]
     pub(crate) fn push(&self, particles: &mut Columns<'_>, share: [f32; L]) {

@@ -3,7 +3,7 @@
 use super::plot::{Curve, Plot};
 use super::scene::{Stepping, exponent};
 use super::{Experiment, Outcome, Row, catenary, free_fall, pendulum, spring};
-use microsim_core::Error;
+use microsim_core::{Constraint, Error};
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "convergence",
@@ -28,7 +28,11 @@ fn measure() -> Result<Outcome, Error> {
     let curves = [
         ("way of free fall", [0.9, 1.1], errors(|stepping| Ok(free_fall::fall(stepping)?[1] / 5.0 - 1.0))?),
         ("amplitude of a pendulum", [0.9, 1.1], errors(swing)?),
-        ("amplitude of a spring", [0.9, 1.1], errors(|stepping| Ok(spring::amplitude_kept(stepping, 3.0)?.ln()))?),
+        (
+            "amplitude of a spring",
+            [0.9, 1.1],
+            errors(|stepping| Ok(spring::amplitude_kept(Constraint::from, stepping, 3.0)?.ln()))?,
+        ),
         ("length of a chain", [1.0, 2.2], errors(catenary::stretch)?),
     ];
     let mut outcome = Outcome::default();

@@ -16,6 +16,7 @@ pub(crate) mod free_fall;
 pub(crate) mod granular_column;
 pub(crate) mod granular_energy;
 pub(crate) mod hydrostatic_rest;
+pub(crate) mod oscillations;
 pub(crate) mod packing;
 pub(crate) mod pendulum;
 pub(crate) mod persistent_walk;
@@ -43,10 +44,11 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 23] = [
+pub(crate) const ALL: [Experiment; 24] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
+    oscillations::EXPERIMENT,
     catenary::EXPERIMENT,
     coulomb::EXPERIMENT,
     restitution::EXPERIMENT,

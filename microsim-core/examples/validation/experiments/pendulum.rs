@@ -4,7 +4,7 @@ use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, last_particle, run_observed};
 use super::{Experiment, Outcome, Row};
 use microsim_core::glam::Vec2;
-use microsim_core::{Error, Node, Placement, Template, World};
+use microsim_core::{Constraint, Distance, Error, Node, Placement, Template, World};
 use std::f64::consts::{PI, TAU};
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
@@ -12,7 +12,8 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     title: "Pendulum",
     source: "Huygens 1673; any amplitude: `T = 2 pi sqrt(l / g) / agm(1, cos(amplitude / 2))` (Gauss's mean of Legendre's integral)",
     words: "A disc on a rigid link of 2.5 units, without drag. Nothing damps it but the integrator: implicit Euler keeps \
-            `exp(-omega² h t / 2)` of a small amplitude. Shorter substeps damp less, in proportion.",
+            `exp(-omega² h t / 2)` of a small amplitude. Shorter substeps damp less, in proportion. For less, see the section of \
+            oscillations that last.",
     run: measure,
 };
 
@@ -23,14 +24,25 @@ pub(crate) fn frequency() -> f64 {
     f64::from(GRAVITY / LENGTH).sqrt()
 }
 
-/// Time and angle after each step, radians.
+/// Time and angle after each step, radians, of a bob that is held by a distance.
 pub(crate) fn swing(stepping: Stepping, amplitude: f64, seconds: f32) -> Result<Vec<[f64; 2]>, Error> {
+    swing_on(Constraint::from, stepping, amplitude, seconds)
+}
+
+/// The same, held by what is made of that distance.
+pub(crate) fn swing_on(
+    holds: fn(Distance) -> Constraint,
+    stepping: Stepping,
+    amplitude: f64,
+    seconds: f32,
+) -> Result<Vec<[f64; 2]>, Error> {
     let pivot = Vec2::splat(10.0);
     let mut world = World::new(stepping.room(2.0 * pivot, GRAVITY))?;
     let mut builder = Template::builder();
     let fixed = builder.node(Node::fixed(Vec2::ZERO));
     let bob = builder.node(Node::disc(Vec2::new(0.0, -LENGTH), 1.0, 0.5));
-    builder.link(fixed, bob, 0.0);
+    let link = Distance { a: fixed, b: bob, rest_length: LENGTH, compliance: 0.0, damping: 0.0 };
+    builder.constraint(holds(link));
     let template = world.add_template(builder.build()?);
     let pendulum = world.spawn_template(template, Placement::at(pivot.x, pivot.y).turned(amplitude as f32))?;
     let mut angles = vec![[0.0, amplitude]];

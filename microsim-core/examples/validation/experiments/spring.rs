@@ -3,7 +3,7 @@
 use super::scene::{Stepping, last_particle, run_observed};
 use super::{Experiment, Outcome, Row, pendulum};
 use microsim_core::glam::Vec2;
-use microsim_core::{Distance, Error, Node, Placement, Template, World};
+use microsim_core::{Constraint, Distance, Error, Node, Placement, Template, World};
 use std::f64::consts::TAU;
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
@@ -20,14 +20,18 @@ pub(crate) const FREQUENCY: f64 = TAU;
 const LENGTH: f32 = 5.0;
 const STRETCH: f32 = 0.5;
 
-/// Time and stretch of the spring after each step, for so many periods.
-fn oscillation(stepping: Stepping, periods: f32) -> Result<Vec<[f64; 2]>, Error> {
+/// Time and stretch of a spring made of a distance after each step, for so many periods.
+pub(crate) fn oscillation(
+    holds: fn(Distance) -> Constraint,
+    stepping: Stepping,
+    periods: f32,
+) -> Result<Vec<[f64; 2]>, Error> {
     let mut world = World::new(stepping.room(Vec2::splat(20.0), 0.0))?;
     let mut builder = Template::builder();
     let fixed = builder.node(Node::fixed(Vec2::ZERO));
     let mass = builder.node(Node::disc(Vec2::new(LENGTH + STRETCH, 0.0), 1.0, 0.5));
     let compliance = (1.0 / (FREQUENCY * FREQUENCY)) as f32;
-    builder.constraint(Distance { a: fixed, b: mass, rest_length: LENGTH, compliance, damping: 0.0 });
+    builder.constraint(holds(Distance { a: fixed, b: mass, rest_length: LENGTH, compliance, damping: 0.0 }));
     let template = world.add_template(builder.build()?);
     let spring = world.spawn_template(template, Placement::at(10.0, 10.0))?;
     let mut stretches = Vec::new();
@@ -39,8 +43,12 @@ fn oscillation(stepping: Stepping, periods: f32) -> Result<Vec<[f64; 2]>, Error>
 }
 
 /// Share of the amplitude in the last of so many periods.
-pub(crate) fn amplitude_kept(stepping: Stepping, periods: f32) -> Result<f64, Error> {
-    let stretches = oscillation(stepping, periods)?;
+pub(crate) fn amplitude_kept(
+    holds: fn(Distance) -> Constraint,
+    stepping: Stepping,
+    periods: f32,
+) -> Result<f64, Error> {
+    let stretches = oscillation(holds, stepping, periods)?;
     let last = stretches.iter().filter(|[t, _]| *t > f64::from(periods) - 1.0);
     Ok(last.fold(0.0, |most: f64, [_, stretch]| most.max(*stretch)) / f64::from(STRETCH))
 }
@@ -55,9 +63,9 @@ fn measure() -> Result<Outcome, Error> {
     for substeps in [8, 16, 64] {
         let stepping = Stepping::of_substeps(substeps);
         let what = format!("share of the amplitude kept, {substeps} substeps");
-        let period = pendulum::period(&oscillation(stepping, 3.0)?);
+        let period = pendulum::period(&oscillation(Constraint::from, stepping, 3.0)?);
         rows.push(Row::near(format!("period, {substeps} substeps, s"), 1.0, 0.005, period));
-        rows.push(Row::near(what, law(stepping, 10.0), 0.02, amplitude_kept(stepping, 10.0)?));
+        rows.push(Row::near(what, law(stepping, 10.0), 0.02, amplitude_kept(Constraint::from, stepping, 10.0)?));
     }
     Ok(Outcome { rows, ..Outcome::default() })
 }

@@ -3,6 +3,7 @@
 mod anchor;
 mod area;
 mod bend;
+mod conservative_distance;
 mod distance;
 mod min_distance;
 mod rope;
@@ -11,6 +12,7 @@ pub use anchor::Anchor;
 pub use area::Area;
 pub(super) use area::MeasuredRing;
 pub use bend::Bend;
+pub use conservative_distance::ConservativeDistance;
 pub use distance::Distance;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
@@ -40,6 +42,7 @@ pub enum Constraint {
     Anchor(Anchor),
     Rope(Rope),
     Bend(Bend),
+    ConservativeDistance(ConservativeDistance),
 }
 
 /// What every kind of constraint says of itself.
@@ -81,6 +84,7 @@ impl Constraint {
             Self::Anchor(c) => task.run(c),
             Self::Rope(c) => task.run(c),
             Self::Bend(c) => task.run(c),
+            Self::ConservativeDistance(c) => task.run(c),
         }
     }
 
@@ -176,6 +180,7 @@ mod tests {
             Anchor { node: a, anchor: b, rest_length, max_length: 1.0, compliance }.into(),
             Rope { a, b, max_length: 1.0 }.into(),
             Bend::new([0, 1, 2], 0.0, compliance).into(),
+            ConservativeDistance { a, b, rest_length, compliance, damping: 0.0 }.into(),
         ];
         let orders = std::collections::BTreeSet::from(kinds.each_ref().map(|kind| kind.run(Borrow).order()));
         assert_eq!(orders.len(), kinds.len());

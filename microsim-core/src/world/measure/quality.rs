@@ -145,10 +145,14 @@ impl World {
         let scale = self.scale_of(organism);
         let is_outline = |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
         self.constraints_of(organism).iter().zip(0..).filter_map(move |(constraint, k)| {
-            let Constraint::Distance(c) = constraint else { return None };
-            let (a, b) = (organism.body.particle(c.a) as usize, organism.body.particle(c.b) as usize);
-            let is_ring_link = is_outline(c.a) && is_outline(c.b) && c.rest_length > 0.0;
-            let rest_length = || c.rest_length * scale * self.contraction_of(organism, k);
+            let ([node_a, node_b], rest_length) = match constraint {
+                Constraint::Distance(c) => ([c.a, c.b], c.rest_length),
+                Constraint::ConservativeDistance(c) => ([c.a, c.b], c.rest_length),
+                _ => return None,
+            };
+            let (a, b) = (organism.body.particle(node_a) as usize, organism.body.particle(node_b) as usize);
+            let is_ring_link = is_outline(node_a) && is_outline(node_b) && rest_length > 0.0;
+            let rest_length = || rest_length * scale * self.contraction_of(organism, k);
             is_ring_link.then(|| self.particles.between(a, b).length() / rest_length() - 1.0)
         })
     }
