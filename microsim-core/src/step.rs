@@ -108,6 +108,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     stop_sleepers(world);
     world.gather_joints();
     world.scale_gravity();
+    world.kick_bodies();
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {

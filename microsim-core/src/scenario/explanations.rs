@@ -33,6 +33,16 @@ const WORDS: &[(&str, &str)] = &[
     ("world.protects_membranes", "Whether membranes are kept from leaking. Off is for comparison only."),
     ("world.sleeps", "Whether what lies still is left out of the step until something that moves comes near."),
     ("world.max_particles", "Most particles that the world accepts."),
+    (
+        "medium",
+        "What fills the room; its molecules kick what has no membrane, as strongly as the drag (world.damping) lets them move it.",
+    ),
+    ("medium.temperature", "Temperature, degrees Celsius."),
+    ("medium.viscosity", "Viscosity, mPa s; of water 1, of plasma 1.2."),
+    (
+        "medium.time_lapse",
+        "How many times as fast as in reality time passes: Brownian motion is so many times as strong.",
+    ),
     ("field", "Organisms on a jittered grid."),
     ("field.*.of", "Name of a prototype."),
     ("field.*.count", "How many."),
@@ -133,6 +143,10 @@ const WORDS: &[(&str, &str)] = &[
     ("spawn.*.within", "The box, [[x0, y0], [x1, y1]], micrometres; without it the room."),
     ("spawn.*.gap", "Least distance from everything else, micrometres."),
     ("spawn.*.angle", "Direction, degrees, or \"random\"."),
+    (
+        "spawn.*.tier",
+        "Tier of the slide that they lie in. Those in different tiers pass over each other; without one they meet all.",
+    ),
     ("spawn.*.scale", "Size relative to the prototype, or [smallest, largest]."),
     ("spawn.*.controller", "Name of the controller that moves it; without it, it rests."),
     ("spawn.*.name", "A name for commands and views."),

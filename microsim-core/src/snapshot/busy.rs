@@ -2,7 +2,7 @@
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, AvoidanceParams, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
+    AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
     CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Event, Exchange, FieldKind, FleeParams,
     FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle,
     ObstacleId, ObstacleMotion, OrganismId, PersistentWalkParams, Placement, Propulsion, PursueParams, Refusal, Region,
@@ -122,8 +122,10 @@ fn blow(world: &mut World) {
         FieldKind::Uniform { acceleration: Vec2::ZERO },
         FieldKind::Radial { centre, acceleration: 0.0 },
         FieldKind::Vortex { centre, acceleration: 0.0 },
+        FieldKind::Thermal { mobility: 0.0 },
     ];
-    let regions = [Region::All, Region::Circle { centre, radius: 5.0 }, Region::Box { low: Vec2::ZERO, high: centre }];
+    let circle = Region::Circle { centre, radius: 5.0 };
+    let regions = [Region::All, circle, Region::Box { low: Vec2::ZERO, high: centre }, circle];
     let fields = kinds.into_iter().zip(regions).map(|(kind, region)| ForceField { region, kind });
     let fields: Vec<_> = fields.map(|field| world.add_field(field).unwrap()).collect();
     let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();
@@ -131,10 +133,11 @@ fn blow(world: &mut World) {
     assert_eq!(fields.len(), world.fields().count());
 }
 
-/// A custom body, with a muscle.
+/// A custom body, with a muscle and a soft bend.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
-    let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    let [a, b, c] = [0.0, 2.0, 4.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    builder.constraint(Bend::new([a, b, c], 0.0, 0.1));
     let channel = builder.channel([1.0, 0.5]);
     builder.muscle(channel, Rope { a, b, max_length: 3.0 });
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
