@@ -1,4 +1,4 @@
-//! Force fields as plain data: an acceleration in a region.
+//! Force fields as plain data: an acceleration in a region, or the kicks of molecules there.
 
 use crate::error::{Error, in_range};
 use glam::Vec2;
@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 const FARTHEST: f32 = 1e5;
 /// Largest acceleration, units/s2.
 const STRONGEST: f32 = 1e6;
+/// Largest mobility of a thermal field, cubic units/s.
+const MOST_MOBILE: f32 = 1e4;
 
 /// Where a field acts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,6 +56,15 @@ pub enum FieldKind {
         /// Size of the acceleration.
         acceleration: f32,
     },
+    /// Brownian motion of bodies, by their size: Langevin's equation with the world's drag (Langevin 1908, C. R. Acad. Sci. 146,
+    /// 530). A body with the area of a disc of radius `a` and its centre in the region diffuses with `D = mobility / a` (Stokes
+    /// and Einstein: `k T / (6 pi eta)` is 0.215 cubic micrometres/s in water of 20 degrees) and turns with `3 D / (4 a^2)`, once
+    /// the time `1 / damping` has passed. What has a membrane, is fluid, follows a goal or is held by a cell is not kicked;
+    /// neither is anything without [`crate::WorldConfig::damping`]. The speed limit must be some times the speed `sqrt(D damping)`.
+    Thermal {
+        /// Diffusion coefficient times radius, cubic units/s, 0 to 10 000.
+        mobility: f32,
+    },
 }
 
 /// A force field, see [`crate::World::add_field`].
@@ -66,7 +77,8 @@ pub struct ForceField {
 }
 
 impl ForceField {
-    /// Acceleration of what is at a point, units/s2; zero outside of its region, and at the centre of a radial field or vortex.
+    /// Acceleration of what is at a point, units/s2; zero outside of its region, at the centre of a radial field or vortex, and
+    /// in a thermal field.
     #[must_use]
     pub fn acceleration_at(&self, point: Vec2) -> Vec2 {
         if !self.region.contains(point) {
@@ -77,6 +89,15 @@ impl ForceField {
             FieldKind::Uniform { acceleration } => acceleration,
             FieldKind::Radial { centre, acceleration } => outward(centre) * acceleration,
             FieldKind::Vortex { centre, acceleration } => outward(centre).perp() * acceleration,
+            FieldKind::Thermal { .. } => Vec2::ZERO,
+        }
+    }
+
+    /// Mobility of what is at a point, see [`FieldKind::Thermal`].
+    pub(crate) fn mobility_at(&self, point: Vec2) -> f32 {
+        match self.kind {
+            FieldKind::Thermal { mobility } if self.region.contains(point) => mobility,
+            _ => 0.0,
         }
     }
 
@@ -128,6 +149,7 @@ impl FieldKind {
                 point_in_range("centre", centre)?;
                 in_range("acceleration", acceleration, -STRONGEST, STRONGEST)
             }
+            Self::Thermal { mobility } => in_range("mobility", mobility, 0.0, MOST_MOBILE),
         }
     }
 }
@@ -165,6 +187,7 @@ mod tests {
         assert_eq!(refused(Region::Box { low: Vec2::ONE, high: Vec2::X }, wind), "region.high.y");
         let blown = FieldKind::Uniform { acceleration: Vec2::new(0.0, 2e6) };
         assert_eq!(refused(Region::All, blown), "kind.acceleration.y");
+        assert_eq!(refused(Region::All, FieldKind::Thermal { mobility: -1.0 }), "kind.mobility");
         assert_eq!(refused(Region::All, FieldKind::Vortex { centre, acceleration: f32::NAN }), "kind.acceleration");
     }
 }

@@ -40,6 +40,11 @@ impl OrganismId {
     pub(crate) fn crawl_stream(self) -> u64 {
         self.stream() ^ (1 << 62)
     }
+
+    /// Stream of the kicks that it gets from molecules.
+    pub(crate) fn thermal_stream(self) -> u64 {
+        self.stream() ^ (1 << 61)
+    }
 }
 
 /// Names a template that was added to a world; valid as long as the world.

@@ -245,6 +245,9 @@ pub(crate) struct AmoeboidLook {
     pub granules: &'static [GranuleLook],
     /// Retraction fibres that the tail drags behind it.
     pub fibres: u32,
+    /// Thin processes that come and go around it: their number, and the longest.
+    pub processes: u32,
+    pub longest_process: f32,
     /// Smallest and largest bleb of those that come and go while it holds prey.
     pub blebs: [f32; 2],
 }

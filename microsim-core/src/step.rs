@@ -109,6 +109,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.find_grips();
     world.gather_joints();
     world.scale_gravity();
+    world.kick_bodies();
     finished(Phase::FindPairs);
     let h = world.config.substep();
     for substep in 0..world.config.substeps {

@@ -69,6 +69,11 @@ impl Blueprint {
         Ok(Self { template, scale: radius, mass, ..Self::of(kind, std::f32::consts::PI * radius * radius) })
     }
 
+    /// Whether it is fluid or a membrane around fluid.
+    pub(crate) fn holds_fluid(&self) -> bool {
+        self.has_membrane || self.fluid.is_some()
+    }
+
     pub(crate) fn particle_count(&self) -> usize {
         let nodes = self.template.as_ref().map_or(0, |template| template.nodes().len());
         nodes + self.fluid.as_ref().map_or(0, |fluid| fluid.points.len())

@@ -3,6 +3,7 @@
 use crate::capability::controller::Controller;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::{rotate, unit_vector};
+use crate::particle::CollisionGroups;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -24,13 +25,17 @@ pub struct Placement {
     /// others that press. Contacts push them apart in the next step; where nothing holds them they fly apart, at up to the speed
     /// limit. Organisms with an outline are spawned, and overlapped, by 0.02 at most.
     pub overlap: f32,
+    /// What its discs collide with, those excepted that its template lets collide with less: a tier of the slide
+    /// ([`CollisionGroups::in_tier`]) lets it pass over what lies in others. What has a membrane or is fluid is in all groups.
+    pub groups: CollisionGroups,
 }
 
 impl Placement {
     /// At this place, unturned, in its own size, steered by inputs only.
     #[must_use]
     pub fn at(x: f32, y: f32) -> Self {
-        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller: Controller::Still, overlap: TOUCHING }
+        let (controller, groups) = (Controller::Still, CollisionGroups::ALL);
+        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller, overlap: TOUCHING, groups }
     }
 
     /// The same with another controller.
@@ -58,6 +63,13 @@ impl Placement {
     #[must_use]
     pub fn overlapping(mut self, share: f32) -> Self {
         self.overlap = share;
+        self
+    }
+
+    /// The same, colliding with these groups only, see [`Placement::groups`].
+    #[must_use]
+    pub fn in_groups(mut self, groups: CollisionGroups) -> Self {
+        self.groups = groups;
         self
     }
 

@@ -110,7 +110,7 @@ impl Spec for RedCellSpec {
             outline: OutlineLook {
                 size: 0.08,
                 waves: [0.055, 0.021],
-                decay: 1.6,
+                decay: 2.0,
                 spread: 0.7,
                 ovals: 0.10,
                 tails: 0.04,

@@ -77,6 +77,11 @@ impl OrganismSpec {
         self.blueprint().is_ok_and(|blueprint| blueprint.engulfer.is_some())
     }
 
+    /// Whether it is fluid or a membrane around fluid.
+    pub(crate) fn holds_fluid(&self) -> bool {
+        self.blueprint().is_ok_and(|blueprint| blueprint.holds_fluid())
+    }
+
     /// The same in another size, and the scale that is left for [`super::Placement::scale`]. Where fluid is part of it, the
     /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (seed, 3.1.2).
     #[must_use]

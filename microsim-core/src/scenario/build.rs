@@ -67,7 +67,10 @@ impl Scenario {
 
     /// Puts everything into the world that is there from the beginning; returns the spawners of the rest.
     fn fill(&self, built: &mut Built, context: &ReadContext<'_>) -> Vec<Spawner> {
-        let File { config, chemicals, obstacles, groups, supplies, .. } = &self.file;
+        let File { config, medium, chemicals, obstacles, groups, supplies, .. } = &self.file;
+        if let Some(field) = medium {
+            context.check("medium", built.world.add_field(*field));
+        }
         for (name, spec) in chemicals {
             if let Some(id) = context.check(&format!("chemical.{name}"), built.world.add_chemical(*spec)) {
                 built.chemicals.push((name.clone(), id));

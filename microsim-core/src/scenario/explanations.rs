@@ -55,6 +55,16 @@ const WORDS: &[(&str, &str)] = &[
     ("drain.*.at", "Centre of a disc, micrometres. Otherwise it is a box."),
     ("drain.*.radius", "Radius of that disc, micrometres."),
     ("drain.*.within", "[lower left, upper right] corner of the box, micrometres; the room by default."),
+    (
+        "medium",
+        "What fills the room; its molecules kick what has no membrane, as strongly as the drag (world.damping) lets them move it.",
+    ),
+    ("medium.temperature", "Temperature, degrees Celsius."),
+    ("medium.viscosity", "Viscosity, mPa s; of water 1, of plasma 1.2."),
+    (
+        "medium.time_lapse",
+        "How many times as fast as in reality time passes: Brownian motion is so many times as strong.",
+    ),
     ("field", "Organisms on a jittered grid."),
     ("field.*.of", "Name of a prototype."),
     ("field.*.count", "How many."),
@@ -155,6 +165,10 @@ const WORDS: &[(&str, &str)] = &[
     ("spawn.*.within", "The box, [[x0, y0], [x1, y1]], micrometres; without it the room."),
     ("spawn.*.gap", "Least distance from everything else, micrometres."),
     ("spawn.*.angle", "Direction, degrees, or \"random\"."),
+    (
+        "spawn.*.tier",
+        "Tier of the slide that they lie in. Those in different tiers pass over each other; without one they meet all.",
+    ),
     ("spawn.*.scale", "Size relative to the prototype, or [smallest, largest]."),
     ("spawn.*.controller", "Name of the controller that moves it; without it, it rests."),
     ("spawn.*.name", "A name for commands and views."),

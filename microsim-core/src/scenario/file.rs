@@ -8,13 +8,14 @@ use super::sections::command::{self, Command};
 use super::sections::controller::{self, Controllers};
 use super::sections::game::{self, Game};
 use super::sections::group::{self, Group};
+use super::sections::medium;
 use super::sections::output::{self, OutputPlan};
 use super::sections::slide::{self, Slide};
 use super::sections::spawn::{self, Definitions};
 use super::sections::supply::{self, Supplies};
 use super::sections::{field, obstacle, prototype, world};
-use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
+use crate::{ForceField, WorldConfig};
 use toml::de::DeTable;
 
 /// Version of the format.
@@ -29,6 +30,7 @@ pub(super) struct File {
     pub description: String,
     pub duration: f32,
     pub config: WorldConfig,
+    pub medium: Option<ForceField>,
     pub chemicals: Chemicals,
     pub obstacles: Vec<Obstacle>,
     pub groups: Vec<Group>,
@@ -62,6 +64,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
     let size = size.or_else(|| field::room_for(&plans, context)).unwrap_or(config.size);
     let config = WorldConfig { size, ..config };
     let obstacles = obstacle::read(&mut root, size);
+    let medium = medium::read(&mut root);
     let chemicals = chemical::read(&mut root, &config);
     let controllers = controller::read(&mut root, size, &chemicals);
     let definitions = Definitions { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
@@ -80,6 +83,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
         description,
         duration,
         config,
+        medium,
         chemicals,
         obstacles,
         groups,

@@ -2,6 +2,7 @@
 
 use super::reader::ReadContext;
 use super::sections::group::{Angle, Group, Positions};
+use crate::CollisionGroups;
 use crate::collision::obstacle::Obstacle;
 use crate::organism::{OrganismSpec, Placement};
 use crate::rng::Rng;
@@ -88,7 +89,7 @@ fn random(group: &Group, mut rng: Rng, taken: &mut Taken<'_>) -> Vec<Placed> {
         let radius = group.prototype.extent(scale);
         let (low, high) = (low + radius, high - radius);
         let mut tries = (0..TRIES).map(|_| Vec2::new(rng.range(low.x, high.x), rng.range(low.y, high.y)));
-        let Some(at) = tries.find(|&at| taken.is_free(at, radius + gap)) else {
+        let Some(at) = tries.find(|&at| taken.is_free(at, radius + gap, group.groups)) else {
             return placed;
         };
         placed.push(place(group, at, scale, angle));
@@ -112,7 +113,7 @@ pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
     let extent = group.prototype.extent(scale);
     let (spec, scale) = group.prototype.scaled(scale);
     let controller = group.controller.clone();
-    let placement = Placement { angle, scale, controller, ..Placement::at(at.x, at.y) };
+    let placement = Placement { angle, scale, controller, groups: group.groups, ..Placement::at(at.x, at.y) };
     Placed { spec, placement, extent }
 }
 
@@ -122,7 +123,7 @@ struct Taken<'a> {
     cell: f32,
     /// Largest radius.
     reach: f32,
-    circles: BTreeMap<[i32; 2], Vec<(Vec2, f32)>>,
+    circles: BTreeMap<[i32; 2], Vec<(Vec2, f32, CollisionGroups)>>,
     obstacles: &'a [Obstacle],
 }
 
@@ -137,16 +138,18 @@ impl<'a> Taken<'a> {
 
     fn add(&mut self, placed: &Placed) {
         let at = placed.placement.at;
-        self.circles.entry(self.cell_of(at)).or_default().push((at, placed.extent));
+        self.circles.entry(self.cell_of(at)).or_default().push((at, placed.extent, placed.placement.groups));
     }
 
-    fn is_free(&self, at: Vec2, radius: f32) -> bool {
+    fn is_free(&self, at: Vec2, radius: f32, groups: CollisionGroups) -> bool {
         let blocked = |obstacle: &Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
         let [left, bottom] = self.cell_of(at - (radius + self.reach));
         let [right, top] = self.cell_of(at + (radius + self.reach));
         let cells = (left..=right).flat_map(|i| (bottom..=top).map(move |j| [i, j]));
         let mut circles = cells.filter_map(|cell| self.circles.get(&cell)).flatten();
-        let is_apart = |&(other, reach): &(Vec2, f32)| (other - at).length() >= reach + radius;
+        let is_apart = |&(other, reach, others): &(Vec2, f32, CollisionGroups)| {
+            !others.meets(groups) || (other - at).length() >= reach + radius
+        };
         circles.all(is_apart) && !self.obstacles.iter().any(blocked)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::placing::{self, Placed};
 use super::sections::group::{Group, Positions};
-use crate::World;
 use crate::id::OrganismId;
 use crate::rng::Rng;
+use crate::{CollisionGroups, World};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -74,7 +74,11 @@ impl Spawner {
             }
             Positions::Grid(_) => return None,
         };
-        if world.organisms_in_circle(at, radius + gap).next().is_some() {
+        let meets = |id: OrganismId| {
+            let tier = world.view().organism(id).and_then(|organism| organism.tier());
+            tier.and_then(CollisionGroups::in_tier).is_none_or(|groups| groups.meets(self.group.groups))
+        };
+        if world.organisms_in_circle(at, radius + gap).any(meets) {
             return None;
         }
         let Placed { spec, placement, .. } = placing::place(&self.group, at, scale, angle);

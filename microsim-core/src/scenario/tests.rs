@@ -263,3 +263,36 @@ fn a_slide_has_goals_within_reach_and_a_time_for_each_star() {
     let idle = slide.split("[[slide.goal]]").next().unwrap_or_default();
     assert!(Scenario::parse(idle, &[]).unwrap_err().to_string().contains("slide.goal: nothing to do"));
 }
+
+#[test]
+fn tiers_share_a_place_and_what_holds_fluid_has_none() {
+    let crowd = "[[spawn]]\nof = 'a'\ntier = 0\ncount = 200\n[[spawn]]\nof = 'a'\ntier = 1\ncount = 200\n";
+    let world = with(crowd).build().unwrap().world;
+    let discs = discs(&world);
+    let overlap = |(k, &(a, _)): (usize, &(Vec2, f32))| discs[k + 1..].iter().any(|&(b, _)| (a - b).length() < 1.0);
+    assert_eq!(discs.len(), 400);
+    assert!(discs.iter().enumerate().filter(|&pair| overlap(pair)).count() > 20);
+    let refused = |extra: &str| Scenario::parse(&format!("{ROOM}{extra}"), &[]).unwrap_err().to_string();
+    let message = refused("[amoeboid_cell.b]\nradii = [5, 5]\n[[spawn]]\nof = 'b'\nat = [20, 20]\ntier = 1\n");
+    assert!(message.contains("what holds fluid meets everything"), "{message}");
+    assert!(refused("[[spawn]]\nof = 'a'\nat = [20, 20]\ntier = 32\n").contains("32 is out of range"));
+}
+
+#[test]
+fn a_medium_kicks_as_stokes_and_einstein_say() {
+    use crate::FieldKind;
+    let mobility = |extra: &str| {
+        let world = with(extra).build().unwrap().world;
+        world.fields().next().map(|(_, field)| match field.kind {
+            FieldKind::Thermal { mobility } => mobility,
+            _ => panic!("not thermal"),
+        })
+    };
+    assert_eq!(mobility(""), None);
+    assert_eq!(mobility("[medium]\ntime_lapse = 0.0\n"), None);
+    // In water of 20 degrees.
+    let water = mobility("[medium]\nviscosity = 1.002\n").unwrap();
+    assert!((water - 0.2143).abs() < 0.0005, "{water}");
+    let plasma = mobility("[medium]\ntemperature = 37.0\nviscosity = 1.2\ntime_lapse = 8.0\n").unwrap();
+    assert!((plasma - 8.0 * 0.1893).abs() < 0.002, "{plasma}");
+}

@@ -125,8 +125,10 @@ fn blow(world: &mut World) {
         FieldKind::Uniform { acceleration: Vec2::ZERO },
         FieldKind::Radial { centre, acceleration: 0.0 },
         FieldKind::Vortex { centre, acceleration: 0.0 },
+        FieldKind::Thermal { mobility: 0.0 },
     ];
-    let regions = [Region::All, Region::Circle { centre, radius: 5.0 }, Region::Box { low: Vec2::ZERO, high: centre }];
+    let circle = Region::Circle { centre, radius: 5.0 };
+    let regions = [Region::All, circle, Region::Box { low: Vec2::ZERO, high: centre }, circle];
     let fields = kinds.into_iter().zip(regions).map(|(kind, region)| ForceField { region, kind });
     let fields: Vec<_> = fields.map(|field| world.add_field(field).unwrap()).collect();
     let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();

@@ -276,6 +276,30 @@ mod tests {
     }
 
     #[test]
+    fn bodies_of_different_tiers_lie_over_each_other_and_meet_what_is_in_none() {
+        use crate::RedCellSpec;
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let tier = |tier| CollisionGroups::in_tier(tier).unwrap();
+        let at = |x: f32, groups| Placement::at(x, 40.0).in_groups(groups);
+        let [low, high] = [(30.0, tier(0)), (33.0, tier(1))]
+            .map(|(x, groups)| world.spawn(&RedCellSpec::default().into(), at(x, groups)).unwrap());
+        for groups in [tier(0), CollisionGroups::ALL] {
+            assert!(world.spawn(&RedCellSpec::default().into(), at(35.0, groups)).is_err());
+        }
+        let refused = world.spawn(&AmoeboidCellSpec::default().into(), at(80.0, tier(0))).unwrap_err();
+        assert_eq!(refused.field(), "groups");
+        world.push(low, Vec2::new(4.0, 0.0)).unwrap();
+        run(&mut world, 120);
+        assert_eq!(world.centroid(high), Some(Vec2::new(33.0, 40.0)), "nothing touched it");
+        assert!(world.centroid(low).unwrap().x > 33.0);
+        assert_eq!([low, high].map(|id| world.view().organism(id).unwrap().tier()), [Some(0), Some(1)]);
+        let wall = world.spawn(&RedCellSpec::default().into(), at(60.0, CollisionGroups::ALL)).unwrap();
+        world.push(low, Vec2::new(20.0, 0.0)).unwrap();
+        run(&mut world, 240);
+        assert!(world.centroid(wall).unwrap().x > 60.1 && world.view().organism(wall).unwrap().tier().is_none());
+    }
+
+    #[test]
     fn user_data_are_kept_to_the_bit() {
         let mut world = room();
         let ball = agar(&mut world, 20.0, 45.0);

@@ -87,6 +87,9 @@ impl World {
         if blueprint.fluid.is_some() && placement.scale != 1.0 {
             return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
         }
+        if blueprint.holds_fluid() && placement.groups != CollisionGroups::ALL {
+            return Err(Error::unsupported("groups", "all groups for what has a membrane or is fluid"));
+        }
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
@@ -291,7 +294,7 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
         velocity: Vec2::ZERO,
         inv_mass: 1.0 / (node.mass * blueprint.mass),
         radius: node.radius * scale,
-        groups: node.groups,
+        groups: node.groups.and(placement.groups),
         material: node.material,
         role: node.role as u8,
         owner,

@@ -48,7 +48,7 @@ float nucleus_at(vec2 place, float softness) {
     if (depth <= -2.0 * softness - 0.3) {
         return 0.0;
     }
-    float uneven = 0.04 * middle.z * two_octaves(from_centre / (0.13 * middle.z), shifts[4]);
+    float uneven = 0.03 * middle.z * two_octaves(from_centre / (0.13 * middle.z), shifts[4]);
     float width = max(softness, 0.12);
     return rising(-width, width, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
 }

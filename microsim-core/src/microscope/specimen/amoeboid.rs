@@ -4,11 +4,12 @@
 //! particles of the cytoplasm, the nucleus on the membrane's own order of nodes, the front on how the cell moves and is
 //! shaped.
 
+mod threads;
+
 use super::distance_field::{DistanceField, united};
 use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
-use super::thread::Thread;
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
 use crate::look::{AmoeboidLook, GranuleLook, SpotShape};
 use crate::microscope::glsl::Glsl;
@@ -39,15 +40,18 @@ const NECK: f32 = 0.10;
 const RAGS: f32 = 0.3;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
-const RAGS_BEHIND: f32 = 0.3;
+const RAGS_BEHIND: f32 = 0.6;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
-const CHROMATIN: [f32; 2] = [-0.25, 0.35];
+const CHROMATIN: [f32; 2] = [-0.45, 0.5];
+/// Brownian motion of a granule of 0.2 micrometres: how far it gets, micrometres, and how often it turns back, 1/s.
+const JIGGLE: f32 = 0.09;
+const JIGGLE_RATE: f32 = 3.0;
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
-const REGION: u32 = 10;
+const REGION: u32 = 16;
 
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
@@ -262,7 +266,7 @@ impl AmoeboidBody {
         let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.04 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
+        let uneven = 0.03 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
     }
@@ -283,7 +287,7 @@ impl AmoeboidBody {
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
             let mut own = |spread: f32| libm::expf(spread * region.normal());
-            let (many, size) = (0.7 * own(0.8), own(0.25));
+            let (many, size) = (0.55 * own(1.1), own(0.3));
             let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
             let expected = look.density * 0.866 * spacing * spacing * many;
             let count = (expected + rng.unit()) as u32;
@@ -303,12 +307,14 @@ impl AmoeboidBody {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
         let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
+        let dense = rng.range([0.35, 1.25]);
         let seed = rng.bits();
-        let jitter = Vec2::new(wobble(self.time * 1.7, seed), wobble(self.time * 1.7, seed ^ 1)) * 0.06;
+        let now = self.time * JIGGLE_RATE;
+        let jitter = Vec2::new(wobble(now, seed), wobble(now, seed ^ 1)) * (JIGGLE * (0.2 / radius).sqrt());
         let at = self.field.pushed_inside(carrier + offset + jitter, radius + 0.1);
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
-        let matter = look.matter * (2.0 * radius * share);
+        let matter = look.matter * (2.0 * radius * share * dense);
         let shown = if focus > 0.0 && radius < 0.3 {
             let wide = radius + 0.08 * focus;
             Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
@@ -335,20 +341,6 @@ impl AmoeboidBody {
         let radius = rng.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.field.at(prey));
         let reach = self.field.crossing(self.centre, direction, 0.05 * self.radius)?;
         (radius > 0.05).then_some((self.centre + direction * (reach + 0.3 * radius), radius))
-    }
-
-    /// Retraction fibres, which the tail leaves on the glass.
-    pub(super) fn threads(&self) -> Vec<Thread> {
-        let Front { direction, tail: strength, behind, .. } = self.front;
-        let mut rng = HashRng::new(self.seed ^ 0xf1b);
-        let tail = self.field.pushed_inside(self.centre - direction * behind, 0.1);
-        let fibre = |_| {
-            let direction = rotate(-direction, unit_vector(rng.range([-0.45, 0.45])));
-            let length = rng.range([2.0, 4.0]) * strength;
-            let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
-            Thread { from: tail, to: tail + direction * length, radius: 0.09, matter, peak: 0.0 }
-        };
-        (0..self.look.fibres).map(fibre).collect()
     }
 }
 

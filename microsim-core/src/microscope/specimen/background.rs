@@ -6,7 +6,7 @@ use super::thread::Thread;
 use crate::geometry::{rotate, unit_vector};
 use crate::look::SpotShape;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::maths::smoothstep;
+use crate::microscope::maths::{smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
@@ -14,13 +14,13 @@ use glam::{IVec2, Vec2};
 
 /// Side of the cells in which single specks are strewn, micrometres, and specks in each on average.
 const DUST_CELL: f32 = 5.0;
-const DUST: f32 = 0.22;
+const DUST: f32 = 0.30;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 1.3;
+const CLUMPS: f32 = 2.0;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
-const GRAINS: f32 = 2.4;
+const GRAINS: f32 = 3.0;
 const GRAINS_SPREAD: f32 = 1.1;
 const MOST_GRAINS: usize = 34;
 /// Of this many grains last added to a clump one is where the next grows.
@@ -32,11 +32,21 @@ const FAR: f32 = 0.45;
 const FIBRE_CELL: f32 = 60.0;
 const FIBRES: f32 = 0.35;
 const FIBRE_POINTS: usize = 14;
+/// The same for scratches of the glass, and their longest, micrometres.
+const SCRATCH_CELL: f32 = 60.0;
+const SCRATCHES: f32 = 0.5;
+const LONGEST_SCRATCH: f32 = 55.0;
+/// The same for streaks, which all run about one way: where a fluid dried, or where the slide was wiped.
+const STREAK_CELL: f32 = 110.0;
+const STREAKS: f32 = 1.1;
+const LONGEST_STREAK: f32 = 100.0;
+/// Points of the line that a scratch or a streak is.
+const LINE_POINTS: usize = 6;
 /// Share of the camera's movement that things out of focus seem to make.
 const PARALLAX: f32 = 0.15;
 /// Pixels from and to which dust fades because it is too small to be seen, and those where the other things are,
 /// micrometres.
-const DUST_FADES: [f32; 2] = [0.3, 0.6];
+const DUST_FADES: [f32; 2] = [0.5, 1.0];
 const FAR_ENDS: f32 = 2.0;
 /// Strength and size of the glass's unevenness, radians and micrometres.
 const FINE: f32 = 0.010;
@@ -107,6 +117,13 @@ impl BackgroundMatter {
             strewn(bounds, Vec2::ZERO, [FIBRE_CELL, FIBRES], self.seed ^ 24, |at, rng| {
                 threads.extend(fibre(at, strength, rng));
             });
+            strewn(bounds, Vec2::ZERO, [SCRATCH_CELL, SCRATCHES], self.seed ^ 26, |at, rng| {
+                threads.extend(scratch(at, strength, rng));
+            });
+            let along = HashRng::new(self.seed ^ 27).direction();
+            strewn(bounds, Vec2::ZERO, [STREAK_CELL, STREAKS], self.seed ^ 28, |at, rng| {
+                threads.extend(streak(at, along, strength, rng));
+            });
         }
         if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
@@ -118,7 +135,7 @@ impl BackgroundMatter {
     /// A speck of dust: mostly tiny, some denser than the medium and some less.
     fn speck(&self, at: Vec2, strength: f32, rng: &mut HashRng) -> Spot {
         let size = rng.unit();
-        let radius = 0.06 + 0.30 * size * size * size * size;
+        let radius = 0.07 + 0.33 * size * size * size;
         let sign = if rng.unit() < 0.75 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.08, 0.32])) };
         Spot { at, radius, matter, shape: SpotShape::Bump }
@@ -128,9 +145,9 @@ impl BackgroundMatter {
     fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
-        let size = 0.13 * libm::expf(0.5 * rng.normal());
-        let dense = 0.55 * libm::expf(0.5 * rng.normal()) * strength;
-        let dyed = if rng.unit() < 0.35 { dense } else { 0.08 * dense };
+        let size = 0.14 * libm::expf(0.55 * rng.normal());
+        let dense = 0.30 * libm::expf(0.4 * rng.normal()) * strength;
+        let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
         let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
         let mut tips = [at; TIPS];
@@ -178,6 +195,36 @@ fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
     let dense = strength * rng.range([0.04, 0.22]);
     let matter = Matter { nucleus: 0.15 * dense, ..Matter::phase(dense) };
     Thread::curve(&points, |_| radius, matter).collect()
+}
+
+/// A scratch: straight, thin, deeper here and shallower there.
+fn scratch(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
+    let radius = rng.range([0.05, 0.16]);
+    let length = LONGEST_SCRATCH * libm::expf(0.5 * rng.normal() - 1.0);
+    let deep = strength * rng.range([-0.16, 0.10]);
+    line(at, rng.direction() * smaller(length, LONGEST_SCRATCH), 0.01, radius, deep, rng)
+}
+
+/// A streak: broad, soft and faint.
+fn streak(at: Vec2, along: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
+    let direction = rotate(along, unit_vector(0.12 * rng.normal()));
+    let radius = 0.9 * libm::expf(0.7 * rng.normal());
+    let dense = strength * rng.range([-0.05, 0.06]);
+    line(at, direction * rng.range([0.3 * LONGEST_STREAK, LONGEST_STREAK]), 0.04, radius, dense, rng)
+}
+
+/// A line that bends a little, in parts of different depth.
+fn line(at: Vec2, way: Vec2, bend: f32, radius: f32, phase: f32, rng: &mut HashRng) -> Vec<Thread> {
+    let (mut at, mut step) = (at, way / (LINE_POINTS - 1) as f32);
+    let mut point = || {
+        let point = at;
+        at += step;
+        step = rotate(step, unit_vector(bend * rng.normal()));
+        point
+    };
+    let points: [Vec2; LINE_POINTS] = std::array::from_fn(|_| point());
+    let parts = Thread::curve(&points, |_| radius, Matter::phase(phase)).collect::<Vec<_>>();
+    parts.into_iter().map(|part| Thread { matter: part.matter * rng.range([0.2, 1.0]), ..part }).collect()
 }
 
 /// Visits the things in the cells of an endless square grid that a box touches, so many in each on average; `shift` moves

@@ -14,7 +14,10 @@ const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.03,
 /// Width of the rim in which it rises, micrometres.
 const RIM: f32 = 1.2;
 /// Width over which its edge fades, micrometres.
-const EDGE: f32 = 0.15;
+const EDGE: f32 = 0.4;
+/// How far moulding leaves its edge rough, and over which size, micrometres.
+const ROUGH: f32 = 0.5;
+const ROUGH_SIZE: f32 = 5.0;
 /// Most cells of an obstacle's map of depths, apart from its margin.
 const MOST_CELLS: f32 = 8192.0;
 /// Strength and size of its unevenness.
@@ -27,6 +30,8 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
         ("RIM", &[RIM]),
         ("EDGE", &[EDGE]),
+        ("ROUGH", &[ROUGH]),
+        ("ROUGH_SIZE", &[ROUGH_SIZE]),
         ("TEXTURE", &[TEXTURE]),
         ("TEXTURE_SIZE", &[TEXTURE_SIZE]),
     ],
@@ -72,6 +77,8 @@ impl Chamber {
         if depth <= 0.0 {
             return Matter::NONE;
         }
+        let lacking = 0.5 + 0.5 * octaves(place / ROUGH_SIZE, 3, self.seed);
+        let depth = larger(depth - ROUGH * lacking, 0.0);
         let rim = larger(1.0 - depth / RIM, 0.0);
         let texture = 1.0 + TEXTURE * octaves(place / TEXTURE_SIZE, 3, self.seed);
         POLYMER * ((1.0 - rim * rim).sqrt() * smoothstep(0.0, EDGE, depth) * texture)

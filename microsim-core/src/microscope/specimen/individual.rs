@@ -2,6 +2,7 @@
 //! All of it hangs on the body's seed. Shares and spreads are those of red cells in stained smears.
 
 use super::polar_outline::PolarOutline;
+use super::pose::Pose;
 use crate::geometry::{rotate, unit_vector};
 use crate::look::{Inclusion, OutlineLook, RoundLook};
 use crate::microscope::maths::{bell, larger, smaller};
@@ -14,9 +15,12 @@ use std::f32::consts::TAU;
 const ORDERS: usize = 12;
 /// Most tails, bites and spikes of a body together.
 const MOST_BUMPS: usize = 12;
-/// Shares of red cells without a hollow, and with a hollow that is a slit.
+/// Shares of red cells without a hollow, with a hollow that is a slit, and with a knob in it (targets).
 const FLAT: f32 = 0.13;
 const SLIT: f32 = 0.05;
+const TARGET: f32 = 0.05;
+/// Inverse square of the radius of that knob, in radii of the hollow.
+pub(super) const KNOB: f32 = 6.0;
 
 /// Regions of a body in which inclusions gather.
 pub(super) const REGIONS: usize = 3;
@@ -81,7 +85,8 @@ pub(super) struct Hollow {
     pub centre: Vec2,
     /// Square of its radius, in the body's.
     pub area: f32,
-    /// How a dried cell looks: how sharp and how steep its edge is, how deep and how flat its hollow, 0 to 1.
+    /// How a dried cell looks: how sharp and how steep its edge is, how deep and how flat its hollow, 0 to 1; the depth is
+    /// negative where there is a knob in it.
     pub dried: [f32; 4],
 }
 
@@ -89,24 +94,28 @@ impl Hollow {
     /// None.
     pub(super) const NONE: Self = Self { to_hollow: Mat2::IDENTITY, centre: Vec2::ZERO, area: 1.0, dried: [0.0; 4] };
 
-    pub(super) fn of(rng: &mut HashRng) -> Self {
+    pub(super) fn of(pose: Pose, rng: &mut HashRng) -> Self {
         let kind = rng.unit();
         let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
+        let is_target = (FLAT..FLAT + TARGET).contains(&kind);
         let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.28, 0.66]) };
         let stretch = if is_slit { rng.range([1.35, 1.75]) } else { libm::expf(0.13 * rng.normal().abs()) };
         let direction = rng.direction();
         let turn = Mat2::from_cols(Vec2::new(direction.x, -direction.y), Vec2::new(direction.y, direction.x));
         let to_hollow = Mat2::from_diagonal(Vec2::new(1.0 / stretch, stretch) / radius) * turn;
-        let at = rng.direction() * (0.13 * rng.normal());
+        let at = rng.direction() * (0.13 * rng.normal()) + pose.hollow();
+        let to_hollow = to_hollow * pose.to_face();
         let share = rng.unit();
         let depth = if is_flat {
             0.25 * share
         } else if is_slit {
             0.7 + 0.3 * share
+        } else if is_target {
+            -0.6 - 0.4 * share
         } else {
             share.sqrt()
         };
-        let dried = [rng.unit(), 0.8 * rng.unit(), depth, rng.unit()];
+        let dried = [rng.unit(), 0.8 * rng.unit(), depth * (1.0 - pose.steepness()), rng.unit()];
         Self { to_hollow, centre: to_hollow * at, area: radius * radius, dried }
     }
 
@@ -126,7 +135,9 @@ impl Hollow {
         let inside = 1.0 - (fourth + sharp * (fourth * fourth - fourth));
         let edge = inside.sqrt();
         let apart = from_hollow.length_squared();
-        let sunk = depth * libm::expf(-(apart + flat * (apart * apart - apart)));
+        let knob = if depth < 0.0 { libm::expf(-KNOB * apart) } else { 0.0 };
+        let depth = depth.abs();
+        let sunk = depth * (libm::expf(-(apart + flat * (apart * apart - apart))) - knob);
         let from_rim = (rho - 0.80) / 0.24;
         let bulge = larger(1.0 - from_rim * from_rim, 0.0);
         (edge + steep * (inside - edge)) * (1.0 - sunk) * (1.0 + 0.22 * depth * bulge * bulge)
@@ -169,7 +180,9 @@ mod tests {
 
     #[test]
     fn dried_cells_end_at_their_rim_and_differ_in_their_middle() {
-        let hollows: Vec<Hollow> = (0..200).map(|seed| Hollow::of(&mut HashRng::new(seed))).collect();
+        let flat = |rng: &mut HashRng| Hollow::of(Pose::of(None, rng), rng);
+        let hollows: Vec<Hollow> = (0..200).map(|seed| flat(&mut HashRng::new(seed))).collect();
+
         let middle = |hollow: &Hollow| hollow.dried(0.0, Vec2::ZERO);
         assert!(hollows.iter().all(|hollow| hollow.dried(1.0, Vec2::ONE) == 0.0));
         assert!(hollows.iter().all(|hollow| (0.0..=1.0).contains(&middle(hollow))));

@@ -7,6 +7,7 @@ pub(super) mod distance_field;
 mod front;
 mod individual;
 mod polar_outline;
+mod pose;
 pub(super) mod round;
 mod spline;
 pub(super) mod spot;

@@ -63,10 +63,12 @@ float dried_thickness(float rho) {
     float inside = 1.0 - mix(fourth, fourth * fourth, dry.x);
     float edge = sqrt(inside);
     float apart = dot(in_hollow.xy, in_hollow.xy);
-    float sunk = dry.z * exp(-mix(apart, apart * apart, dry.w));
+    float knob = dry.z < 0.0 ? exp(-KNOB * apart) : 0.0;
+    float depth = abs(dry.z);
+    float sunk = depth * (exp(-mix(apart, apart * apart, dry.w)) - knob);
     float from_rim = (rho - 0.80) / 0.24;
     float bulge = max(1.0 - from_rim * from_rim, 0.0);
-    return mix(edge, inside, dry.y) * (1.0 - sunk) * (1.0 + 0.22 * dry.z * bulge * bulge);
+    return mix(edge, inside, dry.y) * (1.0 - sunk) * (1.0 + 0.22 * depth * bulge * bulge);
 }
 
 // Thickness in the living and in the dried state.

@@ -1,7 +1,8 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
-use super::individual::{self, Hollow, REGIONS, Region};
+use super::individual::{self, Hollow, KNOB, REGIONS, Region};
 use super::polar_outline::PolarOutline;
+use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
@@ -22,6 +23,10 @@ const THICKEST: f32 = 2.56;
 const EDGE: f32 = 0.06;
 /// Share by which the edge of a body that is out of focus is wider, at most.
 const OUT_OF_FOCUS: f32 = 3.5;
+/// Micrometres by which an edge is wider for each tier of the slide above the glass.
+const ABOVE: f32 = 0.09;
+/// How much thicker the middle of a red cell that stands up is, micrometres.
+const ON_EDGE: f32 = 1.2;
 /// Share of red cells that have pits from drying.
 const PITTED: f32 = 0.2;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
@@ -43,6 +48,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("TURN", &[TAU]),
         ("EDGE", &[EDGE]),
         ("THICKEST", &[THICKEST]),
+        ("KNOB", &[KNOB]),
         ("GROOVE", &GROOVE),
         ("GROOVE_END", &GROOVE_END),
         ("GROOVE_WIDTH", &[GROOVE_WIDTH]),
@@ -86,13 +92,20 @@ impl RoundBody {
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
         }
-        let (middle, hollow) = match look.profile {
-            Profile::Biconcave { c0, .. } => (rng.range(c0), Hollow::of(&mut rng)),
-            Profile::Dome(_) => (0.0, Hollow::NONE),
-        };
-        let matter = individual::matter(look, &mut rng);
+        let mut matter = individual::matter(look, &mut rng);
+        let (mut middle, mut hollow) = (0.0, Hollow::NONE);
+        let tier = organism.tier();
+        if let Profile::Biconcave { c0, .. } = look.profile {
+            let pose = Pose::of(tier, &mut rng);
+            let back = Vec2::new(facing.x, -facing.y);
+            polar.reshape(|direction| pose.foreshortening(rotate(direction, back)));
+            middle = rng.range(c0) + ON_EDGE * pose.steepness();
+            hollow = Hollow::of(pose, &mut rng);
+            matter.phase *= pose.thickness();
+            matter.haemoglobin *= pose.thickness().sqrt();
+        }
         let blur = rng.unit();
-        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur);
+        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
         Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge })
     }
 

@@ -6,7 +6,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 2.4, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
     rim: 8.0,
     texture: Texture { amount: 0.02, size: 1.2 },
-    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 0.15, pulse: 8.0 },
+    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 0.5, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 1],
         radius: [0.235, 0.235],
@@ -18,6 +18,8 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     },
     granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],
     fibres: 0,
+    processes: 18,
+    longest_process: 3.0,
     blebs: [0.0, 0.0],
 };
 

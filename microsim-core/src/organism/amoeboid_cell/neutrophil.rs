@@ -14,10 +14,12 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         spread: 0.42,
         bent: 0.13,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
-        texture: Texture { amount: 0.42, size: 0.8 },
+        texture: Texture { amount: 0.32, size: 0.8 },
     },
     granules: &[DENSE, CLEAR, VACUOLES],
     fibres: 3,
+    processes: 10,
+    longest_process: 1.6,
     blebs: [0.6, 1.1],
 };
 

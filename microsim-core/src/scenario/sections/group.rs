@@ -4,7 +4,7 @@ use crate::scenario::diagnostic::in_words;
 use crate::scenario::grid::Grid;
 use crate::scenario::reader::{Fields, ReadContext};
 use crate::scenario::sections::prototype::Prototype;
-use crate::{Controller, Exchange};
+use crate::{CollisionGroups, Controller, Exchange};
 use glam::Vec2;
 
 /// Organisms of one prototype that one table puts into the world.
@@ -17,6 +17,7 @@ pub(crate) struct Group {
     pub angle: Angle,
     /// Smallest and largest scale.
     pub scale: [f32; 2],
+    pub groups: CollisionGroups,
     pub controller: Controller,
     pub exchanges: Vec<Exchange>,
     pub name: Option<String>,
@@ -64,6 +65,7 @@ impl Group {
             positions: Positions::Grid(grid),
             angle: Angle::Radians(0.0),
             scale: [1.0, 1.0],
+            groups: CollisionGroups::ALL,
             controller: Controller::Still,
             exchanges: Vec::new(),
             name: None,

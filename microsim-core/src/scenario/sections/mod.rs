@@ -7,6 +7,7 @@ pub(crate) mod controller;
 pub(crate) mod field;
 pub(crate) mod game;
 pub(crate) mod group;
+pub(crate) mod medium;
 pub(crate) mod obstacle;
 pub(crate) mod output;
 pub(crate) mod prototype;

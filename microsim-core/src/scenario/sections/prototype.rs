@@ -82,6 +82,11 @@ impl Prototype {
         self.spec.can_grow()
     }
 
+    /// Whether it is fluid or a membrane around fluid.
+    pub(crate) fn holds_fluid(&self) -> bool {
+        self.spec.holds_fluid()
+    }
+
     /// Farthest that it reaches from its centre when scaled, units.
     pub(crate) fn extent(&self, scale: f32) -> f32 {
         self.extent * scale

@@ -1,11 +1,12 @@
 //! Organisms in one place or in random places: the tables `[[spawn]]`.
 
-use crate::Controller;
 use crate::scenario::reader::{DEGREE, Fields, NAME, Read, ReadContext, SpannedValue, ValueType, is_name, mismatch};
 use crate::scenario::sections::chemical::{self, Chemicals};
 use crate::scenario::sections::controller::{self, Controllers};
 use crate::scenario::sections::group::{Angle, Group, Positions};
+use crate::scenario::sections::prototype::Prototype;
 use crate::scenario::sections::prototype::{self, Prototypes};
+use crate::{CollisionGroups, Controller};
 use glam::Vec2;
 use std::collections::BTreeSet;
 
@@ -44,6 +45,7 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
         let accepted = "a [[spawn]] without `name` and `player`";
         fields.refuse(field, "one that is known by name is there from the beginning, once", accepted);
     }
+    let groups = read_tier(fields, prototype.as_ref());
     let prototype = prototype?;
     let steering = [("controller", controller != Controller::Still), ("player", is_player)];
     for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
@@ -52,7 +54,32 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
     }
     let (path, positions) = (fields.path.clone(), positions?);
     check_box(fields, &positions, prototype.extent(scale[1]));
-    Some(Group { path, prototype, positions, angle, scale, controller, exchanges, name, is_player, from, respawn })
+    Some(Group {
+        path,
+        prototype,
+        positions,
+        angle,
+        scale,
+        groups,
+        controller,
+        exchanges,
+        name,
+        is_player,
+        from,
+        respawn,
+    })
+}
+
+/// The groups of the tier that organisms lie in, or all.
+fn read_tier(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> CollisionGroups {
+    let Some(tier) = fields.get::<u32>("tier") else { return CollisionGroups::ALL };
+    if prototype.is_some_and(Prototype::holds_fluid) {
+        fields.refuse("tier", "what holds fluid meets everything", "a kind without membrane and fluid");
+    }
+    CollisionGroups::in_tier(tier).unwrap_or_else(|| {
+        fields.refuse("tier", format!("{tier} is out of range"), "0 to 31");
+        CollisionGroups::ALL
+    })
 }
 
 /// Checks that an organism of this reach fits into the box that it is to be put into.

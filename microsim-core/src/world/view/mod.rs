@@ -260,6 +260,13 @@ impl<'a> OrganismView<'a> {
         self.organism.prey.and_then(|prey| prey.held_by)
     }
 
+    /// The tier of the slide that it lies in, see [`crate::CollisionGroups::in_tier`]; `None` if it meets all.
+    #[must_use]
+    pub fn tier(self) -> Option<u32> {
+        let groups = &self.view.world.particles.groups;
+        self.organism.particles().find_map(|i| groups[i as usize].tier())
+    }
+
     /// Its heavy centre, if it has one.
     #[must_use]
     pub fn nucleus(self) -> Option<ParticleView> {

@@ -1,0 +1,58 @@
+//! Threads at a crawling cell: retraction fibres and thin processes.
+
+use super::super::front::Front;
+use super::super::thread::Thread;
+use super::AmoeboidBody;
+use crate::geometry::{rotate, unit_vector};
+use crate::microscope::maths::smoothstep;
+use crate::microscope::matter::Matter;
+use crate::microscope::noise::{HashRng, scramble};
+use glam::Vec2;
+use std::f32::consts::TAU;
+
+/// Time that a thin process takes to come and go, s; half its width where it begins, micrometres, and its points.
+const PROCESS_PERIOD: f32 = 5.0;
+const PROCESS: f32 = 0.26;
+const PROCESS_POINTS: usize = 4;
+
+impl AmoeboidBody {
+    /// Retraction fibres, which the tail leaves on the glass.
+    pub(in super::super) fn threads(&self) -> Vec<Thread> {
+        let Front { direction, tail: strength, behind, .. } = self.front;
+        let mut rng = HashRng::new(self.seed ^ 0xf1b);
+        let tail = self.field.pushed_inside(self.centre - direction * behind, 0.1);
+        let fibre = |_| {
+            let direction = rotate(-direction, unit_vector(rng.range([-0.45, 0.45])));
+            let length = rng.range([2.0, 4.0]) * strength;
+            let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
+            Thread { from: tail, to: tail + direction * length, radius: 0.09, matter, peak: 0.0 }
+        };
+        let mut threads: Vec<Thread> = (0..self.look.fibres).map(fibre).collect();
+        (0..self.look.processes).for_each(|k| self.process(k, &mut threads));
+        threads
+    }
+
+    /// A thin process: it grows out of the membrane, bent and tapering, goes back, and grows again somewhere else.
+    fn process(&self, number: u32, threads: &mut Vec<Thread>) {
+        let own = scramble(self.seed ^ scramble(number));
+        let cycle = self.time / PROCESS_PERIOD + HashRng::new(own).unit();
+        let mut rng = HashRng::new(own ^ scramble(cycle as u32));
+        let direction = (self.from_shape.inverse() * rng.direction()).normalize_or_zero();
+        let grown = unit_vector(TAU * 0.5 * cycle.fract()).y;
+        let length = self.look.longest_process * rng.unit() * grown;
+        let Some(reach) = self.field.crossing(self.centre, direction, 0.05 * self.radius) else { return };
+        let mut at = self.centre + direction * (reach - 0.5);
+        let mut step =
+            rotate(direction, unit_vector(0.4 * rng.normal())) * ((length + 0.5) / (PROCESS_POINTS - 1) as f32);
+        let bend = unit_vector(0.35 * rng.normal());
+        let points: [Vec2; PROCESS_POINTS] = std::array::from_fn(|_| {
+            let point = at;
+            at += step;
+            step = rotate(step, bend);
+            point
+        });
+        let matter = Matter { cytoplasm: 0.12, ..Matter::phase(0.20) } * smoothstep(0.1, 0.6, length);
+        let radius = |k: usize| PROCESS / (1 + k) as f32;
+        threads.extend(Thread::curve(&points, radius, matter));
+    }
+}
