@@ -48,7 +48,7 @@ struct Socket(usize, Rc<RefCell<Network>>);
 impl NonBlockingSocket<usize> for Socket {
     fn send_to(&mut self, message: &Message, to: &usize) {
         let mut network = self.1.borrow_mut();
-        if network.rng.next_u32() % LOSS > 0 {
+        if !network.rng.next_u32().is_multiple_of(LOSS) {
             let arrival = network.now + LATENCY;
             network.messages.push((arrival, self.0, *to, message.clone()));
         }
@@ -98,7 +98,7 @@ impl Player {
             return Ok(());
         }
         // The last predictions are to be right: nobody goes back behind the end.
-        if self.session.current_frame() < STEPS - 60 && self.rng.next_u32() % 15 == 0 {
+        if self.session.current_frame() < STEPS - 60 && self.rng.next_u32().is_multiple_of(15) {
             self.told = Told(Some([self.rng.range(20.0, 140.0), self.rng.range(20.0, 70.0)]));
         }
         self.session.add_local_input(self.number, self.told)?;

@@ -10,10 +10,10 @@ pub(crate) fn vessel() -> Result<World, Error> {
     let sides = Sides { right: Side::Open, ..Sides::default() };
     let mut world = World::new(WorldConfig { size: SIZE, damping: 1.0, sides, ..WorldConfig::default() })?;
     for y in [-10.0, SIZE.y + 10.0] {
-        let bulge = SharedShape::ball(27.0);
+        let bulge = SharedShape::ball(21.0);
         world.add_obstacle(Obstacle::new(bulge, Pose::translation(0.5 * SIZE.x, y)))?;
     }
-    let acceleration = Vec2::new(20.0, 0.0);
+    let acceleration = Vec2::new(40.0, 0.0);
     world.add_field(ForceField { region: Region::All, kind: FieldKind::Uniform { acceleration } })?;
     let inlet = Region::Box { low: Vec2::new(5.0, 5.0), high: Vec2::new(10.0, SIZE.y - 5.0) };
     let disc = AgarSpec { radius: 1.0, ..AgarSpec::default() };

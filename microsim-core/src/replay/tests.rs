@@ -136,10 +136,6 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
     let rope = JointSpec::new(JointEnd::Centre(one), JointEnd::Centre(two), JointKind::Rope { max_length: 15.0 });
     let (obstacle, joint) = (world.obstacles().next(), world.joints().next());
     let field = world.fields().next().map(|(id, _)| id);
-    let at = world.centroid(two).unwrap();
-    let (emitter, drain) = (world.emitters().next().map(|it| it.0), world.drains().next().map(|it| it.0));
-    let inlet = Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), 10.0);
-    let outlet = Drain { region: Region::Circle { centre: Vec2::splat(8.0), radius: 5.0 }, kind: Some(Kind::Coccus) };
     match step {
         0 => drop(world.add_obstacle(Obstacle { motion: ObstacleMotion::Push, ..bar })?),
         1 => world.move_obstacle(obstacle.unwrap(), Pose::new(Vec2::new(20.0, 25.9), 0.01))?,
@@ -185,6 +181,18 @@ fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
         29 => world.set_speed(last, 5.0)?,
         30 => world.set_phagocytosis(last, PhagocytosisParams { hold_time: 0.1, ..PhagocytosisParams::default() })?,
         31 => world.divide(last)?,
+        _ => resupply(step, world, two)?,
+    }
+    Ok(())
+}
+
+/// What it does later: emitters and drains, another size, another organism.
+fn resupply(step: u32, world: &mut World, two: OrganismId) -> Result<(), Error> {
+    let at = world.centroid(two).unwrap();
+    let (emitter, drain) = (world.emitters().next().map(|it| it.0), world.drains().next().map(|it| it.0));
+    let inlet = Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), 10.0);
+    let outlet = Drain { region: Region::Circle { centre: Vec2::splat(8.0), radius: 5.0 }, kind: Some(Kind::Coccus) };
+    match step {
         32 => drop(world.add_emitter(inlet)?),
         33 => world.set_emitter(emitter.unwrap(), Emitter { rate: 30.0, ..inlet })?,
         34 => world.set_scale(two, 1.05)?,

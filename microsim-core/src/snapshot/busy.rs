@@ -154,15 +154,14 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
         world.add_emitter(emitter).unwrap()
     });
     let emitters: Vec<_> = emitters.collect();
-    let again = world.emitters().next().unwrap().1.clone();
-    let gone = world.add_emitter(again).unwrap();
-    world.remove_emitter(gone).unwrap();
     let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };
+    let disc = Emitter::new(corner, Recipe::Organism(AgarSpec::default().into()), 0.0);
+    world.add_emitter(disc.clone()).unwrap();
+    let gone = world.add_emitter(disc).unwrap();
+    world.remove_emitter(gone).unwrap();
     let strip = Region::Box { low: Vec2::ZERO, high: Vec2::new(0.1, 9.0) };
     let drains = [(corner, None), (strip, Some(Kind::Coccus))];
     let drains = drains.map(|(region, kind)| world.add_drain(Drain { region, kind }).unwrap());
-    let disc = Recipe::Organism(AgarSpec::default().into());
-    world.add_emitter(Emitter::new(corner, disc, 0.0)).unwrap();
     world.remove_drain(drains[0]).unwrap();
     world.add_drain(Drain { region: corner, kind: None }).unwrap();
     let gone = world.add_drain(Drain { region: corner, kind: None }).unwrap();

@@ -81,7 +81,7 @@ pub(super) fn fill(ring: &[Vec2], spacing: f32, clearance: f32) -> Vec<Vec2> {
     let (columns, rows) =
         (((high.x - low.x) / spacing) as usize + 1, ((high.y - low.y) / (ROW * spacing)) as usize + 1);
     let place = |row: usize, column: usize| {
-        let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
+        let shift = if row.is_multiple_of(2) { 0.0 } else { 0.5 };
         low + spacing * Vec2::new(column as f32 + shift, ROW * row as f32)
     };
     (0..rows).flat_map(|row| (0..columns).map(move |column| place(row, column))).filter(is_clear).collect()
