@@ -110,8 +110,10 @@ fn draw_grains(pen: &mut Pen, middle: Vec2, radius: f32, turn: u32, size: f32) {
 
 fn draw_rim(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32) {
     let rim: Vec<Vec2> = outline.iter().map(|at| *at + (*at - middle).normalize_or_zero() * out).collect();
-    for k in 0..rim.len() {
-        pen.canvas().segment(rim[k], rim[(k + 1) % rim.len()], width, fade(HALO, 0.7));
+    for (width, colour) in [(2.0 * width, fade(INK, 0.5)), (width, fade(HALO, 0.9))] {
+        for k in 0..rim.len() {
+            pen.canvas().segment(rim[k], rim[(k + 1) % rim.len()], width, colour);
+        }
     }
 }
 
