@@ -47,7 +47,7 @@ impl Relation {
 
     /// Unit vector across the link, to that side.
     #[inline(always)]
-    pub(super) fn to_side(&self, side: Side) -> Vec2 {
+    pub(super) fn to_side(self, side: Side) -> Vec2 {
         let length = self.squared.sqrt();
         if length > 1e-6 {
             let away = self.away / length;
