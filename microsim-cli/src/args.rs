@@ -2,8 +2,10 @@
 
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::sanitize;
 use crate::verbs::Verb;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser};
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -36,15 +38,21 @@ impl Args {
         let color = color_asked_for(std::env::args_os().skip(1));
         let read = Self::command().color(color).try_get_matches();
         read.and_then(|matches| Self::from_arg_matches(&matches)).map_err(|said| {
-            let printed = said.print().and_then(|()| std::io::stdout().flush());
+            let printed = harmless(color).as_ref().unwrap_or(&said).print().and_then(|()| std::io::stdout().flush());
             let code = ExitCode::from(u8::try_from(said.exit_code()).unwrap_or(2));
             printed.map_or_else(|error| Failure::from(error).report(&Console::new(color, false, false)), |()| code)
         })
     }
 }
 
+/// What clap says of the same arguments without what controls a terminal, which it would quote: one may be the name of a file.
+fn harmless(color: ColorChoice) -> Option<clap::Error> {
+    let clean = |argument: OsString| sanitize::line(&argument.to_string_lossy()).into_owned();
+    Args::command().color(color).try_get_matches_from(std::env::args_os().map(clean)).err()
+}
+
 /// The value of `--color`, found before clap parses, so that clap's own messages obey it too.
-fn color_asked_for(arguments: impl Iterator<Item = std::ffi::OsString>) -> ColorChoice {
+fn color_asked_for(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
     let arguments: Vec<String> = arguments.filter_map(|a| a.into_string().ok()).collect();
     let joined = arguments.iter().find_map(|a| a.strip_prefix("--color="));
     let separate = || arguments.windows(2).find(|pair| pair[0] == "--color");

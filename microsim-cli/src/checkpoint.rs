@@ -34,17 +34,17 @@ pub(crate) struct CheckpointHeader {
 /// Writes the checkpoint in place of the one before. All files that it needs must be on the disk.
 pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
     let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
+    let line = serde_json::to_vec(header).map_err(std::io::Error::from)?;
     outputs.sync()?;
-    outputs.replace(CHECKPOINT, &sealed(header, &run)?)?;
+    outputs.replace(CHECKPOINT, &sealed(&line, &run))?;
     outputs.sync()
 }
 
-fn sealed(header: &CheckpointHeader, run: &[u8]) -> Result<Vec<u8>, Failure> {
-    let mut bytes = serde_json::to_vec(header).map_err(std::io::Error::from)?;
-    bytes.push(b'\n');
-    bytes.extend(run);
+/// The file of a line and a run.
+pub(crate) fn sealed(line: &[u8], run: &[u8]) -> Vec<u8> {
+    let mut bytes = [line, b"\n", run].concat();
     bytes.extend(Sha256::digest(&bytes));
-    Ok(bytes)
+    bytes
 }
 
 /// Reads the checkpoint of a folder.
@@ -117,7 +117,7 @@ mod tests {
             digest_at_start: String::new(),
         };
         let run = Checkpoint { origin: prepared.scenario.origin(), run: prepared.built };
-        sealed(&header, &run.to_bytes().unwrap()).ok().unwrap()
+        sealed(&serde_json::to_vec(&header).unwrap(), &run.to_bytes().unwrap())
     }
 
     #[test]

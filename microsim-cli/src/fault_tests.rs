@@ -1,4 +1,8 @@
 //! Every call that changes a file fails once, in each way: afterwards the old state or the new one is whole.
+//!
+//! The method is SQLite's (<https://www.sqlite.org/testing.html>, I/O error and crash testing): the work is repeated with the
+//! next call failing until none is left, and a power cut loses what was written since the last sync.
+//! `cargo test -p microsim-cli --lib fault_tests -- --nocapture` prints how many calls failed.
 
 use crate::args::Args;
 use crate::console::Console;
@@ -12,20 +16,23 @@ use crate::scenario_args::Changes;
 use crate::session::Session;
 use crate::verbs::{self, Task};
 use clap::{CommandFactory, Parser};
+use microsim_core::replay::{Ending, Replay};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-const FAULTS: [Fault; 4] = [
+const FAULTS: [Fault; 5] = [
     // EIO has no kind of its own.
     Fault::Once(ErrorKind::Other),
     Fault::Once(ErrorKind::StorageFull),
     Fault::Once(ErrorKind::Interrupted),
     Fault::Crash,
+    Fault::PowerCut,
 ];
 
+/// With every format of tables, put in for `FORMATS`.
 const SCENARIO: &str = r#"
     schema = 1
     name = "faults"
@@ -41,7 +48,7 @@ const SCENARIO: &str = r#"
     snapshots = [0.05]
     checkpoint_every = 2
     [output.measures]
-    formats = ["csv", "jsonl"]
+    formats = [FORMATS]
     every = 0.0
     [output.trajectories]
     formats = ["csv"]
@@ -50,6 +57,11 @@ const SCENARIO: &str = r#"
     at = [0.05]
     width = 32
 "#;
+
+fn scenario() -> String {
+    let formats = if cfg!(feature = "parquet") { r#""csv", "jsonl", "parquet""# } else { r#""csv", "jsonl""# };
+    SCENARIO.replace("FORMATS", formats)
+}
 
 type Contents = BTreeMap<PathBuf, Vec<u8>>;
 
@@ -82,17 +94,20 @@ fn quiet() -> Console {
     Console::new(clap::ColorChoice::Never, true, false)
 }
 
+fn prepared(seed: u64, set: Vec<(String, String)>) -> Prepared {
+    let source = ScenarioText::new("faults".to_owned(), scenario());
+    Prepared::new(source, &Changes { seed: Some(seed), set }).unwrap_or_else(|failure| panic!("{failure:?}"))
+}
+
 fn run(folder: &Path, has_pictures: bool, steps: u64) -> Result<(), Failure> {
-    let set = vec![("output.pictures".to_owned(), has_pictures.to_string())];
-    let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
-    let prepared = Prepared::new(source, &Changes { seed: None, set })?;
+    let prepared = prepared(0, vec![("output.pictures".to_owned(), has_pictures.to_string())]);
     let record = RecordArgs { record: None, digest_every: NonZeroU32::MIN, save: None };
     let outputs = Outputs::open(folder, true)?;
     Session::start(prepared, steps, Some(&outputs), false, &record)?.complete(&quiet()).map(drop)
 }
 
 fn resume(folder: &Path) -> Result<(), Failure> {
-    let outputs = Outputs::open(folder, true)?;
+    let outputs = Outputs::reopen(folder)?;
     Session::resume(&outputs)?.complete(&quiet()).map(drop)
 }
 
@@ -138,6 +153,7 @@ fn complete(folder: &Path, has_pictures: bool, steps: u64) {
 fn try_all(faults: &[Fault], work: impl Fn() -> Result<(), Failure>, check: impl Fn(&str)) {
     let (result, calls) = fault::with(None, &work);
     assert!(result.is_ok() && calls > 0, "{result:?}");
+    println!("{calls} calls, {} runs", calls * faults.len() as u64);
     for number in 0..calls {
         for &planned in faults {
             let (result, _) = fault::with(Some((number, planned)), &work);
@@ -167,8 +183,8 @@ fn a_run_survives_every_fault() {
 }
 
 #[test]
-fn pictures_survive_every_crash() {
-    a_run_survives("pictures", &[Fault::Crash], true, 2);
+fn pictures_survive_every_power_cut() {
+    a_run_survives("pictures", &[Fault::PowerCut], true, 2);
 }
 
 #[test]
@@ -223,7 +239,7 @@ fn a_file_survives(scratch: &Scratch, line: &str, file: &str) {
 fn pages_and_pictures_survive_every_fault() {
     let scratch = Scratch::new("files");
     let folder = scratch.0.display();
-    fs::write(scratch.0.join("a.toml"), SCENARIO).unwrap();
+    fs::write(scratch.0.join("a.toml"), scenario()).unwrap();
     run(&scratch.0.join("run"), false, 3).ok().unwrap();
     a_file_survives(&scratch, &format!("microsim report {folder}/run -o {folder}/page.html"), "page.html");
     for name in ["still.png", "film.gif", "film.apng"] {
@@ -237,17 +253,18 @@ fn pages_and_pictures_survive_every_fault() {
 #[test]
 fn a_sweep_survives_every_fault() {
     let scratch = Scratch::new("sweep");
-    let prepared = |seed| {
-        let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
-        Prepared::new(source, &Changes { seed: Some(seed), set: Vec::new() }).ok().unwrap()
-    };
-    let task = |seed| serde_json::to_string(&Task::new(&prepared(seed), BTreeMap::new(), 2)).unwrap() + "\n";
+    let task =
+        |seed| serde_json::to_string(&Task::new(&prepared(seed, Vec::new()), BTreeMap::new(), 2)).unwrap() + "\n";
     let tasks = [1, 2].map(task).concat();
     let plan = scratch.0.join("plan.jsonl");
     fs::write(&plan, tasks).unwrap();
     let line = |store: &Path| format!("microsim sweep run {} --store {} --jobs 1", plan.display(), store.display());
     let store = scratch.cleared("reference");
     perform(&line(&store)).ok().unwrap();
+    for table in ["table.csv", "table.jsonl"] {
+        let (plan, store, to) = (plan.display(), store.display(), scratch.0.display());
+        a_file_survives(&scratch, &format!("microsim sweep merge {plan} --store {store} -o {to}/{table}"), table);
+    }
     let reference = contents(&store);
     assert_eq!(reference.len(), 2);
     let work = || perform(&line(&scratch.cleared("store")));
@@ -257,5 +274,31 @@ fn a_sweep_survives_every_fault() {
         let mut results = contents(&store);
         results.retain(|path, _| !path.to_string_lossy().starts_with('.'));
         assert!(results == reference, "{what}");
+    });
+}
+
+#[test]
+fn a_record_survives_every_fault() {
+    let scratch = Scratch::new("record");
+    let [record, save] = ["record", "save"].map(|name| scratch.0.join(name));
+    let record_args =
+        RecordArgs { record: Some(record.clone()), digest_every: NonZeroU32::MIN, save: Some(save.clone()) };
+    let work = || Session::start(prepared(0, Vec::new()), 4, None, false, &record_args)?.complete(&quiet()).map(drop);
+    work().ok().unwrap();
+    let (played, saved) = (Replay::read(&fs::read(&record).unwrap()).unwrap(), fs::read(&save).unwrap());
+    assert_eq!((played.steps(), played.ending()), (4, Ending::Complete));
+    let from_old = || {
+        fs::write(&record, "old").unwrap();
+        fs::write(&save, "old").unwrap();
+        let done = work();
+        assert!(done.is_err() || fs::read(&save).unwrap() == saved);
+        done
+    };
+    try_all(&FAULTS, from_old, |what| {
+        let left = fs::read(&record).unwrap();
+        let is_readable = Replay::read(&left).is_ok_and(|left| !matches!(left.ending(), Ending::Damaged { .. }));
+        assert!(left == b"old" || is_readable, "{what}");
+        let left = fs::read(&save).unwrap();
+        assert!(left == b"old" || left == saved, "{what}");
     });
 }

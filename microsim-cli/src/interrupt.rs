@@ -3,6 +3,8 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 static IS_ASKED: AtomicBool = AtomicBool::new(false);
+#[cfg(unix)]
+static IS_TOO_LONG: AtomicBool = AtomicBool::new(false);
 static SIGNAL: AtomicUsize = AtomicUsize::new(0);
 
 #[cfg(unix)]
@@ -18,6 +20,9 @@ pub(crate) fn listen() {
         let _ = signal_hook::flag::register_usize(signal, &SIGNAL, signal as usize);
         let _ = signal_hook::flag::register(signal, &IS_ASKED);
     }
+    // A file at the limit of its length (`ulimit -f`) is an error of a write, which has words; nobody asks the flag.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, &IS_TOO_LONG);
 }
 
 /// Whether the user asked to stop.

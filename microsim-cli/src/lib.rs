@@ -12,6 +12,9 @@ mod draw;
 mod failure;
 #[cfg(test)]
 mod fault_tests;
+#[cfg(any(test, fuzzing))]
+#[doc(hidden)]
+pub mod hostile;
 mod interrupt;
 mod output;
 mod prepared;

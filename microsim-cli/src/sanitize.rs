@@ -26,9 +26,10 @@ fn escaped(text: &str, is_harmful: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(show).collect())
 }
 
-/// Ends of lines and marks of direction of Unicode: UAX 9, section 2, and UAX 14.
+/// Ends of lines (UAX 14), marks of direction (UAX 9, section 2), and what has no width: one name could pass for another.
 fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+        || matches!(c, '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
 #[cfg(test)]
@@ -39,6 +40,9 @@ mod tests {
     fn nothing_controls_a_terminal() {
         assert_eq!(line("a\u{1b}[2Jb\nok\u{202e}\u{9b}"), "a\\u{1b}[2Jb\\u{a}ok\\u{202e}\\u{9b}");
         assert_eq!(lines("a\n\rµ\u{2028}"), "a\n\\u{d}µ\\u{2028}");
+        let harmful = "\u{7f}\u{85}\u{90}\u{9d}\u{ad}\u{61c}\u{200b}\u{200d}\u{200f}\u{2029}\u{2060}\u{2069}\u{feff}\u{fffa}\u{e0041}";
+        assert!(harmful.chars().all(|c| line(&c.to_string()) == c.escape_unicode().to_string()));
+        assert!(["naïve", "日本", "µm², Ω"].iter().all(|text| line(text) == *text));
     }
 
     #[test]

@@ -155,6 +155,8 @@ impl<'o> Session<'o> {
         if let (Some(writer), Some(outputs)) = (self.writer, self.outputs) {
             let waiting = writer.finish(&built.world)?;
             write_description(outputs, &self.prepared, &report, &self.header.digest_at_start)?;
+            // Names that a power cut takes back would be missed once there is no checkpoint.
+            outputs.sync()?;
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }

@@ -128,5 +128,5 @@ pub(crate) fn play(replay: &Replay, path: &Path) -> Result<Player, Failure> {
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
     let path = if path.is_dir() { path.join(CHECKPOINT) } else { path.to_owned() };
     let bytes = read::whole(&path).map_err(|error| Failure::file("read", &path, &error))?;
-    Ok(checkpoint::run_of(&bytes).map_or(bytes.clone(), <[u8]>::to_vec))
+    Ok(checkpoint::run_of(&bytes).map(<[u8]>::to_vec).unwrap_or(bytes))
 }

@@ -145,6 +145,13 @@ fn a_damaged_record_is_played_as_far_as_it_goes_and_refused() {
     let damaged = folder.file("damaged.replay", &bytes);
     let output = refused(&["replay", &damaged], "damaged at byte");
     assert!(stdout(&output).starts_with("20 steps "), "{}", stdout(&output));
+    // The difference is the answer, and the damage may be why.
+    for (one, other, which) in [(&record, &damaged, "second"), (&damaged, &record, "first")] {
+        let output = run(&["diff", one, other]);
+        let found = format!("step 20: the {which} replay ends\n");
+        assert_eq!((output.status.code(), stdout(&output)), (Some(1), found));
+        assert!(stderr(&output).contains("damaged at byte"), "{}", stderr(&output));
+    }
 
     let mut bytes = fs::read(&record).unwrap();
     *bytes.last_mut().unwrap() ^= 1;

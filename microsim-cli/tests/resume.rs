@@ -125,6 +125,75 @@ fn a_table_that_does_not_fit_its_checkpoint_is_refused_and_not_touched() {
 }
 
 #[test]
+fn a_folder_that_leads_elsewhere_is_refused_and_nothing_of_others_is_touched() {
+    let (folder, out) = stopped("elsewhere");
+    let mine = folder.file("mine", b"precious\n");
+    let place = folder.path("place");
+    fs::create_dir(&place).unwrap();
+    let fifo = folder.path("fifo");
+    assert!(Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    for name in
+        [".lock", ".checkpoint.partial", ".measures.jsonl.partial", "run.json", "events.jsonl", ".events.jsonl.partial"]
+    {
+        let (path, aside) = (Path::new(&out).join(name), folder.path("aside"));
+        let is_there = fs::rename(&path, &aside).is_ok();
+        for target in [&mine, &folder.path("dangling"), &fifo] {
+            symlink(target, &path).unwrap();
+            refused(&["resume", &out], "not a regular file");
+            fs::remove_file(&path).unwrap();
+        }
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        refused(&["resume", &out], "not a regular file");
+        fs::remove_file(&path).unwrap();
+        if is_there {
+            fs::rename(&aside, &path).unwrap();
+        }
+    }
+    let frames = Path::new(&out).join("frames");
+    symlink(&place, &frames).unwrap();
+    refused(&["resume", &out], "not a regular file");
+    fs::remove_file(&frames).unwrap();
+    assert_eq!(fs::read(&mine).unwrap(), b"precious\n");
+    assert!(!Path::new(&folder.path("dangling")).exists() && fs::read_dir(&place).unwrap().next().is_none());
+    check_resumed(&folder, &out);
+}
+
+#[test]
+fn what_has_the_name_of_a_temporary_file_is_replaced_and_not_followed() {
+    let folder = Folder::new("temporary");
+    let (mine, out) = (folder.file("mine", b"precious\n"), folder.path("out"));
+    fs::create_dir(&out).unwrap();
+    symlink(&mine, Path::new(&out).join(".measures.csv.partial")).unwrap();
+    assert!(Command::new("mkfifo").arg(Path::new(&out).join(".events.jsonl.partial")).status().unwrap().success());
+    success(&["run", "empty", "--steps", "3", "--out", &out, "--force", "--measures", "csv", "--no-pictures"]);
+    assert_eq!(fs::read(&mine).unwrap(), b"precious\n");
+    assert!(fs::symlink_metadata(Path::new(&out).join("measures.csv")).unwrap().is_file());
+    symlink(&mine, Path::new(&out).join(".lock")).unwrap();
+    refused(&["run", "empty", "--steps", "3", "--out", &out, "--force"], "not a regular file");
+}
+
+#[test]
+fn a_resumed_run_leaves_nothing_behind_that_only_an_unfinished_one_needs() {
+    let (folder, out) = stopped("behind");
+    let waiting = |name: &str| name.starts_with(".moment-");
+    let names = || files(&out).into_keys().map(|name| name.display().to_string()).collect::<Vec<_>>();
+    assert!(names().iter().any(|name| waiting(name)), "{:?}", names());
+    check_resumed(&folder, &out);
+    assert!(names().iter().all(|name| !name.starts_with('.')), "{:?}", names());
+    assert!(!names().contains(&"checkpoint".to_owned()));
+}
+
+#[test]
+fn a_limit_on_the_length_of_files_is_an_error_in_words() {
+    let (folder, out) = stopped("limit");
+    let limited = format!("ulimit -f 4; exec {:?} resume {out:?} --quiet", env!("CARGO_BIN_EXE_microsim"));
+    let output = Command::new("sh").args(["-c", &limited]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("File too large"), "{}", stderr(&output));
+    check_resumed(&folder, &out);
+}
+
+#[test]
 fn signals_stop_a_run_that_can_be_resumed() {
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let folder = Folder::new(&format!("signal-{name}"));

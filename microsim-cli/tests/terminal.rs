@@ -49,6 +49,31 @@ fn a_refusal_is_printed_without_what_controls_a_terminal() {
 }
 
 #[test]
+fn an_argument_is_quoted_without_what_controls_a_terminal() {
+    // Sequences of one byte (C1) and of two, the clipboard (OSC 52), a forged line, a name that runs backwards.
+    let name = "a\u{9d}0;t\u{9c}\u{1b}]52;c;eA==\u{7}\r\nok: forged\u{2067}b\u{200b}";
+    for arguments in [
+        &[name][..],
+        &["list", name],
+        &["completions", name],
+        &["check", "empty", name],
+        &["run", "empty", "--steps", name],
+        &["render", "empty", "--at", name, "-o", "a.png"],
+        &["run", name],
+        &["inspect", name],
+        &["man", name],
+    ] {
+        let output = refused(arguments, "u{9d}");
+        let said = stderr(&output);
+        assert!(
+            !said.contains(|c: char| c != '\n' && c.is_control() || matches!(c, '\u{2067}' | '\u{200b}')),
+            "{said:?}"
+        );
+        assert!(!said.lines().any(|line| line.starts_with("ok: forged")), "{said:?}");
+    }
+}
+
+#[test]
 fn no_cell_of_a_merged_table_is_a_formula() {
     let folder = Folder::new("formula");
     let scenario =

@@ -1,46 +1,77 @@
 //! The calls that change files. All of them are here, so that tests can make any one of them fail.
 
+use crate::read;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
 /// A file that is open for writing.
 #[derive(Debug)]
-pub(crate) struct Written(File);
+pub(crate) struct Written {
+    file: File,
+    /// What a power cut would leave of it.
+    #[cfg(test)]
+    survivor: super::fault::Survivor,
+}
 
 impl Written {
-    /// A new, empty file, in place of any that has its name.
+    fn new(file: File) -> Self {
+        Self {
+            #[cfg(test)]
+            survivor: super::fault::opened(&file),
+            file,
+        }
+    }
+
+    /// A new, empty file, in place of any that has its name. A link of that name is replaced, not followed.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        attempt(|| File::create(path)).map(Self)
+        let made = attempt(|| match File::create_new(path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                fs::remove_file(path).and_then(|()| File::create_new(path))
+            }
+            made => made,
+        });
+        made.map(Self::new)
     }
 
     /// An existing file, to be written to at its end.
     pub(crate) fn append(path: &Path) -> io::Result<Self> {
-        attempt(|| OpenOptions::new().append(true).open(path)).map(Self)
+        attempt(|| OpenOptions::new().append(true).open(path)).map(Self::new)
     }
 
-    /// A file that is there to be locked; its content stays.
+    /// A file that is there to be locked; its content stays. A link is not followed, and a pipe not waited for.
     pub(crate) fn lockable(path: &Path) -> io::Result<Self> {
-        attempt(|| OpenOptions::new().create(true).append(true).open(path)).map(Self)
+        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+            return Err(read::irregular());
+        }
+        attempt(|| OpenOptions::new().create(true).append(true).open(path)).map(|file| Self {
+            // It holds nothing, and must not stay open.
+            #[cfg(test)]
+            survivor: super::fault::Survivor::default(),
+            file,
+        })
     }
 
     pub(crate) fn truncate(&self, length: u64) -> io::Result<()> {
-        attempt(|| self.0.set_len(length))
+        attempt(|| self.file.set_len(length))
     }
 
     /// Waits until the content is on the disk.
     pub(crate) fn sync(&self) -> io::Result<()> {
-        attempt(|| self.0.sync_all())
+        attempt(|| self.file.sync_all())?;
+        #[cfg(test)]
+        self.survivor.grow(self.length()?);
+        Ok(())
     }
 
     pub(crate) fn length(&self) -> io::Result<u64> {
-        self.0.metadata().map(|data| data.len())
+        self.file.metadata().map(|data| data.len())
     }
 
     /// Takes the file at this path for this process alone, until it is closed; `false` where another has it. The system
     /// gives up the lock of a process that dies. Where the file system has no locks, the file counts as free.
     pub(crate) fn try_lock(&self, path: &Path) -> bool {
-        !matches!(self.0.try_lock(), Err(fs::TryLockError::WouldBlock)) && self.is_at(path)
+        !matches!(self.file.try_lock(), Err(fs::TryLockError::WouldBlock)) && self.is_at(path)
     }
 
     /// Whether it still has this path: the process that held the lock before removes it.
@@ -49,7 +80,7 @@ impl Written {
         {
             use std::os::unix::fs::MetadataExt;
             let place = |data: fs::Metadata| (data.dev(), data.ino());
-            self.0.metadata().map(place).ok() == fs::metadata(path).map(place).ok()
+            self.file.metadata().map(place).ok() == fs::metadata(path).map(place).ok()
         }
         #[cfg(not(unix))]
         path.exists()
@@ -62,11 +93,11 @@ impl Write for Written {
         if let Err(error) = super::fault::next_call() {
             // A full disk and the moment of a crash may leave the first part.
             if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::Other) {
-                let _ = self.0.write(&bytes[..bytes.len() / 2]);
+                let _ = self.file.write(&bytes[..bytes.len() / 2]);
             }
             return Err(error);
         }
-        self.0.write(bytes)
+        self.file.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {

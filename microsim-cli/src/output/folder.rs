@@ -18,6 +18,8 @@ pub(crate) struct Outputs {
     is_new: bool,
     /// Whether others may write to it at the same time.
     is_shared: bool,
+    /// Whether a file must be on the disk before it has its name.
+    is_durable: bool,
     /// Names of the files that were finished.
     names: Mutex<Vec<String>>,
     /// Held while no other process may write to it.
@@ -42,6 +44,12 @@ impl Outputs {
         Ok(outputs)
     }
 
+    /// Locks the folder of a stopped run, which may be a stranger's: it is refused unless all files in it are its own.
+    pub(crate) fn reopen(folder: &Path) -> Result<Self, Failure> {
+        read::check_own(folder).map_err(|error| Failure::file("continue", folder, &error))?;
+        Self::open(folder, true)
+    }
+
     fn unlocked(folder: &Path, is_forced: bool) -> Result<Self, Failure> {
         let refuse = |why: &str| Err(Failure::Message(format!("--out {}: {why}", folder.display())));
         let fail = |error| Failure::file("write to", folder, &error);
@@ -53,13 +61,20 @@ impl Outputs {
         }
         let is_new = !folder.exists();
         files::create_folder(folder).map_err(fail)?;
-        Ok(Self { folder: folder.to_owned(), is_new, is_shared: false, names: Mutex::default(), lock: None })
+        Ok(Self {
+            folder: folder.to_owned(),
+            is_new,
+            is_shared: false,
+            is_durable: true,
+            names: Mutex::default(),
+            lock: None,
+        })
     }
 
-    /// A folder that others may write to at the same time.
+    /// A folder that others may write to at the same time. A power cut may leave torn files in it.
     pub(crate) fn shared(folder: &Path) -> Result<Self, Failure> {
         let mut outputs = Self::unlocked(folder, true)?;
-        outputs.is_shared = true;
+        (outputs.is_shared, outputs.is_durable) = (true, false);
         Ok(outputs)
     }
 
@@ -74,7 +89,9 @@ impl Outputs {
             return Err(Failure::Message(format!("{} is not a regular file", path.display())));
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok((Self::shared(folder)?, name.to_owned()))
+        let mut outputs = Self::shared(folder)?;
+        outputs.is_durable = true;
+        Ok((outputs, name.to_owned()))
     }
 
     pub(crate) fn folder(&self) -> &Path {
@@ -87,7 +104,7 @@ impl Outputs {
         if let Some(parent) = paths.0.parent() {
             files::create_folder(parent).map_err(|error| Failure::file("write", &paths.0, &error))?;
         }
-        PendingFile::create(name, paths, !self.is_shared)
+        PendingFile::create(name, paths, self.is_durable)
     }
 
     /// Continues a file after its first `length` bytes, whether it was finished or not.

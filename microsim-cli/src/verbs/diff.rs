@@ -38,11 +38,11 @@ struct Comparison {
 /// Compares two files and says where they differ.
 pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
     let (one, other) = (WorldFile::read(&args.one)?, WorldFile::read(&args.other)?);
-    let mut damage = None;
+    let mut damage = Vec::new();
     for (saved, path) in [(&one, &args.one), (&other, &args.other)] {
         let WorldFile::Replay(replay) = saved else { continue };
         match lost(replay, path) {
-            text @ Some(_) if matches!(replay.ending(), Ending::Damaged { .. }) => damage = text,
+            Some(text) if matches!(replay.ending(), Ending::Damaged { .. }) => damage.push(text),
             Some(text) => console.note(&text),
             None => {}
         }
@@ -54,8 +54,14 @@ pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
         (WorldFile::Run(one), WorldFile::Run(other)) => compare_checkpoints(&one, &other),
         (one, other) => compare_worlds((one, args.one.as_path()), (other, args.other.as_path()))?,
     };
-    comparison.tell()?;
-    if let Some(text) = damage { Err(Failure::Message(text)) } else { Ok(()) }
+    let told = comparison.tell();
+    if damage.is_empty() {
+        return told;
+    }
+    // Where they differ, that is the answer; the damage may be why.
+    let text = damage.join("\n");
+    told.inspect_err(|_| console.complain(&format!("error: {text}")))?;
+    Err(Failure::Message(text))
 }
 
 impl Comparison {

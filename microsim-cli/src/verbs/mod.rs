@@ -15,8 +15,8 @@ mod run;
 mod schema;
 mod sweep;
 
-#[cfg(test)]
-pub(crate) use sweep::Task;
+#[cfg(any(test, fuzzing))]
+pub(crate) use sweep::{Task, csv, lines, outcome_of};
 
 use crate::console::Console;
 use crate::failure::Failure;

@@ -27,7 +27,7 @@ pub(crate) fn resume(args: &ResumeArgs, console: &Console) -> Result<(), Failure
         return Err(Failure::Message(message));
     }
     interrupt::listen();
-    let outputs = Outputs::open(&args.folder, true)?;
+    let outputs = Outputs::reopen(&args.folder)?;
     let session = Session::resume(&outputs)?;
     check_formats(session.plan())?;
     session.run(args.json, console)

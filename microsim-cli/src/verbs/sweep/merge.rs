@@ -63,7 +63,8 @@ fn gather<'a>(tasks: &'a [Task], store: &ResultStore) -> Result<(Vec<TaskOutcome
     Ok((outcomes, missing))
 }
 
-fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
+/// The results as JSON, one a line.
+pub(crate) fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
     for outcome in outcomes {
         serde_json::to_writer(&mut text, outcome).map_err(std::io::Error::from)?;
@@ -72,7 +73,8 @@ fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     Ok(text)
 }
 
-fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
+/// The results as one table.
+pub(crate) fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     fn names<'a>(of: impl Iterator<Item = &'a String>) -> BTreeSet<&'a str> {
         of.map(String::as_str).collect()
     }

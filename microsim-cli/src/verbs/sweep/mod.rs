@@ -12,9 +12,13 @@ mod task;
 
 use grid::{Axis, Seeds};
 pub(crate) use run::run_tasks;
-#[cfg(test)]
-pub(crate) use task::Task;
 pub(crate) use task::TaskOutcome;
+#[cfg(any(test, fuzzing))]
+pub(crate) use {
+    merge::{csv, lines},
+    store::outcome_of,
+    task::Task,
+};
 
 use run::Shard;
 

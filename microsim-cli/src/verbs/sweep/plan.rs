@@ -8,7 +8,7 @@ use crate::prepared::{Prepared, load};
 use crate::read as file;
 use crate::scenario_args::Changes;
 use std::collections::BTreeMap;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 /// Most tasks of one plan.
@@ -62,13 +62,12 @@ fn combinations(axes: &[Axis]) -> Result<Vec<Vec<(String, String)>>, Failure> {
 
 /// Reads a plan, `-` for stdin.
 pub(super) fn read(path: &Path) -> Result<Vec<Task>, Failure> {
-    let mut text = String::new();
     let read = if path == Path::new("-") {
-        io::stdin().lock().read_to_string(&mut text).map(|_| ())
+        file::limited(io::stdin().lock(), 0).and_then(file::in_utf8)
     } else {
-        file::text(path).map(|content| text = content)
+        file::text(path)
     };
-    read.map_err(|error| Failure::file("read", path, &error))?;
+    let text = read.map_err(|error| Failure::file("read", path, &error))?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let tasks = lines.map(|(index, line)| Task::parse(line, &format!("{}:{}", path.display(), index + 1)));
     let tasks = tasks.collect::<Result<Vec<_>, _>>()?;

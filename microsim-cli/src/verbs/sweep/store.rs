@@ -31,7 +31,7 @@ impl ResultStore {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::file("read", &path, &error)),
         };
-        Ok(serde_json::from_slice(&bytes).ok().filter(|outcome: &TaskOutcome| outcome.is_of(task)))
+        Ok(outcome_of(task, &bytes))
     }
 
     /// Keeps the result of a task.
@@ -39,6 +39,11 @@ impl ResultStore {
         let text = serde_json::to_string(outcome).map_err(std::io::Error::from)?;
         self.outputs.write(&format!("{}.json", outcome.key), format!("{text}\n").as_bytes())
     }
+}
+
+/// The result of a task, if these bytes are one.
+pub(crate) fn outcome_of(task: &Task, bytes: &[u8]) -> Option<TaskOutcome> {
+    serde_json::from_slice(bytes).ok().filter(|outcome: &TaskOutcome| outcome.is_of(task))
 }
 
 fn name(task: &Task) -> String {

@@ -64,7 +64,7 @@ impl Task {
     }
 
     /// The first half of a SHA-256 of all other fields.
-    fn hash(&self) -> String {
+    pub(crate) fn hash(&self) -> String {
         let Self { key: _, scenario, seed, set, steps, version, text } = self;
         let content = format!("microsim {version}\n{scenario:?} {seed} {set:?} {steps}\n{text}");
         hex(&Sha256::digest(content.as_bytes())[..16])

@@ -13,10 +13,15 @@ pub(crate) use window::run;
 use super::ScreenButtons;
 use macroquad::input::get_dropped_files;
 use std::ffi::OsString;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 use std::{fs, io};
+
+/// Longest file that is read, bytes.
+const LONGEST: u64 = 1 << 28;
 
 /// Whether the program can end of itself.
 pub const CAN_QUIT: bool = true;
@@ -30,18 +35,28 @@ pub fn arguments() -> impl Iterator<Item = OsString> {
 
 /// Answers a command line that asks for help or cannot be understood.
 pub fn answer(answer: &clap::Error) {
-    // Ignored: standard output may be closed.
-    let _ = answer.print();
+    if answer.use_stderr() {
+        eprint!("{}", clean(&answer.render().to_string()));
+    } else {
+        // Ignored: standard output may be closed.
+        let _ = answer.print();
+    }
 }
 
 /// Says why the program ends.
 pub fn fail(problem: &str) {
-    eprintln!("microsim-game: {problem}");
+    eprintln!("microsim-game: {}", clean(problem));
 }
 
 /// Says something to whoever started the program.
 pub fn print(text: &str) {
-    eprintln!("{text}");
+    eprintln!("{}", clean(text));
+}
+
+/// Text without what controls a terminal, for it may have names from files in it.
+fn clean(text: &str) -> String {
+    let is_plain = |c: char| matches!(c, '\n' | '"' | '\'' | '\\') || c.escape_debug().len() == 1;
+    text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_unicode().to_string() }).collect()
 }
 
 /// Time since some moment; it never goes back.
@@ -59,9 +74,18 @@ pub fn rest(time: Duration) {
 /// What is in a file that the player has named or dropped.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When it cannot be read, is a device or a pipe, which may have no end, or is longer than 256 MB.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    fs::read(path)
+    // Before it is opened, which waits for ever where nobody writes to a pipe.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LONGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(io::Error::new(ErrorKind::FileTooLarge, "it is too long"));
+    }
+    Ok(bytes)
 }
 
 /// Writes a file for the player.
@@ -110,6 +134,21 @@ mod tests {
             has_float_targets("4.5 (Compatibility Profile) Mesa 22.3.6") && has_float_targets("OpenGL ES 3.2 Mesa")
         );
         assert!(["OpenGL ES 2.0", "WebGL 1.0", "2.1 Mesa"].iter().all(|version| !has_float_targets(version)));
+    }
+
+    #[test]
+    fn nothing_that_is_said_controls_a_terminal() {
+        let said = clean("a\u{1b}]52;c;eA==\u{7}\r\u{9b}2J\u{202e}\u{200b}\nµ \"b\" 'c' \\");
+        let expected = "a\\u{1b}]52;c;eA==\\u{7}\\u{d}\\u{9b}2J\\u{202e}\\u{200b}\nµ \"b\" 'c' \\";
+        assert_eq!(said, expected);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_has_no_end_is_refused() {
+        assert_eq!(read(Path::new("/dev/zero")).unwrap_err().kind(), ErrorKind::InvalidInput);
+        assert_eq!(read(&std::env::temp_dir()).unwrap_err().kind(), ErrorKind::InvalidInput);
+        assert!(read(Path::new("Cargo.toml")).is_ok_and(|text| text.starts_with(b"[package]")));
     }
 
     #[test]
