@@ -81,6 +81,7 @@ mod tests {
     use crate::solver::integrate::{predict_positions, update_velocities};
     use crate::solver::testing::{assert_pair_laws, line};
     use glam::Vec2;
+    use std::f32::consts::TAU;
 
     const H: f32 = 1.0 / 480.0;
     const FAST: f32 = 1e6;
@@ -121,12 +122,12 @@ mod tests {
     #[test]
     fn a_spring_keeps_its_amplitude_where_a_distance_loses_it() {
         // 1 Hz.
-        let compliance = 1.0 / 39.478;
+        let compliance = 1.0 / (TAU * TAU);
         let soft = Distance { a: 0, b: 1, rest_length: 1.0, compliance, damping: 0.0 };
         assert!((kept(constraint(compliance), 9600) - 1.0).abs() < 0.002);
         assert!(kept(soft, 9600) < 0.7);
         // With a damping time of 2 z / omega: exp(-z omega t) in ten seconds, z 0.01.
-        let damped = ConservativeDistance { damping: 0.02 / 6.2832, ..constraint(compliance) };
+        let damped = ConservativeDistance { damping: 0.02 / TAU, ..constraint(compliance) };
         assert!((kept(damped, 9600) - (-0.62832f32).exp()).abs() < 0.02, "{}", kept(damped, 9600));
     }
 
