@@ -6,7 +6,8 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::scenario::{Built, Scenario, Violation, builtin};
 use microsim_core::{
-    Collider, ContactPoint, Event, JointEnd, JointKind, JointSpec, Obstacle, OrganismId, Refusal, World, WorldConfig,
+    AgarSpec, Collider, ContactPoint, Emitter, EmitterId, Event, JointEnd, JointKind, JointSpec, Obstacle, OrganismId,
+    Outlet, Recipe, Refusal, Region, Wall, World, WorldConfig,
 };
 
 const FILE: &str = "schema = 1\n[world]\nsize = [100.0, 60.0]\n[amoeboid_cell.c]\nradii = [8.0, 8.0]\n\
@@ -172,8 +173,15 @@ fn every_kind_of_event_has_its_name_in_the_list() {
         Event::TouchBegan { organism: id, collider },
         Event::TouchEnded { organism: id, collider },
         Event::Hit { contact },
+        Event::Emitted { emitter: an_emitter(), organism: id },
+        Event::Drained { outlet: Outlet::Side(Wall::Top), organism: id, kind, particles: 1 },
     ];
     assert_eq!(events.map(|event| event.name()), Event::NAMES);
+}
+
+fn an_emitter() -> EmitterId {
+    let recipe = Recipe::Organism(AgarSpec::default().into());
+    World::new(WorldConfig::default()).unwrap().add_emitter(Emitter::new(Region::All, recipe, 1.0)).unwrap()
 }
 
 /// Plays a built-in scenario for so many seconds with each of some seeds and expects nothing to break.
