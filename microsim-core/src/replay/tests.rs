@@ -8,9 +8,9 @@ use crate::id::OrganismId;
 use crate::inputs::{Inputs, Intent};
 use crate::scenario::{Built, Scenario, builtin};
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller, DivisionParams,
-    Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node, Obstacle,
-    ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
+    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller,
+    DivisionParams, Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node,
+    Obstacle, ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
