@@ -1,0 +1,109 @@
+//! Tests of building templates.
+
+use super::*;
+use crate::error::ErrorKind;
+use crate::solver::constraint::{Anchor, Area, Bend, MinDistance, Rope};
+
+/// Discs at (0, 0) and (0, 2).
+fn two_nodes() -> TemplateBuilder {
+    let mut builder = Template::builder();
+    builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+    builder.node(Node::disc(Vec2::new(0.0, 2.0), 1.0, 0.5));
+    builder
+}
+
+#[test]
+fn links_rest_at_the_present_distance() {
+    let mut builder = two_nodes();
+    builder.link(0, 1, 1e-4);
+    let template = builder.build().unwrap();
+    let link = Distance { a: 0, b: 1, rest_length: 2.0, compliance: 1e-4, damping: 0.0 };
+    assert_eq!(template.constraints(), [link.into()]);
+    assert_eq!(template.extent(), 2.5);
+}
+
+#[test]
+fn constraints_are_sorted_by_kind_with_limits_last() {
+    let mut builder = two_nodes();
+    let rope = |max_length| Constraint::from(Rope { a: 0, b: 1, max_length });
+    let distance = |rest_length| Distance { a: 0, b: 1, rest_length, compliance: 0.0, damping: 0.0 }.into();
+    for constraint in [rope(3.0), distance(2.0), rope(2.5), distance(1.0)] {
+        builder.constraint(constraint);
+    }
+    let template = builder.build().unwrap();
+    assert_eq!(template.constraints(), [distance(2.0), distance(1.0), rope(3.0), rope(2.5)]);
+}
+
+#[test]
+fn a_muscle_stays_one_when_constraints_are_sorted() {
+    let mut builder = two_nodes();
+    let [slow, fast] = [0.5, 0.8].map(|active| builder.channel([1.0, active]));
+    builder.muscle(fast, Rope { a: 0, b: 1, max_length: 3.0 }).link(0, 1, 0.0);
+    builder.muscle(slow, Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: 0.0 });
+    let template = builder.build().unwrap();
+    let muscle = |constraint, channel| Muscle { constraint, channel };
+    assert_eq!((template.muscles(), template.channels().len()), (&[muscle(1, slow), muscle(2, fast)][..], 2));
+    assert!(matches!(template.constraints()[2], Constraint::Rope(_)));
+}
+
+#[test]
+fn every_bad_input_is_refused_by_name() {
+    let refuse = |change: &dyn Fn(&mut TemplateBuilder), field: &str| {
+        let mut builder = two_nodes();
+        change(&mut builder);
+        assert_eq!(builder.build().unwrap_err().field(), field);
+    };
+    refuse(&|b| _ = b.node(Node::disc(Vec2::NAN, 1.0, 0.5)), "nodes[2].position.x");
+    refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 0.0, 0.5)), "nodes[2].mass");
+    refuse(&|b| _ = b.node(Node::disc(Vec2::ZERO, 1.0, -0.5)), "nodes[2].radius");
+    refuse(&|b| _ = b.link(0, 7, 0.0), "constraints[0].a");
+    refuse(&|b| _ = b.link(1, 1, 0.0), "constraints[0].a");
+    refuse(&|b| _ = b.link(0, 1, f32::NAN), "constraints[0].compliance");
+    refuse(&|b| _ = b.constraint(Rope { a: 0, b: 1, max_length: -1.0 }), "constraints[0].max_length");
+    refuse(&|b| _ = b.constraint(MinDistance { a: 0, b: 9, min_length: 1.0 }), "constraints[0].a");
+    let anchor = Anchor { node: 0, anchor: 1, rest_length: 2.0, max_length: 1.0, compliance: 0.0 };
+    refuse(&|b| _ = b.constraint(anchor), "constraints[0].max_length");
+    refuse(&|b| _ = b.outline(&[0, 1]), "outline");
+    refuse(&|b| _ = b.channel([0.0, 1.0]), "channels[0].rest");
+    refuse(&|b| _ = b.channel([1.0, f32::NAN]), "channels[0].active");
+    refuse(&|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }), "muscles");
+    let bent = |b: &mut TemplateBuilder, angle, compliance| {
+        let c = b.node(Node::disc(Vec2::Y, 1.0, 0.5));
+        Bend::new([0, 1, c], angle, compliance)
+    };
+    refuse(
+        &|b| {
+            _ = {
+                let bend = bent(b, 0.0, 0.0);
+                let channel = b.channel([1.0, 2.0]);
+                b.muscle(channel, bend)
+            }
+        },
+        "muscles",
+    );
+    refuse(
+        &|b| {
+            _ = {
+                let bend = bent(b, f32::NAN, 0.0);
+                b.constraint(bend)
+            }
+        },
+        "constraints[0].rest_turn",
+    );
+    refuse(
+        &|b| {
+            _ = {
+                let bend = bent(b, 0.0, -1.0);
+                b.constraint(bend)
+            }
+        },
+        "constraints[0].compliance",
+    );
+    refuse(&|b| _ = b.constraint(Bend::new([0, 1, 2], 0.0, 0.0)), "constraints[0].a");
+    let propulsion = |speed, max_acceleration| Propulsion { speed, max_acceleration };
+    refuse(&|b| _ = b.propulsion(propulsion(-1.0, 0.0)), "propulsion.speed");
+    refuse(&|b| _ = b.propulsion(propulsion(1.0, f32::INFINITY)), "propulsion.max_acceleration");
+    let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
+    refuse(&|b| _ = b.constraint(area.clone()), "constraints[0].ring");
+    assert!(matches!(Template::builder().build().unwrap_err().kind(), ErrorKind::BadReference { .. }));
+}
