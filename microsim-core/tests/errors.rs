@@ -9,8 +9,8 @@ use microsim_core::{
     CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error, ErrorKind,
     Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd,
     JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec,
-    Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template, TemplateBuilder,
-    TemplateId, World, WorldConfig,
+    PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template,
+    TemplateBuilder, TemplateId, World, WorldConfig,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -229,6 +229,14 @@ const CASES: &[Case] = &[
     ("World::grow", "Unsupported", "organism", |r| r.world.grow(r.agar, 1, 1).unwrap_err()),
     ("World::grow", "OutOfRange", "particles", |r| r.world.grow(r.cell, 0, 600).unwrap_err()),
     ("World::grow", "TooMany", "particles", |r| r.world.grow(r.cell, u32::MAX, u32::MAX).unwrap_err()),
+    ("World::shrink", "Stale", "organism", |r| r.world.shrink(r.stale, 1).unwrap_err()),
+    ("World::shrink", "Unsupported", "organism", |r| r.world.shrink(r.agar, 1).unwrap_err()),
+    ("World::shrink", "OutOfRange", "particles", |r| r.world.shrink(r.cell, u32::MAX).unwrap_err()),
+    ("World::set_speed", "Stale", "organism", |r| r.world.set_speed(r.stale, 1.0).unwrap_err()),
+    ("World::set_speed", "OutOfRange", "speed", |r| r.world.set_speed(r.cell, -1.0).unwrap_err()),
+    ("World::set_phagocytosis", "Stale", "organism", |r| r.world.set_phagocytosis(r.stale, PhagocytosisParams::default()).unwrap_err()),
+    ("World::set_phagocytosis", "Unsupported", "organism", |r| r.world.set_phagocytosis(r.agar, PhagocytosisParams::default()).unwrap_err()),
+    ("World::set_phagocytosis", "OutOfRange", "size_ratio", |r| { let params = PhagocytosisParams { size_ratio: -1.0, ..PhagocytosisParams::default() }; r.world.set_phagocytosis(r.cell, params).unwrap_err() }),
     ("World::divide", "Stale", "organism", |r| r.world.divide(r.stale).unwrap_err()),
     ("World::divide", "Unsupported", "organism", |r| r.world.divide(r.agar).unwrap_err()),
     ("World::divide_along", "Stale", "organism", |r| r.world.divide_along(r.stale, Vec2::X).unwrap_err()),

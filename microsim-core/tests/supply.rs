@@ -155,3 +155,14 @@ fn supplies_are_part_of_the_future_and_of_the_digest() {
     one.set_emitter(id, Emitter { rate: 26.0, ..emitter }).unwrap();
     assert_ne!(one.digest(), other.digest());
 }
+
+#[test]
+fn a_drain_takes_a_cell_by_its_centre_not_by_one_of_its_nodes() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 20.0)).unwrap();
+    let right = world.add_drain(Drain { region: area([43.0, 80.0], [0.0, 40.0]), kind: None }).unwrap();
+    assert_eq!(run(&mut world, 2).1, 0, "only its right half is in the drain");
+    world.set_drain(right, Drain { region: area([39.0, 41.0], [19.0, 21.0]), kind: None }).unwrap();
+    assert_eq!(run(&mut world, 1).1, 1);
+    assert!(world.view().organism(cell).is_none());
+}

@@ -108,7 +108,7 @@ impl World {
             let Some(body) = MassProperties::of(particles, &list) else { continue };
             let at = body.position(particles);
             let mobility: f32 = fields.iter().map(|(_, field)| field.mobility_at(at)).sum();
-            let radius = (organism.spawn_area / PI).sqrt();
+            let radius = (organism.spawn_area.abs() / PI).sqrt();
             if mobility <= 0.0 || radius <= 0.0 {
                 continue;
             }

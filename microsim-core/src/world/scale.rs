@@ -23,6 +23,7 @@ impl World {
     pub fn set_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
         with_default_float_environment(|| self.check_scale(id, scale))?;
         with_default_float_environment(|| self.scale_body(id, scale));
+        self.scratch.occupancy.clear();
         self.wake_up_touching(id);
         self.changed(|| WorldChange::SetScale(id, scale));
         Ok(())
@@ -82,6 +83,17 @@ impl World {
 mod tests {
     use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, World, WorldConfig};
     use glam::Vec2;
+
+    #[test]
+    fn the_room_that_a_larger_body_takes_is_not_given_to_others() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let agar = |radius| AgarSpec { radius, ..AgarSpec::default() }.into();
+        let ball = world.spawn(&agar(1.0), Placement::at(50.0, 45.0)).unwrap();
+        world.spawn(&agar(1.0), Placement::at(20.0, 45.0)).unwrap();
+        world.set_scale(ball, 3.0).unwrap();
+        world.clone().spawn(&agar(0.5), Placement::at(52.0, 45.0)).unwrap_err();
+        world.spawn(&agar(0.5), Placement::at(52.0, 45.0)).unwrap_err();
+    }
 
     #[test]
     fn a_body_grows_in_place_and_pushes_its_neighbours_away() {

@@ -52,7 +52,7 @@ impl World {
     pub fn add_emitter(&mut self, emitter: Emitter) -> Result<EmitterId, Error> {
         with_default_float_environment(|| self.check_emitter(&emitter))?;
         let (index, generation) = self.emitters.next_handle();
-        let rng = Rng::new(self.config.seed, STREAM + (u64::from(generation) << 32) + u64::from(index));
+        let rng = Rng::new(self.config.seed, STREAM ^ (u64::from(generation) << 32) ^ u64::from(index));
         let record = EmitterRecord { emitter: emitter.clone(), owed: 0.0, rng };
         let id = EmitterId::of(self.emitters.insert(Box::new(record)));
         self.changed(|| WorldChange::AddEmitter(Box::new(emitter)));
@@ -170,7 +170,7 @@ impl World {
     fn is_taken(&self, id: OrganismId, outlet: Outlet, takes: &impl Fn(Vec2) -> bool) -> bool {
         let Some(organism) = self.organisms.get(id) else { return false };
         match outlet {
-            Outlet::Drain(_) => takes(self.centre_of(organism)),
+            Outlet::Drain(_) => self.centroid(id).is_some_and(takes),
             Outlet::Side(_) => organism.particles().all(|i| takes(self.particles.position(i as usize))),
         }
     }

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{Next, Overlay, Paused, Screen};
 use crate::input::{Input, Move};
 use crate::rules::food_chain::change::Change;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 
 /// Time for which the menu does not answer, s: it opens under a hand that steers.
 const DELAY: f32 = 0.5;
@@ -33,6 +33,10 @@ impl Choose {
 }
 
 impl Screen for Choose {
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
+    }
+
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.step == Some(Move::Back) {
             return Next::Open(Overlay::Pause(self.played));

@@ -5,7 +5,7 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
 use crate::input::{Input, Move};
 use crate::rules::food_chain::NAME;
-use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use macroquad::miniquad;
 
 /// Length of a day, s.
@@ -31,6 +31,10 @@ impl FoodChainMenu {
 }
 
 impl Screen for FoodChainMenu {
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.page.menu)
+    }
+
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.step == Some(Move::Back) {
             return Next::Back;

@@ -11,7 +11,7 @@ use crate::rules::food_chain::{Fate, NAME};
 use crate::rules::round::{Life, RoundResult};
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
-use crate::ui::menu::MenuLayout;
+use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::Align;
 use macroquad::color::Color;
 use microsim_core::Kind;
@@ -63,6 +63,10 @@ impl FoodChainEnd {
 }
 
 impl Screen for FoodChainEnd {
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.menu.menu)
+    }
+
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         let again = || match self.played {
             Paused::Round | Paused::OtherGame => self.played.restart(),

@@ -37,9 +37,10 @@ impl World {
             return Err(out_of_range("particles", f64::from(particles), format!("at most {most}, now")));
         }
         organism.record_nodes_per_root(&self.fluids);
-        let lost = organism.fluid_particles.split_off(count - particles as usize);
+        let mut lost = organism.fluid_particles.split_off(count - particles as usize);
         organism.update_wanted_nodes(&self.fluids);
-        self.fluids[fluid as usize].particles.retain(|i| !lost.contains(i));
+        lost.sort_unstable();
+        self.fluids[fluid as usize].particles.retain(|i| lost.binary_search(i).is_err());
         lost.into_iter().for_each(|i| self.particles.remove(i));
         self.changed(|| WorldChange::Shrink(id, particles));
         Ok(())

@@ -64,14 +64,14 @@ impl Change {
         };
         let (data, speed) = (view.user_data(), view.speed());
         let params = view.phagocytosis().copied();
-        world.set_user_data(cell, data + (1 << self.shift()))?;
         match (self, params) {
             (Self::Speed, _) => world.set_speed(cell, 1.15 * speed),
             (Self::StickyFront | Self::Stomach | Self::WideMouth, Some(params)) => {
                 world.set_phagocytosis(cell, self.of_eating(params))
             }
             _ => Ok(()),
-        }
+        }?;
+        world.set_user_data(cell, data + (1 << self.shift()))
     }
 
     fn of_eating(self, mut params: PhagocytosisParams) -> PhagocytosisParams {
