@@ -1,6 +1,10 @@
 //! Every public function that can fail, with each kind of error that it can give. Those for files: `file_errors.rs`.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
+#[path = "common/sources.rs"]
+#[allow(dead_code, reason = "the tests of layering use all of it")]
+mod sources;
+
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
@@ -12,6 +16,7 @@ use microsim_core::{
     PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template,
     TemplateBuilder, TemplateId, World, WorldConfig,
 };
+use sources::sources;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -376,28 +381,16 @@ fn fallible(text: &str) -> Vec<String> {
     signatures.map(|signature| signature.split(['(', '<']).next().unwrap_or_default().to_owned()).collect()
 }
 
-fn sources(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        // Pictures have refusals of their own, tested in tests/microscope.rs.
-        if path.is_dir() && !path.ends_with("microscope") {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
-}
-
 #[test]
 fn no_function_that_can_fail_is_missing() {
-    let mut files = Vec::new();
-    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let listed: BTreeSet<&str> = CASES.iter().filter_map(|case| case.0.split("::").last()).collect();
     let mut count = 0;
-    for file in files {
-        for name in fallible(&std::fs::read_to_string(&file).unwrap()) {
+    // Pictures have refusals of their own, tested in tests/microscope.rs.
+    for source in sources(&root).iter().filter(|source| source.module() != "microscope") {
+        for name in fallible(&std::fs::read_to_string(root.join(&source.path)).unwrap()) {
             count += 1;
-            assert!(listed.contains(name.as_str()), "`{name}` of {} is not in CASES", file.display());
+            assert!(listed.contains(name.as_str()), "`{name}` of {} is not in CASES", source.path.display());
         }
     }
     assert!(count >= 18, "only {count} functions found: does the search still work?");

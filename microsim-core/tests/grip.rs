@@ -3,8 +3,8 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Crawl, Inputs, Intent, OrganismId, OrganismSpec, Placement, RigidCellSpec, Substrate,
-    World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Crawl, FluidBlockSpec, Inputs, Intent, OrganismId, OrganismSpec, Placement,
+    RigidCellSpec, Substrate, World, WorldConfig,
 };
 
 const GRAVITY: f32 = 30.0;
@@ -114,4 +114,18 @@ fn who_holds_on_to_another_pulls_it_the_other_way() {
         }
         assert!(fastest > 1.0 && fastest < 20.0, "{:?}: {fastest}", world.kind(other));
     }
+}
+
+#[test]
+fn fluid_is_no_ground() {
+    let mut world = room(0.0);
+    let spec = OrganismSpec::from(AmoeboidCellSpec::default());
+    let cell = world.spawn(&spec, Placement::at(60.0, 45.0)).unwrap();
+    let block = FluidBlockSpec { size: Vec2::new(4.0, 24.0), ..FluidBlockSpec::default() };
+    let beside = 60.0 - spec.extent().unwrap() - 2.5;
+    world.spawn(&block.into(), Placement::at(beside, 45.0)).unwrap();
+    world.push(cell, Vec2::new(-1.0, 0.0)).unwrap();
+    run(&mut world, &to(cell, 60.0, 85.0), 120);
+    let moved = world.centroid(cell).unwrap().y - 45.0;
+    assert!(moved.abs() < 0.5, "it pulled itself along by {moved}");
 }

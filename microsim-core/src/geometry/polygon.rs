@@ -73,7 +73,7 @@ fn edges(polygon: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
 }
 
 /// Whether the ray from `point` towards +x crosses the edge.
-fn crosses_ray(a: Vec2, b: Vec2, point: Vec2) -> bool {
+pub(crate) fn crosses_ray(a: Vec2, b: Vec2, point: Vec2) -> bool {
     if (a.y > point.y) == (b.y > point.y) {
         return false;
     }

@@ -49,6 +49,8 @@ pub(crate) struct Organism {
     pub spawn_area: f32,
     /// Its size relative to its template when it was spawned.
     pub spawn_scale: f32,
+    /// The size that it returns to, relative to its size when it was spawned.
+    pub full_scale: f32,
     /// The capability to take others in.
     pub engulfer: Option<Engulfer>,
     /// The capability to be taken in.
@@ -76,6 +78,11 @@ pub(crate) struct Organism {
 
 /// Stands for a step that is not the present one.
 impl Organism {
+    /// Area of its full size, square units.
+    pub(crate) fn full_area(&self) -> f32 {
+        self.spawn_area * (self.full_scale * self.full_scale)
+    }
+
     /// Particles of the outline, counter-clockwise.
     pub(crate) fn outline_particles(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
         self.outline.iter().map(|&node| self.body.particle(node))

@@ -28,9 +28,11 @@ impl TemplateBuilder {
                 self.constraint(MinDistance { a, b, min_length: 0.0 });
                 continue;
             };
-            let min_length = one.radius + other.radius;
-            let is_apart = || (other.position - one.position).length_squared() >= min_length * min_length;
-            if with_default_float_environment(is_apart) {
+            let (min_length, is_apart) = with_default_float_environment(|| {
+                let min_length = one.radius + other.radius;
+                (min_length, (other.position - one.position).length_squared() >= min_length * min_length)
+            });
+            if is_apart {
                 self.constraint(MinDistance { a, b, min_length });
             }
         }

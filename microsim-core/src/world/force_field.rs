@@ -5,6 +5,7 @@ use super::change::WorldChange;
 use crate::error::Error;
 use crate::force_field::{FieldKind, ForceField};
 use crate::id::FieldId;
+use crate::organism::Storage;
 use crate::particle::mass_properties::MassProperties;
 use crate::rng::Rng;
 use glam::Vec2;
@@ -97,18 +98,20 @@ impl World {
         if !self.fields.iter().any(|(_, field)| matches!(field.kind, FieldKind::Thermal { .. })) {
             return;
         }
-        let Self { config, fields, organisms, particles, step_index, .. } = self;
+        let Self { config, fields, organisms, particles, sleep, step_index, .. } = self;
         let step = u64::wrapping_mul(*step_index + 1, SCRAMBLE);
         let per_root = config.damping * (2.0 * config.dt).sqrt() / (1.0 + config.damping * config.substep());
         for (id, organism) in organisms.iter() {
-            if organism.slots == 0 || organism.goal.is_some() || organism.is_held() || organism.is_quarantined {
+            let sleeps = matches!(organism.body, Storage::Lane { block, .. } if sleep.is_asleep(block));
+            if sleeps || organism.slots == 0 || organism.goal.is_some() || organism.is_held() || organism.is_quarantined
+            {
                 continue;
             }
             let list: Vec<u32> = organism.particles().collect();
             let Some(body) = MassProperties::of(particles, &list) else { continue };
             let at = body.position(particles);
             let mobility: f32 = fields.iter().map(|(_, field)| field.mobility_at(at)).sum();
-            let radius = (organism.spawn_area.abs() / PI).sqrt();
+            let radius = (organism.full_area().abs() / PI).sqrt();
             if mobility <= 0.0 || radius <= 0.0 {
                 continue;
             }
@@ -147,7 +150,8 @@ impl World {
 #[cfg(test)]
 mod tests {
     use crate::{
-        AgarSpec, FieldKind, ForceField, Inputs, OrganismId, Placement, RedCellSpec, Region, World, WorldConfig,
+        AgarSpec, FieldKind, ForceField, Inputs, Node, OrganismId, Placement, RedCellSpec, Region, Template, World,
+        WorldConfig,
     };
     use glam::Vec2;
 
@@ -190,5 +194,27 @@ mod tests {
         let mut twin = cell.clone();
         (0..60).for_each(|_| [&mut cell, &mut twin].into_iter().for_each(|world| world.step(&Inputs::new())));
         assert_eq!(cell.digest(), twin.digest());
+    }
+
+    #[test]
+    fn a_sleeper_around_a_thermal_region_is_not_kicked() {
+        let mut builder = Template::builder();
+        let [a, b] = [-4.0, 4.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+        // Wound clockwise, so that its area is negative.
+        let c = builder.node(Node::disc(Vec2::new(0.0, 6.0), 1.0, 0.5));
+        builder.link(a, b, 0.0).link(b, c, 0.0).link(c, a, 0.0).outline(&[a, c, b]);
+        let template = builder.build().unwrap();
+        let at_rest = |region: Region| {
+            let mut world = World::new(WorldConfig { damping: 3.0, ..WorldConfig::default() }).unwrap();
+            let template = world.add_template(template.clone());
+            let body = world.spawn_template(template, Placement::at(40.0, 40.0)).unwrap();
+            world.add_field(ForceField { region, kind: FieldKind::Thermal { mobility: 5.0 } }).unwrap();
+            (0..120).for_each(|_| world.step(&Inputs::new()));
+            world.validate().unwrap();
+            let body = world.view().organism(body).unwrap();
+            (body.velocity() == Vec2::ZERO, body.is_quarantined())
+        };
+        let middle = Region::Circle { centre: Vec2::new(40.0, 42.0), radius: 0.5 };
+        assert_eq!([middle, Region::All].map(at_rest), [(true, false), (false, false)]);
     }
 }

@@ -94,7 +94,9 @@ impl World {
         });
         touching.flat_map(|NearPair { i, j, .. }| {
             [(i, j), (j, i)].into_iter().filter_map(|(own, other)| {
-                let on = self.organisms.id_at(p.owner[other as usize])?;
+                // Fluid is no ground, neither that of others nor what a cell holds.
+                let is_fluid = [own, other].iter().any(|&i| p.fluid[i as usize] != 0);
+                let on = self.organisms.id_at(p.owner[other as usize]).filter(|_| !is_fluid)?;
                 // What is inside a cell is no ground for it.
                 let is_free = self.organisms.get(on).is_some_and(|other| !other.is_held());
                 let normal = p.between(other as usize, own as usize).normalize_or_zero();

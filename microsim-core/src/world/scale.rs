@@ -14,8 +14,8 @@ const LARGEST: f32 = 1e5;
 impl World {
     /// Sets the size of a body of a template, single discs among them, relative to its size when it was spawned: its radii, lengths
     /// and areas; its mass stays. It takes on the size within the next steps and pushes away what is in its place, at up to the
-    /// speed limit: let it grow a little in each step. Prey that is digested shrinks whatever this says, and returns to its size
-    /// when spawned.
+    /// speed limit: let it grow a little in each step. What takes in prey goes by this size; prey that is being taken in or digested
+    /// is smaller, and returns to this size when it is released.
     ///
     /// # Errors
     /// When the handle is stale; when the organism is frozen, held by another, or holds fluid, whose size is that of its spec; and
@@ -23,6 +23,9 @@ impl World {
     pub fn set_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
         with_default_float_environment(|| self.check_scale(id, scale))?;
         with_default_float_environment(|| self.scale_body(id, scale));
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.full_scale = scale;
+        }
         self.scratch.occupancy.clear();
         self.wake_up_touching(id);
         self.changed(|| WorldChange::SetScale(id, scale));
@@ -83,6 +86,28 @@ impl World {
 mod tests {
     use crate::{AgarSpec, AmoeboidCellSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, World, WorldConfig};
     use glam::Vec2;
+
+    #[test]
+    fn prey_keeps_the_size_that_it_is_given_and_is_judged_by_it() {
+        let is_eaten = |scale: f32| {
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+            let ball = world.spawn(&AgarSpec { radius: 1.0, ..AgarSpec::default() }.into(), Placement::at(80.0, 45.0));
+            let ball = ball.unwrap();
+            world.set_scale(ball, scale).unwrap();
+            (0..180).for_each(|_| world.step(&Inputs::new()));
+            assert_eq!(world.view().organism(ball).unwrap().scale(), scale);
+            let mut inputs = Inputs::new();
+            inputs.set(cell, crate::Intent::toward(Vec2::new(80.0, 45.0)).unwrap());
+            let eaten = (0..900).any(|_| {
+                world.step(&inputs);
+                world.view().organism(ball).is_none_or(|ball| ball.held_by().is_some())
+            });
+            world.validate().unwrap();
+            eaten
+        };
+        assert!(is_eaten(0.5) && is_eaten(1.0) && !is_eaten(10.0));
+    }
 
     #[test]
     fn the_room_that_a_larger_body_takes_is_not_given_to_others() {

@@ -128,6 +128,7 @@ impl World {
             rng: Rng::new(self.config.seed, id.stream()),
             spawn_area: blueprint.area * placement.scale * placement.scale,
             spawn_scale: scale,
+            full_scale: 1.0,
             engulfer: blueprint.engulfer.map(Engulfer::new),
             prey: blueprint.prey.map(|class| Prey { class, held_by: None }),
             phagosomes: Vec::new(),

@@ -228,9 +228,9 @@ impl World {
         let (recipe, velocity) = (record.emitter.recipe.clone(), record.emitter.velocity);
         let emitter = self.emitters.handle_at(index).map(EmitterId::of);
         let mut emitted = 0.0;
+        let blueprint = self.blueprint_of(&recipe);
         for placement in placements {
-            let blueprint = self.blueprint_of(&recipe);
-            let spawned = blueprint.and_then(|blueprint| self.spawn_blueprint(blueprint, placement));
+            let spawned = blueprint.clone().and_then(|blueprint| self.spawn_blueprint(blueprint, placement));
             let (Ok(organism), Some(emitter)) = (spawned, emitter) else { continue };
             self.set_velocity(organism, velocity);
             self.events.push(Event::Emitted { emitter, organism });

@@ -2,7 +2,7 @@
 
 use super::MAX_NODES;
 use crate::error::{Error, in_range, out_of_range};
-use crate::geometry::polygon::{contains_point, is_simple, perimeter, signed_area};
+use crate::geometry::polygon::{crosses_ray, is_simple, perimeter, signed_area};
 use crate::geometry::segment::nearest_on_segment;
 use glam::Vec2;
 
@@ -73,18 +73,26 @@ fn divide(corners: &[Vec2], around: f32, count: usize) -> Vec<Vec2> {
 pub(super) fn fill(ring: &[Vec2], spacing: f32, clearance: f32) -> Vec<Vec2> {
     let bounds = |fold: fn(Vec2, Vec2) -> Vec2| ring.iter().copied().reduce(fold).unwrap_or_default();
     let (low, high) = (bounds(Vec2::min), bounds(Vec2::max));
-    let is_clear = |point: &Vec2| {
-        let links = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
-        let mut near = links.map(|(a, b)| (nearest_on_segment(a, b, *point) - *point).length_squared());
-        contains_point(ring, *point) && near.all(|squared| squared >= clearance * clearance)
-    };
     let (columns, rows) =
         (((high.x - low.x) / spacing) as usize + 1, ((high.y - low.y) / (ROW * spacing)) as usize + 1);
-    let place = |row: usize, column: usize| {
+    let in_row = |row: usize| {
         let shift = if row.is_multiple_of(2) { 0.0 } else { 0.5 };
-        low + spacing * Vec2::new(column as f32 + shift, ROW * row as f32)
+        let place = move |column: usize| low + spacing * Vec2::new(column as f32 + shift, ROW * row as f32);
+        let links = links_near(ring, place(0).y, clearance);
+        let is_clear = move |point: &Vec2| {
+            let mut near = links.iter().map(|&(a, b)| (nearest_on_segment(a, b, *point) - *point).length_squared());
+            links.iter().fold(false, |inside, &(a, b)| inside != crosses_ray(a, b, *point))
+                && near.all(|squared| squared >= clearance * clearance)
+        };
+        (0..columns).map(place).filter(is_clear)
     };
-    (0..rows).flat_map(|row| (0..columns).map(move |column| place(row, column))).filter(is_clear).collect()
+    (0..rows).flat_map(in_row).collect()
+}
+
+/// Links of a ring that come nearer than `clearance` to a height, those that cross it among them.
+fn links_near(ring: &[Vec2], y: f32, clearance: f32) -> Vec<(Vec2, Vec2)> {
+    let links = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
+    links.filter(|(a, b)| a.y.min(b.y) <= y + clearance && a.y.max(b.y) >= y - clearance).collect()
 }
 
 #[cfg(test)]

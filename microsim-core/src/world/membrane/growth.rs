@@ -36,7 +36,7 @@ impl World {
         }
         with_default_float_environment(|| self.enlarge(id, nodes, particles))?;
         if let Some(organism) = self.organisms.get_mut(id) {
-            organism.add_wanted_nodes(nodes, &self.fluids);
+            with_default_float_environment(|| organism.add_wanted_nodes(nodes, &self.fluids));
         }
         self.changed(|| WorldChange::Grow(id, nodes, particles));
         Ok(())

@@ -2,6 +2,7 @@
 //! world, and the membrane follows node by node.
 
 use crate::error::{Error, ErrorKind, out_of_range};
+use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::world::World;
 use crate::world::change::WorldChange;
@@ -36,9 +37,12 @@ impl World {
         if particles as usize > most {
             return Err(out_of_range("particles", f64::from(particles), format!("at most {most}, now")));
         }
-        organism.record_nodes_per_root(&self.fluids);
-        let mut lost = organism.fluid_particles.split_off(count - particles as usize);
-        organism.update_wanted_nodes(&self.fluids);
+        let mut lost = with_default_float_environment(|| {
+            organism.record_nodes_per_root(&self.fluids);
+            let lost = organism.fluid_particles.split_off(count - particles as usize);
+            organism.update_wanted_nodes(&self.fluids);
+            lost
+        });
         lost.sort_unstable();
         self.fluids[fluid as usize].particles.retain(|i| lost.binary_search(i).is_err());
         lost.into_iter().for_each(|i| self.particles.remove(i));

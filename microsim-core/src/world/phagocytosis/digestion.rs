@@ -40,7 +40,7 @@ impl World {
 
     /// Removes digested prey and returns its area.
     fn consume(&mut self, id: OrganismId, prey: OrganismId) -> f32 {
-        let Some((kind, area)) = self.organisms.get(prey).map(|organism| (organism.kind, organism.spawn_area)) else {
+        let Some((kind, area)) = self.organisms.get(prey).map(|organism| (organism.kind, organism.full_area())) else {
             return 0.0;
         };
         let is_removed = self.remove(prey).is_ok();
@@ -66,12 +66,13 @@ impl World {
     /// Lets released prey return to its full size, slowly enough for its neighbours to make room.
     pub(super) fn regrow_free_prey(&mut self) {
         let is_free = |organism: &Organism| organism.prey.is_some() && !organism.is_held() && !organism.is_quarantined;
-        let free: Vec<OrganismId> = self.organisms.iter().filter(|(_, o)| is_free(o)).map(|(id, _)| id).collect();
-        for id in free {
+        let free = self.organisms.iter().filter(|(_, organism)| is_free(organism));
+        let free: Vec<(OrganismId, f32)> = free.map(|(id, organism)| (id, organism.full_scale)).collect();
+        for (id, full) in free {
             let present = self.present_scale(id);
-            if present < 1.0 {
+            if present < full {
                 let grown = present + self.config.dt / REGROWTH_TIME;
-                self.scale_body(id, if grown < 1.0 { grown } else { 1.0 });
+                self.scale_body(id, if grown < full { grown } else { full });
             }
         }
     }

@@ -83,7 +83,7 @@ impl World {
         let prey = organism.prey.filter(|prey| prey.held_by.is_none() && !organism.is_quarantined)?;
         let to_prey = heading(self.centroid(id)? - from);
         let heading = to_goal.map(|to_goal| to_goal.dot(to_prey));
-        Some(Encounter { prey: id, class: prey.class, contacts, heading, size_ratio: area / organism.spawn_area })
+        Some(Encounter { prey: id, class: prey.class, contacts, heading, size_ratio: area / organism.full_area() })
     }
 
     /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).

@@ -40,7 +40,8 @@ impl World {
             meal.phase = MealPhase::Ingesting(elapsed);
             if meal.class == PreyClass::Soft {
                 let part = elapsed / (SHRUNK_BY * params.time_limit);
-                let scale = 1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 };
+                let full = self.organisms.get(meal.prey).map_or(1.0, |prey| prey.full_scale);
+                let scale = full * (1.0 + (params.soft_prey_scale - 1.0) * if part < 1.0 { part } else { 1.0 });
                 // Recently released prey is still smaller than its full size.
                 let present = self.present_scale(meal.prey);
                 self.scale_body(meal.prey, if scale < present { scale } else { present });

@@ -81,6 +81,7 @@ fn check_state(organism: &Organism, cell: Subject) -> Check {
     cell.must_range("speed", organism.speed, 0.0, MOST)?;
     cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
     cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
+    cell.must_range("full scale", organism.full_scale, 0.1, 10.0)?;
     let (goal, home) = (organism.goal, organism.home);
     cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
 }
