@@ -3,11 +3,11 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter, Event, Exchange,
-    FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind,
-    Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement,
-    Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams,
-    Template, Wall, World, WorldConfig,
+    CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter,
+    Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind,
+    JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
+    PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec,
+    Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -179,6 +179,8 @@ fn roped(world: &mut World) {
     builder.muscle(channel, Rope { a, b, max_length: 3.0 });
     let c = builder.node(Node::disc(Vec2::new(4.0, 0.0), 1.0, 0.5));
     builder.constraint(Bend::new([a, b, c], 0.0, 1.0));
+    let spring = ConservativeDistance { a: b, b: c, rest_length: 1.0, compliance: 1.0, damping: 0.1 };
+    builder.constraint(spring);
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();

@@ -208,8 +208,9 @@ mod tests {
             let mut world = World::new(WorldConfig { damping: 3.0, ..WorldConfig::default() }).unwrap();
             let template = world.add_template(template.clone());
             let body = world.spawn_template(template, Placement::at(40.0, 40.0)).unwrap();
-            world.add_field(ForceField { region, kind: FieldKind::Thermal { mobility: 5.0 } }).unwrap();
             (0..120).for_each(|_| world.step(&Inputs::new()));
+            world.add_field(ForceField { region, kind: FieldKind::Thermal { mobility: 5.0 } }).unwrap();
+            (0..10).for_each(|_| world.step(&Inputs::new()));
             world.validate().unwrap();
             let body = world.view().organism(body).unwrap();
             (body.velocity() == Vec2::ZERO, body.is_quarantined())
