@@ -84,12 +84,7 @@ impl World {
         placement.validate()?;
         let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
-        if blueprint.fluid.is_some() && placement.scale != 1.0 {
-            return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
-        }
-        if blueprint.holds_fluid() && placement.groups != CollisionGroups::ALL {
-            return Err(Error::unsupported("groups", "all groups for what has a membrane or is fluid"));
-        }
+        check_fluid(&blueprint, &placement)?;
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
@@ -328,4 +323,15 @@ fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
 /// Places and radii of planned particles.
 fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
     planned.iter().map(|disc| (disc.position(), disc.radius))
+}
+
+/// Checks that what is fluid has the size of its spec and meets everybody.
+fn check_fluid(blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
+    if blueprint.fluid.is_some() && placement.scale != 1.0 {
+        return Err(Error::unsupported("scale", "1 for what holds fluid: its spec has the size"));
+    }
+    if blueprint.holds_fluid() && placement.groups != CollisionGroups::ALL {
+        return Err(Error::unsupported("groups", "all groups for what has a membrane or is fluid"));
+    }
+    Ok(())
 }

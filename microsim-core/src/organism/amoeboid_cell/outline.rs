@@ -92,7 +92,8 @@ pub(super) fn fill(ring: &[Vec2], spacing: f32, clearance: f32) -> Vec<Vec2> {
 /// Links of a ring that come nearer than `clearance` to a height, those that cross it among them.
 fn links_near(ring: &[Vec2], y: f32, clearance: f32) -> Vec<(Vec2, Vec2)> {
     let links = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
-    links.filter(|(a, b)| a.y.min(b.y) <= y + clearance && a.y.max(b.y) >= y - clearance).collect()
+    let [low, high] = [y - clearance, y + clearance];
+    links.filter(|(a, b)| (a.y <= high || b.y <= high) && (a.y >= low || b.y >= low)).collect()
 }
 
 #[cfg(test)]
