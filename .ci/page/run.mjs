@@ -250,6 +250,7 @@ async function phones() {
         await checkPicture(`phone ${width}x${height}, round`, await screenshot(page, `phone-${width}-round`));
         check(`phone ${width}x${height}: has buttons`, await page.getByRole("button", { name: "Zoom in" }).isVisible());
         check(`phone ${width}x${height}: digestion needs none`, !(await page.getByRole("button", { name: "Digest" }).isVisible()));
+        check(`phone ${width}x${height}: a round has no button to divide`, !(await page.getByRole("button", { name: "Divide" }).isVisible()));
         await page.touchscreen.tap(Math.round(0.8 * width), Math.round(0.3 * height));
         await page.getByRole("button", { name: "Menu", exact: true }).tap();
         await page.waitForTimeout(600);
@@ -279,6 +280,26 @@ async function fingers() {
     await page.context().close();
 }
 
+/** A food chain by fingers: a button divides the cell, and the end has a link to the same water. */
+async function foodChain() {
+    const page = await profile({ viewport: { width: 812, height: 375 }, hasTouch: true, isMobile: true });
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await open(page, "?scenario=food-chain&play&seed=7&optics=drawn");
+    const divide = page.getByRole("button", { name: "Divide", exact: true });
+    await divide.waitFor();
+    await divide.tap();
+    await checkPicture("food chain: a button divides", await screenshot(page, "food-chain"));
+    await page.getByRole("button", { name: "Same water" }).waitFor({ timeout: 180_000 });
+    check("food chain: its end has no such button", !(await divide.isVisible()));
+    await checkPicture("food chain: its end", await screenshot(page, "food-chain-end"));
+    await page.getByLabel("Files, links and privacy").tap();
+    await page.getByRole("button", { name: "Copy a link to the last water" }).tap();
+    await page.locator("#told", { hasText: "copied" }).waitFor();
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    check("food chain: the link leads to the same water", link === `${root}?scenario=food-chain&play&seed=7`, link);
+    await page.context().close();
+}
+
 async function offline() {
     const page = await profile();
     await open(page, "?scenario=empty&optics=drawn");
@@ -304,7 +325,7 @@ async function mistakes() {
     complaints.length = before;
 }
 
-for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, offline, mistakes]) {
+for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, offline, mistakes]) {
     if (wanted.length > 0 && !wanted.includes(part.name)) continue;
     try {
         await part();

@@ -164,7 +164,7 @@ impl App {
         if self.screens.is_empty() {
             return false;
         }
-        platform::show_buttons(self.screens.is_scene(), self.context.settings.hold_to_digest);
+        self.show_buttons();
         if platform::SHOWS_MENUS {
             self.show_menu();
         }
@@ -178,6 +178,13 @@ impl App {
             set_fullscreen(self.is_full);
         }
         true
+    }
+
+    fn show_buttons(&self) {
+        let digests = self.context.settings.hold_to_digest.then_some("digest");
+        let divides = self.screens.divides().then_some("divide");
+        let named: Vec<&str> = digests.into_iter().chain(divides).collect();
+        platform::show_buttons(self.screens.is_scene(), &named);
     }
 
     /// Shows the menu by other means than its drawing, where it has changed.

@@ -12,7 +12,7 @@ pub struct BuiltinSlide {
 }
 
 /// All of them.
-pub const SLIDES: &[BuiltinSlide] = &[
+pub static SLIDES: &[BuiltinSlide] = &[
     slide("first-steps", include_str!("../slides/first-steps.toml")),
     slide("first-meal", include_str!("../slides/first-meal.toml")),
     slide("narrow-gap", include_str!("../slides/narrow-gap.toml")),

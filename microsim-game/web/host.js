@@ -15,6 +15,8 @@ export const files = new Map();
 export const held = new Set(), pressed = [];
 /** Whether the game shows a scene, in which all keys are its own. */
 export let isScene = false;
+/** The part of the address after `?` that shows the last water of the food chain. */
+export let water = null;
 
 /** Keys that move through menus, as the game calls them. */
 const MOVES = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right", Escape: "escape" };
@@ -147,7 +149,7 @@ const fingers = matchMedia("(pointer: coarse)");
 function showButtons(areWanted, which) {
     isScene = areWanted;
     element("buttons").hidden = !(areWanted && fingers.matches);
-    element("digest").hidden = which !== "digest";
+    for (const name of ["digest", "divide"]) element(name).hidden = !which.split(" ").includes(name);
 }
 
 function newItem(k) {
@@ -213,6 +215,7 @@ const orders = {
     "fail": (_, bytes) => fail(decode(bytes)),
     "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
+    "offer": (query) => ((water = query), true),
     "print": (_, bytes) => console.log(decode(bytes)),
     "rename": rename,
     "show buttons": (which) => showButtons(true, which),

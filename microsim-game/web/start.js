@@ -1,6 +1,6 @@
 // Loads the game, and connects the page's own buttons with it.
 
-import { digest, fail, files, functions, give, held, isScene, kept, pressed, readAddress } from "./host.js";
+import { digest, fail, files, functions, give, held, isScene, kept, pressed, readAddress, water } from "./host.js";
 import { linkTo, linked } from "./link.js";
 import { restorable } from "./restore.js";
 
@@ -101,10 +101,9 @@ function connectFiles() {
     }, true);
 }
 
-async function copyLink(kind, bytes) {
-    const link = await linkTo(kind, bytes);
+async function copyLink(link) {
     const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
-    if (!isCopied) location.hash = link.split("#")[1];
+    if (!isCopied) history.replaceState(null, "", link);
     element("told").textContent = isCopied ? "The link is copied." : "The link is in the address bar.";
 }
 
@@ -112,13 +111,15 @@ function connectLinks() {
     element("menu").ontoggle = () => {
         element("told").textContent = "";
         element("share").hidden = kept("last-game.replay") === null;
+        element("share-water").hidden = water === null;
         element("share-scenario").hidden = lastScenario() === undefined;
     };
-    element("share").onclick = () => {
+    element("share").onclick = async () => {
         const record = Uint8Array.from(atob(kept("last-game.replay")), (letter) => letter.charCodeAt(0));
-        copyLink("replay", record);
+        copyLink(await linkTo("replay", record));
     };
-    element("share-scenario").onclick = () => copyLink("scenario", files.get(lastScenario()));
+    element("share-water").onclick = () => copyLink(`${location.origin}${location.pathname}?${water}`);
+    element("share-scenario").onclick = async () => copyLink(await linkTo("scenario", files.get(lastScenario())));
 }
 
 const lastScenario = () => [...files.keys()].findLast((name) => name.endsWith(".toml"));

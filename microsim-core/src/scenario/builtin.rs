@@ -11,7 +11,7 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
-const BUILTINS: [Builtin; 16] = [
+static BUILTINS: [Builtin; 16] = [
     Builtin {
         name: "game",
         summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",

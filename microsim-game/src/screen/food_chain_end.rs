@@ -7,6 +7,7 @@ use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
+use crate::platform;
 use crate::rules::food_chain::{Fate, NAME};
 use crate::rules::round::{Life, RoundResult};
 use crate::store::scores::Score;
@@ -56,7 +57,7 @@ impl FoodChainEnd {
         }
         let told = life.fate.map(|fate| if fate == Fate::Starved { STARVED } else { EATEN });
         lines.extend(told.map(|told| (TextSize::Body, HALO, told.to_owned())));
-        let share = format!("Water {}. The same again: microsim-game {NAME} --play --seed {}", life.seed, life.seed);
+        let share = format!("Water {}. {}", life.seed, platform::way_to_play(NAME, life.seed));
         lines.push((TextSize::Small, fade(HALO, 0.85), share));
         Self { life, played, lines, menu: EndMenu::new(&["Same water", "Other water", "Watch it again", "Title"]) }
     }

@@ -56,6 +56,11 @@ pub trait Screen: fmt::Debug {
         false
     }
 
+    /// Whether the player can ask its cell to divide.
+    fn divides(&self) -> bool {
+        false
+    }
+
     /// Whether leaving it would lose something: a round that is being played.
     fn is_at_stake(&self) -> bool {
         false

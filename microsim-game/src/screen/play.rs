@@ -150,12 +150,13 @@ impl Play {
     /// What is new in the food chain is explained when it is there first.
     fn chain_advice(&self, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
+        let divide = if has_buttons { "The button" } else { &self.divide_key };
         let parts = [
             (0.0, format!("Hold {} to crawl, and push your front against food.", held_to_crawl(has_buttons))),
             (6.0, "The clock shows how long your food lasts: without more you starve.".to_owned()),
             (22.0, "Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.".to_owned()),
             (30.0, "A giant follows your scent. It does not fit through the gaps.".to_owned()),
-            (38.0, format!("{} divides your cell: the sister is a second life.", self.divide_key)),
+            (38.0, format!("{divide} divides your cell: the sister is a second life.")),
         ];
         parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
     }
@@ -223,6 +224,10 @@ fn held_to_crawl(has_buttons: bool) -> &'static str {
 }
 
 impl Screen for Play {
+    fn divides(&self) -> bool {
+        self.round.chain().is_some() && !self.round.is_replay()
+    }
+
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.has_lost_focus || input.presses(Action::Pause) || input.step == Some(Move::Back) {
             return Next::Open(Overlay::Pause(self.played));

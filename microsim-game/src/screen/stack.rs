@@ -56,6 +56,12 @@ impl Stack {
         self.screens.last().is_some_and(|screen| screen.is_scene())
     }
 
+    /// Whether the player can ask its cell to divide.
+    #[must_use]
+    pub fn divides(&self) -> bool {
+        self.screens.last().is_some_and(|screen| screen.divides())
+    }
+
     /// The menu of the topmost screen, unless that waits for a key.
     #[must_use]
     pub fn menu(&self) -> Option<&Menu> {

@@ -78,10 +78,17 @@ pub fn screen_buttons() -> ScreenButtons {
     ScreenButtons { held: lines("held"), pressed: lines("pressed"), item }
 }
 
-/// Shows the page's buttons, on devices that have no keys, or hides them; that for digestion only if it `digests`.
-pub fn show_buttons(are_wanted: bool, digests: bool) {
+/// Shows the page's buttons, on devices that have no keys, or hides them; those for digestion and division only if named.
+pub fn show_buttons(are_wanted: bool, named: &[&str]) {
     let order = if are_wanted { "show buttons" } else { "hide buttons" };
-    host::tell(order, if digests { "digest" } else { "" }, &[]);
+    host::tell(order, &named.join(" "), &[]);
+}
+
+/// How a scene is played again with the same seed: the page's menu then has a link to it.
+#[must_use]
+pub fn way_to_play(scene: &str, seed: u64) -> String {
+    host::tell("offer", &format!("scenario={scene}&play&seed={seed}"), &[]);
+    "The menu at the right edge has a link to it.".to_owned()
 }
 
 /// Puts the menu that is drawn into the page too, where screen readers find it: the screen's name, empty for a scene, and the
