@@ -1,6 +1,6 @@
 //! Where the scenario of a scene comes from.
 
-use crate::rules::food_chain;
+use crate::rules::{food_chain, two_players};
 use crate::{platform, slides};
 use microsim_core::scenario;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use std::{fmt, io};
 /// Where the scenario of a scene comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneSource {
-    /// A built-in scenario, a slide, or the food chain.
+    /// A built-in scenario, a slide, or a game beside them.
     Builtin(String),
     /// A scenario file.
     File(PathBuf),
@@ -46,11 +46,12 @@ impl SceneSource {
     }
 }
 
-/// Text of a built-in scenario, of a slide, or of the food chain.
+/// Text of a built-in scenario, of a slide, or of a game beside them.
 fn builtin_text(name: &str) -> Option<&'static str> {
     let slide = || slides::find(name).map(|slide| slide.text);
-    let chain = || (name == food_chain::NAME).then_some(food_chain::TEXT);
-    scenario::builtin(name).map(|found| found.text).or_else(slide).or_else(chain)
+    let games = [(food_chain::NAME, food_chain::TEXT), (two_players::NAME, two_players::TEXT)];
+    let game = || games.into_iter().find(|(known, _)| *known == name).map(|(_, text)| text);
+    scenario::builtin(name).map(|found| found.text).or_else(slide).or_else(game)
 }
 
 impl fmt::Display for SceneSource {

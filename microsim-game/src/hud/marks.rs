@@ -177,8 +177,8 @@ pub struct Gains(Vec<(Gain, f32)>);
 
 impl Gains {
     /// Adds what a step has earned.
-    pub fn add(&mut self, gains: &[Gain]) {
-        self.0.extend(gains.iter().map(|&gain| (gain, 0.0)));
+    pub fn add(&mut self, gains: impl Iterator<Item = Gain>) {
+        self.0.extend(gains.map(|gain| (gain, 0.0)));
     }
 
     /// Lets time pass, s.
@@ -278,7 +278,7 @@ mod tests {
     fn t70_gains_are_shown_apart_from_each_other_and_for_a_while() {
         let mut gains = Gains::default();
         let gain = Gain { kind: Kind::Agar, points: 10, at: Vec2::new(80.0, 45.0) };
-        gains.add(&[gain; 4]);
+        gains.add([gain; 4].into_iter());
         let pen = |gains: &Gains| drawn(|pen, style, taken| gains.draw(pen, style, taken), false);
         let panels = |gains: &Gains| pen(gains).canvas().corners().count() / 4;
         assert_eq!(panels(&gains), 4);

@@ -49,6 +49,7 @@ mod tests {
         let entry = |count| KindScore { count, points: 10 * count };
         let kinds = vec![(Kind::Agar, entry(small)), (Kind::RigidCell, entry(rigid))];
         RoundResult {
+            scores: vec![0],
             score: 10 * (small + rigid),
             time: 90.0,
             kinds,

@@ -19,6 +19,7 @@ pub mod path;
 pub mod referee;
 pub mod round;
 pub mod slide_bot;
+pub mod two_players;
 
 #[cfg(test)]
 mod tests;

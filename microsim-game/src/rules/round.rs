@@ -3,7 +3,7 @@
 use super::attempt::Attempt;
 use super::food_chain::change::Change;
 use super::food_chain::{self, Fate, FoodChain};
-use super::referee::{KindScore, Referee};
+use super::referee::{Gain, KindScore, Referee};
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
@@ -13,17 +13,27 @@ use std::num::NonZeroU32;
 /// Steps between two digests of a recorded round.
 const DIGEST_INTERVAL: NonZeroU32 = NonZeroU32::new(60).expect("not zero");
 
+/// Cells that can be played in one round: the player of a scenario, and those named `player-2` and so on.
+const MOST_PLAYERS: usize = 4;
+
 /// A round that is being played, or played again.
 #[derive(Clone, Debug)]
 pub struct Round {
     name: String,
     course: Course,
-    player: OrganismId,
-    referee: Referee,
+    /// Those who play, at least one.
+    seats: Vec<Seat>,
     /// If it is of a slide.
     attempt: Option<Attempt>,
     /// If it is one of the food chain.
     chain: Option<FoodChain>,
+}
+
+/// One of those who play: its cell, and its score.
+#[derive(Clone, Debug)]
+struct Seat {
+    cell: OrganismId,
+    referee: Referee,
 }
 
 /// How a round ended.
@@ -31,6 +41,8 @@ pub struct Round {
 pub struct RoundResult {
     /// Points.
     pub score: u32,
+    /// Points of all who played, the first one's first.
+    pub scores: Vec<u32>,
     /// Time of the round, s.
     pub time: f32,
     /// How many things were inside, and not digested.
@@ -95,23 +107,33 @@ impl Round {
         let (Some(game), Some(player)) = (game, run.player) else {
             return Err(format!("`{name}` is no game: it has no table [game] or [slide]"));
         };
-        let referee = Referee::new(game, player, &run.world);
+        let others = (2..=MOST_PLAYERS).filter_map(|k| {
+            let name = format!("player-{k}");
+            run.named.iter().find(|(known, _)| *known == name).map(|(_, cell)| *cell)
+        });
+        let cells = std::iter::once(player).chain(others);
+        let seats = cells.map(|cell| Seat { cell, referee: Referee::new(game.clone(), cell, &run.world) }).collect();
         let chain = (name == food_chain::NAME).then(|| FoodChain::new(&run.world, player));
-        Ok(Self { name: name.to_owned(), course, player, referee, attempt, chain })
+        Ok(Self { name: name.to_owned(), course, seats, attempt, chain })
     }
 
     /// One step; in a replay the intent does not count. Nothing happens any more when the round is over.
     pub fn step(&mut self, intent: Intent) {
+        self.step_all(&[intent]);
+    }
+
+    /// One step with the intents of all who play, in the order of [`Round::players`].
+    pub fn step_all(&mut self, intents: &[Intent]) {
         if self.is_over() {
             return;
         }
         match &mut self.course {
             Course::Live { run, recorder, record } => {
                 if let Some(chain) = &mut self.chain {
-                    chain.before_step(&mut run.world, self.player);
+                    chain.before_step(&mut run.world, self.seats[0].cell);
                 }
                 let mut inputs = Inputs::new();
-                inputs.set(self.player, intent);
+                self.seats.iter().zip(intents).for_each(|(seat, intent)| inputs.set(seat.cell, *intent));
                 run.step(&inputs);
                 record.extend(recorder.step(&inputs, &run.world));
             }
@@ -124,20 +146,21 @@ impl Round {
             },
         }
         let world = &self.course.run().world;
-        self.referee.after_step(world);
+        self.seats.iter_mut().for_each(|seat| seat.referee.after_step(world));
+        let Seat { cell, referee } = &mut self.seats[0];
         if let Some(chain) = &mut self.chain {
-            self.player = chain.after_step(world, self.player);
-            self.referee.follow(self.player);
+            *cell = chain.after_step(world, *cell);
+            referee.follow(*cell);
         }
         if let Some(attempt) = &mut self.attempt {
-            attempt.after_step(world.time() as f32, world.centroid(self.player), self.referee.kinds());
+            attempt.after_step(world.time() as f32, world.centroid(*cell), referee.kinds());
         }
     }
 
     /// Changes the player's cell, if this change of a food chain is offered.
     pub fn choose(&mut self, change: Change) {
         if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
-            chain.choose(change, &mut run.world, self.player);
+            chain.choose(change, &mut run.world, self.seats[0].cell);
         }
     }
 
@@ -145,14 +168,15 @@ impl Round {
     pub fn divide(&mut self) {
         if let (Course::Live { run, .. }, Some(_)) = (&mut self.course, &self.chain) {
             // Refused if it is gone.
-            let _ = run.world.divide(self.player);
+            let _ = run.world.divide(self.seats[0].cell);
         }
     }
 
-    /// What the player hears of the last step: what its cell does, the last seconds, and the end.
+    /// What those who play hear of the last step: what their cells do, the last seconds, and the end.
     pub fn heard(&self) -> impl Iterator<Item = Cue> + '_ {
-        let events = self.world().events().iter().filter_map(|event| Cue::of(event, Some(self.player)));
-        let second = self.referee.begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
+        let of = |event| self.players().find_map(|cell| Cue::of(event, Some(cell)));
+        let events = self.world().events().iter().filter_map(of);
+        let second = self.referee().begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
         events.chain(if self.is_won() || self.is_dead() { Some(Cue::End) } else { second })
     }
 
@@ -169,7 +193,7 @@ impl Round {
     pub fn is_over(&self) -> bool {
         self.is_won()
             || self.is_dead()
-            || self.referee.is_over()
+            || self.referee().is_over()
             || matches!(self.course, Course::Replay { is_over: true, .. })
     }
 
@@ -196,10 +220,11 @@ impl Round {
     #[must_use]
     pub fn result(&self) -> RoundResult {
         RoundResult {
-            score: self.referee.score(),
-            time: self.referee.game().time,
+            score: self.referee().score(),
+            scores: self.scores(),
+            time: self.referee().game().time,
             undigested: self.undigested(),
-            kinds: self.referee.kinds().to_vec(),
+            kinds: self.referee().kinds().to_vec(),
             attempt: self.attempt.clone(),
             life: self.life(),
             record: self.record(),
@@ -213,7 +238,7 @@ impl Round {
     }
 
     fn undigested(&self) -> u32 {
-        let player = self.world().view().organism(self.player);
+        let player = self.world().view().organism(self.player());
         let is_inside = |phase: &MealPhase| matches!(phase, MealPhase::Ingested | MealPhase::Digesting(_));
         player.map_or(0, |player| player.meals().filter(|(_, phase)| is_inside(phase)).count() as u32)
     }
@@ -230,10 +255,26 @@ impl Round {
         &self.course.run().world
     }
 
-    /// The cell that is played.
+    /// The cell that is played; of several the first.
     #[must_use]
     pub fn player(&self) -> OrganismId {
-        self.player
+        self.seats[0].cell
+    }
+
+    /// The cells of all who play.
+    pub fn players(&self) -> impl Iterator<Item = OrganismId> + '_ {
+        self.seats.iter().map(|seat| seat.cell)
+    }
+
+    /// Points of all who play.
+    #[must_use]
+    pub fn scores(&self) -> Vec<u32> {
+        self.seats.iter().map(|seat| seat.referee.score()).collect()
+    }
+
+    /// What the last step earned, whoever it was.
+    pub fn gains(&self) -> impl Iterator<Item = Gain> + '_ {
+        self.seats.iter().flat_map(|seat| seat.referee.gains()).copied()
     }
 
     /// How the attempt at a slide stands, if it is one.
@@ -254,10 +295,10 @@ impl Round {
         if self.is_replay() { None } else { self.chain.as_ref()?.offer() }
     }
 
-    /// Score and time.
+    /// Score and time; of several players those of the first.
     #[must_use]
     pub fn referee(&self) -> &Referee {
-        &self.referee
+        &self.seats[0].referee
     }
 }
 

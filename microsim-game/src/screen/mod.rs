@@ -20,10 +20,13 @@ mod slide_end;
 mod slides;
 pub mod stack;
 mod title;
+mod two_players;
+mod two_players_end;
 
 use crate::input::Input;
 use crate::rules::food_chain::change::Change;
 use crate::rules::round::{Life, RoundResult};
+use crate::rules::two_players::TwoPlayers;
 use crate::stage::Stage;
 use crate::ui::menu::Menu;
 use context::AppContext;
@@ -95,6 +98,8 @@ pub enum MainScreen {
     Slide(usize),
     /// The food chain, with a seed.
     FoodChain(u64),
+    /// Two cells on one slide.
+    TwoPlayers(TwoPlayers),
     /// The last round of the game again.
     Replay,
     /// A simulation.
@@ -112,8 +117,12 @@ pub enum Overlay {
     SlideEnd(Box<RoundResult>, Paused),
     /// The end of a food chain: the result, how long it was, and what was played.
     FoodChainEnd(Box<RoundResult>, Life, Paused),
+    /// The end of a round of two cells: the result, how they played, and what was played.
+    TwoPlayersEnd(Box<RoundResult>, TwoPlayers, Paused),
     /// The way into the food chain.
     FoodChain,
+    /// The ways in which two cells play.
+    TwoPlayers,
     /// The choice of a change of the body, and what is played.
     Choose([Change; 3], Paused),
     /// Whether to end the program.
@@ -141,6 +150,8 @@ pub enum Paused {
     Slide(usize),
     /// The food chain, with its seed.
     FoodChain(u64),
+    /// Two cells on one slide.
+    TwoPlayers(TwoPlayers),
     /// A replay.
     Replay,
     /// A simulation.
@@ -155,6 +166,7 @@ impl Paused {
             Self::OtherGame => Next::Show(MainScreen::OtherGame),
             Self::Slide(index) => Next::Show(MainScreen::Slide(index)),
             Self::FoodChain(seed) => Next::Show(MainScreen::FoodChain(seed)),
+            Self::TwoPlayers(way) => Next::Show(MainScreen::TwoPlayers(way)),
             Self::Replay => Next::Show(MainScreen::Replay),
             Self::Simulation => Next::Stay,
         }

@@ -16,10 +16,8 @@ pub(super) struct Pause {
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
-            Paused::Round | Paused::OtherGame | Paused::Slide(_) | Paused::FoodChain(_) | Paused::Replay => {
-                ["Go on", "Restart", "Settings", "Title"].as_slice()
-            }
-            Paused::Simulation => &["Go on", "Settings", "Title"],
+            Paused::Simulation => ["Go on", "Settings", "Title"].as_slice(),
+            _ => &["Go on", "Restart", "Settings", "Title"],
         };
         Self { page: MenuPage::new("Paused", labels.iter().map(|&label| MenuItem::new(label)).collect()), paused }
     }

@@ -7,12 +7,14 @@ use crate::hud::{self, Status, food_chain, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
+use crate::rules::bot::Bot;
 use crate::rules::brake::Brake;
 use crate::rules::food_chain::change::is_own;
 use crate::rules::food_chain::{NAME, threats_and_victims};
 use crate::rules::game::GameChoice;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
+use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides::SLIDES;
 use crate::sound::Cue;
 use crate::ui::pen::Pen;
@@ -48,7 +50,10 @@ pub(super) struct Play {
     grown: f32,
     /// Whether the mouse steers, and what happens after.
     is_crawling: bool,
-    brake: Brake,
+    brakes: [Brake; 2],
+    /// How two cells play, if it is a round of two, and who steers the second one in place of a player.
+    two: Option<TwoPlayers>,
+    bot: Option<Bot>,
     /// What is written on the key that divides the cell.
     divide_key: String,
 }
@@ -81,6 +86,15 @@ impl Play {
         Ok(Self::new(game.round(seed)?, Paused::FoodChain(seed), context))
     }
 
+    /// Two cells on one slide.
+    ///
+    /// # Errors
+    /// As for [`Play::start`].
+    pub(super) fn two_players(way: TwoPlayers, context: &AppContext) -> Result<Self, String> {
+        let game = GameChoice { source: two_players::NAME.into(), overrides: Vec::new(), seed: None };
+        Ok(Self::new(game.round(new_seed(context))?, Paused::TwoPlayers(way), context))
+    }
+
     /// The last round again.
     ///
     /// # Errors
@@ -93,20 +107,43 @@ impl Play {
 
     fn new(round: Round, played: Paused, context: &AppContext) -> Self {
         let world = round.world();
-        let camera = first_view(world, Some(round.player()), VIEW, context.pen.screen());
+        let two = (round.players().count() > 1).then_some(match played {
+            Paused::TwoPlayers(way) => way,
+            _ => TwoPlayers::Versus,
+        });
+        let followed = Some(round.player()).filter(|_| two.is_none());
+        let camera = first_view(world, followed, VIEW, context.pen.screen());
         let first_area = world.view().organism(round.player()).map_or(1.0, |cell| cell.cytoplasm_area());
         let viewer = Viewer::new(world, camera);
-        let (is_crawling, brake) = (false, Brake::default());
-        let (gains, divide_key) = (marks::Gains::default(), context.settings.keys.label(Action::Divide));
-        Self { round, played, viewer, gains, heard: Vec::new(), first_area, grown: 1.0, is_crawling, brake, divide_key }
+        Self {
+            bot: two.and_then(|way| way.bot(world.config().seed)),
+            round,
+            played,
+            viewer,
+            gains: marks::Gains::default(),
+            heard: Vec::new(),
+            first_area,
+            grown: 1.0,
+            is_crawling: false,
+            brakes: Default::default(),
+            two,
+            divide_key: context.settings.keys.label(Action::Divide),
+        }
     }
 
-    /// Where the player steers to: by mouse, or by arrow keys.
-    fn goal(&self, input: &Input) -> Option<Vec2> {
-        let cell = self.round.world().view().organism(self.round.player())?;
-        let by_keys = cell.centroid() + STEERED * Vec2::new(input.steer.x, -input.steer.y);
-        let by_mouse = || self.is_crawling.then(|| self.viewer.camera.to_room(input.cursor));
-        if input.steer == Vec2::ZERO { by_mouse() } else { Some(by_keys) }
+    /// Where the players steer to. One has mouse and arrow keys; of two the first has the mouse, the second the keys.
+    fn goals(&self, input: &Input) -> [Option<Vec2>; 2] {
+        let view = self.round.world().view();
+        let by_mouse = self.is_crawling.then(|| self.viewer.camera.to_room(input.cursor));
+        let by_keys = |player| {
+            let cell = view.organism(self.round.players().nth(player)?)?;
+            let way = STEERED * Vec2::new(input.steer.x, -input.steer.y);
+            (way != Vec2::ZERO).then(|| cell.centroid() + way)
+        };
+        match self.two {
+            None | Some(TwoPlayers::Bot) => [by_keys(0).or(by_mouse), None],
+            Some(_) => [by_mouse, by_keys(1)],
+        }
     }
 
     /// Notes whether the mouse steers: while its button is down, or from one click to the next.
@@ -120,22 +157,24 @@ impl Play {
 
     fn run(&mut self, input: &Input, context: &AppContext) {
         self.note_hand(input, context.settings.click_to_crawl);
-        let (goal, digests) = (self.goal(input), context.settings.digests(input));
-        let Self { round, viewer, gains, heard, brake, .. } = self;
+        let (goals, digests) = (self.goals(input), context.settings.digests(input));
+        let Self { round, viewer, gains, heard, brakes, bot, .. } = self;
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
-            let cell = round.world().view().organism(round.player());
-            let intent = cell.map_or(Intent::REST, |cell| brake.intent(cell, goal));
-            round.step(intent.digesting(digests));
+            let intents = intents(round, goals, brakes, bot.as_mut(), digests);
+            round.step_all(&intents);
             heard.extend(round.heard());
-            gains.add(round.referee().gains());
+            gains.add(round.gains());
             round.world()
         });
         self.gains.pass(context.pace.elapsed);
     }
 
-    /// The camera follows the cell, and steps back as it grows.
+    /// The camera follows the cell, and steps back as it grows. Of two cells it shows the whole slide.
     fn look(&mut self, input: &Input, context: &AppContext) {
+        if self.two.is_some() {
+            return;
+        }
         let cell = self.round.world().view().organism(self.round.player());
         let wanted = cell.map_or(1.0, |cell| (cell.cytoplasm_area() / self.first_area).max(0.1).powf(0.3));
         let step = self.grown + (wanted - self.grown) * (1.0 - (-1.5 * context.pace.elapsed).exp());
@@ -180,7 +219,10 @@ impl Play {
         };
         let referee = self.round.referee();
         let of_game = || {
-            let points = || format!("Score {}", referee.score());
+            let points = || match (self.two, self.round.scores()[..].first_chunk()) {
+                (Some(way), Some(&scores)) => way.summary(scores),
+                _ => format!("Score {}", referee.score()),
+            };
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
         };
@@ -209,6 +251,8 @@ impl Play {
             (time < TASK_TIME).then(|| format!("{} Hold {what} to crawl.", attempt.slide().task))
         } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
             Some(format!("Hold {key} to digest what you have taken in"))
+        } else if time < ADVICE_TIME && matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together)) {
+            Some("Player 1: hold the left mouse button to crawl. Player 2: arrow keys.".to_owned())
         } else if time < ADVICE_TIME {
             let what = held_to_crawl(has_buttons);
             Some(format!("Hold {what} to crawl. Push your front against food."))
@@ -216,6 +260,28 @@ impl Play {
             None
         }
     }
+}
+
+/// What all who play do in a step. Only the first one may have to hold a key to digest.
+fn intents(
+    round: &Round,
+    goals: [Option<Vec2>; 2],
+    brakes: &mut [Brake; 2],
+    bot: Option<&mut Bot>,
+    digests: bool,
+) -> Vec<Intent> {
+    let view = round.world().view();
+    let steered = round.players().zip(goals).zip(brakes).enumerate();
+    let mut intents: Vec<Intent> = steered
+        .map(|(k, ((cell, goal), brake))| {
+            let intent = view.organism(cell).map_or(Intent::REST, |cell| brake.intent(cell, goal));
+            intent.digesting(k > 0 || digests)
+        })
+        .collect();
+    if let (Some(bot), Some(cell), Some(intent)) = (bot, round.players().nth(1), intents.get_mut(1)) {
+        *intent = bot.intent(round.world(), cell);
+    }
+    intents
 }
 
 /// What the player holds to crawl.
@@ -246,10 +312,11 @@ impl Screen for Play {
         self.look(input, context);
         if self.round.is_over() {
             let result = Box::new(self.round.result());
-            return Next::Open(match (result.attempt.is_some(), result.life) {
-                (true, _) => Overlay::SlideEnd(result, self.played),
-                (false, Some(life)) => Overlay::FoodChainEnd(result, life, self.played),
-                (false, None) => Overlay::End(result, self.played),
+            return Next::Open(match (self.two, result.attempt.is_some(), result.life) {
+                (Some(way), ..) => Overlay::TwoPlayersEnd(result, way, self.played),
+                (None, true, _) => Overlay::SlideEnd(result, self.played),
+                (None, false, Some(life)) => Overlay::FoodChainEnd(result, life, self.played),
+                (None, false, None) => Overlay::End(result, self.played),
             });
         }
         self.round.offer().map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
@@ -276,8 +343,10 @@ impl Screen for Play {
         let advice = self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(str::to_owned));
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
-        if let Some(cell) = view.organism(self.round.player()) {
-            own::draw_own(pen, &style, cell);
+        for (k, id) in self.round.players().enumerate() {
+            if let Some(cell) = view.organism(id) {
+                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1));
+            }
         }
         places::draw_food(pen, &style, view);
         if let Some(attempt) = self.round.attempt() {
@@ -289,6 +358,11 @@ impl Screen for Play {
             self.gains.draw(pen, &style, &mut taken);
         }
         marks::draw_targets(pen, &style, &mut taken, &hints.targets);
+        for other in self.round.players().skip(1) {
+            let hints = Hints::of(view, other);
+            marks::draw_held(pen, &style, &mut taken, &hints.held);
+            marks::draw_targets(pen, &style, &mut taken, &hints.targets);
+        }
         self.draw_status(pen, context.settings.reduced_motion);
         if let Some(advice) = advice {
             hud::draw_advice(pen, &advice, covered);

@@ -16,6 +16,8 @@ use super::settings::SettingsMenu;
 use super::slide_end::SlideEnd;
 use super::slides::SlideList;
 use super::title::Title;
+use super::two_players::TwoPlayersMenu;
+use super::two_players_end::TwoPlayersEnd;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::Input;
 use crate::ui::menu::Menu;
@@ -120,6 +122,7 @@ fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, Strin
         MainScreen::OtherGame => Box::new(Play::start(Paused::OtherGame, context)?),
         MainScreen::Slide(index) => Box::new(Play::slide(index, context)?),
         MainScreen::FoodChain(seed) => Box::new(Play::food_chain(seed, context)?),
+        MainScreen::TwoPlayers(way) => Box::new(Play::two_players(way, context)?),
         MainScreen::Replay => Box::new(Play::replay(context)?),
         MainScreen::Simulation(stage) => Box::new(Sandbox::new(*stage, context)),
     })
@@ -131,6 +134,8 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
         Overlay::End(result, played) => Box::new(End::new(*result, played, context)),
         Overlay::SlideEnd(result, paused) => Box::new(SlideEnd::new(*result, paused, context)),
         Overlay::FoodChainEnd(result, life, paused) => Box::new(FoodChainEnd::new(*result, life, paused, context)),
+        Overlay::TwoPlayersEnd(result, way, paused) => Box::new(TwoPlayersEnd::new(*result, way, paused, context)),
+        Overlay::TwoPlayers => Box::new(TwoPlayersMenu::new()),
         Overlay::FoodChain => Box::new(FoodChainMenu::new(context)),
         Overlay::Choose(offer, paused) => Box::new(Choose::new(offer, paused)),
         Overlay::Quit => Box::new(Quit::new()),

@@ -1,0 +1,82 @@
+//! The end of a round of two cells: who was better, or what both earned.
+
+use super::context::AppContext;
+use super::end_menu::{EndChoice, EndMenu};
+use super::page::draw_shade;
+use super::{MainScreen, Next, Paused, Screen};
+use crate::draw::palette::{HALO, READY};
+use crate::input::Input;
+use crate::rules::round::RoundResult;
+use crate::rules::two_players::{NAME, TwoPlayers};
+use crate::store::scores::Score;
+use crate::ui::font::TextSize;
+use crate::ui::menu::{Menu, MenuLayout};
+use crate::ui::pen::Align;
+use microsim_core::glam::Vec2;
+
+/// Share of the picture's height above the menu.
+const MENU_TOP: f32 = 0.5;
+
+#[derive(Debug)]
+pub(super) struct TwoPlayersEnd {
+    heading: String,
+    place: Option<usize>,
+    points: u32,
+    way: TwoPlayers,
+    menu: EndMenu,
+}
+
+impl TwoPlayersEnd {
+    /// The end of a round that was played, or replayed. The sum of both is kept among the best if they played together.
+    pub(super) fn new(result: RoundResult, way: TwoPlayers, played: Paused, context: &mut AppContext) -> Self {
+        let scores = [0, 1].map(|k| result.scores.get(k).copied().unwrap_or(0));
+        let points = scores.iter().sum();
+        let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
+        // A replay does not know how they played.
+        let told = if played == Paused::Replay { TwoPlayers::Versus.summary(scores) } else { way.verdict(scores) };
+        let place = result.record.and_then(|record| {
+            let game = format!("{NAME}, together");
+            let score = Score { game, time: result.time, points, small: 0, rigid: 0 };
+            let is_kept = way == TwoPlayers::Together;
+            let (place, kept) = if is_kept { context.scores.add(score, &context.store) } else { (None, Ok(())) };
+            context.keep_game(record, kept);
+            place
+        });
+        let menu = EndMenu::new(&["Play again", "Watch it again", "Title"]);
+        Self { heading: format!("{told}{doubt}"), place, points, way, menu }
+    }
+}
+
+impl Screen for TwoPlayersEnd {
+    fn menu(&self) -> Option<&Menu> {
+        Some(&self.menu.menu)
+    }
+
+    fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
+            Some(EndChoice::Again | EndChoice::Pick(0)) => Next::Show(MainScreen::TwoPlayers(self.way)),
+            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::Replay),
+            Some(_) => Next::Show(MainScreen::Title),
+            None => Next::Stay,
+        }
+    }
+
+    fn draw(&mut self, context: &mut AppContext) {
+        let pen = &mut context.pen;
+        draw_shade(pen);
+        let mut at = Vec2::new(0.5, 0.24) * pen.screen();
+        for line in pen.wrap(TextSize::Large, &self.heading, 0.94 * pen.screen().x) {
+            pen.write(at, TextSize::Large, Align::Centre, HALO, &line);
+            at.y += pen.line(TextSize::Large);
+        }
+        if let Some(place) = self.place {
+            let text = if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) };
+            pen.write(at, TextSize::Body, Align::Centre, READY, &text);
+        }
+        self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
+    }
+
+    fn name(&self) -> String {
+        format!("two-players-end-{}", self.points)
+    }
+}
