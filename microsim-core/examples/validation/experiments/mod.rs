@@ -23,6 +23,7 @@ pub(crate) mod persistent_walk;
 pub(crate) mod plot;
 pub(crate) mod point_source;
 pub(crate) mod refinement;
+pub(crate) mod relaxation;
 pub(crate) mod restitution;
 pub(crate) mod run_and_tumble;
 pub(crate) mod scene;
@@ -44,7 +45,7 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 24] = [
+pub(crate) const ALL: [Experiment; 25] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
@@ -66,6 +67,7 @@ pub(crate) const ALL: [Experiment; 24] = [
     angle_of_repose::EXPERIMENT,
     granular_energy::EXPERIMENT,
     constriction::EXPERIMENT,
+    relaxation::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
     crawl::EXPERIMENT,
