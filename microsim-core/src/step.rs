@@ -280,7 +280,7 @@ fn update_velocities(world: &mut World, h: f32) {
     }
     for (_, cell) in organisms.with_membrane() {
         if let Some(rate) = cell.stretch_damping() {
-            stretch_damping::damp_stretching(|| cell.particles(), particles, rate, h);
+            stretch_damping::damp_stretching(|| cell.particles(), particles, rate, config.speed_limit(), h);
         }
     }
     let rings = &scratch.broad_phase.ring_contacts;

@@ -6,11 +6,19 @@
 //! damps all but the rigid motion).
 
 use super::lanes::ratio;
+use super::ratio_limit;
 use crate::particle::Particles;
 use glam::{Mat2, Vec2};
 
 /// Damps the stretching of some particles at this rate, 1/s, for a substep of `h` seconds. What nothing moves stays and does not count.
-pub(crate) fn damp_stretching<I: Iterator<Item = u32>>(of: impl Fn() -> I, p: &mut Particles, rate: f32, h: f32) {
+/// Nothing gets faster than the speed limit by it.
+pub(crate) fn damp_stretching<I: Iterator<Item = u32>>(
+    of: impl Fn() -> I,
+    p: &mut Particles,
+    rate: f32,
+    max_speed: f32,
+    h: f32,
+) {
     let particles = || of().map(|i| i as usize);
     let Some(first) = particles().next() else { return };
     let Some(stretch) = Stretch::of(particles(), first, p) else { return };
@@ -18,8 +26,9 @@ pub(crate) fn damp_stretching<I: Iterator<Item = u32>>(of: impl Fn() -> I, p: &m
     for i in particles() {
         if p.inv_mass[i] > 0.0 {
             let change = stretch.at(p.between(first, i)) * share;
-            p.vx[i] -= change.x;
-            p.vy[i] -= change.y;
+            let velocity = p.velocity(i) - change;
+            let limit = ratio_limit(velocity.length_squared(), max_speed);
+            (p.vx[i], p.vy[i]) = (velocity * limit).into();
         }
     }
 }
@@ -110,7 +119,7 @@ mod tests {
         let mut p = body(|at| Vec2::new(0.3 - at.x + 0.1 * at.y + 0.02 * at.y * at.y, 0.7 + at.y));
         let mut before = motion(&p);
         for _ in 0..200 {
-            damp_stretching(|| 0..12, &mut p, 10.0, 0.01);
+            damp_stretching(|| 0..12, &mut p, 10.0, 1e3, 0.01);
             let after = motion(&p);
             assert!((after.0 - before.0).length() < 1e-2 && (after.1 - before.1).abs() < 1e-2, "{before:?} {after:?}");
             assert!(after.2 < before.2 + 1e-3, "{before:?} {after:?}");
@@ -129,7 +138,7 @@ mod tests {
                 (p.vx[i], p.vy[i]) = (p.x[i], -p.y[i]);
             }
             let h = 0.1 / f32::from(steps);
-            (0..steps).for_each(|_| damp_stretching(|| 0..12, &mut p, 2.0, h));
+            (0..steps).for_each(|_| damp_stretching(|| 0..12, &mut p, 2.0, 1e3, h));
             let kept = p.vx[0] / p.x[0];
             assert!((kept - 0.8187).abs() < 4e-3, "{steps} steps: {kept}");
         }
@@ -139,13 +148,13 @@ mod tests {
     fn what_moves_turns_and_grows_as_a_whole_goes_on_and_what_is_fixed_stays() {
         let mut p = body(|at| Vec2::new(1.0, 2.0) + at.perp() * 0.5);
         let before = (p.vx.clone(), p.vy.clone());
-        damp_stretching(|| 0..12, &mut p, 1e3, 0.01);
+        damp_stretching(|| 0..12, &mut p, 1e3, 1e3, 0.01);
         let is_same = |now: &[f32], before: &[f32]| now.iter().zip(before).all(|(a, b)| (a - b).abs() < 1e-4);
         assert!(is_same(&p.vx, &before.0) && is_same(&p.vy, &before.1));
         p.inv_mass.fill(0.0);
-        damp_stretching(|| 0..12, &mut p, 10.0, 0.01);
-        damp_stretching(|| 0..0, &mut p, 10.0, 0.01);
-        damp_stretching(|| 0..1, &mut p, 10.0, 0.01);
+        damp_stretching(|| 0..12, &mut p, 10.0, 1e3, 0.01);
+        damp_stretching(|| 0..0, &mut p, 10.0, 1e3, 0.01);
+        damp_stretching(|| 0..1, &mut p, 10.0, 1e3, 0.01);
         assert!(p.vx.iter().all(|v| v.is_finite()));
     }
 }

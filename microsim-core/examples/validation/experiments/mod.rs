@@ -2,6 +2,7 @@
 
 pub(crate) mod angle_of_repose;
 pub(crate) mod catenary;
+pub(crate) mod cell_area;
 pub(crate) mod chemotactic_index;
 pub(crate) mod constriction;
 pub(crate) mod convergence;
@@ -45,7 +46,7 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 25] = [
+pub(crate) const ALL: [Experiment; 26] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
@@ -67,6 +68,7 @@ pub(crate) const ALL: [Experiment; 25] = [
     angle_of_repose::EXPERIMENT,
     granular_energy::EXPERIMENT,
     constriction::EXPERIMENT,
+    cell_area::EXPERIMENT,
     relaxation::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
