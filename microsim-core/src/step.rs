@@ -10,7 +10,9 @@ use crate::parallel;
 use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::{self, Membrane};
-use crate::solver::{block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, untangle};
+use crate::solver::{
+    block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, stretch_damping, untangle,
+};
 use crate::world::World;
 use glam::Vec2;
 
@@ -275,6 +277,11 @@ fn update_velocities(world: &mut World, h: f32) {
     // Drag acts on the membrane only: the cytoplasm of a crawling cell is not damped.
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
+    }
+    for (_, cell) in organisms.with_membrane() {
+        if let Some(rate) = cell.stretch_damping() {
+            stretch_damping::damp_stretching(|| cell.particles(), particles, rate, config.speed_limit(), h);
+        }
     }
     let rings = &scratch.broad_phase.ring_contacts;
     guard.wrong_side += u64::from(ring_contact::keep_sides(rings, particles, *dispatch));

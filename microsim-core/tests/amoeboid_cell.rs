@@ -241,3 +241,49 @@ fn a_crawling_cell_has_no_voids_and_no_wrinkles_and_keeps_its_speed() {
     assert!(mean(|q| q.crawl.unwrap().speed_kept) > 0.9, "speed {}", mean(|q| q.crawl.unwrap().speed_kept));
     assert!(mean(|q| q.crawl.unwrap().width_ratio) > 1.1, "width {}", mean(|q| q.crawl.unwrap().width_ratio));
 }
+
+/// Long over short axis of an ellipse with the second moments of the outline.
+fn aspect(world: &World, cell: OrganismId) -> f32 {
+    let ring = outline(world, cell);
+    let centre = ring.iter().sum::<Vec2>() / ring.len() as f32;
+    let arms = || ring.iter().map(|at| *at - centre);
+    let [xx, yy, xy]: [f32; 3] =
+        [arms().map(|a| a.x * a.x).sum(), arms().map(|a| a.y * a.y).sum(), arms().map(|a| a.x * a.y).sum()];
+    let (mean, spread) = (0.5 * (xx + yy), (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
+    ((mean + spread) / (mean - spread)).sqrt()
+}
+
+/// Lets a cell rest for so long, s; its aspect at the end, and the most by which it rose on the way.
+fn relaxed(world: &mut World, cell: OrganismId, seconds: f64) -> [f32; 2] {
+    let (end, mut least, mut rise) = (world.time() + seconds, f32::INFINITY, 0.0f32);
+    while world.time() < end {
+        run(world, &Inputs::new(), 1);
+        least = least.min(aspect(world, cell));
+        rise = rise.max(aspect(world, cell) - least);
+    }
+    [aspect(world, cell), rise]
+}
+
+#[test]
+fn a_deformed_cell_becomes_round_without_overshoot() {
+    for radius in [8.0, 11.0, 16.8] {
+        let radii = Vec2::new(4.0 / 3.0, 0.75) * radius;
+        let (mut long, cell) = room_with(AmoeboidCellSpec { radii, ..AmoeboidCellSpec::default() }, 80.0, 45.0);
+        assert!(aspect(&long, cell) > 1.5);
+        let [left, rise] = relaxed(&mut long, cell, 4.0);
+        assert!(left < 1.2 && rise < 0.03, "radius {radius}: aspect {left}, rose by {rise}");
+    }
+    let (mut pressed, cell) = a_cell();
+    let probes = [-1.0, 1.0].map(|side| {
+        let press = Controller::patrol(vec![Vec2::new(80.0, 45.0)], false);
+        let spec = ProbeSpec { radius: 11.0, speed: 4.0, mass: 1000.0, max_acceleration: 400.0 };
+        pressed.spawn(&spec.into(), Placement::at(80.0 + 23.0 * side, 45.0).steered_by(press)).unwrap()
+    });
+    while aspect(&pressed, cell) < 1.35 {
+        run(&mut pressed, &Inputs::new(), 1);
+        assert!(pressed.time() < 5.0, "aspect {}", aspect(&pressed, cell));
+    }
+    probes.into_iter().for_each(|probe| pressed.remove(probe).unwrap());
+    let [left, rise] = relaxed(&mut pressed, cell, 3.0);
+    assert!(left < 1.05 && rise < 0.03, "pressed: aspect {left}, rose by {rise}");
+}

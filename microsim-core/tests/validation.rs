@@ -8,7 +8,7 @@ mod experiments;
 
 use experiments::crawl::{self, Figures};
 use experiments::scene::Stepping;
-use experiments::{ALL, angle_of_repose, free_fall, granular_energy, refinement, restitution};
+use experiments::{ALL, angle_of_repose, cell_area, free_fall, granular_energy, refinement, restitution};
 use microsim_core::glam::Vec2;
 use microsim_core::{Crawl, WorldConfig};
 
@@ -71,6 +71,14 @@ fn a_cell_that_nobody_drives_stays_where_it_is_and_as_large_as_its_radii_say() {
         let refinement::Rest { way, area: [low, high] } = refinement::rest(stepping, 2.0).unwrap();
         assert!(way < 0.2, "{way} units in substeps of {} s", stepping.substep());
         assert!(low > -0.02 && high < 0.02, "{low} to {high} in substeps of {} s", stepping.substep());
+    }
+}
+
+#[test]
+fn a_small_cell_does_not_burst_in_short_substeps() {
+    for stepping in [Stepping::DEFAULT, Stepping::of_substeps(64), Stepping { dt: 0.001, substeps: 5 }] {
+        let [low, high] = cell_area::extremes(Vec2::splat(8.0), stepping, 1.0).unwrap();
+        assert!(low > -0.02 && high < 0.03, "{low} to {high} in substeps of {} s", stepping.substep());
     }
 }
 

@@ -6,7 +6,7 @@ use crate::capability::controller::Controller;
 use crate::capability::crawl::Pseudopods;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::{Engulfer, Meal, Prey};
+use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, Prey};
 use crate::capability::progress::Progress;
 use crate::id::OrganismId;
 use crate::kind::Kind;
@@ -16,6 +16,9 @@ use crate::solver::fluid::{self, Fluid};
 use crate::solver::membrane::{Flexibility, Membrane, MembraneContent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+
+/// Rate at which stretching of a cell is damped, 1/s, times its number of particles of cytoplasm to the power of 3/4.
+const STRETCH_DAMPING: f32 = 450.0;
 
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -134,6 +137,16 @@ impl Organism {
     /// Whether it is crawling in this step.
     pub(crate) fn crawls(&self) -> bool {
         self.locomotion.crawling_front().is_some()
+    }
+
+    /// Rate at which its stretching is damped, 1/s, if it is a cell at rest: it neither crawls nor divides, fuses or takes anything in.
+    /// One and a half times the angular frequency with which a stretched cell would swing, which falls with the content `n` as `n^(-3/4)`.
+    pub(crate) fn stretch_damping(&self) -> Option<f32> {
+        let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
+        let divides = |divider: &Divider| divider.furrow.is_some() || divider.lobes > 1.0;
+        let is_busy = self.crawls() || self.divider.as_ref().is_some_and(divides) || self.meals().iter().any(ingests);
+        let root = (self.fluid_particles.len() as f32).sqrt();
+        (!is_busy && !self.is_quarantined && root > 0.0).then(|| STRETCH_DAMPING / (root * root.sqrt()))
     }
 
     /// Finds this step's tension of its membrane, if it has one.

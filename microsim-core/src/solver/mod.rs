@@ -22,6 +22,7 @@ pub(crate) mod ring_contact;
 mod ring_lanes;
 mod ring_relation;
 pub(crate) mod strays;
+pub(crate) mod stretch_damping;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod untangle;

@@ -2,6 +2,7 @@
 
 pub(crate) mod angle_of_repose;
 pub(crate) mod catenary;
+pub(crate) mod cell_area;
 pub(crate) mod chemotactic_index;
 pub(crate) mod constriction;
 pub(crate) mod convergence;
@@ -23,6 +24,7 @@ pub(crate) mod persistent_walk;
 pub(crate) mod plot;
 pub(crate) mod point_source;
 pub(crate) mod refinement;
+pub(crate) mod relaxation;
 pub(crate) mod restitution;
 pub(crate) mod run_and_tumble;
 pub(crate) mod scene;
@@ -44,7 +46,7 @@ pub(crate) struct Experiment {
 }
 
 /// In the order of the page.
-pub(crate) const ALL: [Experiment; 24] = [
+pub(crate) const ALL: [Experiment; 26] = [
     free_fall::EXPERIMENT,
     pendulum::EXPERIMENT,
     spring::EXPERIMENT,
@@ -66,6 +68,8 @@ pub(crate) const ALL: [Experiment; 24] = [
     angle_of_repose::EXPERIMENT,
     granular_energy::EXPERIMENT,
     constriction::EXPERIMENT,
+    cell_area::EXPERIMENT,
+    relaxation::EXPERIMENT,
     engulfment::EXPERIMENT,
     division::EXPERIMENT,
     crawl::EXPERIMENT,

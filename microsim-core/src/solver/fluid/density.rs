@@ -15,7 +15,7 @@ const SUBSTEP: f32 = 1.0 / 480.0;
 const UNDER_RELAXATION: f32 = 0.7;
 /// Enclosed particles are kept from getting nearer than this share of the rest spacing.
 const MIN_SPACING: f32 = 0.85;
-/// Share of what two of them lack to it that a substep corrects, on each side.
+/// Share of what two of them lack to it that a substep of [`SUBSTEP`] or longer corrects, on each side.
 const SPACING_SHARE: f32 = 0.25;
 
 /// A wall stands for the mirror image of the fluid before it, or else fluid would crowd there: this many particles ...
@@ -145,10 +145,17 @@ pub(super) fn shifts(
     ]
 }
 
-/// A push at this distance, and what keeps the least spacing.
+/// Share of a lack of spacing that a substep of `h` corrects.
+pub(super) fn spacing_share(h: f32) -> f32 {
+    let softness = (1.0 / SPACING_SHARE - 1.0) * (SUBSTEP * SUBSTEP) / (h * h);
+    if h < SUBSTEP { 1.0 / (1.0 + softness) } else { SPACING_SHARE }
+}
+
+/// A push at a distance, and this share of what the distance lacks to the least spacing.
 #[inline(always)]
-pub(super) fn keep_spacing(push: f32, r: f32) -> f32 {
-    push + SPACING_SHARE * positive(MIN_SPACING / SUPPORT - r)
+pub(super) fn keep_spacing(share: f32) -> impl Fn(f32, f32) -> f32 + Copy + Send + Sync {
+    #[inline(always)]
+    move |push, r| push + share * positive(MIN_SPACING / SUPPORT - r)
 }
 
 /// A push alone.

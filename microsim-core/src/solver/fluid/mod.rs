@@ -184,7 +184,7 @@ impl Workspace {
                             sums,
                             shifts,
                             [viscosity, *rest_density],
-                            density::keep_spacing,
+                            density::keep_spacing(density::spacing_share(h)),
                             dispatch,
                         );
                     } else {
