@@ -130,6 +130,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         update_velocities(world, h);
         finished(Phase::UpdateVelocities);
     }
+    damp_stretching(world);
     repair_membranes(world);
     world.advance_phagocytosis();
     finished(Phase::AdvancePhagocytosis);
@@ -278,14 +279,19 @@ fn update_velocities(world: &mut World, h: f32) {
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
-    for (_, cell) in organisms.with_membrane() {
-        if let Some(rate) = cell.stretch_damping() {
-            stretch_damping::damp_stretching(|| cell.particles(), particles, rate, config.speed_limit(), h);
-        }
-    }
     let rings = &scratch.broad_phase.ring_contacts;
     guard.wrong_side += u64::from(ring_contact::keep_sides(rings, particles, *dispatch));
     contact::apply_restitution(&mut scratch.impacts, particles);
+}
+
+/// Cells at rest do not overshoot when they become round. Once per step is enough, and costs less than in each substep.
+fn damp_stretching(world: &mut World) {
+    let World { config, particles, organisms, .. } = world;
+    for (_, cell) in organisms.with_membrane() {
+        if let Some(rate) = cell.stretch_damping() {
+            stretch_damping::damp_stretching(|| cell.particles(), particles, rate, config.speed_limit(), config.dt);
+        }
+    }
 }
 
 /// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.

@@ -10,7 +10,7 @@ use super::ratio_limit;
 use crate::particle::Particles;
 use glam::{Mat2, Vec2};
 
-/// Damps the stretching of some particles at this rate, 1/s, for a substep of `h` seconds. What nothing moves stays and does not count.
+/// Damps the stretching of some particles at this rate, 1/s, for a step of `h` seconds. What nothing moves stays and does not count.
 /// Nothing gets faster than the speed limit by it.
 pub(crate) fn damp_stretching<I: Iterator<Item = u32>>(
     of: impl Fn() -> I,
