@@ -78,6 +78,7 @@ impl OrganismSpec {
     }
 
     /// Whether it is fluid or a membrane around fluid.
+    #[cfg(feature = "scenario")]
     pub(crate) fn holds_fluid(&self) -> bool {
         self.blueprint().is_ok_and(|blueprint| blueprint.holds_fluid())
     }
