@@ -184,4 +184,15 @@ mod tests {
         }
         assert!(p.vx[0] < 0.7 && (p.vx[1] - 1.0).abs() < 1e-3, "{} {}", p.vx[0], p.vx[1]);
     }
+
+    #[test]
+    fn vectors_are_brought_down_however_many_are_long() {
+        for long in 1..=4 {
+            let x: [f32; 4] = std::array::from_fn(|l| if l < long { 8.0 } else { 1.0 });
+            let factors = limits(&x, &[0.0; 4], 2.0).unwrap();
+            let brought: [f32; 4] = std::array::from_fn(|l| x[l] * factors[l]);
+            assert_eq!(brought, std::array::from_fn(|l| if l < long { 2.0 } else { 1.0 }));
+        }
+        assert_eq!(limits(&[2.0, 0.0], &[0.0, -2.0], 2.0), None);
+    }
 }

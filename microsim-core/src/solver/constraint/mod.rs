@@ -185,4 +185,13 @@ mod tests {
         let orders = std::collections::BTreeSet::from(kinds.each_ref().map(|kind| kind.run(Borrow).order()));
         assert_eq!(orders.len(), kinds.len());
     }
+
+    #[test]
+    fn a_ring_has_three_different_nodes_that_exist() {
+        let check = |ring: &[u32]| check_ring("ring", ring, 4).map_err(|error| error.field().to_owned());
+        assert_eq!((check(&[0, 1, 2]), check(&[3, 0, 1, 2])), (Ok(()), Ok(())));
+        for broken in [&[][..], &[0, 1], &[0, 1, 1], &[0, 1, 4]] {
+            assert_eq!(check(broken), Err("ring".to_owned()), "{broken:?}");
+        }
+    }
 }
