@@ -195,4 +195,15 @@ mod tests {
         }
         assert_eq!(limits(&[2.0, 0.0], &[0.0, -2.0], 2.0), None);
     }
+
+    #[test]
+    fn moving_origins_moves_nothing() {
+        let mut p = line(1.0, [1.0, 1.0]);
+        (p.x[0], p.prev_x[0], p.y[1], p.prev_y[1]) = (0.3, 0.25, -0.7, -0.65);
+        let places = |p: &Particles| [0, 1].map(|i| (p.position(i), p.last_position(i)));
+        let before = places(&p);
+        move_origins(&mut p.columns());
+        assert_eq!(places(&p), before);
+        assert!(p.x.iter().chain(&p.y).all(|offset| offset.abs() <= 0.5 * GRID), "{:?} {:?}", p.x, p.y);
+    }
 }
