@@ -42,9 +42,13 @@ pub(crate) fn whole(path: &Path) -> io::Result<Vec<u8>> {
 
 /// What a reader has, about `length` bytes.
 pub(crate) fn limited(from: impl Read, length: usize) -> io::Result<Vec<u8>> {
+    at_most(LONGEST, from, length)
+}
+
+fn at_most(longest: u64, from: impl Read, length: usize) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(length);
-    from.take(LONGEST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LONGEST { Err(too_long()) } else { Ok(bytes) }
+    from.take(longest + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > longest { Err(too_long()) } else { Ok(bytes) }
 }
 
 fn too_long() -> io::Error {
@@ -73,5 +77,11 @@ mod tests {
         let read = whole(&path);
         fs::remove_file(&path).unwrap();
         assert_eq!(read.unwrap_err().kind(), ErrorKind::FileTooLarge);
+    }
+
+    #[test]
+    fn what_has_no_end_is_read_up_to_the_limit() {
+        assert_eq!(at_most(4, io::repeat(b'0'), 0).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        assert_eq!(at_most(4, &b"0123"[..], 0).unwrap(), b"0123");
     }
 }

@@ -77,6 +77,8 @@ pub struct WorldConfig {
     pub damping: f32,
     /// Speed limit of every particle, units/s, 0.1 to 1000. Bounds how far anything moves in a step, hence the margin with
     /// which pairs are searched, and is what makes walls and membranes tight (thesis 3.1.2, 4.2.2).
+    /// Where it lets a particle pass a node of a membrane within a substep, an absurd load can make a cell leak or press it flat;
+    /// one that is flat is frozen, see [`crate::Event::Quarantined`].
     pub max_speed: f32,
     /// Seed of every random number in the world.
     pub seed: u64,

@@ -123,7 +123,8 @@ pub enum Event {
         /// Whom it joined; `None` for a place of the world or of an obstacle. Handles may be stale.
         between: [Option<OrganismId>; 2],
     },
-    /// The state of an organism was no longer finite; it is frozen where it last was, and the world goes on.
+    /// The state of an organism was no longer finite, or a load has pressed its membrane flat; it is frozen where it last was, and
+    /// the world goes on.
     Quarantined {
         /// The organism.
         organism: OrganismId,

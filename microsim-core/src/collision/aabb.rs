@@ -81,4 +81,12 @@ mod tests {
         assert_eq!((all.low(), all.high()), (Vec2::new(-1.0, 0.0), Vec2::new(1.0, 3.0)));
         assert_eq!((all.centre(), all.extent()), (Vec2::new(0.0, 1.5), 3.0));
     }
+
+    #[test]
+    fn a_box_without_its_rim_keeps_all_that_is_inside() {
+        let inner = Aabb::new(Vec2::new(-2.0, 0.0), Vec2::new(100.0, 4.0)).shrunk(0.5);
+        let (low, high) = (Vec2::new(-1.5, 0.5), Vec2::new(99.5, 3.5));
+        assert!(inner.low().cmple(low).all() && inner.high().cmpge(high).all());
+        assert!((inner.low() - low).length() < 1e-3 && (inner.high() - high).length() < 1e-3, "{inner:?}");
+    }
 }

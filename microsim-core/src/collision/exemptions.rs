@@ -105,4 +105,17 @@ mod tests {
         exemptions.forget(9);
         assert!(exemptions.gates.is_empty());
     }
+
+    #[test]
+    fn pairs_are_in_order_inherited_and_forgotten_from_either_end() {
+        let mut exemptions = Exemptions::default();
+        exemptions.set(7, 3, true);
+        exemptions.set(9, 7, true);
+        exemptions.set(1, 2, true);
+        assert_eq!(exemptions.pairs(), [(1, 2), (3, 7), (7, 9)]);
+        exemptions.inherit(7, 5);
+        assert_eq!(exemptions.pairs(), [(1, 2), (3, 5), (3, 7), (5, 9), (7, 9)]);
+        exemptions.forget(7);
+        assert_eq!(exemptions.pairs(), [(1, 2), (3, 5), (5, 9)]);
+    }
 }

@@ -103,3 +103,19 @@ pub(crate) fn combine(a: Material, b: Material) -> (f32, f32) {
     let friction = if a.friction == b.friction { a.friction } else { (a.friction * b.friction).sqrt() };
     (friction, restitution)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_surfaces_bounce_as_the_livelier_and_rub_as_their_geometric_mean() {
+        let surface = |friction, restitution| Material { friction, restitution };
+        let (rough, smooth) = (surface(0.8, 0.1), surface(0.2, 0.6));
+        for (a, b) in [(rough, smooth), (smooth, rough)] {
+            let (friction, restitution) = combine(a, b);
+            assert!((friction - 0.4).abs() < 1e-6 && restitution == 0.6, "{friction}, {restitution}");
+        }
+        assert_eq!(combine(rough, rough), (0.8, 0.1));
+    }
+}

@@ -97,3 +97,17 @@ impl Obstacle {
         (self.pose.transform_point(projection.point), projection.is_inside)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chemicals_stop_at_what_is_solid_and_stays() {
+        let wall = Obstacle { motion: ObstacleMotion::Fixed, ..Obstacle::new(SharedShape::ball(1.0), Pose::IDENTITY) };
+        assert!(wall.stops_chemicals());
+        assert!(!Obstacle { is_sensor: true, ..wall.clone() }.stops_chemicals());
+        assert!(!Obstacle { is_enabled: false, ..wall.clone() }.stops_chemicals());
+        assert!(!Obstacle { motion: ObstacleMotion::Push, ..wall }.stops_chemicals());
+    }
+}

@@ -167,3 +167,17 @@ pub(crate) fn pose_of((at, [cosine, sine]): PoseRecord) -> Option<Pose> {
 fn is_length(value: f32) -> bool {
     value.is_finite() && value >= 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_is_what_its_numbers_say_and_other_numbers_are_none() {
+        let pose = Pose::from_parts(Vec2::new(3.0, -4.0), Rot2::from_cos_sin_unchecked(0.6, -0.8));
+        assert_eq!(pose_of(record(&pose)), Some(pose));
+        for broken in [(Vec2::ZERO, [0.0, 0.0]), (Vec2::ZERO, [1.0, 0.1]), (Vec2::new(0.0, f32::NAN), [1.0, 0.0])] {
+            assert_eq!(pose_of(broken), None, "{broken:?}");
+        }
+    }
+}

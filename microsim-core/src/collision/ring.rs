@@ -262,4 +262,21 @@ mod tests {
         let particles = |ring| rings.of_ring(ring).iter().map(|contact| contact.particle).collect::<Vec<_>>();
         assert_eq!([0, 1, 2, 3, 4].map(particles), [vec![7, 8], vec![], vec![5], vec![6, 7, 9], vec![]]);
     }
+
+    #[test]
+    fn what_a_ring_holds_stays_inside_and_what_passes_is_free() {
+        let of = |holds| Ring { owner: 0, nodes: &[10, 11, 12], holds };
+        let containments = [0, 0, 9, 9].map(Containment::Inside);
+        let side = |owner, holds| side_of(owner, of(holds), &containments);
+        assert_eq!(
+            [0, 1, 2, 4].map(|owner| side(owner, None)),
+            [Side::Inside, Side::Inside, Side::Outside, Side::Outside]
+        );
+        assert_eq!([0, 1, 2].map(|owner| side(owner, Some(1))), [Side::Outside, Side::Inside, Side::Outside]);
+        let passing = [Containment::Free, Containment::Passing(0), Containment::Passing(9)];
+        let sides = [1, 2].map(|owner| side_of(owner, of(None), &passing));
+        assert_eq!(sides, [Side::Either, Side::Outside]);
+        let links = [0, 1, 2].map(|k| of(None).link(k)).map(|Link { a, b }| (a, b));
+        assert_eq!(links, [(10, 11), (11, 12), (12, 10)]);
+    }
 }

@@ -188,4 +188,10 @@ mod tests {
         grid.fill(Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, 0, |_| Vec2::ZERO);
         assert_eq!(grid.ranges_in_box(Vec2::ZERO, Vec2::ONE).flatten().count(), 0);
     }
+
+    #[test]
+    fn nan_is_never_the_largest() {
+        assert_eq!(largest([1.0, f32::NAN, 3.0, 2.0]), 3.0);
+        assert_eq!(largest([f32::NAN]), 0.0);
+    }
 }

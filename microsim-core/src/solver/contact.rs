@@ -223,4 +223,32 @@ mod tests {
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
         assert!(impacts.is_empty() && momentum(&p).is_finite());
     }
+
+    #[test]
+    fn an_impact_leaves_its_rebound_whatever_the_masses_and_keeps_momentum() {
+        let mut p = line(0.99, [1.0, 0.25]);
+        p.vx = vec![1.0, -1.0];
+        let mut impacts = Vec::new();
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default());
+        p.vx = vec![0.5, 0.25];
+        let before = momentum(&p);
+        apply_restitution(&mut impacts, &mut p);
+        assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
+        assert!((momentum(&p) - before).length() < 1e-6);
+    }
+
+    #[test]
+    fn only_what_approaches_a_surface_bounces_off_it() {
+        let mut p = line(0.99, [1.0, 1.0]);
+        p.vx[0] = 2.0;
+        let of = |normal, restitution, surface| {
+            Impact::on_surface(&p, 0, normal, restitution, surface).map(|impact| impact.rebound)
+        };
+        assert_eq!(of(Vec2::X, 0.5, Vec2::ZERO), Some(1.0));
+        assert_eq!(of(Vec2::X, 0.5, Vec2::X), Some(0.5));
+        assert_eq!(
+            [of(-Vec2::X, 0.5, Vec2::ZERO), of(Vec2::X, 0.5, 3.0 * Vec2::X), of(Vec2::X, 0.0, Vec2::ZERO)],
+            [None; 3]
+        );
+    }
 }

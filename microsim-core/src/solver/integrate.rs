@@ -184,4 +184,26 @@ mod tests {
         }
         assert!(p.vx[0] < 0.7 && (p.vx[1] - 1.0).abs() < 1e-3, "{} {}", p.vx[0], p.vx[1]);
     }
+
+    #[test]
+    fn vectors_are_brought_down_however_many_are_long() {
+        for long in 1..=4 {
+            let x: [f32; 4] = std::array::from_fn(|l| if l < long { 8.0 } else { 1.0 });
+            let factors = limits(&x, &[0.0; 4], 2.0).unwrap();
+            let brought: [f32; 4] = std::array::from_fn(|l| x[l] * factors[l]);
+            assert_eq!(brought, std::array::from_fn(|l| if l < long { 2.0 } else { 1.0 }));
+        }
+        assert_eq!(limits(&[2.0, 0.0], &[0.0, -2.0], 2.0), None);
+    }
+
+    #[test]
+    fn moving_origins_moves_nothing() {
+        let mut p = line(1.0, [1.0, 1.0]);
+        (p.x[0], p.prev_x[0], p.y[1], p.prev_y[1]) = (0.3, 0.25, -0.7, -0.65);
+        let places = |p: &Particles| [0, 1].map(|i| (p.position(i), p.last_position(i)));
+        let before = places(&p);
+        move_origins(&mut p.columns());
+        assert_eq!(places(&p), before);
+        assert!(p.x.iter().chain(&p.y).all(|offset| offset.abs() <= 0.5 * GRID), "{:?} {:?}", p.x, p.y);
+    }
 }

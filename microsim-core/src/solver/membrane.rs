@@ -297,4 +297,14 @@ mod tests {
         (0..40).for_each(|_| membrane.limit_strain(&indices, &mut p));
         assert!(longest_link(&p) < 1.26, "longest {}", longest_link(&p));
     }
+
+    #[test]
+    fn a_part_of_a_membrane_is_under_the_same_tension() {
+        let mut whole = Membrane::new(1.0, 0.5, 40);
+        whole.rest_perimeter = 36.0;
+        let [half, more] = [20, 50].map(|nodes| whole.resized(40, nodes).rest_perimeter());
+        assert_eq!((half, more), (18.0, 45.0));
+        let reached = [share(0.01, 0.25), share(0.25, 0.25), share(0.0, 0.25)];
+        assert!((reached[0] - 0.04).abs() < 2e-3 && reached[1] == 0.5 && reached[2] == 0.0, "{reached:?}");
+    }
 }

@@ -1,7 +1,9 @@
-//! Quarantine: an organism whose state is no longer finite is frozen and reported; the rest of the world goes on.
+//! Quarantine: an organism whose state is no longer finite, or whose membrane is flat or inside out, is frozen and reported; the
+//! rest of the world goes on.
 
 use super::World;
 use crate::event::Event;
+use crate::geometry::polygon::signed_area;
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::parallel::{self, CHUNK};
@@ -11,10 +13,10 @@ use std::ops::Range;
 
 impl World {
     /// Freezes every organism with a particle that has a number that is not finite, or is farther outside the room than the
-    /// room's size.
+    /// room's size, or with a membrane that encloses no area.
     pub(crate) fn quarantine(&mut self) {
         // The fast check of whole columns nearly always succeeds.
-        if !self.all_are_valid() {
+        if !self.all_are_valid() || self.is_anybody_flat() {
             for id in self.freeze_invalid() {
                 self.release_meals(id);
                 self.wake_up_touching(id);
@@ -35,12 +37,22 @@ impl World {
         parallel::map(chunks.collect(), is_valid).into_iter().all(|is_valid| is_valid)
     }
 
-    /// Freezes all organisms with an invalid particle and returns them.
+    /// Whether a load has pressed a membrane flat or turned it inside out; nothing restores those.
+    fn is_anybody_flat(&self) -> bool {
+        let (p, mut outline) = (&self.particles, Vec::new());
+        let mut all = self.organisms.with_membrane();
+        self.config.protects_membranes && all.any(|(_, organism)| is_flat(organism, p, &mut outline))
+    }
+
+    /// Freezes all organisms with an invalid particle or a flat membrane and returns them.
     fn freeze_invalid(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
         let is_valid = |i: u32| is_valid(particles, i as usize, config.size);
+        let is_flat = |organism: &Organism| config.protects_membranes && is_flat(organism, particles, &mut Vec::new());
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
-        let is_lost = |organism: &Organism| !organism.is_quarantined && !organism.particles().all(is_valid);
+        let is_lost = |organism: &Organism| {
+            !organism.is_quarantined && (!organism.particles().all(is_valid) || is_flat(organism))
+        };
         for (id, organism) in organisms.iter_mut(is_lost) {
             organism.is_quarantined = true;
             organism.fluid = None;
@@ -57,6 +69,17 @@ impl World {
         }
         frozen
     }
+}
+
+/// Whether one of its membranes encloses no area. `outline` is room for its nodes.
+fn is_flat(organism: &Organism, p: &Particles, outline: &mut Vec<Vec2>) -> bool {
+    let mut rings = organism.membranes().map(|(_, ring)| ring);
+    !organism.is_quarantined
+        && rings.any(|ring| {
+            outline.clear();
+            outline.extend(ring.iter().map(|&node| p.position(node as usize)));
+            signed_area(outline) <= 0.0
+        })
 }
 
 /// Whether all positions, each an origin and an offset, are less than the room's size outside the room.

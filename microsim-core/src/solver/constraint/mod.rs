@@ -170,10 +170,10 @@ pub(crate) fn check_ring(field: &str, ring: &[u32], nodes: usize) -> Result<(), 
 mod tests {
     use super::*;
 
-    #[test]
-    fn each_kind_has_its_own_place_in_the_order_of_projection() {
+    /// One of each kind, between nodes 0, 1 and 2.
+    fn kinds() -> [Constraint; 7] {
         let (a, b, rest_length, compliance) = (0, 1, 1.0, 0.0);
-        let kinds = [
+        [
             Constraint::from(Distance { a, b, rest_length, compliance, damping: 0.0 }),
             MinDistance { a, b, min_length: 1.0 }.into(),
             Area { ring: vec![0, 1, 2], rest_area: 1.0, compliance, is_upper_bound: false }.into(),
@@ -181,8 +181,34 @@ mod tests {
             Rope { a, b, max_length: 1.0 }.into(),
             Bend::new([0, 1, 2], 0.0, compliance).into(),
             ConservativeDistance { a, b, rest_length, compliance, damping: 0.0 }.into(),
-        ];
+        ]
+    }
+
+    #[test]
+    fn each_kind_has_its_own_place_in_the_order_of_projection() {
+        let kinds = kinds();
         let orders = std::collections::BTreeSet::from(kinds.each_ref().map(|kind| kind.run(Borrow).order()));
         assert_eq!(orders.len(), kinds.len());
+    }
+
+    #[test]
+    fn a_ring_has_three_different_nodes_that_exist() {
+        let check = |ring: &[u32]| check_ring("ring", ring, 4).map_err(|error| error.field().to_owned());
+        assert_eq!((check(&[0, 1, 2]), check(&[3, 0, 1, 2])), (Ok(()), Ok(())));
+        for broken in [&[][..], &[0, 1], &[0, 1, 1], &[0, 1, 4]] {
+            assert_eq!(check(broken), Err("ring".to_owned()), "{broken:?}");
+        }
+    }
+
+    #[test]
+    fn each_kind_is_drawn_between_its_nodes_and_only_bends_are_no_muscles() {
+        for kind in kinds() {
+            let (links, is_muscle) = match kind {
+                Constraint::Area(_) => (vec![[0, 1], [1, 2], [2, 0]], true),
+                Constraint::Bend(_) => (vec![[0, 1], [1, 2]], false),
+                _ => (vec![[0, 1]], true),
+            };
+            assert_eq!((kind.links(), kind.has_lengths()), (links, is_muscle), "{kind:?}");
+        }
     }
 }

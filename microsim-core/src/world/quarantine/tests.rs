@@ -4,9 +4,9 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::particle::Particles;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Event, FluidBlockSpec, IngestionWay, Inputs,
-    Intent, Node, OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, RedCellSpec,
-    RigidCellSpec, Template, World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Event, FieldKind, FluidBlockSpec, ForceField,
+    IngestionWay, Inputs, Intent, Node, OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec,
+    ProbeSpec, RedCellSpec, Region, RigidCellSpec, Template, World, WorldConfig, glam::Vec2,
 };
 
 type Poison = fn(&mut Particles, usize);
@@ -269,4 +269,55 @@ fn every_chunk_is_looked_at() {
         world.quarantine();
         assert_eq!(world.events(), [Event::Quarantined { organism: id }], "particle {i}");
     }
+}
+
+/// A cell whose membrane is changed node by node, from where it is relative to the first one.
+fn bent(protects_membranes: bool, bend: fn(Vec2) -> Vec2) -> (World, OrganismId) {
+    let mut world = World::new(WorldConfig { protects_membranes, ..WorldConfig::default() }).unwrap();
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+    let ring = world.organisms.get(cell).unwrap().outline.clone();
+    let first = world.particles.position(ring[0] as usize);
+    for node in ring.into_iter().map(|node| node as usize) {
+        let p = &mut world.particles;
+        let at = first + bend(p.position(node) - first);
+        (p.origin_x[node], p.x[node]) = (at.x.round(), at.x - at.x.round());
+        (p.origin_y[node], p.y[node]) = (at.y.round(), at.y - at.y.round());
+    }
+    (world, cell)
+}
+
+#[test]
+fn a_membrane_that_encloses_no_area_is_frozen_where_membranes_are_protected() {
+    let bends: [fn(Vec2) -> Vec2; 3] = [|at| Vec2::new(at.x, 0.0), |_| Vec2::ZERO, |at| Vec2::new(-at.x, at.y)];
+    for (k, bend) in bends.into_iter().enumerate() {
+        for is_protected in [true, false] {
+            let (mut world, cell) = bent(is_protected, bend);
+            world.quarantine();
+            world.quarantine();
+            let expected = [Event::Quarantined { organism: cell }];
+            assert_eq!(world.events(), &expected[..usize::from(is_protected)], "bend {k}, protected {is_protected}");
+            world.validate().unwrap_or_else(|violation| panic!("bend {k}: {violation}"));
+        }
+    }
+    let (mut world, _) = bent(true, |at| at);
+    world.quarantine();
+    assert_eq!(world.events(), []);
+}
+
+#[test]
+fn a_cell_that_a_load_presses_flat_is_frozen() {
+    let size = Vec2::new(60.0, 30.0);
+    let config = WorldConfig { size, substeps: 2, max_speed: 500.0, ..WorldConfig::default() };
+    let mut world = World::new(config).unwrap();
+    let small = AmoeboidCellSpec { radii: Vec2::splat(4.0), ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&small.into(), Placement::at(30.0, 15.0)).unwrap();
+    let fall = FieldKind::Uniform { acceleration: Vec2::new(0.0, -1e6) };
+    world.add_field(ForceField { region: Region::All, kind: fall }).unwrap();
+    let mut reports = Vec::new();
+    for step in 0..10 {
+        world.step(&Inputs::new());
+        world.validate().unwrap_or_else(|violation| panic!("step {step}: {violation}"));
+        reports.extend(world.events().iter().filter(|event| event.name() == "quarantined").copied());
+    }
+    assert_eq!(reports, [Event::Quarantined { organism: cell }]);
 }
