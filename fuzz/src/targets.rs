@@ -94,9 +94,9 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 
 /// How a snapshot of a world begins.
 const WORLD: [u8; 8] = *b"MSIMWRLD";
-const WORLD_VERSION: u32 = 7;
+const WORLD_VERSION: u32 = 8;
 /// Of checkpoints.
-const RUN_VERSION: u32 = 5;
+const RUN_VERSION: u32 = 6;
 
 /// The scenario of replays that are made up.
 pub(crate) const ROOM: &str = r#"

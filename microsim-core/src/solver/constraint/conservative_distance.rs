@@ -55,7 +55,7 @@ impl Constrain for ConservativeDistance {
             let growth = pair.growth(particles);
             let earlier = pair.earlier(particles);
             let length = each::<L>(|l| pair.length(l));
-            let before = each::<L>(|l| (pair.squared[l] - growth[l]).sqrt());
+            let before = each::<L>(|l| root(pair.squared[l] - growth[l]));
             let opening = each::<L>(|l| ratio(growth[l], length[l] + before[l]));
             let error = each::<L>(|l| self.rest_length * span.scale[l] - length[l]);
             let damped = each::<L>(|l| gamma - ratio(alpha, alpha + pair.weight(l)));
@@ -66,6 +66,12 @@ impl Constrain for ConservativeDistance {
             earlier.push(particles, share);
         }
     }
+}
+
+/// The root; 0 of what rounding made negative: nodes that were in one place.
+#[inline(always)]
+fn root(square: f32) -> f32 {
+    if square > 0.0 { square.sqrt() } else { 0.0 }
 }
 
 impl From<ConservativeDistance> for Constraint {
@@ -88,6 +94,11 @@ mod tests {
 
     fn constraint(compliance: f32) -> ConservativeDistance {
         ConservativeDistance { a: 0, b: 1, rest_length: 1.0, compliance, damping: 0.0 }
+    }
+
+    #[test]
+    fn what_rounding_makes_negative_has_the_root_zero() {
+        assert_eq!([-1e-9, 0.0, 4.0].map(root), [0.0, 0.0, 2.0]);
     }
 
     /// The first node is fixed; steps, and shows the other after each.
