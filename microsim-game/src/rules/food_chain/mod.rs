@@ -131,7 +131,8 @@ impl FoodChain {
         self.owed[place].1 += used;
         if self.owed[place].1 >= 1.0 {
             self.owed[place].1 -= 1.0;
-            self.take(world, id, Fate::Starved);
+            // Hunger may take the last particle of a cell that is being eaten.
+            self.take(world, id, if self.is_bitten(id) { Fate::Eaten } else { Fate::Starved });
         }
     }
 
