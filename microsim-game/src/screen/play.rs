@@ -12,7 +12,7 @@ use crate::rules::brake::Brake;
 use crate::rules::food_chain::change::is_own;
 use crate::rules::food_chain::{NAME, threats_and_victims};
 use crate::rules::game::GameChoice;
-use crate::rules::hint::Hints;
+use crate::rules::hint::{Hints, PreyTarget};
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides::SLIDES;
@@ -21,7 +21,7 @@ use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
 use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
-use microsim_core::{Intent, View};
+use microsim_core::{Intent, OrganismId, View};
 
 /// Units that are seen from bottom to top at first; more as the cell grows.
 const VIEW: f32 = 62.0;
@@ -262,6 +262,18 @@ impl Play {
     }
 }
 
+/// Targets of one who plays, but for those to which another one is nearer: each is marked once.
+fn targets_of(round: &Round, view: View<'_>, player: OrganismId, hints: &Hints) -> Vec<PreyTarget> {
+    let distance = |id, at| view.organism(id).map(|cell| cell.centroid().distance(at));
+    let is_own = |target: &&PreyTarget| {
+        let others = round.players().filter(|other| *other != player);
+        others
+            .filter_map(|other| distance(other, target.at))
+            .all(|other| distance(player, target.at).is_some_and(|own| own <= other))
+    };
+    hints.targets.iter().filter(is_own).copied().collect()
+}
+
 /// What all who play do in a step. Only the first one may have to hold a key to digest.
 fn intents(
     round: &Round,
@@ -357,11 +369,11 @@ impl Screen for Play {
         if self.round.chain().is_none() {
             self.gains.draw(pen, &style, &mut taken);
         }
-        marks::draw_targets(pen, &style, &mut taken, &hints.targets);
+        marks::draw_targets(pen, &style, &mut taken, &targets_of(&self.round, view, self.round.player(), &hints));
         for other in self.round.players().skip(1) {
             let hints = Hints::of(view, other);
             marks::draw_held(pen, &style, &mut taken, &hints.held);
-            marks::draw_targets(pen, &style, &mut taken, &hints.targets);
+            marks::draw_targets(pen, &style, &mut taken, &targets_of(&self.round, view, other, &hints));
         }
         self.draw_status(pen, context.settings.reduced_motion);
         if let Some(advice) = advice {
