@@ -194,7 +194,7 @@ async function menus() {
     check("menus: values are changed by keys", /^Sound: /.test(await focused()), `${before}, then ${await focused()}`);
     await page.keyboard.press("Escape", { delay: 100 });
     await items("title").first().waitFor({ timeout: 10_000 });
-    await items("title").filter({ hasText: "Play" }).dispatchEvent("click");
+    await items("title").filter({ hasText: /^Play$/ }).dispatchEvent("click");
     await items("title").first().waitFor({ state: "detached", timeout: 10_000 });
     check("menus: a click starts a round, which has no menu", (await page.locator("#items button").count()) === 0);
     await page.context().close();
