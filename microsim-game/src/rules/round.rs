@@ -13,8 +13,8 @@ use std::num::NonZeroU32;
 /// Steps between two digests of a recorded round.
 const DIGEST_INTERVAL: NonZeroU32 = NonZeroU32::new(60).expect("not zero");
 
-/// Cells that can be played in one round: the player of a scenario, and those named `player-2` and so on.
-const MOST_PLAYERS: usize = 4;
+/// Cells that can be played in one round: the player of a scenario, and the one named `player-2`.
+const MOST_PLAYERS: usize = 2;
 
 /// A round that is being played, or played again.
 #[derive(Clone, Debug)]
