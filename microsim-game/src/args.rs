@@ -2,64 +2,153 @@
 
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Sight};
-use clap::Parser;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use lexopt::{Arg, Parser, ValueExt};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// Frames before a screenshot when none are asked for.
 const SCREENSHOT_FRAMES: u32 = 120;
 
-const AFTER_HELP: &str = "\
-Without a scenario: the title, to play or to choose a simulation.
+const HELP: &str = "\
+Cells under the microscope, to watch and to play with
+
+Usage: microsim-game [OPTIONS] [NAME | FILE.toml]...
+
+Without a scenario: the title, to play or to choose a simulation. More files are in the list of simulations.
+
+Options:
+      --play             Play the game at once; with a NAME or FILE, that one
+      --set <KEY=VALUE>  Change a value of the scenario, for example game.time=30
+      --seed <N>         Play the same round every time
+      --replay <FILE>    Watch a round that was recorded, such as last-game.replay
+      --screenshot <FILE>
+                         Write a PNG of the last frame and exit; takes exactly one step in each frame
+      --frames <N>       Exit after N frames, 1 to 1000000 (with --screenshot: 120 unless told)
+      --size <WxH>       Size of the window, 160x90 to 7680x4320 [default: 1280x720]
+      --script <FILE>    Take the player's input from a file instead of mouse and keyboard
+      --optics <NAME>    How the world is seen, in place of the settings; drawn suits slow graphics
+      --quality <NAME>   How much of the machine pictures may take, in place of the settings
+      --timings          Say at the end how long steps and frames took
+  -h, --help             Print help
+  -V, --version          Print version
 
 CONTROLS: hold the left mouse button: crawl there | A, D or wheel: zoom out, in | Space: pause
           R: restart | F11: full screen | F12: picture | Escape: menu. Keys can be changed in the settings.
 
-EXIT CODE: 0 fine, 1 no display or a file that cannot be written, 2 a bad argument or scenario";
+EXIT CODE: 0 fine, 1 no display or a file that cannot be written, 2 a bad argument or scenario
+";
 
-/// Cells under the microscope, to watch and to play with
-#[derive(Clone, Debug, PartialEq, Parser)]
-#[command(name = "microsim-game", version, args_override_self = true, after_help = AFTER_HELP)]
+/// What the command line asks for.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Args {
-    /// A built-in scenario, or a scenario file; more files are in the list of simulations
-    #[arg(value_name = "NAME | FILE.toml")]
+    /// Scenarios to show; the first one is shown first.
     pub scenes: Vec<SceneSource>,
-    /// Play the game at once; with a NAME or FILE, that one
-    #[arg(long)]
+    /// Whether the game is played at once.
     pub play: bool,
-    /// Change a value of the scenario, for example game.time=30
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = pair)]
+    /// Changed values of the scenario, by key.
     pub overrides: Vec<(String, String)>,
-    /// Play the same round every time
-    #[arg(long, value_name = "N")]
+    /// The seed of every round.
     pub seed: Option<u64>,
-    /// Watch a round that was recorded, such as last-game.replay
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["play", "scenes", "overrides", "seed"])]
+    /// A recorded round to watch.
     pub replay: Option<PathBuf>,
-    /// Write a PNG of the last frame and exit; takes exactly one step in each frame
-    #[arg(long, value_name = "FILE")]
+    /// Where a picture of the last frame is written.
     pub screenshot: Option<PathBuf>,
-    /// Exit after N frames, 1 to 1000000 (with --screenshot: 120 unless told)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Frames after which the program ends.
     pub frames: Option<u32>,
-    /// Size of the window, 160x90 to 7680x4320
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
+    /// Size of the window, pixels.
     pub size: (u32, u32),
-    /// Take the player's input from a file instead of mouse and keyboard
-    #[arg(long, value_name = "FILE")]
+    /// A file in place of mouse and keyboard.
     pub script: Option<PathBuf>,
-    /// How the world is seen, in place of the settings; drawn suits slow graphics
-    #[arg(long = "optics", value_name = "NAME", value_parser = sights())]
+    /// How the world is seen.
     pub sight: Option<Sight>,
-    /// How much of the machine pictures may take, in place of the settings
-    #[arg(long = "quality", value_name = "NAME", value_parser = efforts())]
+    /// How much of the machine pictures may take.
     pub effort: Option<Effort>,
-    /// Say at the end how long steps and frames took
-    #[arg(long)]
+    /// Whether times are told at the end.
     pub timings: bool,
 }
 
+impl Default for Args {
+    fn default() -> Self {
+        Self {
+            scenes: Vec::new(),
+            play: false,
+            overrides: Vec::new(),
+            seed: None,
+            replay: None,
+            screenshot: None,
+            frames: None,
+            size: (1280, 720),
+            script: None,
+            sight: None,
+            effort: None,
+            timings: false,
+        }
+    }
+}
+
+/// What is said in place of doing what was asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// What was asked for: help, or the version.
+    Asked(String),
+    /// What is wrong.
+    Mistake(String),
+}
+
+impl From<lexopt::Error> for Answer {
+    fn from(error: lexopt::Error) -> Self {
+        Self::Mistake(error.to_string())
+    }
+}
+
 impl Args {
+    /// Reads a command line, the first word of which is the program's name. An option that is given twice counts as the last says.
+    ///
+    /// # Errors
+    /// What to say instead: help, the version, or what is wrong.
+    pub fn parse(words: impl IntoIterator<Item = impl Into<OsString>>) -> Result<Self, Answer> {
+        let (mut args, mut parser) = (Self::default(), Parser::from_iter(words));
+        while let Some(arg) = parser.next()? {
+            match arg {
+                Arg::Value(scene) => args.scenes.push(scene.string()?.as_str().into()),
+                Arg::Long(option) => {
+                    let option = option.to_owned();
+                    args.read(&option, &mut parser)?;
+                }
+                Arg::Short('h') => return Err(Answer::Asked(HELP.to_owned())),
+                Arg::Short('V') => return Err(Answer::Asked(version())),
+                Arg::Short(_) => return Err(arg.unexpected().into()),
+            }
+        }
+        let is_other = args.play || args.seed.is_some() || !args.scenes.is_empty() || !args.overrides.is_empty();
+        if args.replay.is_some() && is_other {
+            return Err(Answer::Mistake(
+                "--replay plays what was recorded: no scenario, --play, --set, --seed".to_owned(),
+            ));
+        }
+        Ok(args)
+    }
+
+    fn read(&mut self, option: &str, parser: &mut Parser) -> Result<(), Answer> {
+        match option {
+            "help" => return Err(Answer::Asked(HELP.to_owned())),
+            "version" => return Err(Answer::Asked(version())),
+            "play" => self.play = true,
+            "timings" => self.timings = true,
+            "replay" => self.replay = Some(parser.value()?.into()),
+            "screenshot" => self.screenshot = Some(parser.value()?.into()),
+            "script" => self.script = Some(parser.value()?.into()),
+            "set" => self.overrides.push(checked(option, parser, "KEY=VALUE", pair)?),
+            "seed" => self.seed = Some(checked(option, parser, "a whole number from 0 on", |word| word.parse().ok())?),
+            "frames" => self.frames = Some(checked(option, parser, "a number from 1 to 1000000", frames)?),
+            "size" => self.size = checked(option, parser, "a size from 160x90 to 7680x4320", size)?,
+            "optics" => self.sight = Some(checked(option, parser, &sights(), sight)?),
+            "quality" => self.effort = Some(checked(option, parser, &efforts(), Effort::named)?),
+            _ => return Err(Arg::Long(option).unexpected().into()),
+        }
+        Ok(())
+    }
+
     /// Frames after which to exit.
     #[must_use]
     pub fn frames(&self) -> Option<u32> {
@@ -67,38 +156,59 @@ impl Args {
     }
 }
 
-fn pair(text: &str) -> Result<(String, String), String> {
-    let pair = text.split_once('=').map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
-    pair.filter(|(key, _)| !key.is_empty()).ok_or_else(|| "not KEY=VALUE".to_owned())
+fn version() -> String {
+    format!("microsim-game {}\n", env!("CARGO_PKG_VERSION"))
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once('x').and_then(|(width, height)| {
-        let (width, height) = (width.parse().ok()?, height.parse().ok()?);
-        ((160..=7680).contains(&width) && (90..=4320).contains(&height)).then_some((width, height))
-    });
-    sides.ok_or_else(|| "not a size from 160x90 to 7680x4320".to_owned())
+/// The value of an option; `wanted` is what it has to be.
+fn checked<T>(
+    option: &str,
+    parser: &mut Parser,
+    wanted: &str,
+    read: impl FnOnce(&str) -> Option<T>,
+) -> Result<T, Answer> {
+    let word = parser.value()?.string()?;
+    read(&word).ok_or_else(|| Answer::Mistake(format!("--{option} {word}: not {wanted}")))
 }
 
-fn sights() -> impl TypedValueParser<Value = Sight> {
-    PossibleValuesParser::new(Sight::all().map(Sight::name)).map(|name| Sight::named(&name))
+fn pair(text: &str) -> Option<(String, String)> {
+    let (key, value) = text.split_once('=')?;
+    let key = key.trim();
+    (!key.is_empty()).then(|| (key.to_owned(), value.trim().to_owned()))
 }
 
-fn efforts() -> impl TypedValueParser<Value = Effort> {
-    PossibleValuesParser::new(Effort::ALL.map(Effort::name)).map(Effort::from)
+fn frames(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|count| (1..=1_000_000).contains(count))
+}
+
+fn size(text: &str) -> Option<(u32, u32)> {
+    let (width, height) = text.split_once('x')?;
+    let (width, height) = (width.parse().ok()?, height.parse().ok()?);
+    ((160..=7680).contains(&width) && (90..=4320).contains(&height)).then_some((width, height))
+}
+
+fn sight(name: &str) -> Option<Sight> {
+    Sight::all().find(|sight| sight.name() == name)
+}
+
+fn sights() -> String {
+    format!("one of {}", Sight::all().map(Sight::name).collect::<Vec<_>>().join(", "))
+}
+
+fn efforts() -> String {
+    format!("one of {}", Effort::ALL.map(Effort::name).join(", "))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::error::ErrorKind;
 
-    fn parsed(line: &str) -> Result<Args, clap::Error> {
-        Args::try_parse_from(["microsim-game"].into_iter().chain(line.split_whitespace()))
+    fn parsed(line: &str) -> Result<Args, Answer> {
+        Args::parse(["microsim-game"].into_iter().chain(line.split_whitespace()))
     }
 
     fn args(line: &str) -> Args {
-        parsed(line).unwrap_or_else(|error| panic!("{line}: {error}"))
+        parsed(line).unwrap_or_else(|error| panic!("{line}: {error:?}"))
     }
 
     #[test]
@@ -119,21 +229,29 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_refused_with_exit_code_2() {
-        assert!(parsed("--replay a.replay --play").is_err() && args("--replay a.replay").replay.is_some());
-        let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1"];
-        let words = ["--wrong", "--set x", "--set =1", "--optics x", "--quality x"];
-        for line in numbers.into_iter().chain(words) {
-            assert_eq!(parsed(line).map_err(|error| error.exit_code()), Err(2), "{line}");
+    fn mistakes_are_refused_with_what_is_accepted() {
+        assert!(args("--replay a.replay").replay.is_some());
+        let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1", "--seed"];
+        let words = ["--wrong", "-x", "--set x", "--set =1", "--optics x", "--quality x", "--play=1"];
+        let replays = ["--play", "demo", "--set a=1", "--seed 1"].map(|other| format!("--replay a.replay {other}"));
+        for line in numbers.into_iter().chain(words).chain(replays.iter().map(String::as_str)) {
+            assert!(matches!(parsed(line), Err(Answer::Mistake(_))), "{line}");
         }
+        let Err(Answer::Mistake(mistake)) = parsed("--optics x") else { panic!("accepted") };
+        assert!(mistake.contains("--optics x: not one of phase-contrast,"), "{mistake}");
     }
 
     #[test]
-    fn help_and_version_are_no_mistakes() {
-        for (line, kind) in [("--help", ErrorKind::DisplayHelp), ("-V", ErrorKind::DisplayVersion)] {
-            let answer = parsed(line).unwrap_err();
-            assert_eq!((answer.kind(), answer.exit_code()), (kind, 0));
+    fn help_names_each_option_and_the_version_is_told() {
+        let Err(Answer::Asked(help)) = parsed("--help") else { panic!("no help") };
+        let options =
+            ["play", "set", "seed", "replay", "screenshot", "frames", "size", "script", "optics", "quality", "timings"];
+        for option in options {
+            assert!(help.contains(&format!(" --{option}")), "{option}");
+            assert_ne!(parsed(&format!("--{option}")), Err(Arg::Long(option).unexpected().into()), "{option}");
         }
-        assert!(parsed("-h").unwrap_err().to_string().contains("CONTROLS"));
+        assert!(help.lines().all(|line| line.chars().count() <= 120));
+        assert_eq!(parsed("-h"), Err(Answer::Asked(help)));
+        assert_eq!(parsed("-V"), Err(Answer::Asked(version())));
     }
 }

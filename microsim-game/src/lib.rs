@@ -40,8 +40,7 @@ mod waiting;
 mod window;
 
 use app::{App, RunOptions};
-use args::Args;
-use clap::Parser;
+use args::{Answer, Args};
 use input::script::InputScript;
 use microsim_core::replay::Replay;
 use rules::game::GameChoice;
@@ -63,12 +62,13 @@ const GAME: &str = "game";
 
 /// Runs the program with the arguments that the platform has for it.
 pub fn launch() -> ExitCode {
-    let args = match Args::try_parse_from(platform::arguments()) {
+    let args = match Args::parse(platform::arguments()) {
         Ok(args) => args,
-        Err(answer) => {
-            platform::answer(&answer);
-            return if answer.use_stderr() { BAD_REQUEST.into() } else { ExitCode::SUCCESS };
+        Err(Answer::Asked(text)) => {
+            platform::answer(&text);
+            return ExitCode::SUCCESS;
         }
+        Err(Answer::Mistake(problem)) => return fail(&problem, BAD_REQUEST),
     };
     match Start::prepare(args).map(Start::run) {
         Ok(Ok(())) => ExitCode::SUCCESS,
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     fn args(line: &str) -> Args {
-        Args::parse_from(["microsim-game"].into_iter().chain(line.split_whitespace()))
+        Args::parse(["microsim-game"].into_iter().chain(line.split_whitespace())).unwrap()
     }
 
     #[test]

@@ -14,7 +14,7 @@ use super::ScreenButtons;
 use macroquad::input::get_dropped_files;
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
@@ -35,14 +35,10 @@ pub fn arguments() -> impl Iterator<Item = OsString> {
     std::env::args_os()
 }
 
-/// Answers a command line that asks for help or cannot be understood.
-pub fn answer(answer: &clap::Error) {
-    if answer.use_stderr() {
-        eprint!("{}", clean(&answer.render().to_string()));
-    } else {
-        // Ignored: standard output may be closed.
-        let _ = answer.print();
-    }
+/// Says what was asked for, on standard output.
+pub fn answer(text: &str) {
+    // Ignored: standard output may be closed.
+    let _ = io::stdout().write_all(text.as_bytes());
 }
 
 /// Says why the program ends.

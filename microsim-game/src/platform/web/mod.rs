@@ -24,9 +24,9 @@ pub fn arguments() -> impl Iterator<Item = OsString> {
     lines("arguments").into_iter().map(OsString::from)
 }
 
-/// Shows an answer to an address that cannot be understood.
-pub fn answer(answer: &clap::Error) {
-    fail(&answer.to_string());
+/// Shows what the address asks for.
+pub fn answer(text: &str) {
+    fail(text);
 }
 
 /// Shows on the page why the program ends.
