@@ -219,9 +219,9 @@ impl Play {
         };
         let referee = self.round.referee();
         let of_game = || {
-            let points = || match (self.two, self.round.scores()[..].first_chunk()) {
-                (Some(way), Some(&scores)) => way.summary(scores),
-                _ => format!("Score {}", referee.score()),
+            let points = || match self.two {
+                Some(way) => way.summary(&self.round.scores()),
+                None => format!("Score {}", referee.score()),
             };
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
