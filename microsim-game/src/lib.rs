@@ -5,6 +5,7 @@
 //! ```text
 //!   input --> screen --> rules, stage --> core            (what is played; `rules` knows no window)
 //!               +--> sound                                     (what is heard of it)
+//!               +--> network --> rules                         (who plays along)
 //!               |
 //!               +--> viewer --> scenery --> draw, microscope   (the scene: a moment of the world, on the screen)
 //!               +--> hud, ui                                   (what lies above it)
@@ -21,6 +22,7 @@ pub mod draw;
 pub mod hud;
 pub mod input;
 pub mod microscope;
+pub mod network;
 #[cfg(target_arch = "wasm32")]
 mod page;
 pub mod platform;

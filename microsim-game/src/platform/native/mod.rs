@@ -11,6 +11,7 @@ pub use storage::Storage;
 pub(crate) use window::run;
 
 use super::ScreenButtons;
+use crate::network::transport::Transport;
 use macroquad::input::get_dropped_files;
 use std::ffi::OsString;
 use std::fs::File;
@@ -126,6 +127,14 @@ pub fn show_menu(_: &str, _: &str) {}
 #[must_use]
 pub fn covered_height() -> f32 {
     0.0
+}
+
+/// Enters a room.
+///
+/// # Errors
+/// Says why it cannot be entered.
+pub fn open_room(_server: &str, _code: &str) -> Result<Box<dyn Transport>, String> {
+    Err("This program has no network.".to_owned())
 }
 
 /// Whether every context of this version of OpenGL can draw into floats of 16 bits.

@@ -8,6 +8,7 @@ pub use speaker::Speaker;
 pub use storage::Storage;
 
 use super::ScreenButtons;
+use crate::network::transport::Transport;
 use macroquad::conf::Conf;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -47,6 +48,14 @@ pub fn now() -> Duration {
 
 /// Nothing: a page waits for the screen.
 pub fn rest(_: Duration) {}
+
+/// Enters a room.
+///
+/// # Errors
+/// Says why it cannot be entered.
+pub fn open_room(_server: &str, _code: &str) -> Result<Box<dyn Transport>, String> {
+    Err("This page has no network.".to_owned())
+}
 
 /// What is in a file that the player has picked or dropped, or that came with the address.
 ///
