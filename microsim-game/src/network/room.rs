@@ -56,11 +56,13 @@ struct Start {
     seats: Vec<Member>,
 }
 
-/// A match that is on.
+/// A match of a room.
 #[derive(Debug)]
-struct Running {
+pub struct Match {
     start: Start,
     session: Session,
+    /// The seat of this player.
+    own: usize,
     /// Who has sent a packet of it, by seat.
     heard: Vec<bool>,
     called: u32,
@@ -93,9 +95,9 @@ pub struct Room {
     hello: Hello,
     guests: Vec<Guest>,
     greeted: Option<u32>,
-    /// Number of the last match.
+    /// Number of the last match, and whether it is on.
     number: u32,
-    running: Option<Running>,
+    is_playing: bool,
     closed: Option<String>,
 }
 
@@ -104,37 +106,44 @@ impl Room {
     #[must_use]
     pub fn new(transport: Box<dyn Transport>, code: &str, name: &str) -> Self {
         let hello = Hello { program: Program::own(), name: clean(name), is_ready: false, together: false };
-        let (own, guests, greeted, running) = (None, Vec::new(), None, None);
-        Self { transport, code: code.to_owned(), own, hello, guests, greeted, number: 0, running, closed: None }
+        let (own, guests, greeted, closed) = (None, Vec::new(), None, None);
+        Self { transport, code: code.to_owned(), own, hello, guests, greeted, number: 0, is_playing: false, closed }
     }
 
-    /// Takes in what has come, and says what is to be said. `now` is a clock, ms; `seed` is for a match that begins now.
-    pub fn update(&mut self, now: u32, seed: u64) {
+    /// Takes in what has come, and says what is to be said. `now` is a clock, ms; `seed` is for a match that begins now, and `current` is
+    /// the match that is on. Returns one that begins.
+    pub fn update(&mut self, now: u32, seed: u64, mut current: Option<&mut Match>) -> Option<Match> {
+        let mut begun = None;
         for notice in self.transport.poll() {
-            self.take(notice, now);
+            let begins = self.take(notice, now, current.as_deref_mut().or(begun.as_mut()));
+            begun = begins.or(begun);
         }
         if self.greeted.is_none_or(|at| now.wrapping_sub(at) >= GREETING) {
             self.greeted = Some(now);
             self.send_all(&Message::Hello(self.hello.clone()));
         }
-        if self.running.is_none() && self.leads() && self.is_complete() {
+        if !self.is_playing && self.leads() && self.is_complete() {
             let seats = self.members();
-            self.begin(Start { number: self.number + 1, seed, together: self.hello.together, seats }, now);
+            begun = self.begin(Start { number: self.number + 1, seed, together: self.hello.together, seats }, now);
         }
-        self.call(now);
+        if let Some(current) = current.or(begun.as_mut()) {
+            self.call(current, now);
+        }
+        begun
     }
 
-    fn take(&mut self, notice: Notice, now: u32) {
+    fn take(&mut self, notice: Notice, now: u32, current: Option<&mut Match>) -> Option<Match> {
         match notice {
             Notice::Welcome { member, others } => {
                 self.own = Some(member);
                 others.into_iter().for_each(|other| self.meet(other));
             }
             Notice::Joined(member) => self.meet(member),
-            Notice::Left(member) => self.part(member),
-            Notice::Message { from, bytes } => self.hear(from, &bytes, now),
+            Notice::Left(member) => self.part(member, current),
+            Notice::Message { from, bytes } => return self.hear(from, &bytes, now, current),
             Notice::Closed(reason) => self.closed = Some(clean_text(&reason, 200)),
         }
+        None
     }
 
     fn meet(&mut self, member: Member) {
@@ -146,31 +155,31 @@ impl Room {
         }
     }
 
-    fn part(&mut self, member: Member) {
+    fn part(&mut self, member: Member, current: Option<&mut Match>) {
         self.guests.retain(|guest| guest.member != member);
-        if let Some(Running { start, session, .. }) = &mut self.running
-            && let Some(seat) = start.seats.iter().position(|&other| other == member)
+        if let Some(current) = current
+            && let Some(seat) = current.seat_of(member)
         {
-            session.leave(seat);
+            current.session.leave(seat);
         }
     }
 
-    fn hear(&mut self, from: Member, bytes: &[u8], now: u32) {
-        let Some(guest) = self.guests.iter_mut().find(|guest| guest.member == from) else { return };
-        match postcard::from_bytes(bytes) {
-            Ok(Message::Hello(hello)) => guest.hello = Some(Hello { name: clean(&hello.name), ..hello }),
-            Ok(Message::Start(start)) if self.first() == Some(from) && self.is_due(&start) => self.begin(start, now),
-            Ok(Message::Packet(number, packet)) => {
-                if let Some(Running { start, session, heard, .. }) = &mut self.running
-                    && start.number == number
-                    && let Some(seat) = start.seats.iter().position(|&member| member == from)
-                {
-                    heard[seat] = true;
-                    session.receive(seat, &packet, now);
-                }
+    fn hear(&mut self, from: Member, bytes: &[u8], now: u32, current: Option<&mut Match>) -> Option<Match> {
+        let guest = self.guests.iter_mut().find(|guest| guest.member == from)?;
+        match postcard::from_bytes(bytes).ok()? {
+            Message::Hello(hello) => guest.hello = Some(Hello { name: clean(&hello.name), ..hello }),
+            Message::Start(start) if self.first() == Some(from) && self.is_due(&start) => {
+                return self.begin(start, now);
             }
-            Ok(Message::Start(_)) | Err(_) => {}
+            Message::Start(_) => {}
+            Message::Packet(number, packet) => {
+                let current = current.filter(|current| current.start.number == number)?;
+                let seat = current.seat_of(from)?;
+                current.heard[seat] = true;
+                current.session.receive(seat, &packet, now);
+            }
         }
+        None
     }
 
     /// Whether a call to start is a new one, to those who are here.
@@ -179,50 +188,34 @@ impl Room {
         let are_here = start.seats.iter().all(|member| members.contains(member));
         let is_sound = start.seats.len() >= 2 && start.seats.is_sorted_by(|a, b| a < b) && are_here;
         let is_called = self.own.is_some_and(|own| start.seats.contains(&own));
-        self.running.is_none() && self.hello.is_ready && start.number > self.number && is_sound && is_called
+        !self.is_playing && self.hello.is_ready && start.number > self.number && is_sound && is_called
     }
 
-    fn begin(&mut self, start: Start, now: u32) {
-        let own = start.seats.iter().position(|&member| Some(member) == self.own);
-        let (Some(own), Ok(round)) = (own, round_of(start.seats.len(), start.seed)) else { return };
+    fn begin(&mut self, start: Start, now: u32) -> Option<Match> {
+        let own = start.seats.iter().position(|&member| Some(member) == self.own)?;
+        let round = round_of(start.seats.len(), start.seed).ok()?;
         let (session, heard) = (Session::new(round, own, Pacing::USUAL), vec![false; start.seats.len()]);
-        self.number = start.number;
-        self.running = Some(Running { start, session, heard, called: now.wrapping_sub(CALLING) });
+        (self.number, self.is_playing) = (start.number, true);
+        Some(Match { start, session, own, heard, called: now.wrapping_sub(CALLING) })
     }
 
     /// Calls those who have not begun yet.
-    fn call(&mut self, now: u32) {
-        let leads = self.leads();
-        let Some(running) = self.running.as_mut().filter(|_| leads) else { return };
-        if now.wrapping_sub(running.called) < CALLING {
+    fn call(&mut self, current: &mut Match, now: u32) {
+        if !self.leads() || now.wrapping_sub(current.called) < CALLING {
             return;
         }
-        running.called = now;
-        let start = running.start.clone();
+        current.called = now;
+        let bytes = write(&Message::Start(current.start.clone()));
         let late =
-            start.seats.iter().zip(&running.heard).filter(|(member, heard)| !**heard && Some(**member) != self.own);
-        let late: Vec<Member> = late.map(|(member, _)| *member).collect();
-        let bytes = write(&Message::Start(start));
-        late.into_iter().for_each(|member| self.transport.send(member, &bytes));
+            current.start.seats.iter().zip(&current.heard).filter(|(_, heard)| !**heard).map(|(member, _)| *member);
+        late.filter(|&member| Some(member) != self.own).for_each(|member| self.transport.send(member, &bytes));
     }
 
-    /// One frame of the match, with what this player tells its cell. Returns whether one was taken.
-    pub fn advance(&mut self, intent: Intent, now: u32) -> bool {
-        let Some(Running { start, session, .. }) = &mut self.running else { return false };
-        let size = session.round().world().config().size;
-        let is_taken = session.advance(Told::new(intent, size));
-        for (seat, packet) in session.packets(now) {
-            self.transport.send(start.seats[seat], &write(&Message::Packet(start.number, packet)));
-        }
-        is_taken
-    }
-
-    /// Ends the match; everybody is asked again whether they are ready. What it came to.
-    pub fn finish(&mut self) -> Option<(Session, TwoPlayers)> {
+    /// Ends the match that is on: everybody is asked again whether they are ready.
+    pub fn finish(&mut self) {
+        self.is_playing = false;
         self.set_ready(false);
         self.guests.iter_mut().filter_map(|guest| guest.hello.as_mut()).for_each(|hello| hello.is_ready = false);
-        let Running { start, session, .. } = self.running.take()?;
-        Some((session, way(start.together)))
     }
 
     fn send_all(&mut self, message: &Message) {
@@ -279,19 +272,6 @@ impl Room {
         way(first.unwrap_or(&self.hello).together)
     }
 
-    /// The match that is on, and how it is played.
-    #[must_use]
-    pub fn session(&self) -> Option<(&Session, TwoPlayers)> {
-        self.running.as_ref().map(|running| (&running.session, way(running.start.together)))
-    }
-
-    /// The seat of this player in the match that is on.
-    #[must_use]
-    pub fn seat(&self) -> usize {
-        let seats = self.running.as_ref().map(|running| &running.start.seats);
-        seats.and_then(|seats| seats.iter().position(|&member| Some(member) == self.own)).unwrap_or(0)
-    }
-
     /// Its code.
     #[must_use]
     pub fn code(&self) -> &str {
@@ -330,6 +310,40 @@ impl Room {
             Seat { name: name(member, hello), is_own, note }
         };
         self.members().into_iter().map(seat).collect()
+    }
+}
+
+impl Match {
+    /// One frame, with what this player tells its cell. Returns whether one was taken.
+    pub fn advance(&mut self, room: &mut Room, intent: Intent, now: u32) -> bool {
+        let size = self.session.round().world().config().size;
+        let is_taken = self.session.advance(Told::new(intent, size));
+        for (seat, packet) in self.session.packets(now) {
+            room.transport.send(self.start.seats[seat], &write(&Message::Packet(self.start.number, packet)));
+        }
+        is_taken
+    }
+
+    fn seat_of(&self, member: Member) -> Option<usize> {
+        self.start.seats.iter().position(|&other| other == member)
+    }
+
+    /// What is played.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// How it is played.
+    #[must_use]
+    pub fn way(&self) -> TwoPlayers {
+        way(self.start.together)
+    }
+
+    /// The number of this player in it, from 0 on.
+    #[must_use]
+    pub fn own(&self) -> usize {
+        self.own
     }
 }
 

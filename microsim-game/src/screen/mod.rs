@@ -19,6 +19,7 @@ mod settings;
 mod slide_end;
 mod slides;
 pub mod stack;
+mod steer;
 mod title;
 mod two_players;
 mod two_players_end;
