@@ -33,6 +33,15 @@ pub struct Args {
     /// Play the same round every time
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Play over a network: the code of a room, 4 to 12 letters and digits
+    #[arg(long, value_name = "CODE", conflicts_with_all = ["play", "scenes", "overrides", "seed"])]
+    pub room: Option<String>,
+    /// Address of the server of rooms; a page has its own
+    #[arg(long, value_name = "ADDRESS", default_value = "localhost")]
+    pub server: String,
+    /// What other players call you
+    #[arg(long, value_name = "NAME", default_value = "")]
+    pub name: String,
     /// Watch a round that was recorded, such as last-game.replay
     #[arg(long, value_name = "FILE", conflicts_with_all = ["play", "scenes", "overrides", "seed"])]
     pub replay: Option<PathBuf>,

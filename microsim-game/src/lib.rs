@@ -50,7 +50,7 @@ use rules::game::GameChoice;
 use rules::round::Round;
 use scene_source::SceneSource;
 use screen::MainScreen;
-use screen::context::{AppContext, Asked};
+use screen::context::{AppContext, Asked, Party};
 use stage::Stage;
 use std::path::Path;
 use std::process::ExitCode;
@@ -85,7 +85,8 @@ pub fn launch() -> ExitCode {
 /// When there is no display, or the picture cannot be written.
 pub fn show(stage: Stage, options: RunOptions) -> Result<(), String> {
     let game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
-    Start { first: MainScreen::Simulation(Box::new(stage)), game, files: Vec::new(), record: None, options }.run()
+    let (first, files, party) = (MainScreen::Simulation(Box::new(stage)), Vec::new(), Party::default());
+    Start { first, game, files, record: None, party, options }.run()
 }
 
 /// Everything that is needed to open the window.
@@ -95,6 +96,7 @@ struct Start {
     files: Vec<SceneSource>,
     /// A recorded round to watch, in place of the last one.
     record: Option<Vec<u8>>,
+    party: Party,
     options: RunOptions,
 }
 
@@ -110,7 +112,7 @@ impl Start {
             timings: args.timings,
         };
         let record = args.replay.as_deref().map(read_replay).transpose()?;
-        let Args { scenes, play, overrides, seed, .. } = args;
+        let Args { scenes, play, overrides, seed, room, server, name, .. } = args;
         let files = scenes.iter().filter(|scene| matches!(scene, SceneSource::File(_))).cloned().collect();
         let named = scenes.into_iter().next();
         let mut game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
@@ -130,11 +132,12 @@ impl Start {
                 }
             }
         };
-        Ok(Self { first, game, files, record, options })
+        let party = Party { server, code: room.unwrap_or_default(), name };
+        Ok(Self { first, game, files, record, party, options })
     }
 
     fn run(self) -> Result<(), String> {
-        let Self { first, game, files, record, options } = self;
+        let Self { first, game, files, record, party, options } = self;
         let folder = if options.is_exact() { PlayerFolder::nowhere() } else { PlayerFolder::of_the_platform() };
         let title = match &first {
             MainScreen::Simulation(stage) => format!("microsim - {}", stage.name()),
@@ -145,6 +148,7 @@ impl Start {
                 waiting::show().await;
             }
             let mut context = AppContext::new(folder, game, files);
+            context.party = party;
             context.last_game = record.or(context.last_game);
             App::new(first, context, options).run().await
         })

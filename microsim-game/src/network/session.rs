@@ -7,7 +7,9 @@ use super::packet::{LONGEST_RUN, Packet, Run};
 use super::told::Told;
 use super::track::Track;
 use crate::rules::bot::{Bot, Policy};
+use crate::rules::referee::Gain;
 use crate::rules::round::Round;
+use crate::sound::Cue;
 use microsim_core::Intent;
 
 /// Frames in which one frame may be left out to wait for a slower player.
@@ -102,6 +104,9 @@ pub struct Session {
     digests: Vec<(u32, u64)>,
     desync: Option<u32>,
     tally: Tally,
+    /// What was heard and earned in the last frame, if one was taken.
+    heard: Vec<Cue>,
+    gains: Vec<Gain>,
 }
 
 impl Session {
@@ -124,6 +129,8 @@ impl Session {
             digests: Vec::new(),
             desync: None,
             tally: Tally::default(),
+            heard: Vec::new(),
+            gains: Vec::new(),
         }
     }
 
@@ -207,6 +214,8 @@ impl Session {
             self.go_back(wrong);
         }
         self.check();
+        self.heard.clear();
+        self.gains.clear();
         if self.frame >= self.final_frame().saturating_add(self.pacing.window) || self.is_ahead() {
             self.tally.waits += 1;
             return false;
@@ -230,7 +239,9 @@ impl Session {
     }
 
     fn take_frame(&mut self) {
-        let Self { now, tracks, frame, .. } = self;
+        let Self { now, tracks, frame, heard, gains, .. } = self;
+        heard.clear();
+        gains.clear();
         self.kept[(*frame % self.pacing.kept()) as usize].clone_from(now);
         let size = now.round.world().config().size;
         let told: Vec<Option<Told>> = tracks.iter_mut().map(|track| track.act(*frame)).collect();
@@ -242,6 +253,8 @@ impl Session {
                 .map(|((told, cell), bot)| told.map_or_else(|| bot.intent(world, *cell), |told| told.intent(size)))
                 .collect();
             now.round.step_all(&intents);
+            heard.extend(now.round.heard());
+            gains.extend(now.round.gains());
         }
         *frame += 1;
         if now.round.is_over() {
@@ -310,6 +323,24 @@ impl Session {
     pub fn final_frame(&self) -> u32 {
         let known = self.tracks.iter().enumerate().filter(|(k, _)| *k != self.own).map(|(_, track)| track.certain());
         known.min().unwrap_or(u32::MAX).min(self.frame.max(self.tracks[self.own].count()))
+    }
+
+    /// Steps of the world in a frame.
+    #[must_use]
+    pub fn steps(&self) -> u32 {
+        self.pacing.steps
+    }
+
+    /// What was heard in the last frame.
+    #[must_use]
+    pub fn heard(&self) -> &[Cue] {
+        &self.heard
+    }
+
+    /// What was earned in the last frame.
+    #[must_use]
+    pub fn gains(&self) -> &[Gain] {
+        &self.gains
     }
 
     /// Frames that were taken.

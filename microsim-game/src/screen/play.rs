@@ -297,7 +297,7 @@ impl Screen for Play {
         let mut taken = marks::MarkLayout::default();
         for (k, id) in self.round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1));
+                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1), k == 0);
             }
         }
         places::draw_food(pen, &style, view);
