@@ -21,6 +21,7 @@ pub mod draw;
 pub mod hud;
 pub mod input;
 pub mod microscope;
+pub mod network;
 #[cfg(target_arch = "wasm32")]
 mod page;
 pub mod platform;

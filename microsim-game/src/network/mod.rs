@@ -1,0 +1,4 @@
+//! Playing together.
+
+pub mod relay;
+pub mod transport;
