@@ -7,6 +7,7 @@
 //! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
 
 mod packet;
+pub mod relay;
 pub mod room;
 pub mod session;
 pub mod told;

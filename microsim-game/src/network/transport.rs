@@ -11,9 +11,9 @@ pub const LONGEST_MESSAGE: usize = 64 * 1024;
 pub enum Notice {
     /// The room is entered, as this member; those who are there already.
     Welcome {
-        /// This member.
+        /// The own number.
         member: Member,
-        /// The others.
+        /// The numbers of the others.
         others: Vec<Member>,
     },
     /// Another member has come.
@@ -22,9 +22,9 @@ pub enum Notice {
     Left(Member),
     /// A message of another member.
     Message {
-        /// Who sent it.
+        /// Who has sent it.
         from: Member,
-        /// What it says.
+        /// What he has sent.
         bytes: Vec<u8>,
     },
     /// The way is cut, with a reason for people. Nothing follows.

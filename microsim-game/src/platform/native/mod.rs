@@ -2,16 +2,17 @@
 
 #[cfg(windows)]
 mod console;
+mod room;
 mod speaker;
 mod storage;
 mod window;
 
+pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;
 pub(crate) use window::run;
 
 use super::ScreenButtons;
-use crate::network::transport::Transport;
 use macroquad::input::get_dropped_files;
 use std::ffi::OsString;
 use std::fs::File;
@@ -127,14 +128,6 @@ pub fn show_menu(_: &str, _: &str) {}
 #[must_use]
 pub fn covered_height() -> f32 {
     0.0
-}
-
-/// Enters a room.
-///
-/// # Errors
-/// Says why it cannot be entered.
-pub fn open_room(_server: &str, _code: &str) -> Result<Box<dyn Transport>, String> {
-    Err("This program has no network.".to_owned())
 }
 
 /// Whether every context of this version of OpenGL can draw into floats of 16 bits.

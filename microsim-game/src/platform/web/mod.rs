@@ -1,14 +1,15 @@
 //! A page in a browser: the address in place of a command line, downloads, values in its own storage.
 
 mod host;
+mod room;
 mod speaker;
 mod storage;
 
+pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;
 
 use super::ScreenButtons;
-use crate::network::transport::Transport;
 use macroquad::conf::Conf;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -48,14 +49,6 @@ pub fn now() -> Duration {
 
 /// Nothing: a page waits for the screen.
 pub fn rest(_: Duration) {}
-
-/// Enters a room.
-///
-/// # Errors
-/// Says why it cannot be entered.
-pub fn open_room(_server: &str, _code: &str) -> Result<Box<dyn Transport>, String> {
-    Err("This page has no network.".to_owned())
-}
 
 /// What is in a file that the player has picked or dropped, or that came with the address.
 ///
