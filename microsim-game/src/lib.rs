@@ -125,10 +125,11 @@ impl Start {
             named => {
                 game = GameChoice { source: named.unwrap_or(game.source), overrides, seed };
                 game.round(1)?;
-                match record {
-                    Some(_) => MainScreen::Replay,
-                    None if play => MainScreen::Round,
-                    None => MainScreen::Title,
+                match (&record, &room) {
+                    (Some(_), _) => MainScreen::Replay,
+                    (None, Some(code)) => MainScreen::Room(code.clone()),
+                    (None, None) if play => MainScreen::Round,
+                    (None, None) => MainScreen::Title,
                 }
             }
         };
@@ -203,6 +204,7 @@ mod tests {
         assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));
         let (first, game) = start("--play --seed 3 --set game.time=10").unwrap();
         assert!(matches!(first, MainScreen::Round) && game.seed == Some(3) && game.time() == Some(10.0));
+        assert!(matches!(start("--room ab12").unwrap().0, MainScreen::Room(code) if code == "ab12"));
         for line in [
             "nonsense",
             "--play empty",
