@@ -20,6 +20,9 @@ Options:
       --play             Play the game at once; with a NAME or FILE, that one
       --set <KEY=VALUE>  Change a value of the scenario, for example game.time=30
       --seed <N>         Play the same round every time
+      --room <CODE>      Play over a network: the code of a room, 4 to 12 letters and digits
+      --server <ADDRESS> Address of the server of rooms [default: localhost]; a page has its own
+      --name <NAME>      What other players call you
       --replay <FILE>    Watch a round that was recorded, such as last-game.replay
       --screenshot <FILE>
                          Write a PNG of the last frame and exit; takes exactly one step in each frame
@@ -49,6 +52,12 @@ pub struct Args {
     pub overrides: Vec<(String, String)>,
     /// The seed of every round.
     pub seed: Option<u64>,
+    /// The code of a room to play in over a network.
+    pub room: Option<String>,
+    /// Address of the server of rooms.
+    pub server: String,
+    /// What other players call this one.
+    pub name: String,
     /// A recorded round to watch.
     pub replay: Option<PathBuf>,
     /// Where a picture of the last frame is written.
@@ -74,6 +83,9 @@ impl Default for Args {
             play: false,
             overrides: Vec::new(),
             seed: None,
+            room: None,
+            server: "localhost".to_owned(),
+            name: String::new(),
             replay: None,
             screenshot: None,
             frames: None,
@@ -120,11 +132,11 @@ impl Args {
                 Arg::Short(_) => return Err(arg.unexpected().into()),
             }
         }
-        let is_other = args.play || args.seed.is_some() || !args.scenes.is_empty() || !args.overrides.is_empty();
-        if args.replay.is_some() && is_other {
-            return Err(Answer::Mistake(
-                "--replay plays what was recorded: no scenario, --play, --set, --seed".to_owned(),
-            ));
+        let has_scene = args.play || args.seed.is_some() || !args.scenes.is_empty() || !args.overrides.is_empty();
+        let kinds = [has_scene, args.replay.is_some(), args.room.is_some()];
+        if kinds.into_iter().filter(|&is_asked| is_asked).count() > 1 {
+            let kinds = "a scenario with --play, --set, --seed; --replay; --room";
+            return Err(Answer::Mistake(format!("more than one thing to play; accepted is one of: {kinds}")));
         }
         Ok(args)
     }
@@ -135,6 +147,9 @@ impl Args {
             "version" => return Err(Answer::Asked(version())),
             "play" => self.play = true,
             "timings" => self.timings = true,
+            "room" => self.room = Some(parser.value()?.string()?),
+            "server" => self.server = parser.value()?.string()?,
+            "name" => self.name = parser.value()?.string()?,
             "replay" => self.replay = Some(parser.value()?.into()),
             "screenshot" => self.screenshot = Some(parser.value()?.into()),
             "script" => self.script = Some(parser.value()?.into()),
@@ -230,10 +245,11 @@ mod tests {
 
     #[test]
     fn mistakes_are_refused_with_what_is_accepted() {
-        assert!(args("--replay a.replay").replay.is_some());
+        assert!(args("--replay a.replay").replay.is_some() && parsed("--room ab12 demo").is_err());
         let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1", "--seed"];
         let words = ["--wrong", "-x", "--set x", "--set =1", "--optics x", "--quality x", "--play=1"];
-        let replays = ["--play", "demo", "--set a=1", "--seed 1"].map(|other| format!("--replay a.replay {other}"));
+        let replays = ["--play", "demo", "--set a=1", "--seed 1", "--room ab12"]
+            .map(|other| format!("--replay a.replay {other}"));
         for line in numbers.into_iter().chain(words).chain(replays.iter().map(String::as_str)) {
             assert!(matches!(parsed(line), Err(Answer::Mistake(_))), "{line}");
         }
@@ -244,8 +260,22 @@ mod tests {
     #[test]
     fn help_names_each_option_and_the_version_is_told() {
         let Err(Answer::Asked(help)) = parsed("--help") else { panic!("no help") };
-        let options =
-            ["play", "set", "seed", "replay", "screenshot", "frames", "size", "script", "optics", "quality", "timings"];
+        let options = [
+            "play",
+            "set",
+            "seed",
+            "room",
+            "server",
+            "name",
+            "replay",
+            "screenshot",
+            "frames",
+            "size",
+            "script",
+            "optics",
+            "quality",
+            "timings",
+        ];
         for option in options {
             assert!(help.contains(&format!(" --{option}")), "{option}");
             assert_ne!(parsed(&format!("--{option}")), Err(Arg::Long(option).unexpected().into()), "{option}");

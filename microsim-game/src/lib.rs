@@ -5,6 +5,7 @@
 //! ```text
 //!   input --> screen --> rules, stage --> core            (what is played; `rules` knows no window)
 //!               +--> sound                                     (what is heard of it)
+//!               +--> network --> rules                         (who plays along)
 //!               |
 //!               +--> viewer --> scenery --> draw, microscope   (the scene: a moment of the world, on the screen)
 //!               +--> hud, ui                                   (what lies above it)
@@ -21,6 +22,7 @@ pub mod draw;
 pub mod hud;
 pub mod input;
 pub mod microscope;
+pub mod network;
 #[cfg(target_arch = "wasm32")]
 mod page;
 pub mod platform;
@@ -47,7 +49,7 @@ use rules::game::GameChoice;
 use rules::round::Round;
 use scene_source::SceneSource;
 use screen::MainScreen;
-use screen::context::{AppContext, Asked};
+use screen::context::{AppContext, Asked, Party};
 use stage::Stage;
 use std::path::Path;
 use std::process::ExitCode;
@@ -83,7 +85,8 @@ pub fn launch() -> ExitCode {
 /// When there is no display, or the picture cannot be written.
 pub fn show(stage: Stage, options: RunOptions) -> Result<(), String> {
     let game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
-    Start { first: MainScreen::Simulation(Box::new(stage)), game, files: Vec::new(), record: None, options }.run()
+    let (first, files, party) = (MainScreen::Simulation(Box::new(stage)), Vec::new(), Party::default());
+    Start { first, game, files, record: None, party, options }.run()
 }
 
 /// Everything that is needed to open the window.
@@ -93,6 +96,7 @@ struct Start {
     files: Vec<SceneSource>,
     /// A recorded round to watch, in place of the last one.
     record: Option<Vec<u8>>,
+    party: Party,
     options: RunOptions,
 }
 
@@ -108,7 +112,7 @@ impl Start {
             timings: args.timings,
         };
         let record = args.replay.as_deref().map(read_replay).transpose()?;
-        let Args { scenes, play, overrides, seed, .. } = args;
+        let Args { scenes, play, overrides, seed, room, server, name, .. } = args;
         let files = scenes.iter().filter(|scene| matches!(scene, SceneSource::File(_))).cloned().collect();
         let named = scenes.into_iter().next();
         let mut game = GameChoice { source: GAME.into(), overrides: Vec::new(), seed: None };
@@ -121,18 +125,20 @@ impl Start {
             named => {
                 game = GameChoice { source: named.unwrap_or(game.source), overrides, seed };
                 game.round(1)?;
-                match record {
-                    Some(_) => MainScreen::Replay,
-                    None if play => MainScreen::Round,
-                    None => MainScreen::Title,
+                match (&record, &room) {
+                    (Some(_), _) => MainScreen::Replay,
+                    (None, Some(code)) => MainScreen::Room(code.clone()),
+                    (None, None) if play => MainScreen::Round,
+                    (None, None) => MainScreen::Title,
                 }
             }
         };
-        Ok(Self { first, game, files, record, options })
+        let party = Party { server, code: room.unwrap_or_default(), name };
+        Ok(Self { first, game, files, record, party, options })
     }
 
     fn run(self) -> Result<(), String> {
-        let Self { first, game, files, record, options } = self;
+        let Self { first, game, files, record, party, options } = self;
         let folder = if options.is_exact() { PlayerFolder::nowhere() } else { PlayerFolder::of_the_platform() };
         let title = match &first {
             MainScreen::Simulation(stage) => format!("microsim - {}", stage.name()),
@@ -143,6 +149,7 @@ impl Start {
                 waiting::show().await;
             }
             let mut context = AppContext::new(folder, game, files);
+            context.party = party;
             context.last_game = record.or(context.last_game);
             App::new(first, context, options).run().await
         })
@@ -197,6 +204,7 @@ mod tests {
         assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));
         let (first, game) = start("--play --seed 3 --set game.time=10").unwrap();
         assert!(matches!(first, MainScreen::Round) && game.seed == Some(3) && game.time() == Some(10.0));
+        assert!(matches!(start("--room ab12").unwrap().0, MainScreen::Room(code) if code == "ab12"));
         for line in [
             "nonsense",
             "--play empty",

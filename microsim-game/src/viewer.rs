@@ -45,6 +45,13 @@ impl Viewer {
         Self { camera, clock, before: now.clone(), after: now, alpha: 1.0, step_ms: 0.0 }
     }
 
+    /// The same for steps that are each as long as several of the world.
+    #[must_use]
+    pub fn with_long_steps(world: &World, camera: Camera, steps: u32) -> Self {
+        let clock = FixedStep::new(world.config().dt * steps as f32);
+        Self { clock, ..Self::new(world, camera) }
+    }
+
     /// Takes the steps that are due in this frame, at `speed` times the usual speed. When the machine is too slow for
     /// them the world runs in slow motion.
     pub fn run<S>(&mut self, pace: Pace, speed: f32, scene: &mut S, mut step: impl FnMut(&mut S) -> &World) {

@@ -185,6 +185,32 @@ function showMenu(screen, bytes) {
     return true;
 }
 
+/** Connections to rooms by number, with the frames that came since the game last asked. */
+const rooms = new Map();
+/** Frames that wait for a game that does not ask, as in a hidden tab; with more the room is left. */
+const MOST_FRAMES = 1 << 14;
+/** Bytes that wait to be sent; what is more is lost. */
+const MOST_UNSENT = 1 << 20;
+
+function enterRoom(number, code) {
+    const socket = new WebSocket(new URL(`room/${decode(code)}`, location.href.replace("http", "ws")));
+    const frames = [];
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = ({ data }) => frames.push(new Uint8Array(data)) < MOST_FRAMES || socket.close();
+    socket.onclose = () => frames.push(Uint8Array.of(255, 3)); // As if the server had refused, without a reason.
+    rooms.set(number, { socket, frames });
+}
+
+function leaveRoom(number) {
+    rooms.get(number).socket.close();
+    rooms.delete(number);
+}
+
+function send(number, frame) {
+    const { socket } = rooms.get(number);
+    if (socket.readyState === WebSocket.OPEN && socket.bufferedAmount < MOST_UNSENT) socket.send(frame);
+}
+
 function takeItem() {
     const taken = item;
     item = null;
@@ -207,17 +233,21 @@ const answers = {
     "item": takeItem,
     "held": () => encode([...held].join("\n")),
     "kept": readKept,
+    "room": (number) => rooms.get(number).frames.shift() ?? null,
     "pressed": () => encode(pressed.splice(0).join("\n")),
 };
 
 const orders = {
     "download": download,
+    "enter room": enterRoom,
     "fail": (_, bytes) => fail(decode(bytes)),
     "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
+    "leave room": leaveRoom,
     "offer": (query) => ((water = query), true),
     "print": (_, bytes) => console.log(decode(bytes)),
     "rename": rename,
+    "send": send,
     "show buttons": (which) => showButtons(true, which),
     "show menu": showMenu,
     "sound": playSound,

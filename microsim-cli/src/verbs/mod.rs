@@ -13,6 +13,8 @@ mod report;
 mod resume;
 mod run;
 mod schema;
+#[cfg(feature = "serve")]
+mod serve;
 mod sweep;
 
 #[cfg(any(test, fuzzing))]
@@ -51,6 +53,9 @@ pub(crate) enum Verb {
     Report(report::ReportArgs),
     /// Measure the time of steps and their phases, and the errors of the constraints
     Bench(bench::BenchArgs),
+    /// Serve the page and rooms to play in together, on the local network
+    #[cfg(feature = "serve")]
+    Serve(serve::ServeArgs),
     /// Print the completions of a shell
     Completions(manual::CompletionsArgs),
     /// Print the manual page of a verb, or write all of them
@@ -73,6 +78,8 @@ pub(crate) fn perform(verb: &Verb, program: clap::Command, console: &Console) ->
         Verb::Sweep(verb) => sweep::sweep(verb, console),
         Verb::Report(args) => report::report(args, console),
         Verb::Bench(args) => bench::bench(args, console),
+        #[cfg(feature = "serve")]
+        Verb::Serve(args) => serve::serve(args, console),
         Verb::Completions(args) => manual::completions(args, program),
         Verb::Man(args) => manual::man(args, program, console),
     }

@@ -17,8 +17,8 @@ use crate::id::{ChemicalId, OrganismId};
 use crate::inputs::Inputs;
 use crate::world::World;
 
-/// A world made from a scenario.
-#[derive(Clone, Debug)]
+/// A world made from a scenario. Its `clone_from` is that of its world.
+#[derive(Debug)]
 #[non_exhaustive]
 pub struct Built {
     /// The world, at time 0.
@@ -37,6 +37,27 @@ pub struct Built {
     pub game: Option<Game>,
     /// What makes a slide of it.
     pub slide: Option<Slide>,
+}
+
+impl Clone for Built {
+    fn clone(&self) -> Self {
+        let Self { world, player, named, chemicals, script, checks, game, slide } = self;
+        let (world, named, chemicals, script) = (world.clone(), named.clone(), chemicals.clone(), script.clone());
+        let (checks, game, slide) = (checks.clone(), game.clone(), slide.clone());
+        Self { world, player: *player, named, chemicals, script, checks, game, slide }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self { world, player, named, chemicals, script, checks, game, slide } = source;
+        self.world.clone_from(world);
+        self.player = *player;
+        self.named.clone_from(named);
+        self.chemicals.clone_from(chemicals);
+        self.script.clone_from(script);
+        self.checks.clone_from(checks);
+        self.game.clone_from(game);
+        self.slide.clone_from(slide);
+    }
 }
 
 impl Scenario {

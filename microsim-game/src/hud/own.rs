@@ -1,4 +1,4 @@
-//! The player's own cell has a rim that no other has, in every way of looking. Cells of two players have numbers.
+//! The player's own cell has a rim that no other has, in every way of looking. Cells of several players have numbers.
 
 use super::marks::Style;
 use crate::draw::palette::{HALO, INK, READY, fade};
@@ -7,9 +7,9 @@ use crate::ui::pen::{Align, Pen};
 use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 
-/// Draws the rim, and the number of one of two players.
-pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>) {
-    let rim = if number == Some(2) { HALO } else { READY };
+/// Draws the rim, and the number of one of several players; the rim of `is_first` stands out.
+pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>, is_first: bool) {
+    let rim = if is_first { READY } else { HALO };
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
     let width = 0.1 * pen.line(TextSize::Body);
     for (width, colour) in [(2.2 * width, fade(INK, 0.35)), (width, fade(rim, 0.7))] {
@@ -37,7 +37,7 @@ mod tests {
         let style = Style { camera: &camera, time: None, is_classic: false, key: None };
         let mut pen = Pen::bare();
         let cell = world.view().organism(cell).unwrap();
-        draw_own(&mut pen, &style, cell, None);
+        draw_own(&mut pen, &style, cell, None, true);
         let (low, high) = cell.bounds();
         let (a, b) = (camera.to_screen(low), camera.to_screen(high));
         let is_near = |at: Vec2| at.cmpgt(a.min(b) - 6.0).all() && at.cmplt(a.max(b) + 6.0).all();

@@ -13,11 +13,12 @@ use std::num::NonZeroU32;
 /// Steps between two digests of a recorded round.
 const DIGEST_INTERVAL: NonZeroU32 = NonZeroU32::new(60).expect("not zero");
 
-/// Cells that can be played in one round: the player of a scenario, and the one named `player-2`.
-const MOST_PLAYERS: usize = 2;
+/// Cells that can be played in one round: the player of a scenario, and those named `player-2` to `player-4`.
+pub const MOST_PLAYERS: usize = 4;
 
-/// A round that is being played, or played again.
-#[derive(Clone, Debug)]
+/// A round that is being played, or played again. `clone_from` of a round of the same game takes over the world without new memory, so
+/// that going back is cheap.
+#[derive(Debug)]
 pub struct Round {
     name: String,
     course: Course,
@@ -71,7 +72,7 @@ pub struct Life {
 }
 
 /// Where the intents of a round come from.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 enum Course {
     /// Intents as they come, and what is recorded of them.
     Live { run: Box<Built>, recorder: Recorder, record: Vec<u8> },
@@ -299,6 +300,47 @@ impl Round {
     #[must_use]
     pub fn referee(&self) -> &Referee {
         &self.seats[0].referee
+    }
+}
+
+impl Clone for Round {
+    fn clone(&self) -> Self {
+        let Self { name, course, seats, attempt, chain } = self;
+        let (name, course, seats) = (name.clone(), course.clone(), seats.clone());
+        Self { name, course, seats, attempt: attempt.clone(), chain: chain.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self { name, course, seats, attempt, chain } = source;
+        self.name.clone_from(name);
+        self.course.clone_from(course);
+        self.seats.clone_from(seats);
+        self.attempt.clone_from(attempt);
+        self.chain.clone_from(chain);
+    }
+}
+
+impl Clone for Course {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Live { run, recorder, record } => {
+                Self::Live { run: run.clone(), recorder: recorder.clone(), record: record.clone() }
+            }
+            Self::Replay { run, is_over, mismatch } => {
+                Self::Replay { run: run.clone(), is_over: *is_over, mismatch: *mismatch }
+            }
+        }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        match (self, source) {
+            (Self::Live { run, recorder, record }, Self::Live { run: other, recorder: notes, record: written }) => {
+                run.clone_from(other);
+                recorder.clone_from(notes);
+                record.clone_from(written);
+            }
+            (course, _) => *course = source.clone(),
+        }
     }
 }
 

@@ -7,6 +7,9 @@ pub const NAME: &str = "two-under-glass";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../games/two-under-glass.toml");
 
+/// Where the cells of the players end in it.
+const OBSTACLES: &str = "# --- What is in their way";
+
 /// How two cells play.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TwoPlayers {
@@ -40,26 +43,46 @@ impl TwoPlayers {
 
     /// What the status says of the points so far.
     #[must_use]
-    pub fn summary(self, [first, second]: [u32; 2]) -> String {
-        match self {
-            Self::Versus => format!("1: {first}   2: {second}"),
-            Self::Together => format!("Together {}", first + second),
-            Self::Bot => format!("You: {first}   Program: {second}"),
+    pub fn summary(self, scores: &[u32]) -> String {
+        match (self, scores) {
+            (Self::Together, _) => format!("Together {}", scores.iter().sum::<u32>()),
+            (Self::Bot, [own, program, ..]) => format!("You: {own}   Program: {program}"),
+            _ => (1..).zip(scores).map(|(k, points)| format!("{k}: {points}")).collect::<Vec<_>>().join("   "),
         }
     }
 
     /// What the end says.
     #[must_use]
-    pub fn verdict(self, [first, second]: [u32; 2]) -> String {
-        let names =
-            if self == Self::Bot { ["You win", "The program wins"] } else { ["Player 1 wins", "Player 2 wins"] };
-        match first.cmp(&second) {
-            _ if self == Self::Together => format!("{} points together", first + second),
-            std::cmp::Ordering::Equal => format!("A draw, {first} points each"),
-            std::cmp::Ordering::Greater => format!("{}, {first} to {second}", names[0]),
-            std::cmp::Ordering::Less => format!("{}, {second} to {first}", names[1]),
+    pub fn verdict(self, scores: &[u32]) -> String {
+        if self == Self::Together {
+            return format!("{} points together", scores.iter().sum::<u32>());
+        }
+        let best = scores.iter().copied().max().unwrap_or_default();
+        let mut winners = (1..).zip(scores).filter(|(_, points)| **points == best).map(|(k, _)| k);
+        match (winners.next(), winners.next()) {
+            (Some(winner), None) => {
+                let others = (1..).zip(scores).filter(|(k, _)| *k != winner).map(|(_, points)| points.to_string());
+                let others: Vec<String> = others.collect();
+                let name = match (self, winner) {
+                    (Self::Bot, 1) => "You win".to_owned(),
+                    (Self::Bot, _) => "The program wins".to_owned(),
+                    _ => format!("Player {winner} wins"),
+                };
+                format!("{name}, {best} to {}", others.join(", "))
+            }
+            _ if scores.iter().all(|&points| points == best) => format!("A draw, {best} points each"),
+            _ => format!("A draw of the best, {best} points each"),
         }
     }
+}
+
+/// The scenario for so many players, 2 to 4: the third cell is beside the first one, the fourth beside the second.
+#[must_use]
+pub fn text(players: usize) -> String {
+    let extra = [(3, [24.0, 66.0]), (4, [120.0, 15.0])].into_iter().filter(|(number, _)| *number <= players);
+    let cells = extra.map(|(k, at)| format!("[[spawn]]\nof = \"hunter\"\nname = \"player-{k}\"\nat = {at:?}\n\n"));
+    // Before all that finds a free place of its own.
+    TEXT.replacen(OBSTACLES, &(cells.collect::<String>() + OBSTACLES), 1)
 }
 
 #[cfg(test)]
@@ -114,11 +137,52 @@ mod tests {
     }
 
     #[test]
+    fn up_to_four_play_and_their_round_plays_again_as_it_was() {
+        for players in 3..=4 {
+            let scenario = Scenario::parse(&text(players), &[]).unwrap();
+            let mut round = Round::new(&scenario).unwrap();
+            let cells: Vec<_> = round.players().collect();
+            assert_eq!(cells.len(), players);
+            let mut bots: Vec<_> = (0..players).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
+            while round.world().time() < 4.0 {
+                let intents: Vec<_> = (0..players).map(|k| bots[k].intent(round.world(), cells[k])).collect();
+                round.step_all(&intents);
+            }
+            let mut again = Round::again(&Replay::read(&round.record().unwrap()).unwrap()).unwrap();
+            while !again.is_over() {
+                again.step(Intent::REST);
+            }
+            assert_eq!((again.scores(), again.mismatch()), (round.scores(), None));
+        }
+    }
+
+    #[test]
+    fn a_round_that_was_taken_back_goes_on_as_before() {
+        let play = |round: &mut Round, steps| {
+            let mut bot = Bot::new(Policy::Greedy, 1);
+            for _ in 0..steps {
+                let intent = bot.intent(round.world(), round.player());
+                round.step_all(&[intent, intent]);
+            }
+            (round.world().digest(), round.scores(), round.record())
+        };
+        let mut round = round(2);
+        play(&mut round, 300);
+        let mut kept = super::tests::round(9);
+        kept.clone_from(&round);
+        let first = play(&mut round, 200);
+        round.clone_from(&kept);
+        assert_eq!(play(&mut round, 200), first);
+    }
+
+    #[test]
     fn a_verdict_names_the_better_one_or_the_sum() {
-        assert_eq!(TwoPlayers::Versus.verdict([50, 20]), "Player 1 wins, 50 to 20");
-        assert_eq!(TwoPlayers::Bot.verdict([20, 50]), "The program wins, 50 to 20");
-        assert_eq!(TwoPlayers::Versus.verdict([30, 30]), "A draw, 30 points each");
-        assert_eq!(TwoPlayers::Together.verdict([50, 20]), "70 points together");
+        assert_eq!(TwoPlayers::Versus.verdict(&[50, 20]), "Player 1 wins, 50 to 20");
+        assert_eq!(TwoPlayers::Bot.verdict(&[20, 50]), "The program wins, 50 to 20");
+        assert_eq!(TwoPlayers::Versus.verdict(&[30, 30]), "A draw, 30 points each");
+        assert_eq!(TwoPlayers::Together.verdict(&[50, 20]), "70 points together");
+        assert_eq!(TwoPlayers::Versus.verdict(&[20, 50, 30]), "Player 2 wins, 50 to 20, 30");
+        assert_eq!(TwoPlayers::Versus.verdict(&[50, 50, 30]), "A draw of the best, 50 points each");
     }
 
     /// By hand: `cargo test --release -p microsim-game --lib two_players -- --ignored --nocapture`.

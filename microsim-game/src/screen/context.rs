@@ -4,6 +4,7 @@ use super::{MainScreen, Paused};
 use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
+use crate::network::room::Room;
 use crate::platform::Speaker;
 use crate::rules::food_chain::change::Change;
 use crate::rules::game::GameChoice;
@@ -42,6 +43,17 @@ pub struct Asked {
     pub effort: Option<Effort>,
 }
 
+/// What the command line says of playing over a network.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Party {
+    /// Address of the server; a page has its own.
+    pub server: String,
+    /// Code of the room.
+    pub code: String,
+    /// Name of this player.
+    pub name: String,
+}
+
 /// What all screens share.
 #[derive(Debug)]
 pub struct AppContext {
@@ -77,6 +89,9 @@ pub struct AppContext {
     pub(super) lessons: Lessons,
     /// The change of the body that was chosen, for the food chain below the choice.
     pub(super) chosen: Option<Change>,
+    /// With whom this player plays over a network, and the room that it is in.
+    pub party: Party,
+    pub(super) room: Option<Room>,
     /// Whether the screen that draws has nothing above it.
     pub is_top: bool,
     /// Whether a picture is wanted.
@@ -111,6 +126,8 @@ impl AppContext {
             last_game,
             lessons: Lessons::default(),
             chosen: None,
+            party: Party::default(),
+            room: None,
             is_top: true,
             wants_picture: false,
             asked: Asked::default(),

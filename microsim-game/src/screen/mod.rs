@@ -2,12 +2,15 @@
 //! [`stack`] builds it.
 
 mod choose;
+mod contest;
 pub mod context;
 mod end;
 mod end_menu;
 mod food_chain;
 mod food_chain_end;
+mod join;
 mod keys;
+mod lobby;
 mod page;
 mod pause;
 mod pick;
@@ -19,11 +22,13 @@ mod settings;
 mod slide_end;
 mod slides;
 pub mod stack;
+mod steer;
 mod title;
 mod two_players;
 mod two_players_end;
 
 use crate::input::Input;
+use crate::network::room::Match;
 use crate::rules::food_chain::change::Change;
 use crate::rules::round::{Life, RoundResult};
 use crate::rules::two_players::TwoPlayers;
@@ -100,6 +105,12 @@ pub enum MainScreen {
     FoodChain(u64),
     /// Two cells on one slide.
     TwoPlayers(TwoPlayers),
+    /// The room of the context, and what is to be said of the last match.
+    Lobby(Option<String>),
+    /// The room of this code, which is entered.
+    Room(String),
+    /// A match of the room.
+    Contest(Box<Match>),
     /// The last round of the game again.
     Replay,
     /// A simulation.
@@ -123,6 +134,8 @@ pub enum Overlay {
     FoodChain,
     /// The ways in which two cells play.
     TwoPlayers,
+    /// The code of a room to enter.
+    Join,
     /// The choice of a change of the body, and what is played.
     Choose([Change; 3], Paused),
     /// Whether to end the program.

@@ -1,6 +1,7 @@
 //! The game, 90 seconds to eat, and slides.
 
 use super::context::AppContext;
+use super::steer::{Hands, draw_prey, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
 use crate::hud::{self, Status, food_chain, marks, own, places, tint};
@@ -8,20 +9,18 @@ use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
 use crate::rules::bot::Bot;
-use crate::rules::brake::Brake;
 use crate::rules::food_chain::change::is_own;
 use crate::rules::food_chain::{NAME, threats_and_victims};
 use crate::rules::game::GameChoice;
-use crate::rules::hint::{Hints, PreyTarget};
+use crate::rules::hint::Hints;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides::SLIDES;
 use crate::sound::Cue;
 use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
-use microsim_core::glam::Vec2;
+use microsim_core::View;
 use microsim_core::replay::Replay;
-use microsim_core::{Intent, OrganismId, View};
 
 /// Units that are seen from bottom to top at first; more as the cell grows.
 const VIEW: f32 = 62.0;
@@ -30,8 +29,6 @@ const TASK_TIME: f64 = 9.0;
 /// How strong the tint of a chemical is at most.
 const SCENT: f32 = 0.6;
 const ADVICE_TIME: f64 = 7.0;
-/// Distance of the goal to which arrow keys steer, units: speed does not depend on it.
-const STEERED: f32 = 30.0;
 /// Time until the cell starves that fills the bar, s.
 const FULL_RESERVE: f32 = 60.0;
 
@@ -48,9 +45,7 @@ pub(super) struct Play {
     /// Area of the cell at the beginning, and what the camera has made of its growth.
     first_area: f32,
     grown: f32,
-    /// Whether the mouse steers, and what happens after.
-    is_crawling: bool,
-    brakes: [Brake; 2],
+    hands: Hands,
     /// How two cells play, if it is a round of two, and who steers the second one in place of a player.
     two: Option<TwoPlayers>,
     bot: Option<Bot>,
@@ -124,44 +119,23 @@ impl Play {
             heard: Vec::new(),
             first_area,
             grown: 1.0,
-            is_crawling: false,
-            brakes: Default::default(),
+            hands: Hands::default(),
             two,
             divide_key: context.settings.keys.label(Action::Divide),
         }
     }
 
-    /// Where the players steer to. One has mouse and arrow keys; of two the first has the mouse, the second the keys.
-    fn goals(&self, input: &Input) -> [Option<Vec2>; 2] {
-        let view = self.round.world().view();
-        let by_mouse = self.is_crawling.then(|| self.viewer.camera.to_room(input.cursor));
-        let by_keys = |player| {
-            let cell = view.organism(self.round.players().nth(player)?)?;
-            let way = STEERED * Vec2::new(input.steer.x, -input.steer.y);
-            (way != Vec2::ZERO).then(|| cell.centroid() + way)
-        };
-        match self.two {
-            None | Some(TwoPlayers::Bot) => [by_keys(0).or(by_mouse), None],
-            Some(_) => [by_mouse, by_keys(1)],
-        }
-    }
-
-    /// Notes whether the mouse steers: while its button is down, or from one click to the next.
-    fn note_hand(&mut self, input: &Input, is_toggled: bool) {
-        if !is_toggled {
-            self.is_crawling = input.is_held;
-        } else if input.is_clicked {
-            self.is_crawling ^= true;
-        }
-    }
-
     fn run(&mut self, input: &Input, context: &AppContext) {
-        self.note_hand(input, context.settings.click_to_crawl);
-        let (goals, digests) = (self.goals(input), context.settings.digests(input));
-        let Self { round, viewer, gains, heard, brakes, bot, .. } = self;
+        self.hands.note(input, context.settings.click_to_crawl);
+        let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
+        let digests = context.settings.digests(input);
+        let Self { round, viewer, gains, heard, hands, bot, .. } = self;
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
-            let intents = intents(round, goals, brakes, bot.as_mut(), digests);
+            let mut intents = hands.intents(round, goals, digests);
+            if let (Some(bot), Some(cell), Some(intent)) = (bot.as_mut(), round.players().nth(1), intents.get_mut(1)) {
+                *intent = bot.intent(round.world(), cell);
+            }
             round.step_all(&intents);
             heard.extend(round.heard());
             gains.add(round.gains());
@@ -181,7 +155,7 @@ impl Play {
         self.viewer.camera.zoom(self.grown / step, 0.5 * context.pen.screen());
         self.grown = step;
         let at = self.viewer.place_of(self.round.world(), Some(self.round.player()));
-        let looks_ahead = self.is_crawling && !self.round.is_replay() && context.motion().is_some();
+        let looks_ahead = self.hands.is_crawling && !self.round.is_replay() && context.motion().is_some();
         let cursor = looks_ahead.then_some(input.cursor);
         self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
     }
@@ -219,9 +193,9 @@ impl Play {
         };
         let referee = self.round.referee();
         let of_game = || {
-            let points = || match (self.two, self.round.scores()[..].first_chunk()) {
-                (Some(way), Some(&scores)) => way.summary(scores),
-                _ => format!("Score {}", referee.score()),
+            let points = || match self.two {
+                Some(way) => way.summary(&self.round.scores()),
+                None => format!("Score {}", referee.score()),
             };
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
@@ -260,40 +234,6 @@ impl Play {
             None
         }
     }
-}
-
-/// Targets of one who plays, but for those to which another one is nearer: each is marked once.
-fn targets_of(round: &Round, view: View<'_>, player: OrganismId, hints: &Hints) -> Vec<PreyTarget> {
-    let distance = |id, at| view.organism(id).map(|cell| cell.centroid().distance(at));
-    let is_own = |target: &&PreyTarget| {
-        let others = round.players().filter(|other| *other != player);
-        others
-            .filter_map(|other| distance(other, target.at))
-            .all(|other| distance(player, target.at).is_some_and(|own| own <= other))
-    };
-    hints.targets.iter().filter(is_own).copied().collect()
-}
-
-/// What all who play do in a step. Only the first one may have to hold a key to digest.
-fn intents(
-    round: &Round,
-    goals: [Option<Vec2>; 2],
-    brakes: &mut [Brake; 2],
-    bot: Option<&mut Bot>,
-    digests: bool,
-) -> Vec<Intent> {
-    let view = round.world().view();
-    let steered = round.players().zip(goals).zip(brakes).enumerate();
-    let mut intents: Vec<Intent> = steered
-        .map(|(k, ((cell, goal), brake))| {
-            let intent = view.organism(cell).map_or(Intent::REST, |cell| brake.intent(cell, goal));
-            intent.digesting(k > 0 || digests)
-        })
-        .collect();
-    if let (Some(bot), Some(cell), Some(intent)) = (bot, round.players().nth(1), intents.get_mut(1)) {
-        *intent = bot.intent(round.world(), cell);
-    }
-    intents
 }
 
 /// What the player holds to crawl.
@@ -357,7 +297,7 @@ impl Screen for Play {
         let mut taken = marks::MarkLayout::default();
         for (k, id) in self.round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1));
+                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1), k == 0);
             }
         }
         places::draw_food(pen, &style, view);
@@ -371,9 +311,7 @@ impl Screen for Play {
         }
         marks::draw_targets(pen, &style, &mut taken, &targets_of(&self.round, view, self.round.player(), &hints));
         for other in self.round.players().skip(1) {
-            let hints = Hints::of(view, other);
-            marks::draw_held(pen, &style, &mut taken, &hints.held);
-            marks::draw_targets(pen, &style, &mut taken, &targets_of(&self.round, view, other, &hints));
+            draw_prey(pen, &style, &mut taken, &self.round, view, other);
         }
         self.draw_status(pen, context.settings.reduced_motion);
         if let Some(advice) = advice {

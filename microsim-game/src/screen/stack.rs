@@ -1,11 +1,14 @@
 //! The screens that are open: a main screen, and overlays above it.
 
 use super::choose::Choose;
+use super::contest::Contest;
 use super::context::AppContext;
 use super::end::End;
 use super::food_chain::FoodChainMenu;
 use super::food_chain_end::FoodChainEnd;
+use super::join::Join;
 use super::keys::KeysMenu;
+use super::lobby::{self, Lobby};
 use super::pause::Pause;
 use super::pick::Pick;
 use super::play::Play;
@@ -115,7 +118,7 @@ impl Stack {
     }
 }
 
-fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, String> {
+fn show(main: MainScreen, context: &mut AppContext) -> Result<Box<dyn Screen>, String> {
     Ok(match main {
         MainScreen::Title => Box::new(Title::new(context)),
         MainScreen::Round => Box::new(Play::start(Paused::Round, context)?),
@@ -123,6 +126,9 @@ fn show(main: MainScreen, context: &AppContext) -> Result<Box<dyn Screen>, Strin
         MainScreen::Slide(index) => Box::new(Play::slide(index, context)?),
         MainScreen::FoodChain(seed) => Box::new(Play::food_chain(seed, context)?),
         MainScreen::TwoPlayers(way) => Box::new(Play::two_players(way, context)?),
+        MainScreen::Lobby(news) => Box::new(Lobby::new(news)),
+        MainScreen::Room(code) => Box::new(lobby::enter(&code, context)?),
+        MainScreen::Contest(game) => Box::new(Contest::new(*game, context)),
         MainScreen::Replay => Box::new(Play::replay(context)?),
         MainScreen::Simulation(stage) => Box::new(Sandbox::new(*stage, context)),
     })
@@ -138,6 +144,7 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
         Overlay::TwoPlayers => Box::new(TwoPlayersMenu::new()),
         Overlay::FoodChain => Box::new(FoodChainMenu::new(context)),
         Overlay::Choose(offer, paused) => Box::new(Choose::new(offer, paused)),
+        Overlay::Join => Box::new(Join::new(context)),
         Overlay::Quit => Box::new(Quit::new()),
         Overlay::Slides(focus) => Box::new(SlideList::new(focus, context)),
         Overlay::Pick => Box::new(Pick::new(context)),

@@ -38,11 +38,12 @@ struct Backdrop {
 type Target = fn() -> Next;
 
 /// What the menu may offer.
-const ITEMS: [(&str, Target); 9] = [
+const ITEMS: [(&str, Target); 10] = [
     ("Play", || Next::Show(MainScreen::Round)),
     ("Slides", || Next::Open(Overlay::Slides(0))),
     ("Food chain", || Next::Open(Overlay::FoodChain)),
     ("Two players", || Next::Open(Overlay::TwoPlayers)),
+    ("Over the network", || Next::Open(Overlay::Join)),
     ("Simulation", || Next::Open(Overlay::Pick)),
     (WATCH, || Next::Show(MainScreen::Replay)),
     ("High scores", || Next::Open(Overlay::Scores)),

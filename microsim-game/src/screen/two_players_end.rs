@@ -29,7 +29,7 @@ pub(super) struct TwoPlayersEnd {
 impl TwoPlayersEnd {
     /// The end of a round that was played, or replayed. The sum of both is kept among the best if they played together.
     pub(super) fn new(result: RoundResult, way: TwoPlayers, played: Paused, context: &mut AppContext) -> Self {
-        let scores = [0, 1].map(|k| result.scores.get(k).copied().unwrap_or(0));
+        let scores = &result.scores;
         let points = scores.iter().sum();
         let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
         // A replay does not know how they played.

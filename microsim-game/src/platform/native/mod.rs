@@ -2,10 +2,12 @@
 
 #[cfg(windows)]
 mod console;
+mod room;
 mod speaker;
 mod storage;
 mod window;
 
+pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;
 pub(crate) use window::run;

@@ -1,9 +1,11 @@
 //! A page in a browser: the address in place of a command line, downloads, values in its own storage.
 
 mod host;
+mod room;
 mod speaker;
 mod storage;
 
+pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;
 

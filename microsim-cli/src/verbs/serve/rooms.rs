@@ -1,0 +1,236 @@
+//! Who is in which room, and who is told what. It knows no sockets and no time.
+
+use super::code::Code;
+use super::frame;
+use super::limits::MEMBERS;
+use hyper::body::Bytes;
+use std::collections::HashMap;
+
+/// The way to a member.
+pub(super) trait Outbox {
+    /// Hands over a frame; false when too much waits for the member already.
+    fn offer(&self, frame: Bytes) -> bool;
+}
+
+/// Why a member may not stay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Refusal {
+    NoRoomLeft,
+    RoomIsFull,
+    NoReceiver,
+    WrongReceiver,
+    /// He has been dropped already.
+    TooSlow,
+}
+
+impl Refusal {
+    pub(super) fn reason(self) -> &'static str {
+        match self {
+            Self::NoRoomLeft => "the server has no room left",
+            Self::RoomIsFull => "the room is full",
+            Self::NoReceiver => "a message without a receiver",
+            Self::WrongReceiver => "a message to a receiver who cannot be there",
+            Self::TooSlow => "the connection is too slow",
+        }
+    }
+}
+
+/// The seat of a member, whose number is another's after him.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    code: Code,
+    member: u8,
+    ticket: u64,
+}
+
+#[derive(Debug)]
+struct Seat<O> {
+    ticket: u64,
+    outbox: O,
+}
+
+/// Seats by the numbers of members.
+#[derive(Debug)]
+struct Room<O>([Option<Seat<O>>; MEMBERS]);
+
+impl<O: Outbox> Room<O> {
+    fn members(&self) -> impl Iterator<Item = u8> {
+        (0..).zip(&self.0).filter(|(_, seat)| seat.is_some()).map(|(member, _)| member)
+    }
+
+    fn has(&self, place: &Place) -> bool {
+        self.0[usize::from(place.member)].as_ref().is_some_and(|seat| seat.ticket == place.ticket)
+    }
+
+    /// Sends to one member; whoever is too slow leaves.
+    fn send(&mut self, to: u8, frame: Bytes) {
+        if self.0[usize::from(to)].as_ref().is_some_and(|seat| !seat.outbox.offer(frame)) {
+            self.remove(to);
+        }
+    }
+
+    fn send_to_others(&mut self, member: u8, frame: &Bytes) {
+        (0..MEMBERS as u8).filter(|to| *to != member).for_each(|to| self.send(to, frame.clone()));
+    }
+
+    fn remove(&mut self, member: u8) {
+        self.0[usize::from(member)] = None;
+        self.send_to_others(member, &frame::left(member));
+    }
+}
+
+/// All rooms. One is made by who first comes with its code, and goes with the last member.
+#[derive(Debug)]
+pub(super) struct Rooms<O> {
+    rooms: HashMap<Code, Room<O>>,
+    most: usize,
+    tickets: u64,
+}
+
+impl<O: Outbox> Rooms<O> {
+    pub(super) fn new(most: usize) -> Self {
+        Self { rooms: HashMap::new(), most, tickets: 0 }
+    }
+
+    /// Takes the lowest free seat. The first frame for the new member is his welcome.
+    pub(super) fn join(&mut self, code: Code, outbox: O) -> Result<Place, Refusal> {
+        if self.rooms.len() >= self.most && !self.rooms.contains_key(&code) {
+            return Err(Refusal::NoRoomLeft);
+        }
+        let room = self.rooms.entry(code.clone()).or_insert_with(|| Room([const { None }; MEMBERS]));
+        let free = (0..).zip(&room.0).find(|(_, seat)| seat.is_none());
+        let (member, _) = free.ok_or(Refusal::RoomIsFull)?;
+        self.tickets += 1;
+        let place = Place { code, member, ticket: self.tickets };
+        outbox.offer(frame::welcome(member, room.members()));
+        room.0[usize::from(member)] = Some(Seat { ticket: place.ticket, outbox });
+        room.send_to_others(member, &frame::joined(member));
+        Ok(place)
+    }
+
+    /// Gives a seat back; nothing if that has happened.
+    pub(super) fn leave(&mut self, place: &Place) {
+        let Some(room) = self.rooms.get_mut(&place.code) else { return };
+        if room.has(place) {
+            room.remove(place.member);
+        }
+        if room.members().next().is_none() {
+            self.rooms.remove(&place.code);
+        }
+    }
+
+    /// Passes a frame of a member on to its receiver. One to a seat that is free is lost.
+    pub(super) fn relay(&mut self, place: &Place, frame: &[u8]) -> Result<(), Refusal> {
+        let (to, message) = frame.split_first().ok_or(Refusal::NoReceiver)?;
+        let room = self.rooms.get_mut(&place.code).filter(|room| room.has(place)).ok_or(Refusal::TooSlow)?;
+        if usize::from(*to) >= MEMBERS || *to == place.member {
+            return Err(Refusal::WrongReceiver);
+        }
+        room.send(*to, [&[place.member], message].concat().into());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    /// Frames for a member, with room for so many.
+    #[derive(Clone, Debug)]
+    struct Shelf(Rc<RefCell<Vec<Bytes>>>, usize);
+
+    impl Shelf {
+        fn new(room: usize) -> Self {
+            Self(Rc::default(), room)
+        }
+
+        fn take(&self) -> Vec<Vec<u8>> {
+            self.0.take().iter().map(|frame| frame.to_vec()).collect()
+        }
+    }
+
+    impl Outbox for Shelf {
+        fn offer(&self, frame: Bytes) -> bool {
+            let has_room = self.0.borrow().len() < self.1;
+            self.0.borrow_mut().extend(has_room.then_some(frame));
+            has_room
+        }
+    }
+
+    fn code(text: &str) -> Code {
+        Code::read(text).unwrap()
+    }
+
+    /// A room with so many members, who have read everything.
+    fn room_of(count: usize) -> (Rooms<Shelf>, Vec<(Place, Shelf)>) {
+        let mut rooms = Rooms::new(10);
+        let mut join = || {
+            let shelf = Shelf::new(100);
+            (rooms.join(code("ROOM"), shelf.clone()).unwrap(), shelf)
+        };
+        let members: Vec<_> = (0..count).map(|_| join()).collect();
+        members.iter().for_each(|(_, shelf)| drop(shelf.take()));
+        (rooms, members)
+    }
+
+    #[test]
+    fn the_lowest_free_number_is_given_and_all_are_told() {
+        let (mut rooms, members) = room_of(4);
+        assert_eq!(members.iter().map(|(place, _)| place.member).collect::<Vec<_>>(), [0, 1, 2, 3]);
+        assert_eq!(rooms.join(code("room"), Shelf::new(9)), Err(Refusal::RoomIsFull));
+        rooms.leave(&members[1].0);
+        assert_eq!(members[0].1.take(), [[0xff, 2, 1]]);
+        let again = Shelf::new(9);
+        assert_eq!(rooms.join(code("ROOM"), again.clone()).unwrap().member, 1);
+        assert_eq!(again.take(), [[0xff, 0, 1, 0, 2, 3]]);
+        assert_eq!(members[3].1.take(), [[0xff, 2, 1], [0xff, 1, 1]]);
+        rooms.leave(&members[1].0);
+        assert!(members[0].1.take().iter().all(|frame| *frame != [0xff, 2, 1]), "the number is another's now");
+    }
+
+    #[test]
+    fn a_message_goes_to_its_receiver_alone() {
+        let (mut rooms, members) = room_of(3);
+        let other = Shelf::new(9);
+        rooms.join(code("OTHER"), other.clone()).unwrap();
+        other.take();
+        rooms.relay(&members[2].0, &[1, 7, 8]).unwrap();
+        assert_eq!(members[1].1.take(), [[2, 7, 8]]);
+        rooms.relay(&members[2].0, &[3, 7, 8]).unwrap();
+        assert!([&members[0].1, &members[2].1, &other].iter().all(|shelf| shelf.take().is_empty()));
+    }
+
+    #[test]
+    fn wrong_receivers_are_refused() {
+        let (mut rooms, members) = room_of(2);
+        assert_eq!(rooms.relay(&members[0].0, &[]), Err(Refusal::NoReceiver));
+        for to in [0, 4, 0xff] {
+            assert_eq!(rooms.relay(&members[0].0, &[to, 1]), Err(Refusal::WrongReceiver));
+        }
+        assert!(members[1].1.take().is_empty());
+    }
+
+    #[test]
+    fn a_slow_member_is_dropped_and_the_others_are_told() {
+        let (mut rooms, members) = room_of(2);
+        let slow = Shelf::new(2);
+        let place = rooms.join(code("ROOM"), slow.clone()).unwrap();
+        (0..2).for_each(|_| rooms.relay(&members[0].0, &[2, 1]).unwrap());
+        assert_eq!(members[1].1.take(), [[0xff, 1, 2], [0xff, 2, 2]]);
+        assert_eq!(rooms.relay(&place, &[0, 1]), Err(Refusal::TooSlow));
+    }
+
+    #[test]
+    fn rooms_are_counted_and_go_with_the_last_member() {
+        let mut rooms = Rooms::new(2);
+        let place = rooms.join(code("ONE1"), Shelf::new(9)).unwrap();
+        rooms.join(code("TWO2"), Shelf::new(9)).unwrap();
+        assert_eq!(rooms.join(code("THREE"), Shelf::new(9)), Err(Refusal::NoRoomLeft));
+        rooms.join(code("TWO2"), Shelf::new(9)).unwrap();
+        rooms.leave(&place);
+        rooms.leave(&place);
+        assert!(rooms.join(code("THREE"), Shelf::new(9)).is_ok());
+    }
+}

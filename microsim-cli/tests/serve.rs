@@ -1,0 +1,329 @@
+//! `microsim serve` as it runs, with guests who behave and guests who do not.
+
+mod common;
+
+use common::{Folder, heeding_signals, microsim, refused, stdout};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tungstenite::client::IntoClientRequest;
+use tungstenite::{Message, WebSocket};
+
+const LONGEST: usize = 64 * 1024;
+/// Longest time that anything takes here.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A server that ends with the test.
+struct Server {
+    process: Child,
+    /// What it prints first.
+    line: String,
+    port: u16,
+}
+
+impl Server {
+    fn start(more: &[&str]) -> Self {
+        let all = [&["--quiet", "serve", "--port", "0", "--listen", "127.0.0.1"], more].concat();
+        let mut process = heeding_signals(&all).stdout(Stdio::piped()).spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+        let port = line.split([':', '/']).find_map(|part| part.parse().ok()).unwrap();
+        Self { process, line, port }
+    }
+
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        stream
+    }
+
+    /// A guest in a room, or the status of the answer.
+    fn try_enter(&self, code: &str, origin: Option<&str>) -> Result<Guest, u16> {
+        let mut request = format!("ws://127.0.0.1:{}/room/{code}", self.port).into_client_request().unwrap();
+        if let Some(origin) = origin {
+            request.headers_mut().insert("origin", origin.parse().unwrap());
+        }
+        match tungstenite::client(request, self.connect()) {
+            Ok((socket, _)) => Ok(Guest(socket)),
+            Err(tungstenite::HandshakeError::Failure(tungstenite::Error::Http(answer))) => {
+                Err(answer.status().as_u16())
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    fn enter(&self, code: &str) -> Guest {
+        self.try_enter(code, None).unwrap()
+    }
+
+    /// Guests 0 and 1 of a room, who know of each other.
+    fn pair(&self, code: &str) -> (Guest, Guest) {
+        let mut one = self.enter(code);
+        one.expect(&[0xff, 0, 0]);
+        let mut two = self.enter(code);
+        two.expect(&[0xff, 0, 1, 0]);
+        one.expect(&[0xff, 1, 1]);
+        (one, two)
+    }
+
+    /// What the server answers to bytes, until it ends the connection.
+    fn ask(&self, bytes: &[u8]) -> String {
+        let mut stream = self.connect();
+        stream.write_all(bytes).unwrap();
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    fn get(&self, path: &str) -> String {
+        self.ask(format!("GET {path} HTTP/1.1\r\nhost: here\r\nconnection: close\r\n\r\n").as_bytes())
+    }
+
+    fn interrupt(&self) {
+        let done = Command::new("kill").args(["-INT", &self.process.id().to_string()]).status().unwrap();
+        assert!(done.success());
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+struct Guest(WebSocket<TcpStream>);
+
+impl Guest {
+    fn send(&mut self, to: u8, message: &[u8]) {
+        self.0.send(Message::binary([&[to], message].concat())).unwrap();
+    }
+
+    /// The next frame; none at the end.
+    fn next(&mut self) -> Option<Vec<u8>> {
+        loop {
+            match self.0.read() {
+                Ok(Message::Binary(frame)) => return Some(frame.to_vec()),
+                Ok(Message::Ping(_) | Message::Pong(_)) => {}
+                Ok(Message::Close(_)) => return None,
+                Ok(Message::Text(_) | Message::Frame(_)) => panic!("only bytes are sent"),
+                Err(tungstenite::Error::Io(error)) if error.kind() == std::io::ErrorKind::WouldBlock => {
+                    panic!("nothing came")
+                }
+                Err(_) => return None,
+            }
+        }
+    }
+
+    fn expect(&mut self, frame: &[u8]) {
+        assert_eq!(self.next().as_deref(), Some(frame));
+    }
+
+    /// Reads to the end and returns the reason that the server gives.
+    fn reason(mut self) -> String {
+        let mut last = Vec::new();
+        while let Some(frame) = self.next() {
+            last = frame;
+        }
+        assert_eq!(last.get(..2), Some(&[0xff, 3][..]), "a reason comes last");
+        String::from_utf8(last[2..].to_vec()).unwrap()
+    }
+}
+
+#[test]
+fn guests_of_a_room_meet() {
+    let server = Server::start(&[]);
+    let (mut one, mut two) = server.pair("K7M2QX");
+    two.send(0, b"eat");
+    one.expect(b"\x01eat");
+    one.send(1, &vec![7; LONGEST]);
+    assert_eq!(two.next().unwrap().len(), LONGEST + 1);
+    server.enter("OTHER").expect(&[0xff, 0, 0]);
+    drop(two);
+    one.expect(&[0xff, 2, 1]);
+    server.enter("k7m2qx").expect(&[0xff, 0, 1, 0]);
+    one.expect(&[0xff, 1, 1]);
+}
+
+#[test]
+fn a_fifth_guest_and_a_room_too_many_are_refused() {
+    let server = Server::start(&["--rooms", "1"]);
+    let mut four: Vec<Guest> = (0..4).map(|_| server.enter("FULL")).collect();
+    four.iter_mut().for_each(|guest| drop(guest.next()));
+    assert_eq!(server.enter("FULL").reason(), "the room is full");
+    assert_eq!(server.enter("MORE").reason(), "the server has no room left");
+}
+
+#[test]
+fn odd_codes_and_pages_of_others_are_refused() {
+    let server = Server::start(&[]);
+    for code in ["", "abc", "abcdefghijklm", "ab%2fcd", "..%2f..", "a/bcd", "K7M2QX/", "%00%00%00%00", "%C3%A9%C3%A9"] {
+        assert_eq!(server.try_enter(code, None).err(), Some(404), "{code:?}");
+    }
+    let own = format!("http://127.0.0.1:{}", server.port);
+    assert!(server.try_enter("ROOM", Some(&own)).is_ok());
+    for origin in ["http://elsewhere.example", "null", "http://127.0.0.1:1", &format!("{own}.example")] {
+        assert_eq!(server.try_enter("ROOM", Some(origin)).err(), Some(403), "{origin}");
+    }
+}
+
+/// Sends one message beside a guest who behaves, and returns why the sender is dropped.
+fn reason_after(message: Message) -> String {
+    let server = Server::start(&[]);
+    let (mut good, mut bad) = server.pair("ROOM");
+    let _ = bad.0.send(message);
+    let reason = bad.reason();
+    good.expect(&[0xff, 2, 1]);
+    reason
+}
+
+#[test]
+fn what_no_game_sends_ends_the_connection() {
+    assert_eq!(reason_after(Message::text("\u{0}eat")), "text in place of bytes");
+    assert_eq!(reason_after(Message::binary(vec![])), "a message without a receiver");
+    for to in [1, 4, 0xff] {
+        assert_eq!(reason_after(Message::binary(vec![to, 9])), "a message to a receiver who cannot be there");
+    }
+    assert_eq!(reason_after(Message::binary(vec![0; LONGEST + 2])), "a message that is too long");
+    assert_eq!(reason_after(Message::binary(vec![0; 4 << 20])), "a message that is too long");
+}
+
+#[test]
+fn bytes_that_are_no_frames_end_the_connection() {
+    let server = Server::start(&[]);
+    let mut state = 9u64;
+    for _ in 0..200 {
+        let mut guest = server.enter("ROOM");
+        guest.next();
+        let junk: Vec<u8> = (0..64)
+            .map(|_| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (state >> 56) as u8
+            })
+            .collect();
+        let _ = guest.0.get_mut().write_all(&junk);
+        let _ = guest.0.get_mut().shutdown(std::net::Shutdown::Write);
+        while guest.next().is_some() {}
+    }
+    server.enter("ROOM").expect(&[0xff, 0, 0]);
+}
+
+#[test]
+fn a_flood_is_read_later_and_harms_nobody() {
+    const SENT: usize = 9000;
+    let server = Server::start(&[]);
+    let (mut to, mut flooder) = server.pair("ROOM");
+    let (mut calm, mut other) = server.pair("CALM");
+    let begin = Instant::now();
+    let flood = std::thread::spawn(move || {
+        (0..SENT).for_each(|_| flooder.send(0, &[0; 60]));
+        flooder
+    });
+    for _ in 0..100 {
+        let asked = Instant::now();
+        other.send(0, b"?");
+        calm.expect(b"\x01?");
+        assert!(asked.elapsed() < Duration::from_secs(1));
+    }
+    (0..SENT).for_each(|_| to.expect(&[&[1][..], &[0; 60]].concat()));
+    // 4000 at once and 1000 a second.
+    assert!(begin.elapsed() > Duration::from_millis(4900), "{:?}", begin.elapsed());
+    drop(flood.join());
+}
+
+#[test]
+fn a_slow_reader_is_dropped() {
+    let server = Server::start(&[]);
+    let (mut sender, slow) = server.pair("ROOM");
+    let begin = Instant::now();
+    sender.0.get_ref().set_nonblocking(true).unwrap();
+    let dropped = loop {
+        // Loopback holds some megabytes by itself.
+        let _ = sender.0.send(Message::binary([&[1][..], &[0; LONGEST]].concat()));
+        match sender.0.read() {
+            Ok(Message::Binary(frame)) => break frame,
+            _ => std::thread::sleep(Duration::from_millis(1)),
+        }
+        assert!(begin.elapsed() < 2 * PATIENCE, "nobody is dropped");
+    };
+    assert_eq!(&dropped[..], [0xff, 2, 1]);
+    drop(slow);
+}
+
+#[test]
+fn half_a_handshake_is_cut() {
+    let server = Server::start(&[]);
+    let begin = Instant::now();
+    let silent = server.connect();
+    let mut slow = server.connect();
+    slow.write_all(b"GET /room/ROOM HTTP/1.1\r\nhost: here\r\nupgrade: websock").unwrap();
+    for mut stream in [silent, slow] {
+        let _ = stream.read_to_end(&mut Vec::new());
+    }
+    assert!(begin.elapsed() < Duration::from_secs(9), "{:?}", begin.elapsed());
+    let answer = server.get("/room/ROOM");
+    assert!(answer.starts_with("HTTP/1.1 400") && answer.ends_with("rooms are for WebSockets"), "{answer}");
+    let long = format!("GET / HTTP/1.1\r\nx: {}\r\n\r\n", "y".repeat(100_000));
+    assert!(!server.ask(long.as_bytes()).starts_with("HTTP/1.1 200"));
+}
+
+#[test]
+fn the_page_is_served_and_nothing_else() {
+    let folder = Folder::new("serve-page");
+    folder.file("secret.txt", b"secret");
+    std::fs::create_dir_all(folder.root().join("page/more")).unwrap();
+    folder.file("page/index.html", b"<p>page</p>");
+    folder.file("page/game.wasm", b"\0asm");
+    folder.file("page/more/a.js", b"1");
+    let server = Server::start(&["--page", &folder.path("page")]);
+    let index = server.get("/?room=K7M2QX");
+    assert!(index.starts_with("HTTP/1.1 200") && index.ends_with("<p>page</p>"), "{index}");
+    assert!(index.contains("content-type: text/html") && index.contains("nosniff"), "{index}");
+    assert!(server.get("/game.wasm").contains("content-type: application/wasm"));
+    assert!(server.get("/more/a.js").ends_with("\r\n\r\n1"));
+    for path in ["/../secret.txt", "/%2e%2e/secret.txt", "//secret.txt", "/more", "/game.wasm/", "/index.html%00"] {
+        assert!(server.get(path).starts_with("HTTP/1.1 404"), "{path}");
+    }
+    assert!(server.ask(b"POST / HTTP/1.1\r\nhost: here\r\nconnection: close\r\n\r\n").starts_with("HTTP/1.1 405"));
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(folder.root().join("secret.txt"), folder.root().join("page/link.txt")).unwrap();
+        refused(&["serve", "--port", "0", "--page", &folder.path("page")], "is not a regular file");
+    }
+}
+
+#[test]
+fn the_server_says_that_it_stops() {
+    let mut server = Server::start(&[]);
+    let mut guest = server.enter("ROOM");
+    guest.expect(&[0xff, 0, 0]);
+    server.interrupt();
+    assert_eq!(guest.reason(), "the server stops");
+    assert_eq!(server.process.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn the_address_has_a_code_and_a_picture() {
+    let server = Server::start(&[]);
+    let code = server.line.trim_end().rsplit_once("/?room=").unwrap().1;
+    assert_eq!(server.line, format!("http://127.0.0.1:{}/?room={code}\n", server.port));
+    assert!(code.len() == 6 && server.try_enter(code, None).is_ok());
+    let mut loud = microsim(&["serve", "--port", "0", "--listen", "127.0.0.1"]);
+    let mut process = loud.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(process.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let picture: Vec<String> = lines.by_ref().take_while(|line| !line.contains("Ctrl-C")).collect();
+    process.kill().unwrap();
+    process.wait().unwrap();
+    assert!(picture.len() > 12 && picture.iter().all(|line| line.chars().count() == picture[0].chars().count()));
+    refused(&["serve", "--listen", "127.0.0.1", "--port", &server.port.to_string()], "cannot listen at 127.0.0.1:");
+    refused(&["serve", "--rooms", "0"], "1..=100000");
+    refused(&["serve", "--key", "key.pem"], "--certificate");
+}
+
+#[test]
+fn the_page_of_the_documentation_has_the_help() {
+    let help = stdout(&common::success(&["serve", "--help"]));
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/network.md")).unwrap();
+    assert!(page.contains(&help), "{help}");
+}

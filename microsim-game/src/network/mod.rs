@@ -1,0 +1,15 @@
+//! Playing together over a network.
+//!
+//! ```text
+//!   Transport --> Room: who is there, names, start --> Session: inputs, prediction, going back --> Round
+//! ```
+//!
+//! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
+
+mod packet;
+pub mod relay;
+pub mod room;
+pub mod session;
+pub mod told;
+mod track;
+pub mod transport;

@@ -1,0 +1,88 @@
+//! What players send each other in every frame, as bytes.
+
+use super::told::Told;
+use serde::{Deserialize, Serialize};
+
+/// Longest packet, bytes.
+const LONGEST: usize = 4096;
+/// Most inputs in one run: more are sent when these have arrived.
+pub(super) const LONGEST_RUN: usize = 64;
+
+/// Inputs of one player for frames that follow each other.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Run {
+    pub player: u8,
+    pub first: u32,
+    pub told: Vec<Told>,
+}
+
+/// What one player says to another in a frame.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Packet {
+    /// Counts the packets to this player.
+    pub number: u32,
+    /// Frames that the sender has taken, and by how many it believes to be ahead.
+    pub frame: u32,
+    pub advantage: i16,
+    /// The sender's clock, and that of the receiver as the sender heard it last, with the time since then, ms.
+    pub sent: u32,
+    pub heard: Option<u32>,
+    /// For how many frames the sender knows the inputs of each player.
+    pub known: Vec<u32>,
+    /// From which frame on a bot steers for a player.
+    pub ends: Vec<(u8, u32)>,
+    pub runs: Vec<Run>,
+    /// The last frame of which the sender's world is final and was digested.
+    pub digest: Option<(u32, u64)>,
+}
+
+impl Packet {
+    pub(super) fn write(&self) -> Vec<u8> {
+        // Into memory this cannot fail.
+        postcard::to_stdvec(self).unwrap_or_default()
+    }
+
+    /// A packet of a match of so many players; `None` if no player writes such bytes.
+    pub(super) fn read(bytes: &[u8], players: usize) -> Option<Self> {
+        if bytes.len() > LONGEST {
+            return None;
+        }
+        let (packet, rest): (Self, _) = postcard::take_from_bytes(bytes).ok()?;
+        let is_player = |player: u8| usize::from(player) < players;
+        let is_run = |run: &Run| {
+            is_player(run.player) && run.told.len() <= LONGEST_RUN && run.told.iter().all(|told| told.is_sound())
+        };
+        let is_sound = rest.is_empty()
+            && packet.known.len() == players
+            && packet.ends.len() <= players
+            && packet.ends.iter().all(|(player, _)| is_player(*player))
+            && packet.runs.len() <= players
+            && packet.runs.iter().all(is_run);
+        is_sound.then_some(packet)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn packet() -> Packet {
+        let runs = vec![Run { player: 1, first: 7, told: vec![Told::default(); 3] }];
+        let (known, ends, digest) = (vec![9, 7], vec![(0, 4)], Some((30, 5)));
+        Packet { number: 1, frame: 8, advantage: -2, sent: 3, heard: Some(4), known, ends, runs, digest }
+    }
+
+    #[test]
+    fn a_packet_comes_back_and_nothing_else_does() {
+        let bytes = packet().write();
+        assert_eq!(Packet::read(&bytes, 2), Some(packet()));
+        assert_eq!(Packet::read(&bytes, 3), None, "other players");
+        assert_eq!(Packet::read(&[&bytes[..], &[0]].concat(), 2), None, "more than its content");
+        (0..bytes.len()).for_each(|end| assert_eq!(Packet::read(&bytes[..end], 2), None, "cut off at {end}"));
+        let stranger = Packet { ends: vec![(2, 4)], ..packet() };
+        assert_eq!(Packet::read(&stranger.write(), 2), None, "nobody's end");
+        let runs = vec![Run { player: 1, first: 0, told: vec![Told::default(); LONGEST_RUN + 1] }];
+        assert_eq!(Packet::read(&Packet { runs, ..packet() }.write(), 2), None, "too long a run");
+        assert_eq!(Packet::read(&vec![0; LONGEST + 1], 2), None, "too long");
+    }
+}

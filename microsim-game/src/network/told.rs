@@ -1,0 +1,71 @@
+//! What a player tells a cell in a frame, in five bytes.
+
+use microsim_core::Intent;
+use microsim_core::glam::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// Goals may lie so far outside the slide, in sizes of it: what steers by direction does not bend at the edge.
+const MARGIN: f32 = 1.0;
+/// Steps of a goal along each side of that.
+const STEPS: f32 = 65535.0;
+/// Bits of the last byte.
+const GOES: u8 = 1;
+const DIGESTS: u8 = 2;
+
+/// An intent as it is sent: all players act on these bytes, and so on the same numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Told([u8; 5]);
+
+impl Told {
+    /// An intent on a slide of this size. A goal outside of what can be said is moved to its edge.
+    #[must_use]
+    pub fn new(intent: Intent, size: Vec2) -> Self {
+        let digests = if intent.digests() { DIGESTS } else { 0 };
+        let Some(goal) = intent.goal() else { return Self([0, 0, 0, 0, digests]) };
+        let share = (goal / size + MARGIN) / (1.0 + 2.0 * MARGIN);
+        let [x, y] = (share * STEPS + 0.5).to_array().map(|steps| (steps as u16).to_le_bytes());
+        Self([x[0], x[1], y[0], y[1], digests | GOES])
+    }
+
+    /// The intent, on a slide of this size.
+    #[must_use]
+    pub fn intent(self, size: Vec2) -> Intent {
+        let Self([a, b, c, d, flags]) = self;
+        let steps = Vec2::new(f32::from(u16::from_le_bytes([a, b])), f32::from(u16::from_le_bytes([c, d])));
+        let goal = (steps / STEPS * (1.0 + 2.0 * MARGIN) - MARGIN) * size;
+        let way = if flags & GOES == 0 { Ok(Intent::REST) } else { Intent::toward(goal) };
+        way.unwrap_or(Intent::REST).digesting(flags & DIGESTS != 0)
+    }
+
+    /// Whether [`Told::new`] makes such bytes.
+    pub(super) fn is_sound(self) -> bool {
+        let Self([a, b, c, d, flags]) = self;
+        flags <= GOES | DIGESTS && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_intent_comes_back_within_a_hundredth_of_a_unit() {
+        let size = Vec2::new(144.0, 81.0);
+        for goal in [Vec2::ZERO, Vec2::new(144.0, 81.0), Vec2::new(31.7, 5.2), Vec2::new(-20.0, 100.0)] {
+            let intent = Intent::toward(goal).unwrap().digesting(true);
+            let told = Told::new(intent, size);
+            let back = told.intent(size);
+            assert!(told.is_sound() && back.digests() && (back.goal().unwrap() - goal).length() < 0.01);
+            assert_eq!(Told::new(back, size).intent(size), back, "what was sent once does not drift");
+        }
+        let rest = Told::new(Intent::REST, size);
+        assert!(rest.is_sound() && rest.intent(size) == Intent::REST.digesting(false));
+    }
+
+    #[test]
+    fn bytes_that_say_nothing_are_known() {
+        assert!(!Told([0, 0, 0, 0, 4]).is_sound() && !Told([1, 0, 0, 0, DIGESTS]).is_sound());
+        let far = Told::new(Intent::toward(Vec2::splat(1e5)).unwrap(), Vec2::ONE);
+        assert_eq!(far.intent(Vec2::ONE).goal(), Some(Vec2::splat(2.0)));
+    }
+}

@@ -1,0 +1,191 @@
+//! A room of a server, by WebSocket.
+
+use crate::network::relay::{self, CUT};
+use crate::network::transport::{LONGEST_MESSAGE, Member, Notice, Transport};
+use std::io::{self, ErrorKind};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread;
+use std::time::Duration;
+use tungstenite::protocol::WebSocketConfig;
+use tungstenite::{Error, Message, WebSocket, client};
+
+/// Port of a server unless another is named.
+const PORT: u16 = 8080;
+/// Longest time for each step of a connection.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Most messages that are taken at once, so that no server holds a frame.
+const MOST: usize = 4096;
+/// Bytes that wait to be sent; what is more is lost.
+const LONGEST_QUEUE: usize = 1 << 20;
+
+/// Goes into a room. `server` is `HOST`, `HOST:PORT`, or the address of its page.
+///
+/// # Errors
+/// When the address or the code is none. All else is told later, as [`Notice::Closed`].
+pub fn open_room(server: &str, code: &str) -> Result<Box<dyn Transport>, String> {
+    let (host, code) = (host(server)?, relay::check_code(code)?);
+    let (sender, way) = channel();
+    let connect = move || {
+        // Nobody receives it when the room has been left meanwhile.
+        let _ = sender.send(connect(&host, &code));
+    };
+    thread::Builder::new().name("room".to_owned()).spawn(connect).map_err(|error| error.to_string())?;
+    Ok(Box::new(Room(State::Connecting(way))))
+}
+
+/// `HOST:PORT` of an address.
+fn host(server: &str) -> Result<String, String> {
+    let server = server.trim();
+    let rest = ["ws://", "http://"].iter().find_map(|way| server.strip_prefix(way)).unwrap_or(server);
+    if rest.contains("://") {
+        return Err("a window speaks to http:// and ws:// only".to_owned());
+    }
+    let host = rest.split(['/', '?', '#']).next().unwrap_or_default();
+    let is_host = |c: char| c.is_ascii_alphanumeric() || ".-_:[]".contains(c);
+    if host.is_empty() || !host.chars().all(is_host) {
+        return Err("an address is HOST or HOST:PORT".to_owned());
+    }
+    let has_port = host.rsplit_once(':').is_some_and(|(_, port)| !port.contains(']'));
+    Ok(if has_port { host.to_owned() } else { format!("{host}:{PORT}") })
+}
+
+fn connect(host: &str, code: &str) -> Result<WebSocket<TcpStream>, String> {
+    let unreachable = |error: io::Error| format!("cannot reach {host}: {error}");
+    let stream = reach(host).map_err(unreachable)?;
+    let config = WebSocketConfig::default()
+        .max_message_size(Some(LONGEST_MESSAGE + 1))
+        .max_frame_size(Some(LONGEST_MESSAGE + 1))
+        .max_write_buffer_size(LONGEST_QUEUE);
+    let connected = client::client_with_config(format!("ws://{host}/room/{code}"), stream, Some(config));
+    let (socket, _) = connected.map_err(|error| format!("{host} has no rooms: {error}"))?;
+    socket.get_ref().set_nonblocking(true).map_err(unreachable)?;
+    Ok(socket)
+}
+
+fn reach(host: &str) -> io::Result<TcpStream> {
+    let mut failed = ErrorKind::NotFound.into();
+    for address in host.to_socket_addrs()? {
+        match TcpStream::connect_timeout(&address, PATIENCE) {
+            Ok(stream) => {
+                stream.set_nodelay(true)?;
+                stream.set_read_timeout(Some(PATIENCE))?;
+                stream.set_write_timeout(Some(PATIENCE))?;
+                return Ok(stream);
+            }
+            Err(error) => failed = error,
+        }
+    }
+    Err(failed)
+}
+
+#[derive(Debug)]
+struct Room(State);
+
+#[derive(Debug)]
+enum State {
+    Connecting(Receiver<Result<WebSocket<TcpStream>, String>>),
+    Open(Box<WebSocket<TcpStream>>),
+    Closed,
+}
+
+impl Room {
+    /// The next notice, if there is one by now.
+    fn next(&mut self) -> Option<Notice> {
+        if let State::Connecting(way) = &self.0 {
+            match way.try_recv() {
+                Ok(Ok(socket)) => self.0 = State::Open(Box::new(socket)),
+                Ok(Err(problem)) => return Some(Notice::Closed(problem)),
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => return Some(Notice::Closed(CUT.to_owned())),
+            }
+        }
+        let State::Open(socket) = &mut self.0 else { return None };
+        loop {
+            return match socket.read() {
+                Ok(Message::Binary(frame)) => match relay::notice(&frame) {
+                    Some(notice) => Some(notice),
+                    None => Some(Notice::Closed("the server says what no server of rooms says".to_owned())),
+                },
+                Ok(Message::Ping(_) | Message::Pong(_)) => continue,
+                Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => {
+                    // What could not be sent before; that it fails is read next time.
+                    let _ = socket.flush();
+                    None
+                }
+                _ => Some(Notice::Closed(CUT.to_owned())),
+            };
+        }
+    }
+}
+
+impl Transport for Room {
+    fn poll(&mut self) -> Vec<Notice> {
+        let mut notices = Vec::new();
+        while let Some(notice) = self.next() {
+            let is_end = matches!(notice, Notice::Closed(_));
+            notices.push(notice);
+            if is_end {
+                self.0 = State::Closed;
+            }
+            if notices.len() == MOST {
+                break;
+            }
+        }
+        notices
+    }
+
+    fn send(&mut self, to: Member, bytes: &[u8]) {
+        if let (State::Open(socket), Some(frame)) = (&mut self.0, relay::frame(to, bytes)) {
+            // What does not go now waits, up to a limit; a connection that is cut is read of.
+            let _ = socket.send(Message::binary(frame));
+        }
+    }
+}
+
+impl Drop for Room {
+    fn drop(&mut self) {
+        if let State::Open(socket) = &mut self.0 {
+            // The server notices without a word too, only later.
+            let _ = socket.close(None);
+            let _ = socket.flush();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Instant;
+
+    #[test]
+    fn addresses_are_read() {
+        for (text, expected) in [
+            ("10.0.0.7", "10.0.0.7:8080"),
+            (" localhost:9 ", "localhost:9"),
+            ("http://lab.local:80/?room=K7M2QX", "lab.local:80"),
+            ("ws://[::1]", "[::1]:8080"),
+            ("[::1]:81", "[::1]:81"),
+        ] {
+            assert_eq!(host(text).as_deref(), Ok(expected), "{text}");
+        }
+        assert!(["", "https://a", "a b", "a\r\nb", "user@host", "http://"].iter().all(|text| host(text).is_err()));
+    }
+
+    #[test]
+    fn a_server_that_is_not_there_is_told_of() {
+        let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap().to_string();
+        drop(listener);
+        let mut room = open_room(&address, "K7M2QX").unwrap();
+        let begin = Instant::now();
+        let mut notices = Vec::new();
+        while notices.is_empty() && begin.elapsed() < PATIENCE {
+            notices = room.poll();
+            thread::sleep(Duration::from_millis(1));
+        }
+        let [Notice::Closed(reason)] = &notices[..] else { panic!("{notices:?}") };
+        assert!(reason.starts_with("cannot reach "), "{reason}");
+        assert!(room.poll().is_empty());
+    }
+}

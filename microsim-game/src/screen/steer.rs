@@ -1,0 +1,102 @@
+//! What steers the cells of those who play in this window: mouse, arrow keys, and the brake when they let go.
+
+use crate::camera::Camera;
+use crate::hud::marks;
+use crate::input::Input;
+use crate::rules::brake::Brake;
+use crate::rules::hint::{Hints, PreyTarget};
+use crate::rules::round::Round;
+use crate::rules::two_players::TwoPlayers;
+use crate::ui::pen::Pen;
+use microsim_core::glam::Vec2;
+use microsim_core::{Intent, OrganismId, View};
+
+/// Distance of the goal to which arrow keys steer, units: speed does not depend on it.
+const STEERED: f32 = 30.0;
+
+/// The hands of up to two players.
+#[derive(Debug, Default)]
+pub(super) struct Hands {
+    /// Whether the mouse steers.
+    pub is_crawling: bool,
+    brakes: [Brake; 2],
+}
+
+impl Hands {
+    /// Notes whether the mouse steers: while its button is down, or from one click to the next.
+    pub(super) fn note(&mut self, input: &Input, is_toggled: bool) {
+        if !is_toggled {
+            self.is_crawling = input.is_held;
+        } else if input.is_clicked {
+            self.is_crawling ^= true;
+        }
+    }
+
+    /// Where the players steer to. One has mouse and arrow keys; of two the first has the mouse, the second the keys.
+    pub(super) fn goals(
+        &self,
+        input: &Input,
+        camera: &Camera,
+        round: &Round,
+        two: Option<TwoPlayers>,
+    ) -> [Option<Vec2>; 2] {
+        match two {
+            None | Some(TwoPlayers::Bot) => [self.goal(input, camera, round, 0), None],
+            Some(_) => [self.by_mouse(input, camera), by_keys(input, round, 1)],
+        }
+    }
+
+    /// Where one player steers to that has mouse and arrow keys.
+    pub(super) fn goal(&self, input: &Input, camera: &Camera, round: &Round, player: usize) -> Option<Vec2> {
+        by_keys(input, round, player).or(self.by_mouse(input, camera))
+    }
+
+    fn by_mouse(&self, input: &Input, camera: &Camera) -> Option<Vec2> {
+        self.is_crawling.then(|| camera.to_room(input.cursor))
+    }
+
+    /// What a cell does in a step.
+    pub(super) fn intent(&mut self, hand: usize, round: &Round, cell: OrganismId, goal: Option<Vec2>) -> Intent {
+        let cell = round.world().view().organism(cell);
+        let brake = self.brakes.get_mut(hand);
+        cell.zip(brake).map_or(Intent::REST, |(cell, brake)| brake.intent(cell, goal))
+    }
+
+    /// What all who play do in a step. Only the first one may have to hold a key to digest.
+    pub(super) fn intents(&mut self, round: &Round, goals: [Option<Vec2>; 2], digests: bool) -> Vec<Intent> {
+        let steered = round.players().zip(goals).enumerate();
+        steered.map(|(k, (cell, goal))| self.intent(k, round, cell, goal).digesting(k > 0 || digests)).collect()
+    }
+}
+
+fn by_keys(input: &Input, round: &Round, player: usize) -> Option<Vec2> {
+    let cell = round.world().view().organism(round.players().nth(player)?)?;
+    let way = STEERED * Vec2::new(input.steer.x, -input.steer.y);
+    (way != Vec2::ZERO).then(|| cell.centroid() + way)
+}
+
+/// Targets of one who plays, but for those to which another one is nearer: each is marked once.
+pub(super) fn targets_of(round: &Round, view: View<'_>, player: OrganismId, hints: &Hints) -> Vec<PreyTarget> {
+    let distance = |id, at| view.organism(id).map(|cell| cell.centroid().distance(at));
+    let is_own = |target: &&PreyTarget| {
+        let others = round.players().filter(|other| *other != player);
+        others
+            .filter_map(|other| distance(other, target.at))
+            .all(|other| distance(player, target.at).is_some_and(|own| own <= other))
+    };
+    hints.targets.iter().filter(is_own).copied().collect()
+}
+
+/// Marks what a player holds and could take in.
+pub(super) fn draw_prey(
+    pen: &mut Pen,
+    style: &marks::Style<'_>,
+    taken: &mut marks::MarkLayout,
+    round: &Round,
+    view: View<'_>,
+    player: OrganismId,
+) {
+    let hints = Hints::of(view, player);
+    marks::draw_held(pen, style, taken, &hints.held);
+    marks::draw_targets(pen, style, taken, &targets_of(round, view, player, &hints));
+}
