@@ -327,3 +327,41 @@ fn the_page_of_the_documentation_has_the_help() {
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/network.md")).unwrap();
     assert!(page.contains(&help), "{help}");
 }
+
+/// What a room takes, and how much the server carries with the guests of this one thread beside it.
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "measures: prints memory and messages"]
+fn load() {
+    const TIME: Duration = Duration::from_secs(10);
+    let server = Server::start(&[]);
+    let memory = || {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", server.process.id())).unwrap();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+        line.trim().trim_end_matches(" kB").parse::<f64>().unwrap()
+    };
+    let empty = memory();
+    let mut rooms: Vec<Vec<Guest>> =
+        (0..200).map(|k| (0..4).map(|_| server.enter(&format!("ROOM{k}"))).collect()).collect();
+    std::thread::sleep(Duration::from_secs(1));
+    println!("{:.1} MB without rooms, {:.0} kB a room of four", empty / 1e3, (memory() - empty) / 200.0);
+    // Numbers are given in the order of arrival, which may not be that of the vector.
+    let mut numbers = Vec::new();
+    for guest in rooms.iter_mut().flatten() {
+        numbers.push(guest.next().unwrap()[2]);
+        guest.0.get_ref().set_nonblocking(true).unwrap();
+    }
+    for active in [10, 50, 200] {
+        let (mut come, mut sent, begin) = (0u64, 0u64, Instant::now());
+        while begin.elapsed() < TIME {
+            for (guest, number) in rooms[..active].iter_mut().flatten().zip(&numbers) {
+                while let Ok(message) = guest.0.read() {
+                    come += u64::from(message.len() == 61);
+                }
+                let message = [&[(number + 1) % 4][..], &[0; 60]].concat();
+                sent += u64::from(guest.0.send(Message::binary(message)).is_ok());
+            }
+        }
+        println!("{active} rooms: {sent} sent, {come} carried in {TIME:?}");
+    }
+}

@@ -135,6 +135,7 @@ impl<O: Outbox> Rooms<O> {
 mod tests {
     use super::*;
     use std::cell::RefCell;
+    use std::collections::BTreeSet;
     use std::rc::Rc;
 
     /// Frames for a member, with room for so many.
@@ -232,5 +233,64 @@ mod tests {
         rooms.leave(&place);
         rooms.leave(&place);
         assert!(rooms.join(code("THREE"), Shelf::new(9)).is_ok());
+    }
+
+    fn is_there(rooms: &Rooms<Shelf>, place: &Place) -> bool {
+        rooms.rooms.get(&place.code).is_some_and(|room| room.has(place))
+    }
+
+    /// Who is there besides oneself, as told by frames.
+    fn told(others: &mut BTreeSet<u8>, frames: &[Vec<u8>]) {
+        for frame in frames {
+            match frame[..] {
+                [0xff, 0, _, ref there @ ..] => others.extend(there),
+                [0xff, 1, member] => assert!(others.insert(member)),
+                [0xff, 2, member] => assert!(others.remove(&member)),
+                [from, ..] => assert!(others.contains(&from), "{from} is not there"),
+                [] => panic!("an empty frame"),
+            }
+        }
+    }
+
+    #[test]
+    fn whatever_happens_members_know_who_is_there() {
+        let mut state = 7u64;
+        let mut below = |count: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % count
+        };
+        let mut rooms = Rooms::new(1);
+        let mut members: Vec<(Place, Shelf, BTreeSet<u8>)> = Vec::new();
+        for _ in 0..20_000 {
+            match below(8) {
+                0 => {
+                    let shelf = Shelf::new(6);
+                    let joined = rooms.join(code("ROOM"), shelf.clone());
+                    members.extend(joined.map(|place| (place, shelf, BTreeSet::new())));
+                }
+                1 if !members.is_empty() => rooms.leave(&members.swap_remove(below(members.len())).0),
+                k if !members.is_empty() => {
+                    let frame: Vec<u8> = (0..below(4)).map(|_| below(6) as u8).collect();
+                    let sender = below(members.len());
+                    if k > 5
+                        || rooms.relay(&members[sender].0, &frame).is_err_and(|refusal| refusal == Refusal::TooSlow)
+                    {
+                        let (place, shelf, others) = &mut members[sender];
+                        told(others, &shelf.take());
+                        if !is_there(&rooms, place) {
+                            rooms.leave(&members.swap_remove(sender).0);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        members.retain(|(place, ..)| is_there(&rooms, place));
+        for (place, shelf, others) in &mut members {
+            told(others, &shelf.take());
+            others.insert(place.member);
+        }
+        let all: BTreeSet<u8> = members.iter().map(|(place, ..)| place.member).collect();
+        assert!(members.iter().all(|(_, _, others)| *others == all), "{members:?}");
     }
 }
