@@ -1,5 +1,7 @@
 //! `microsim serve` as it runs, with guests who behave and guests who do not.
 
+#![cfg(unix)]
+
 mod common;
 
 use common::{Folder, heeding_signals, microsim, refused, stdout};

@@ -73,11 +73,11 @@ fn messages_arrive_in_order() {
         assert!(begin.elapsed() < PATIENCE, "{from_one} and {from_two} of {COUNT}");
         // The server reads a thousand a second of each; what is sent too fast waits, and is lost in the end.
         let due = (begin.elapsed().as_secs_f64() * 1000.0) as u32 + 1000;
-        for k in sent..due.min(COUNT) {
-            let message = [&k.to_le_bytes()[..], &[0; 56]].concat();
+        while sent < due.min(COUNT) {
+            let message = [&sent.to_le_bytes()[..], &[0; 56]].concat();
             one.send(1, &message);
             two.send(0, &message);
-            sent = k + 1;
+            sent += 1;
         }
         for notice in two.poll() {
             assert_eq!(number(&notice), from_one);
