@@ -30,6 +30,9 @@ pub enum Substrate {
     Surfaces,
 }
 
+/// Size of the largest body, units: beyond an open side it is removed only when all of it is.
+const LARGEST_BODY: f32 = 10_000.0;
+
 /// What one side of the room is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Side {
@@ -148,6 +151,17 @@ impl WorldConfig {
         let far = f32::INFINITY;
         let low = Vec2::new(or(left, 0.0, -far), or(bottom, 0.0, -far));
         [low, Vec2::new(or(right, self.size.x, far), or(top, self.size.y, far))]
+    }
+
+    /// Lower left and upper right corner of where particles may be: within a room's size of the room, and beyond an open side as
+    /// far as the largest body that is still partly in the room.
+    pub(crate) fn reach(&self) -> [Vec2; 2] {
+        let Sides { bottom, top, left, right } = self.sides;
+        let beyond =
+            |side: Side, size: f32| if side == Side::Open && size < LARGEST_BODY { LARGEST_BODY } else { size };
+        let low = Vec2::new(beyond(left, self.size.x), beyond(bottom, self.size.y));
+        let high = Vec2::new(beyond(right, self.size.x), beyond(top, self.size.y));
+        [-low, self.size + high]
     }
 
     /// Time of one substep, s.

@@ -122,6 +122,15 @@ impl Region {
         }
     }
 
+    /// Least and largest x of its points.
+    pub(crate) fn span_x(&self) -> [f32; 2] {
+        match *self {
+            Self::All => [f32::NEG_INFINITY, f32::INFINITY],
+            Self::Circle { centre, radius } => [centre.x - radius, centre.x + radius],
+            Self::Box { low, high } => [low.x, high.x],
+        }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), Error> {
         match *self {
             Self::All => Ok(()),

@@ -14,6 +14,9 @@ use microsim_core::{
 };
 
 const CENTRE: Vec2 = Vec2::new(80.0, 45.0);
+/// Steps, s, and their numbers of substeps.
+const STEPPINGS: [(f32, u32); 5] =
+    [(1.0 / 30.0, 8), (1.0 / 60.0, 4), (1.0 / 60.0, 8), (1.0 / 60.0, 16), (1.0 / 120.0, 8)];
 
 fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
     let (mut world, cell) = room_with(spec, CENTRE.x, CENTRE.y);
@@ -64,19 +67,6 @@ fn divide(world: &mut World, cell: OrganismId, what: &str) -> OrganismId {
         Some(Event::Divided { parent, daughter }) if parent == cell => daughter,
         other => panic!("{what}: {other:?}"),
     }
-}
-
-/// Divides a cell whose shape may be so uneven that it first gives up some furrows, and rounds off meanwhile.
-fn divide_at_last(world: &mut World, cell: OrganismId, what: &str) -> OrganismId {
-    for _ in 0..8 {
-        world.divide(cell).unwrap();
-        match finish(world, what) {
-            Some(Event::Divided { daughter, .. }) => return daughter,
-            Some(Event::DivisionAbandoned { .. }) => run(world, &Inputs::new(), 30),
-            other => panic!("{what}: {other:?}"),
-        }
-    }
-    panic!("{what}: not divided");
 }
 
 /// Why a cell refuses to divide; the refusal leaves the counts as they are.
@@ -166,12 +156,39 @@ fn dividing_before_a_fusion_has_rounded_off_leaves_no_nodes_behind() {
     let (mut world, mut cell) = cell_in_room(AmoeboidCellSpec::default());
     let nodes = outline(&world, cell).len();
     for turn in 0..3 {
-        let daughter = divide_at_last(&mut world, cell, &format!("turn {turn}"));
+        let daughter = divide(&mut world, cell, &format!("turn {turn}"));
         cell = fuse(&mut world, cell, daughter, &format!("turn {turn}"));
         assert!(outline(&world, cell).len() > nodes + 5, "the next turn begins while the membrane is too long");
     }
     run(&mut world, &Inputs::new(), 600);
     assert_eq!(outline(&world, cell).len(), nodes);
+}
+
+/// Divides a cell of this radius, fuses the halves, and tells the whole to divide at once.
+fn divide_right_after_a_fusion(radius: f32, dt: f32, substeps: u32) {
+    let what = format!("radius {radius}, {substeps} substeps of {dt} s");
+    let mut world = World::new(WorldConfig { dt, substeps, ..WorldConfig::default() }).unwrap();
+    let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() };
+    let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+    run(&mut world, &Inputs::new(), 30);
+    let daughter = divide(&mut world, cell, &what);
+    let whole = fuse(&mut world, cell, daughter, &what);
+    divide(&mut world, whole, &what);
+}
+
+#[test]
+fn the_first_order_right_after_a_fusion_is_carried_out() {
+    for (k, (dt, substeps)) in STEPPINGS.into_iter().enumerate() {
+        (0..3).for_each(|j| divide_right_after_a_fusion(8.0 + 0.375 * (8 * j + k) as f32, dt, substeps));
+    }
+}
+
+#[test]
+#[ignore = "a soak: 120 cells"]
+fn the_first_order_right_after_a_fusion_is_carried_out_for_24_radii() {
+    for (dt, substeps) in STEPPINGS {
+        (0..24).for_each(|k| divide_right_after_a_fusion(8.0 + 0.375 * k as f32, dt, substeps));
+    }
 }
 
 #[test]

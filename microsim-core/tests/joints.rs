@@ -4,8 +4,8 @@ use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion,
-    OrganismId, Placement, Template, World, WorldConfig,
+    AmoeboidCellSpec, Error, Event, Inputs, JointEnd, JointId, JointKind, JointSpec, Node, Obstacle, ObstacleId,
+    ObstacleMotion, OrganismId, Placement, Template, World, WorldConfig,
 };
 use std::f32::consts::TAU;
 
@@ -307,4 +307,23 @@ fn a_joint_ends_with_its_obstacle_and_needs_one_that_is_there() {
     assert_eq!(world.joints().count(), 0);
     run(&mut world, 0.5);
     assert!(at(&world, weight).y < 49.0, "it falls");
+}
+
+#[test]
+fn a_joint_to_cytoplasm_that_is_gone_does_not_pass_to_what_grows_in_its_place() {
+    let mut world = room(0.0, 8);
+    let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 50.0)).unwrap();
+    let particles = world.view().organism(cell).unwrap().particles().count() as u32;
+    let end = |node| JointEnd::Node { organism: cell, node };
+    let spec =
+        |node| JointSpec::new(end(node), JointEnd::Point(Vec2::new(60.0, 50.0)), JointKind::Rope { max_length: 30.0 });
+    let [kept, lost] = [particles - 2, particles - 1].map(|node| world.add_joint(spec(node)).unwrap());
+    world.step(&Inputs::new());
+    world.shrink(cell, 1).unwrap();
+    world.grow(cell, 0, 1).unwrap();
+    world.validate().unwrap();
+    assert!(world.joint(kept).is_some() && world.joint(lost).is_none());
+    world.step(&Inputs::new());
+    assert!(world.events().contains(&Event::JointEnded { joint: lost, between: [Some(cell), None] }));
+    assert_eq!(world.joints().map(|joint| joint.id).collect::<Vec<_>>(), [kept]);
 }

@@ -3,8 +3,8 @@
 
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Drain, Emitter, Event, FluidBlockSpec, FluidParams, Inputs, Kind, Node, OrganismId,
-    Outlet, Placement, PlateletSpec, Recipe, Region, Side, Sides, Template, Wall, World, WorldConfig,
+    Actuation, AgarSpec, AmoeboidCellSpec, Drain, Emitter, Event, FluidBlockSpec, FluidParams, Inputs, Kind, Node,
+    OrganismId, Outlet, Placement, PlateletSpec, Recipe, Region, Side, Sides, Template, Wall, World, WorldConfig,
 };
 
 fn room(sides: Sides, gravity: Vec2) -> World {
@@ -165,4 +165,63 @@ fn a_drain_takes_a_cell_by_its_centre_not_by_one_of_its_nodes() {
     world.set_drain(right, Drain { region: area([39.0, 41.0], [19.0, 21.0]), kind: None }).unwrap();
     assert_eq!(run(&mut world, 1).1, 1);
     assert!(world.view().organism(cell).is_none());
+}
+
+#[test]
+fn of_many_drains_the_first_that_holds_something_takes_it() {
+    let mut world = room(Sides::default(), Vec2::ZERO);
+    let places = (0..150).map(|k| Vec2::new(2.0 + 3.9 * (k % 15) as f32, 2.0 + 3.9 * (k / 15) as f32));
+    let balls: Vec<(OrganismId, Vec2)> =
+        places.map(|at| (world.spawn(&AgarSpec::default().into(), Placement::at(at.x, at.y)).unwrap(), at)).collect();
+    let water = water(&mut world, 70.0, 20.0);
+    let regions: Vec<Region> = (0..60)
+        .map(|k| match (k % 3, (k * 17 % 80) as f32, (k * 7 % 40) as f32) {
+            (0, x, y) => Region::Circle { centre: Vec2::new(x, y), radius: 6.0 },
+            (1, x, _) => area([x, x + 3.0], [0.0, 40.0]),
+            (_, x, y) => area([x - 5.0, x], [y - 5.0, y]),
+        })
+        .collect();
+    let drains = regions.iter().map(|&region| world.add_drain(Drain { region, kind: None }).unwrap());
+    let drains: Vec<_> = drains.collect();
+    let (mut left, mut taken) = (0, 0);
+    world.step(&Inputs::new());
+    for (ball, at) in balls {
+        let drained = world.events().iter().find_map(|event| match *event {
+            Event::Drained { outlet, organism, .. } if organism == ball => Some(outlet),
+            _ => None,
+        });
+        let first = regions.iter().position(|region| region.contains(at)).map(|k| Outlet::Drain(drains[k]));
+        assert_eq!((drained, world.kind(ball).is_none()), (first, first.is_some()), "{at}");
+        (left, taken) = (left + usize::from(first.is_none()), taken + usize::from(first.is_some()));
+    }
+    assert!(left > 20 && taken > 20, "{left} left, {taken} taken");
+    let in_drain = |at: Vec2| regions.iter().any(|region| region.contains(at));
+    let water = world.view().organism(water).unwrap();
+    assert!(water.particles().count() > 0 && water.particles().all(|particle| !in_drain(particle.position)));
+    world.validate().unwrap();
+}
+
+#[test]
+fn a_body_longer_than_the_room_leaves_by_an_open_side() {
+    let sides = Sides { top: Side::Open, ..Sides::default() };
+    let size = Vec2::new(40.0, 6.0);
+    let mut world = World::new(WorldConfig { size, damping: 0.0, sides, ..WorldConfig::default() }).unwrap();
+    let mut builder = Template::builder();
+    let [left, right] = [-5.0, 5.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.6)));
+    builder.link(left, right, 0.0);
+    let template = world.add_template(builder.build().unwrap());
+    let rod = world.spawn_template(template, Placement::at(20.0, 5.0)).unwrap();
+    // It goes up at 4 units/s and turns by 2.6 radians/s: it is upright when its middle is out.
+    let mut inputs = Inputs::new();
+    let throw = Actuation { impulse: Vec2::new(0.0, 8.0), torque: 2.6 * 50.0 * 60.0, ..Actuation::default() };
+    inputs.actuate(rod, throw).unwrap();
+    world.step(&inputs);
+    let mut events = Vec::new();
+    for _ in 0..120 {
+        world.step(&Inputs::new());
+        world.validate().unwrap();
+        events.extend(world.events().iter().copied());
+    }
+    let gone = Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom, particles: 2 };
+    assert_eq!(events, [gone]);
 }

@@ -93,6 +93,26 @@ pub(crate) struct Particles {
     free: Vec<u32>,
     #[serde(skip)]
     live_count: usize,
+    #[serde(skip)]
+    births: Births,
+}
+
+/// Which entries hold another particle than at the last search for pairs.
+#[derive(Clone, Debug, Default)]
+struct Births {
+    /// Number of the search.
+    search: u32,
+    /// The search after which each entry was set; as long as needed.
+    after: Vec<u32>,
+}
+
+impl Births {
+    fn note(&mut self, i: usize) {
+        if self.after.len() <= i {
+            self.after.resize(i + 1, NO_OWNER);
+        }
+        self.after[i] = self.search;
+    }
 }
 
 impl Clone for Particles {
@@ -122,6 +142,7 @@ impl Clone for Particles {
             fluid,
             free,
             live_count,
+            births,
         } = source;
         self.origin_x.clone_from(origin_x);
         self.origin_y.clone_from(origin_y);
@@ -142,6 +163,7 @@ impl Clone for Particles {
         self.fluid.clone_from(fluid);
         self.free.clone_from(free);
         self.live_count = *live_count;
+        self.births.clone_from(births);
     }
 }
 
@@ -263,6 +285,17 @@ impl Particles {
         self.next_in_ring[i] = NO_OWNER;
         self.owner[i] = particle.owner;
         self.fluid[i] = particle.fluid;
+        self.births.note(i);
+    }
+
+    /// Notes that all live particles are searched for pairs.
+    pub(crate) fn begin_search(&mut self) {
+        self.births.search = self.births.search.wrapping_add(1);
+    }
+
+    /// Whether entry `i` was set after the last search for pairs: what was found there is of another particle.
+    pub(crate) fn is_new(&self, i: usize) -> bool {
+        self.births.after.get(i) == Some(&self.births.search)
     }
 
     /// Puts entry `i` somewhere, as if it had been there when the substep began.

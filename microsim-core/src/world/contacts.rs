@@ -51,6 +51,7 @@ pub(crate) struct NearPair {
 impl World {
     /// Finds the pairs of bodies and discs that can touch before the next search, and which blocks are asleep.
     pub(crate) fn find_pairs(&mut self) {
+        self.particles.begin_search();
         let Self { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = self;
         let (step, substep) = (config.max_displacement(), config.max_substep_displacement());
         let (size, limits) = (config.size, DisplacementLimits { step, substep, dt: config.dt });
@@ -82,7 +83,7 @@ impl World {
         discs.chain(links)
     }
 
-    /// Measures what was found, if both particles are still there.
+    /// Measures what was found, if both particles are still those that were found.
     pub(crate) fn near_pair(&self, near: Near) -> Option<NearPair> {
         let p = &self.particles;
         let pair = match near {
@@ -95,7 +96,7 @@ impl World {
                 NearPair { i, j, gap, touched: touched == Some(j) }
             }
         };
-        (p.is_live(pair.i as usize) && p.is_live(pair.j as usize)).then_some(pair)
+        [pair.i, pair.j].map(|i| i as usize).into_iter().all(|i| p.is_live(i) && !p.is_new(i)).then_some(pair)
     }
 }
 

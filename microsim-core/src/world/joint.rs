@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JointRecord {
     pub spec: JointSpec,
-    /// The particle of each end that is a node.
+    /// The particle of each end that is a node; none if one of them is gone, so that the joint ends in the next step.
     pub particles: [Option<u32>; 2],
     /// Distance of the ends then, units.
     pub length: f32,
@@ -163,10 +163,11 @@ impl World {
         }
         let Some(id) = record.end(k).organism() else { return Some(Vec::new()) };
         let organism = self.organisms.get(id).filter(|organism| !organism.is_quarantined)?;
-        match record.particles[k] {
-            Some(particle) => (self.particles.owner[particle as usize] == id.index).then(|| vec![particle]),
-            None => Some(organism.particles().collect()),
+        if let JointEnd::Centre(_) = record.end(k) {
+            return Some(organism.particles().collect());
         }
+        let particle = record.particles[k]?;
+        (self.particles.owner[particle as usize] == id.index).then(|| vec![particle])
     }
 
     fn end_position(&self, record: &JointRecord, k: usize) -> Option<Vec2> {
@@ -255,6 +256,17 @@ impl World {
         Some(End::Particles { range: first..list.len(), is_static })
     }
 
+    /// Notes that some particles are gone, as their indices may be handed out again: joints to them end in the next step.
+    pub(in crate::world) fn lose_joints(&mut self, gone: impl Fn(u32) -> bool) {
+        let holds = |record: &JointRecord| record.particles.iter().flatten().any(|&particle| gone(particle));
+        let lost: Vec<_> = self.joints.iter().filter(|(_, it)| holds(it)).map(|(handle, _)| handle).collect();
+        for handle in lost {
+            if let Some(record) = self.joints.get_mut(handle) {
+                record.particles = [None; 2];
+            }
+        }
+    }
+
     /// Notes the forces of a step; removes what broke and what has lost somebody.
     pub(crate) fn conclude_joints(&mut self) {
         for (handle, solved) in self.scratch.joined.iter().zip(&self.scratch.joints.list) {
@@ -267,7 +279,10 @@ impl World {
                 self.events.push(Event::JointBroken { joint: JointId::of(*handle), between: record.organisms() });
             }
         }
-        let is_lost = |record: &JointRecord| (0..2).any(|k| self.end_particles(record, k).is_none());
+        let is_gone = |particle: u32| self.particles.is_new(particle as usize);
+        let has_gone = |record: &JointRecord| record.particles.into_iter().flatten().any(is_gone);
+        let is_lost =
+            |record: &JointRecord| has_gone(record) || (0..2).any(|k| self.end_particles(record, k).is_none());
         let lost: Vec<_> = self.joints.iter().filter(|(_, it)| is_lost(it)).map(|(handle, _)| handle).collect();
         for handle in lost {
             let Some(record) = self.joints.remove(handle) else { continue };

@@ -12,8 +12,8 @@ use glam::Vec2;
 use std::ops::Range;
 
 impl World {
-    /// Freezes every organism with a particle that has a number that is not finite, or is farther outside the room than the
-    /// room's size, or with a membrane that encloses no area.
+    /// Freezes every organism with a particle that has a number that is not finite, or is outside of where particles may be
+    /// ([`crate::config::WorldConfig::reach`]), or with a membrane that encloses no area.
     pub(crate) fn quarantine(&mut self) {
         // The fast check of whole columns nearly always succeeds.
         if !self.all_are_valid() || self.is_anybody_flat() {
@@ -26,11 +26,11 @@ impl World {
 
     /// Whether all particles are valid: the same check as for each organism, but column by column.
     fn all_are_valid(&self) -> bool {
-        let (p, size) = (&self.particles, self.config.size);
+        let (p, [low, high]) = (&self.particles, self.config.reach());
         let chunks = (0..p.len()).step_by(CHUNK).map(|first| first..p.len().min(first + CHUNK));
         let is_valid = |at: Range<usize>| {
-            are_near(&p.origin_x[at.clone()], &p.x[at.clone()], size.x)
-                && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], size.y)
+            are_near(&p.origin_x[at.clone()], &p.x[at.clone()], [low.x, high.x])
+                && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], [low.y, high.y])
                 && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].iter().all(|column| are_within(&column[at.clone()], -f32::MAX))
                 && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
         };
@@ -47,7 +47,7 @@ impl World {
     /// Freezes all organisms with an invalid particle or a flat membrane and returns them.
     fn freeze_invalid(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_valid = |i: u32| is_valid(particles, i as usize, config.size);
+        let is_valid = |i: u32| is_valid(particles, i as usize, config.reach());
         let is_flat = |organism: &Organism| config.protects_membranes && is_flat(organism, particles, &mut Vec::new());
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         let is_lost = |organism: &Organism| {
@@ -82,10 +82,10 @@ fn is_flat(organism: &Organism, p: &Particles, outline: &mut Vec<Vec2>) -> bool 
         })
 }
 
-/// Whether all positions, each an origin and an offset, are less than the room's size outside the room.
-fn are_near(origins: &[f32], offsets: &[f32], size: f32) -> bool {
+/// Whether all positions, each an origin and an offset, are between two coordinates.
+fn are_near(origins: &[f32], offsets: &[f32], [low, high]: [f32; 2]) -> bool {
     let places = origins.iter().zip(offsets).map(|(origin, offset)| origin + offset);
-    places.fold(true, |all, at| all & (at > -size) & (at < 2.0 * size))
+    places.fold(true, |all, at| all & (at > low) & (at < high))
 }
 
 /// Whether all numbers of a column are finite and at least `least`.
@@ -93,10 +93,10 @@ fn are_within(column: &[f32], least: f32) -> bool {
     column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
 }
 
-/// Whether a particle is finite and near a room of this size.
-fn is_valid(p: &Particles, i: usize, size: Vec2) -> bool {
+/// Whether a particle is finite and between two corners.
+fn is_valid(p: &Particles, i: usize, [low, high]: [Vec2; 2]) -> bool {
     let at = p.position(i);
-    let is_near = at.cmpgt(-size).all() && at.cmplt(2.0 * size).all();
+    let is_near = at.cmpgt(low).all() && at.cmplt(high).all();
     let is_number = |value: f32| value.is_finite() && value >= 0.0;
     is_near
         && p.velocity(i).is_finite()

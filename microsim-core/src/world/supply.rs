@@ -9,7 +9,8 @@ use crate::event::{Event, Outlet};
 use crate::float_environment::with_default_float_environment;
 use crate::force_field::Region;
 use crate::id::{DrainId, EmitterId, OrganismId};
-use crate::organism::{Blueprint, Placement, Storage};
+use crate::kind::Kind;
+use crate::organism::{Blueprint, Organism, Placement, Storage};
 use crate::rng::Rng;
 use crate::supply::{Drain, Emitter, Recipe};
 use glam::Vec2;
@@ -28,6 +29,14 @@ pub(crate) struct EmitterRecord {
     /// How many it owes.
     pub owed: f32,
     rng: Rng,
+}
+
+/// Where an organism, or a particle of fluid, may be drained.
+struct Place {
+    at: Vec2,
+    organism: OrganismId,
+    kind: Kind,
+    particle: Option<u32>,
 }
 
 impl World {
@@ -125,15 +134,10 @@ impl World {
 
     /// Takes what is in drains and beyond open sides, then emits what is due.
     pub(crate) fn supply(&mut self) {
-        let drains: Vec<_> = self.drains().map(|(id, drain)| (id, *drain)).collect();
-        for (id, drain) in drains {
-            self.take_all(Outlet::Drain(id), &drain, |at| drain.region.contains(at));
-        }
-        let size = self.config.size;
+        self.drain();
         for (wall, side) in Wall::ALL.into_iter().zip(self.config.sides.in_order()) {
             if side == Side::Open {
-                let everything = Drain { region: Region::All, kind: None };
-                self.take_all(Outlet::Side(wall), &everything, |at| is_beyond(at, wall, size));
+                self.take_beyond(wall);
             }
         }
         for index in 0..self.emitters.slot_count() as u32 {
@@ -141,62 +145,101 @@ impl World {
         }
     }
 
-    /// Takes the organisms, and the particles of fluid, that are where an outlet takes them.
-    fn take_all(&mut self, outlet: Outlet, drain: &Drain, takes: impl Fn(Vec2) -> bool) {
-        let ids: Vec<OrganismId> = self.organisms().collect();
-        for organism in ids {
-            let Some(it) = self.organisms.get(organism) else { continue };
-            let kind = it.kind;
-            if it.is_held() || drain.kind.is_some_and(|only| only != kind) {
-                continue;
+    /// Takes what is in drains: each looks only at what lies between its least and its largest x, so that many cost little.
+    fn drain(&mut self) {
+        let drains: Vec<_> = self.drains().map(|(id, drain)| (id, *drain)).collect();
+        let mut places = if drains.is_empty() { Vec::new() } else { self.drainable() };
+        places.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
+        let mut is_taken = vec![false; places.len()];
+        let mut fluid = Vec::new();
+        for (id, drain) in drains {
+            let [low, high] = drain.region.span_x();
+            let from = places.partition_point(|place| place.at.x < low);
+            let until = places.partition_point(|place| place.at.x <= high);
+            let takes = |&k: &usize| !is_taken[k] && drain.region.contains(places[k].at) && places[k].is_a(drain.kind);
+            let mut found: Vec<usize> = (from..until).filter(takes).collect();
+            found.sort_unstable_by_key(|&k| (places[k].organism.index, places[k].particle));
+            found.iter().for_each(|&k| is_taken[k] = true);
+            for same in found.chunk_by(|&a, &b| places[a].organism == places[b].organism) {
+                let Place { organism, particle, .. } = places[same[0]];
+                let count = if particle.is_some() { same.len() as u32 } else { self.size_of(organism) };
+                fluid.extend(same.iter().filter_map(|&k| Some((organism, places[k].particle?))));
+                self.take(Outlet::Drain(id), organism, count, particle.is_none());
             }
-            let particles = if matches!(it.body, Storage::Loose { membrane: None, .. }) && !it.is_quarantined {
-                self.take_fluid(organism, &takes)
-            } else if self.is_taken(organism, outlet, &takes) {
-                let count = it.particles().count() as u32;
-                // The handle is of an organism that lives.
-                let _ = self.remove(organism);
-                count
+        }
+        fluid.sort_unstable_by_key(|&(organism, particle)| (organism.index, particle));
+        for same in fluid.chunk_by(|a, b| a.0 == b.0) {
+            let particles: Vec<u32> = same.iter().map(|&(_, particle)| particle).collect();
+            self.remove_fluid(same[0].0, &particles);
+        }
+    }
+
+    /// What drains may take: bodies by their centres, fluid without a membrane particle by particle, no prey that is held.
+    fn drainable(&self) -> Vec<Place> {
+        let mut places = Vec::new();
+        for (id, organism) in self.organisms.iter().filter(|(_, organism)| !organism.is_held()) {
+            let place = |at, particle| Place { at, organism: id, kind: organism.kind, particle };
+            if is_loose_fluid(organism) {
+                let particles = organism.fluid_particles.iter();
+                places.extend(particles.map(|&i| place(self.particles.position(i as usize), Some(i))));
             } else {
-                0
-            };
-            if particles > 0 {
-                self.events.push(Event::Drained { outlet, organism, kind, particles });
+                places.extend(self.centroid(id).map(|at| place(at, None)));
+            }
+        }
+        places
+    }
+
+    /// Takes the organisms that are wholly beyond an open side, and the particles of fluid that are.
+    fn take_beyond(&mut self, side: Wall) {
+        let size = self.config.size;
+        let ids: Vec<OrganismId> = self.organisms().collect();
+        for id in ids {
+            let Some(organism) = self.organisms.get(id).filter(|organism| !organism.is_held()) else { continue };
+            let is_gone = |i: &u32| is_beyond(self.particles.position(*i as usize), side, size);
+            let is_fluid = is_loose_fluid(organism);
+            let gone: Vec<u32> = organism.particles().filter(is_gone).collect();
+            if is_fluid || gone.len() as u32 == self.size_of(id) {
+                self.take(Outlet::Side(side), id, gone.len() as u32, !is_fluid);
+                if is_fluid {
+                    self.remove_fluid(id, &gone);
+                }
             }
         }
     }
 
-    /// Whether an organism is taken: by a drain if its centre is in it, by a side if all of it is beyond.
-    fn is_taken(&self, id: OrganismId, outlet: Outlet, takes: &impl Fn(Vec2) -> bool) -> bool {
-        let Some(organism) = self.organisms.get(id) else { return false };
-        match outlet {
-            Outlet::Drain(_) => self.centroid(id).is_some_and(takes),
-            Outlet::Side(_) => organism.particles().all(|i| takes(self.particles.position(i as usize))),
-        }
+    /// Number of its particles.
+    fn size_of(&self, id: OrganismId) -> u32 {
+        self.organisms.get(id).map_or(0, |organism| organism.particles().count() as u32)
     }
 
-    /// Takes particles of fluid, and the organism with the last of them; returns how many.
-    fn take_fluid(&mut self, id: OrganismId, takes: &impl Fn(Vec2) -> bool) -> u32 {
-        let Some(organism) = self.organisms.get(id) else { return 0 };
-        let is_taken = |i: &u32| takes(self.particles.position(*i as usize));
-        let mut taken: Vec<u32> = organism.fluid_particles.iter().copied().filter(is_taken).collect();
-        let count = taken.len() as u32;
-        if taken.len() == organism.fluid_particles.len() {
+    /// Reports that an outlet takes so many particles of an organism, and removes it if that is all of it.
+    fn take(&mut self, outlet: Outlet, organism: OrganismId, particles: u32, is_whole: bool) {
+        let Some(kind) = self.kind(organism).filter(|_| particles > 0) else { return };
+        if is_whole {
+            // The handle is of an organism that lives.
+            let _ = self.remove(organism);
+        }
+        self.events.push(Event::Drained { outlet, organism, kind, particles });
+    }
+
+    /// Removes particles of fluid, and the organism with the last of them.
+    fn remove_fluid(&mut self, id: OrganismId, particles: &[u32]) {
+        let mut gone = particles.to_vec();
+        gone.sort_unstable();
+        let Some(organism) = self.organisms.get_mut(id).filter(|_| !gone.is_empty()) else { return };
+        if gone.len() == organism.fluid_particles.len() {
             // The handle is of an organism that lives.
             let _ = self.remove(id);
-        } else if count > 0 {
-            taken.sort_unstable();
-            let stays = |i: &u32| taken.binary_search(i).is_err();
+        } else {
+            let stays = |i: &u32| gone.binary_search(i).is_err();
+            organism.fluid_particles.retain(stays);
             if let Some(fluid) = organism.fluid {
                 self.fluids[fluid as usize].particles.retain(stays);
             }
-            if let Some(organism) = self.organisms.get_mut(id) {
-                organism.fluid_particles.retain(stays);
-            }
-            taken.iter().for_each(|&i| self.particles.remove(i));
+            self.lose_joints(|i| !stays(&i));
+            gone.iter().for_each(|&i| self.particles.remove(i));
             self.scratch.query_index.clear();
         }
-        count
     }
 
     /// Checks an emitter, and that this world can emit what it emits.
@@ -250,6 +293,17 @@ impl World {
             (self.particles.vx[i], self.particles.vy[i]) = (velocity.x, velocity.y);
         }
     }
+}
+
+impl Place {
+    fn is_a(&self, kind: Option<Kind>) -> bool {
+        kind.is_none_or(|kind| kind == self.kind)
+    }
+}
+
+/// Whether outlets take an organism particle by particle.
+fn is_loose_fluid(organism: &Organism) -> bool {
+    matches!(organism.body, Storage::Loose { membrane: None, .. }) && !organism.is_quarantined
 }
 
 impl EmitterRecord {

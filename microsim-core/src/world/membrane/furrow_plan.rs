@@ -8,6 +8,7 @@ use crate::geometry::ring::direction_or;
 use crate::organism::Organism;
 use crate::world::World;
 use glam::Vec2;
+use std::ops::Range;
 
 /// Share of nodes that a division may add: two circles need 1.41 times the nodes of one.
 const SLACK: f32 = 0.6;
@@ -69,19 +70,15 @@ fn long_axis(outline: &[Vec2], centre: Vec2) -> Vec2 {
     direction_or(axis, Vec2::X)
 }
 
-/// On each side of the axis the node of the outline that is nearest to the line across it.
+/// The node of the outline that is nearest to the line across the axis, and the nearest one in the opposite half of the ring.
+/// The sides of the axis would not do: after a fusion the centre may lie beside the neck.
 fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2) -> Option<[u32; 2]> {
-    let nearest = |is_left: bool| {
-        let on_side =
-            outline.iter().zip(&organism.outline).filter(|(at, _)| (axis.perp_dot(**at - centre) > 0.0) == is_left);
-        let mut best: Option<(f32, u32)> = None;
-        for (&at, &node) in on_side {
-            let distance = (at - centre).dot(axis).abs();
-            if best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, node));
-            }
-        }
-        best.map(|(_, node)| node)
+    let count = outline.len();
+    let nearest = |places: Range<usize>| {
+        let distance = |k: usize| (outline[k % count] - centre).dot(axis).abs();
+        places.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
     };
-    Some([nearest(true)?, nearest(false)?])
+    let first = nearest(0..count)?;
+    let second = nearest(first + count.div_ceil(4)..first + count - count / 4)?;
+    Some([first, second].map(|k| organism.outline[k % count]))
 }

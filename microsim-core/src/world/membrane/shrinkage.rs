@@ -45,6 +45,7 @@ impl World {
         });
         lost.sort_unstable();
         self.fluids[fluid as usize].particles.retain(|i| lost.binary_search(i).is_err());
+        self.lose_joints(|i| lost.binary_search(&i).is_ok());
         lost.into_iter().for_each(|i| self.particles.remove(i));
         self.changed(|| WorldChange::Shrink(id, particles));
         Ok(())

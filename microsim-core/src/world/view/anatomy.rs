@@ -76,4 +76,17 @@ mod tests {
         }
         assert!(touched > 0);
     }
+
+    #[test]
+    fn contacts_of_what_is_gone_do_not_pass_to_what_takes_its_place() {
+        let mut world = World::new(WorldConfig { gravity: Vec2::ZERO, ..WorldConfig::default() }).unwrap();
+        let ids = [40.0, 45.2].map(|x| world.spawn(&PlateletSpec::default().into(), Placement::at(x, 40.0)).unwrap());
+        while world.view().contacts().count() == 0 {
+            world.push(ids[0], Vec2::new(1.0, 0.0)).unwrap();
+            world.step(&Inputs::new());
+        }
+        world.remove(ids[1]).unwrap();
+        world.spawn(&PlateletSpec::default().into(), Placement::at(90.0, 40.0)).unwrap();
+        assert_eq!(world.view().contacts().count(), 0);
+    }
 }

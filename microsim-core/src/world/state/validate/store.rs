@@ -47,16 +47,19 @@ fn check_entry(world: &World, i: usize) -> Check {
 }
 
 /// Discs that collide with walls have their centres within them, except in a world without protection, where discs move
-/// farther in a step than the search margin; all particles are at most a room's size outside.
+/// farther in a step than the search margin; all particles are where they may be.
 fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     let (p, size) = (&world.particles, world.config.size);
     let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
     let Sides { bottom, top, left, right } = world.config.sides;
-    let beyond = |side: Side, far: f32| if is_held && side == Side::Wall { BEYOND_WALLS * p.radius[i] } else { far };
-    let low = Vec2::new(beyond(left, size.x), beyond(bottom, size.y));
-    let high = Vec2::new(beyond(right, size.x), beyond(top, size.y));
+    let [farthest_low, farthest_high] = world.config.reach();
+    let (near_low, near_high) =
+        (Vec2::splat(-BEYOND_WALLS * p.radius[i]), size + Vec2::splat(BEYOND_WALLS * p.radius[i]));
+    let or = |side: Side, near: f32, far: f32| if is_held && side == Side::Wall { near } else { far };
+    let low = Vec2::new(or(left, near_low.x, farthest_low.x), or(bottom, near_low.y, farthest_low.y));
+    let high = Vec2::new(or(right, near_high.x, farthest_high.x), or(top, near_high.y, farthest_high.y));
     let at = p.position(i);
-    let is_inside = at.cmpge(-low).all() && at.cmple(size + high).all();
+    let is_inside = at.cmpge(low).all() && at.cmple(high).all();
     disc.must(is_inside, || format!("it is at {at}, outside the room of {size}"))
 }
 

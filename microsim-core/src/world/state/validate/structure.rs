@@ -78,7 +78,10 @@ fn check_joints(world: &World) -> Check {
         let is_node = [joint.spec.a, joint.spec.b].map(|end| matches!(end, JointEnd::Node { .. }));
         let is_found = joint.particles.map(|particle| particle.is_some());
         let exist = joint.particles.iter().flatten().all(|&i| (i as usize) < world.particles.len());
-        none.must(is_node == is_found && exist, || format!("joint {k} holds a particle that it cannot hold"))?;
+        let is_lost = is_found == [false; 2];
+        none.must((is_lost || is_node == is_found) && exist, || {
+            format!("joint {k} holds a particle that it cannot hold")
+        })?;
     }
     Ok(())
 }

@@ -127,7 +127,7 @@ fn damage_to_joints_fields_and_muscles_is_found() {
     };
     finds(|w| joint(w, &|joint| joint.length = f32::NAN), "length of joint 0 is NaN");
     finds(|w| joint(w, &|joint| joint.particles[0] = Some(1 << 20)), "joint 0 holds a particle");
-    finds(|w| joint(w, &|joint| joint.particles[0] = None), "joint 0 holds a particle");
+    finds(|w| joint(w, &|joint| joint.particles[1] = Some(0)), "joint 0 holds a particle");
     finds(|w| joint(w, &|joint| joint.spec.break_force = -1.0), "joints[0]: `break_force`");
     let wind = |acceleration| ForceField { region: Region::All, kind: FieldKind::Uniform { acceleration } };
     finds(
