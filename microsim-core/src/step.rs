@@ -13,7 +13,7 @@ use crate::solver::membrane::{self, Membrane};
 use crate::solver::{
     block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, stretch_damping, untangle,
 };
-use crate::world::World;
+use crate::world::{Scratch, World};
 use glam::Vec2;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -249,12 +249,9 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
-    let World { config, particles, obstacles, organisms, exemptions, sleep, guard, scratch, dispatch, .. } = world;
+    project_discs(world);
+    let World { config, particles, obstacles, organisms, guard, scratch, dispatch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
-    broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
-    for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, &mut scratch.impacts, &mut scratch.contact_records);
-    }
     let (rings, recorder) = (&mut broad_phase.ring_contacts, &mut scratch.contact_records);
     guard.wrong_side += u64::from(ring_contact::project(rings, particles, recorder, *dispatch));
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
@@ -263,6 +260,18 @@ fn project_contacts(world: &mut World) {
     let (paths, h) = (&mut scratch.obstacle_paths, config.substep());
     let (impacts, recorder) = (&mut scratch.impacts, &mut scratch.contact_records);
     obstacle::project(&broad_phase.obstacle_contacts, obstacles, paths, particles, impacts, recorder, h);
+}
+
+/// Discs push each other apart; in long substeps the bodies that they press on get their links back.
+fn project_discs(world: &mut World) {
+    let World { config, particles, templates, blocks, exemptions, sleep, scratch, dispatch, .. } = world;
+    let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
+    broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
+    pressed.begin(config.substep());
+    for contacts in broad_phase.contacts.lists_mut() {
+        contact::project(contacts, particles, impacts, contact_records, |contact| pressed.note(contact));
+    }
+    pressed.relink(blocks, |template| templates[template].rigid_links(), particles, contact_records, *dispatch);
 }
 
 fn update_velocities(world: &mut World, h: f32) {

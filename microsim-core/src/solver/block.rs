@@ -62,6 +62,11 @@ impl Block {
         BlockRange { base: self.base as usize, slots: self.slots as usize }
     }
 
+    /// Whether a particle is of it.
+    pub(crate) fn holds(&self, particle: u32) -> bool {
+        particle.wrapping_sub(self.base) < self.slots * LANES as u32
+    }
+
     /// Where it lies in a chunk of the store that begins at `start`.
     fn span(&self, start: usize) -> Span<LANES> {
         Span { base: self.base - start as u32, scale: self.scale }
@@ -124,6 +129,15 @@ impl<T> Batch<'_, T> {
             };
             constraint::project(&constraints[run], &spans, &mut self.stretch, h);
         }
+    }
+}
+
+impl Batch<'_, ()> {
+    /// Projects rigid links of the template in all blocks.
+    #[inline(always)]
+    pub(crate) fn project_links(&mut self, links: &[Constraint]) {
+        // How long the substep is matters to soft ones only.
+        self.project(links, &[], 1.0, 1.0);
     }
 }
 

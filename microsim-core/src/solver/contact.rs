@@ -29,12 +29,13 @@ pub(crate) struct Impact {
     surface: Vec2,
 }
 
-/// Pushes overlapping discs apart.
+/// Pushes overlapping discs apart, and tells of each two.
 pub(crate) fn project(
     contacts: &mut [Contact],
     particles: &mut Particles,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
+    mut projected: impl FnMut(&Contact),
 ) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
@@ -43,6 +44,7 @@ pub(crate) fn project(
         if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
             separate(contact, between, squared, particles, impacts, recorder);
+            projected(contact);
         }
     }
 }
@@ -171,7 +173,7 @@ mod tests {
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default());
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
         });
     }
 
@@ -183,7 +185,13 @@ mod tests {
             let mut p = line(0.6, [1.0, 1.0 / ratio]);
             let before = momentum(&p);
             let mut contact = Contact { mobility: [mobility, Mobility::Single], ..touching(0.0, 0.0) };
-            project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default());
+            project(
+                std::slice::from_mut(&mut contact),
+                &mut p,
+                &mut Vec::new(),
+                &mut ContactRecorder::default(),
+                |_| {},
+            );
             assert!((p.x[0] + 0.4 * counted / (1.0 + counted)).abs() < 1e-6, "ratio {ratio}, {mobility:?}: {}", p.x[0]);
             let error = (momentum(&p) - before).length();
             assert_eq!(error < 1e-6 * ratio, counted == ratio, "ratio {ratio}, {mobility:?}: {error}");
@@ -194,7 +202,7 @@ mod tests {
     fn discs_apart_are_left_alone_and_not_touched() {
         let mut p = line(1.2, [1.0, 1.0]);
         let mut contact = touching(0.5, 0.0);
-        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default());
+        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
         assert!(!contact.touched && p.x[1] == 1.2);
     }
 
@@ -206,7 +214,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default());
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
@@ -217,7 +225,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default());
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_| {});
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
@@ -229,7 +237,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 0.25]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default());
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_| {});
         p.vx = vec![0.5, 0.25];
         let before = momentum(&p);
         apply_restitution(&mut impacts, &mut p);

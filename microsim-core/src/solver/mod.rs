@@ -18,6 +18,7 @@ pub(crate) mod lanes;
 pub(crate) mod membrane;
 pub(crate) mod muscle;
 pub(crate) mod obstacle;
+pub(crate) mod relink;
 pub(crate) mod ring_contact;
 mod ring_lanes;
 mod ring_relation;

@@ -78,6 +78,9 @@ pub struct Template {
     channels: Vec<[f32; 2]>,
     /// By constraint.
     muscles: Vec<Muscle>,
+    /// Those of its constraints that are rigid links.
+    #[serde(skip)]
+    rigid_links: Vec<Constraint>,
 }
 
 impl Template {
@@ -120,6 +123,11 @@ impl Template {
     /// Its muscles, in the order of its constraints.
     pub(crate) fn muscles(&self) -> &[Muscle] {
         &self.muscles
+    }
+
+    /// Its rigid links but for muscles, in their order.
+    pub(crate) fn rigid_links(&self) -> &[Constraint] {
+        &self.rigid_links
     }
 
     /// Farthest that a disc of it reaches from its place.
@@ -277,7 +285,8 @@ impl TemplateBuilder {
             in_range("propulsion.speed", speed, 0.0, 1000.0)?;
             in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
         }
-        Ok(Template { nodes, constraints, outline, propulsion, channels, muscles })
+        let rigid_links = rigid_links(&constraints, &muscles);
+        Ok(Template { nodes, constraints, outline, propulsion, channels, muscles, rigid_links })
     }
 }
 
@@ -312,6 +321,15 @@ fn in_order(mut constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constr
     };
     let muscles = (0..).zip(&numbered).filter_map(muscle).collect();
     (numbered.into_iter().map(|(_, constraint)| constraint).collect(), muscles)
+}
+
+/// The constraints that are rigid links and no muscles, in their order.
+fn rigid_links(constraints: &[Constraint], muscles: &[Muscle]) -> Vec<Constraint> {
+    let is_muscle = |k: u32| muscles.binary_search_by_key(&k, |muscle| muscle.constraint).is_ok();
+    let is_rigid =
+        |constraint: &Constraint| matches!(constraint, Constraint::Distance(Distance { compliance: 0.0, .. }));
+    let rigid = constraints.iter().zip(0..).filter(|&(constraint, k)| is_rigid(constraint) && !is_muscle(k));
+    rigid.map(|(constraint, _)| constraint.clone()).collect()
 }
 
 #[cfg(test)]

@@ -57,6 +57,7 @@ use crate::solver::fluid::{self, Fluid};
 use crate::solver::force::Forces;
 use crate::solver::instruction_set::{Dispatch, InstructionSet};
 use crate::solver::joint::Joints;
+use crate::solver::relink::Pressed;
 use crate::supply::Drain;
 use crate::template::Template;
 use change::{Changes, WorldChange};
@@ -153,6 +154,7 @@ pub(crate) struct Scratch {
     /// The handle of each of these joints.
     pub joined: Vec<Handle>,
     pub impacts: Vec<Impact>,
+    pub pressed: Pressed,
     pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,

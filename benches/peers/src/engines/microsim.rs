@@ -18,7 +18,7 @@ struct Microsim {
 }
 
 /// Substeps of the platelet field.
-const SUBSTEPS: u32 = 6;
+const SUBSTEPS: u32 = 3;
 /// Substeps of the fluid.
 const FLUID_SUBSTEPS: u32 = 2;
 

@@ -57,7 +57,7 @@ impl Engine {
 pub(crate) const ENGINES: &[Engine] = &[
     Engine {
         name: "microsim",
-        settings: "6 substeps; fluid 2 substeps",
+        settings: "3 substeps; fluid 2 substeps",
         platelets: Some(microsim::platelets),
         fluid: Some(microsim::fluid),
         ..Engine::NONE

@@ -1,0 +1,169 @@
+//! Rigid links once more after contacts, in long substeps. Contacts have the last word in a substep, so what they press on is
+//! stretched most at its end. A pass over the rigid links of these bodies, and over what pressed on them, costs less than another
+//! substep and leaves smaller errors.
+
+use super::block::{self, Block};
+use super::constraint::Constraint;
+use super::contact;
+use super::contact_record::ContactRecorder;
+use super::instruction_set::Dispatch;
+use crate::collision::{Contact, Mobility};
+use crate::particle::Particles;
+
+/// Passes in a substep.
+const PASSES: usize = 2;
+/// Substeps up to this do without, s.
+const SHORT: f32 = 1.0 / 400.0;
+
+/// Discs that overlapped in this substep, at least one of them linked to others.
+#[derive(Debug, Default)]
+pub(crate) struct Pressed {
+    is_on: bool,
+    contacts: Vec<Contact>,
+    /// By block: whether a disc of it is among them.
+    blocks: Vec<bool>,
+}
+
+impl Pressed {
+    /// Forgets those of the last substep; in a substep of `h` seconds that is short, none are noted.
+    pub(crate) fn begin(&mut self, h: f32) {
+        self.is_on = h > SHORT;
+        self.contacts.clear();
+    }
+
+    /// Notes a contact that was projected.
+    #[inline(always)]
+    pub(crate) fn note(&mut self, contact: &Contact) {
+        if self.is_on && contact.mobility.contains(&Mobility::Linked) {
+            // Its impact is known.
+            self.contacts.push(Contact { restitution: 0.0, ..*contact });
+        }
+    }
+
+    /// Projects the links of the bodies that were pressed on, and then what pressed on them. `links` are the rigid ones of a
+    /// template, by its index.
+    pub(crate) fn relink<'a>(
+        &mut self,
+        blocks: &[Block],
+        links: impl Fn(usize) -> &'a [Constraint],
+        particles: &mut Particles,
+        recorder: &mut ContactRecorder,
+        dispatch: Dispatch,
+    ) {
+        if self.contacts.is_empty() {
+            return;
+        }
+        self.find_blocks(blocks);
+        for _ in 0..PASSES {
+            let pressed = blocks.iter().zip(&self.blocks).filter(|(_, is_pressed)| **is_pressed);
+            let mut pressed: Vec<_> = pressed.map(|(block, _)| (block, ())).collect();
+            for mut batch in block::batches(&mut pressed, particles) {
+                let links = links(batch.template());
+                dispatch.run(
+                    #[inline(always)]
+                    || batch.project_links(links),
+                );
+            }
+            contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_| {});
+        }
+    }
+
+    /// Finds the blocks that linked sides of the contacts are in, and forgets contacts without any.
+    fn find_blocks(&mut self, blocks: &[Block]) {
+        let Self { contacts, blocks: pressed, .. } = self;
+        pressed.clear();
+        pressed.resize(blocks.len(), false);
+        // Contacts of two bodies lie side by side, so the last blocks are often the next ones.
+        let mut last = [0; 2];
+        contacts.retain(|contact| {
+            let mut any = false;
+            for ((side, mobility), last) in [contact.i, contact.j].into_iter().zip(contact.mobility).zip(&mut last) {
+                if mobility == Mobility::Linked
+                    && let Some(block) = block_of(side, blocks, *last)
+                {
+                    (*last, pressed[block], any) = (block, true, true);
+                }
+            }
+            any
+        });
+    }
+}
+
+/// The block that a particle is in, if it is in any; `likely` is looked at first.
+fn block_of(particle: u32, blocks: &[Block], likely: usize) -> Option<usize> {
+    let holds = |k: usize| blocks.get(k).is_some_and(|block| block.holds(particle));
+    if holds(likely) {
+        return Some(likely);
+    }
+    let after = blocks.partition_point(|block| block.base <= particle);
+    after.checked_sub(1).filter(|&k| holds(k))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::constraint::Distance;
+    use super::super::lanes::LANES;
+    use super::super::testing::disc;
+    use super::*;
+    use glam::Vec2;
+
+    const LONG: f32 = 0.005;
+    const LINK: Distance = Distance { a: 0, b: 1, rest_length: 2.0, compliance: 0.0, damping: 0.0 };
+
+    /// Two blocks with a stretched dumbbell each, of which a heavy disc presses on the first: the stretch that relinking leaves in
+    /// each, relative to that before.
+    fn stretch_left(h: f32, mobility: Mobility) -> [f32; 2] {
+        let mut p = Particles::default();
+        let blocks = [0, 1].map(|_| Block { owner: [0; LANES], ..Block::new(0, 2, &mut p) });
+        for (block, x) in blocks.iter().zip([0.0, 50.0]) {
+            for slot in 0..2 {
+                p.set(block.particle(slot, 0) as usize, &disc(Vec2::new(x, 2.2 * slot as f32), 1.0));
+            }
+        }
+        let heavy = p.insert(&disc(Vec2::new(0.9, 2.2), 1e-3));
+        let side = blocks[0].particle(1, 0) as usize;
+        let mut contacts = [Contact::new(&p, heavy as usize, side, [Mobility::Single, mobility])];
+        let mut pressed = Pressed::default();
+        let mut recorder = ContactRecorder::default();
+        pressed.begin(h);
+        contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact| pressed.note(contact));
+        let stretch = |p: &Particles| {
+            let ends = blocks.each_ref().map(|block| [0, 1].map(|slot| block.particle(slot, 0) as usize));
+            ends.map(|[a, b]| (p.between(a, b).length() - 2.0).abs())
+        };
+        let before = stretch(&p);
+        let links = [Constraint::from(LINK)];
+        pressed.relink(&blocks, |_| &links, &mut p, &mut recorder, Dispatch::default());
+        let after = stretch(&p);
+        assert!(p.between(heavy as usize, side).length() > contacts[0].radius_sum - 0.05);
+        [0, 1].map(|k| after[k] / before[k])
+    }
+
+    #[test]
+    fn what_is_pressed_on_gets_its_links_back_in_long_substeps() {
+        let [pressed, other] = stretch_left(LONG, Mobility::Linked);
+        assert!(pressed < 0.3 && other == 1.0, "{pressed} {other}");
+    }
+
+    #[test]
+    fn short_substeps_and_what_is_not_linked_are_left_alone() {
+        assert_eq!(stretch_left(SHORT, Mobility::Linked), [1.0; 2]);
+        assert_eq!(stretch_left(LONG, Mobility::Single), [1.0; 2]);
+    }
+
+    #[test]
+    fn a_particle_is_found_in_its_block_whichever_is_likely() {
+        let mut p = Particles::default();
+        p.insert(&disc(Vec2::ZERO, 1.0));
+        let first = Block::new(0, 2, &mut p);
+        let loose = p.insert(&disc(Vec2::ZERO, 1.0));
+        let blocks = [first, Block::new(1, 1, &mut p)];
+        for likely in 0..3 {
+            let found = |particle| block_of(particle, &blocks, likely);
+            assert_eq!([found(0), found(loose), found(u32::MAX)], [None; 3]);
+            for (k, block) in blocks.iter().enumerate() {
+                assert_eq!([found(block.base), found(block.range().end() as u32 - 1)], [Some(k); 2]);
+            }
+        }
+    }
+}
