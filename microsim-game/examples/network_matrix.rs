@@ -6,7 +6,7 @@
 #[allow(dead_code, reason = "the tests use the rest")]
 mod virtual_match;
 
-use microsim_game::network::session::Pacing;
+use microsim_game::network::pacing::Pacing;
 use virtual_match::{Match, Weather};
 
 fn main() {

@@ -6,7 +6,8 @@ mod virtual_match;
 
 use microsim_core::Rng;
 use microsim_core::scenario::Scenario;
-use microsim_game::network::session::{Pacing, Session};
+use microsim_game::network::pacing::Pacing;
+use microsim_game::network::session::Session;
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use proptest::prelude::*;

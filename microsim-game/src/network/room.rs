@@ -1,6 +1,7 @@
 //! A room: who is there, under which names, who is ready, and the match that they start.
 
-use super::session::{Pacing, Session};
+use super::pacing::Pacing;
+use super::session::Session;
 use super::told::Told;
 use super::transport::{Member, Notice, Transport};
 use crate::rules::round::{MOST_PLAYERS, Round};

@@ -3,6 +3,7 @@
 //!
 //! Inputs of a match are kept from its first frame on (five bytes each), so there is no input that could be too old to be sent.
 
+use super::pacing::Pacing;
 use super::packet::{LONGEST_RUN, Packet, Run};
 use super::told::Told;
 use super::track::Track;
@@ -16,36 +17,6 @@ use microsim_core::Intent;
 const WAIT_INTERVAL: u32 = 8;
 /// By how many frames a player is ahead when it waits.
 const AHEAD: i32 = 2;
-
-/// How a match is played; the same for all who play.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pacing {
-    /// Steps of the world in a frame: 2 for 30 frames a second, 1 for 60.
-    pub steps: u32,
-    /// Frames after which an own input counts.
-    pub delay: u32,
-    /// Most frames that are predicted.
-    pub window: u32,
-    /// Frames between two digests that are compared.
-    pub interval: u32,
-}
-
-impl Pacing {
-    /// 30 frames a second.
-    pub const USUAL: Self = Self { steps: 2, delay: 2, window: 10, interval: 30 };
-    /// 60 frames a second.
-    pub const QUICK: Self = Self { steps: 1, delay: 3, window: 20, interval: 60 };
-
-    /// Rounds that are kept: one who left may have been followed a window farther by the one who says where it ended.
-    fn kept(self) -> u32 {
-        3 * self.window + 2 * self.delay + 2
-    }
-
-    /// How many frames ahead of the own one an honest player can be heard of.
-    fn horizon(self) -> u32 {
-        2 * (self.window + self.delay)
-    }
-}
 
 /// What going back cost, and what was sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
