@@ -1,14 +1,18 @@
 //! Rooms of the real server, as the window meets them: `.ci/serve` builds the server and runs this.
 #![cfg(unix)]
 
+use microsim_game::network::room::{Match, Room};
 use microsim_game::network::transport::{LONGEST_MESSAGE, Notice, Transport};
 use microsim_game::platform::open_room;
+use microsim_game::rules::bot::{Bot, Policy};
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Longest time that anything takes here.
 const PATIENCE: Duration = Duration::from_secs(30);
+/// Longest time that a match takes, of which all players share a processor here.
+const LONGEST_MATCH: Duration = Duration::from_secs(600);
 const COUNT: u32 = 10_000;
 
 struct Server(Child, String);
@@ -118,8 +122,73 @@ fn members_leave_and_come_back_and_the_server_stops() {
     assert_eq!(next(&mut two), [Notice::Left(0)]);
     let stopped = Command::new("kill").args(["-INT", &server.0.id().to_string()]).status().unwrap();
     assert!(stopped.success());
-    assert_eq!(next(&mut two), [Notice::Closed("the server stops".to_owned())]);
+    // Another one may be gone a moment before.
+    let mut last = next(&mut two);
+    last.retain(|notice| !matches!(notice, Notice::Left(_)));
+    let last = if last.is_empty() { next(&mut two) } else { last };
+    assert_eq!(last, [Notice::Closed("the server stops".to_owned())]);
     assert!(two.poll().is_empty());
+}
+
+/// A player that a bot steers.
+struct Player {
+    room: Room,
+    bot: Bot,
+    game: Option<Match>,
+}
+
+impl Player {
+    fn enter(server: &Server, name: &str, seed: u64) -> Self {
+        let room = Room::new(open_room(&server.1, "MATCH").unwrap(), "MATCH", name);
+        Self { room, bot: Bot::new(Policy::Greedy, seed), game: None }
+    }
+
+    /// One frame of the match, if it has begun.
+    fn play(&mut self, now: u32) {
+        let begun = self.room.update(now, 7, self.game.as_mut());
+        self.game = self.game.take().or(begun);
+        let Some(game) = &mut self.game else { return };
+        let round = game.session().round();
+        let cell = round.players().nth(game.own()).unwrap();
+        let intent = self.bot.intent(round.world(), cell);
+        game.advance(&mut self.room, intent, now);
+    }
+
+    fn is_over(&self) -> bool {
+        self.game.as_ref().is_some_and(|game| game.session().is_over())
+    }
+}
+
+/// Lets all play until something is so for each of them.
+fn play_until(players: &mut [Player; 2], is_done: fn(&Player) -> bool) {
+    let begin = Instant::now();
+    players.iter_mut().for_each(|player| player.room.set_ready(true));
+    while !players.iter().all(is_done) {
+        assert!(begin.elapsed() < LONGEST_MATCH, "{:?}", players.each_ref().map(is_done));
+        players.iter_mut().for_each(|player| player.play(begin.elapsed().as_millis() as u32));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+#[ignore = "needs the server"]
+fn two_play_a_match_to_its_end_and_begin_another_one() {
+    let server = Server::start();
+    let mut players = [Player::enter(&server, "Ada", 1), Player::enter(&server, "Ben", 2)];
+    play_until(&mut players, Player::is_over);
+    let ends = players.each_ref().map(|player| {
+        let session = player.game.as_ref().unwrap().session();
+        (session.round().world().digest(), session.round().scores(), session.desync(), session.tally().refused)
+    });
+    assert_eq!(ends[0], ends[1]);
+    let (_, scores, desync, refused) = &ends[0];
+    assert!(scores.iter().all(|&points| points > 100), "{scores:?}");
+    assert_eq!((*desync, *refused), (None, 0));
+    for player in &mut players {
+        player.game = None;
+        player.room.finish();
+    }
+    play_until(&mut players, |player| player.game.as_ref().is_some_and(|game| game.session().frame() > 30));
 }
 
 /// How long a message of 60 bytes takes there and back, while nothing else is sent.

@@ -187,8 +187,10 @@ function showMenu(screen, bytes) {
 
 /** Connections to rooms by number, with the frames that came since the game last asked. */
 const rooms = new Map();
-/** Frames that wait for a game that does not ask, as in a hidden tab; with more the room is left. */
-const MOST_FRAMES = 1 << 14;
+/** Frames that wait for a game that does not ask, as in a hidden tab: 20 s of a match of two. With more the room is left. */
+const MOST_FRAMES = 600;
+/** Longest frame, bytes. */
+const LONGEST_FRAME = 65537;
 /** Bytes that wait to be sent; what is more is lost. */
 const MOST_UNSENT = 1 << 20;
 
@@ -196,7 +198,10 @@ function enterRoom(number, code) {
     const socket = new WebSocket(new URL(`room/${decode(code)}`, location.href.replace("http", "ws")));
     const frames = [];
     socket.binaryType = "arraybuffer";
-    socket.onmessage = ({ data }) => frames.push(new Uint8Array(data)) < MOST_FRAMES || socket.close();
+    socket.onmessage = ({ data }) => {
+        if (typeof data === "string" || data.byteLength > LONGEST_FRAME || frames.length >= MOST_FRAMES) socket.close();
+        else frames.push(new Uint8Array(data));
+    };
     socket.onclose = () => frames.push(Uint8Array.of(255, 3)); // As if the server had refused, without a reason.
     rooms.set(number, { socket, frames });
 }

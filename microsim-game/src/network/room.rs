@@ -36,6 +36,8 @@ struct Hello {
     name: String,
     is_ready: bool,
     together: bool,
+    /// The number of its last match.
+    number: u32,
 }
 
 /// What must be equal for a match.
@@ -106,7 +108,7 @@ impl Room {
     /// A room that is being entered.
     #[must_use]
     pub fn new(transport: Box<dyn Transport>, code: &str, name: &str) -> Self {
-        let hello = Hello { program: Program::own(), name: clean(name), is_ready: false, together: false };
+        let hello = Hello { program: Program::own(), name: clean(name), is_ready: false, together: false, number: 0 };
         let (own, guests, greeted, closed) = (None, Vec::new(), None, None);
         Self { transport, code: code.to_owned(), own, hello, guests, greeted, number: 0, is_playing: false, closed }
     }
@@ -121,11 +123,12 @@ impl Room {
         }
         if self.greeted.is_none_or(|at| now.wrapping_sub(at) >= GREETING) {
             self.greeted = Some(now);
-            self.send_all(&Message::Hello(self.hello.clone()));
+            let is_ready = self.hello.is_ready && !self.is_playing;
+            self.send_all(&Message::Hello(Hello { is_ready, number: self.number, ..self.hello.clone() }));
         }
         if !self.is_playing && self.leads() && self.is_complete() {
             let seats = self.members();
-            begun = self.begin(Start { number: self.number + 1, seed, together: self.hello.together, seats }, now);
+            begun = self.begin(Start { number: self.next_number(), seed, together: self.hello.together, seats }, now);
         }
         if let Some(current) = current.or(begun.as_mut()) {
             self.call(current, now);
@@ -183,20 +186,29 @@ impl Room {
         None
     }
 
-    /// Whether a call to start is a new one, to those who are here.
+    /// A number that no match has had that anybody here was in.
+    fn next_number(&self) -> u32 {
+        let others = self.guests.iter().filter_map(|guest| Some(guest.hello.as_ref()?.number));
+        others.fold(self.number, u32::max).wrapping_add(1)
+    }
+
+    /// Whether a call to start is a new one.
     fn is_due(&self, start: &Start) -> bool {
-        let members = self.members();
-        let are_here = start.seats.iter().all(|member| members.contains(member));
-        let is_sound = start.seats.len() >= 2 && start.seats.is_sorted_by(|a, b| a < b) && are_here;
+        let are_seats = start.seats.iter().all(|member| usize::from(*member) < MOST_PLAYERS);
+        let is_sound = start.seats.len() >= 2 && start.seats.is_sorted_by(|a, b| a < b) && are_seats;
         let is_called = self.own.is_some_and(|own| start.seats.contains(&own));
-        !self.is_playing && self.hello.is_ready && start.number > self.number && is_sound && is_called
+        !self.is_playing && self.hello.is_ready && start.number != self.number && is_sound && is_called
     }
 
     fn begin(&mut self, start: Start, now: u32) -> Option<Match> {
         let own = start.seats.iter().position(|&member| Some(member) == self.own)?;
         let round = round_of(start.seats.len(), start.seed).ok()?;
-        let (session, heard) = (Session::new(round, own, Pacing::USUAL), vec![false; start.seats.len()]);
-        (self.number, self.is_playing) = (start.number, true);
+        let (mut session, heard) = (Session::new(round, own, Pacing::USUAL), vec![false; start.seats.len()]);
+        // Who has gone since the call.
+        let here = self.members();
+        let gone = start.seats.iter().enumerate().filter(|(_, member)| !here.contains(member));
+        gone.for_each(|(seat, _)| session.leave(seat));
+        (self.number, self.is_playing, self.greeted) = (start.number, true, None);
         Some(Match { start, session, own, heard, called: now.wrapping_sub(CALLING) })
     }
 
@@ -207,8 +219,9 @@ impl Room {
         }
         current.called = now;
         let bytes = write(&Message::Start(current.start.clone()));
-        let late =
-            current.start.seats.iter().zip(&current.heard).filter(|(_, heard)| !**heard).map(|(member, _)| *member);
+        let present: Vec<usize> = current.session.present().collect();
+        let late = current.start.seats.iter().zip(&current.heard).enumerate();
+        let late = late.filter(|(seat, (_, heard))| !**heard && present.contains(seat)).map(|(_, (member, _))| *member);
         late.filter(|&member| Some(member) != self.own).for_each(|member| self.transport.send(member, &bytes));
     }
 

@@ -109,3 +109,24 @@ fn what_a_stranger_sends_changes_nothing() {
     run(&mut players, 3..5);
     assert!(players[0].current.is_none() && players[0].room.seats().len() == 2);
 }
+
+#[test]
+fn a_newcomer_who_is_the_first_begins_the_next_match() {
+    let (mut players, boxes) = players(&["Ada", "Ben"]);
+    players.iter_mut().for_each(|player| player.room.set_ready(true));
+    run(&mut players, 0..10);
+    assert!(players.iter().all(|player| player.frame() > 0));
+    // Ada goes, and another one gets her number.
+    boxes.borrow_mut()[0] = vec![Notice::Welcome { member: 0, others: vec![1] }];
+    boxes.borrow_mut()[1].extend([Notice::Left(0), Notice::Joined(0)]);
+    let wire = Wire { own: 0, boxes };
+    players[0] = Player { room: Room::new(Box::new(wire), "ABCD", "Cid"), current: None };
+    players[0].room.set_ready(true);
+    run(&mut players, 10..80);
+    assert!(players[0].current.is_none(), "Ben plays, and is not ready");
+    players[1].current = None;
+    players[1].room.finish();
+    players[1].room.set_ready(true);
+    run(&mut players, 80..150);
+    assert!(players.iter().all(|player| player.frame() > 0));
+}

@@ -108,13 +108,16 @@ impl Session {
     /// Takes in a packet of another player. One that no player sends is counted and changes nothing. `now` is a clock, ms.
     pub fn receive(&mut self, from: usize, bytes: &[u8], now: u32) {
         let is_other = from != self.own && self.tracks.get(from).is_some_and(|track| !track.has_left);
-        let packet = Packet::read(bytes, self.tracks.len()).filter(|packet| is_other && self.is_possible(packet));
+        let packet = Packet::read(bytes, self.tracks.len()).filter(|packet| is_other && self.is_possible(from, packet));
         let Some(packet) = packet else {
             self.tally.refused += 1;
             return;
         };
         self.tally.received += bytes.len() as u64;
         let agree = packet.ends == self.ends();
+        // A bot has steered from one frame on here and from another one there.
+        let differs = |&(player, end): &(u8, u32)| self.tracks[usize::from(player)].end.is_some_and(|own| own != end);
+        self.desync = self.desync.or(packet.ends.iter().copied().find(differs).map(|(_, end)| end));
         let track = &mut self.tracks[from];
         track.note(&packet, self.frame, now);
         // Before both know from where on a bot steers, their worlds may differ.
@@ -132,10 +135,11 @@ impl Session {
         }
     }
 
-    fn is_possible(&self, packet: &Packet) -> bool {
+    fn is_possible(&self, from: usize, packet: &Packet) -> bool {
         let most = self.frame + self.pacing.horizon();
-        let is_near =
-            |run: &Run| u64::from(run.first) + run.told.len() as u64 <= u64::from(most + self.pacing.horizon());
+        // What is passed on has come to somebody who may be ahead.
+        let passed_on = |run: &Run| if usize::from(run.player) == from { 0 } else { self.pacing.horizon() };
+        let is_near = |run: &Run| u64::from(run.first) + run.told.len() as u64 <= u64::from(most + passed_on(run));
         packet.frame <= most
             && packet.runs.iter().all(is_near)
             && packet.known[self.own] <= self.tracks[self.own].count()
@@ -163,7 +167,8 @@ impl Session {
 
     fn finish(&mut self, player: usize, end: u32) {
         let track = &mut self.tracks[player];
-        let is_kept = self.frame < end.saturating_add(self.pacing.kept()) && end <= self.frame + self.pacing.horizon();
+        let is_kept =
+            self.frame < end.saturating_add(self.pacing.kept()) && end <= self.frame + 2 * self.pacing.horizon();
         if !track.has_left || track.end.is_some() || !is_kept {
             return;
         }
@@ -218,6 +223,9 @@ impl Session {
         let told: Vec<Option<Told>> = tracks.iter_mut().map(|track| track.act(*frame)).collect();
         let cells: Vec<_> = now.round.players().collect();
         for _ in 0..self.pacing.steps {
+            if now.round.is_over() {
+                break;
+            }
             let world = now.round.world();
             let players = told.iter().zip(&cells).zip(&mut now.bots);
             let intents: Vec<Intent> = players

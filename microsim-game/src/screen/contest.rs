@@ -18,6 +18,8 @@ const LEAVING_TIME: f32 = 3.0;
 const PATIENCE: u32 = 15;
 /// Frames after the end for which a last word of the others is waited for.
 const LAST_WORD: u32 = 60;
+/// The same after which a match with somebody who does not answer is a draw.
+const LONGEST_WAIT: u32 = 900;
 /// Files of a match that came apart.
 const RECORD: &str = "desync.replay";
 const WORLD: &str = "desync.snapshot";
@@ -77,7 +79,11 @@ impl Contest {
                 if are_kept { format!(" {RECORD} and {WORLD} are beside the settings.") } else { String::new() };
             return Some(format!("The worlds of the players differ before step {step}, so it is a draw.{files}"));
         }
-        if !session.is_over() && session.frames_over() < LAST_WORD {
+        if self.waiting >= LONGEST_WAIT && !round.is_over() {
+            return Some("Somebody does not answer, so it is a draw.".to_owned());
+        }
+        let last_word = session.frames_over() + self.waiting;
+        if !session.is_over() && (!round.is_over() || last_word < LAST_WORD) {
             return None;
         }
         if let Some(record) = round.record() {

@@ -1,7 +1,7 @@
 //! Connections: the page's files by HTTP, and the way into rooms by WebSocket, with or without TLS, all at one port.
 
 use super::code::Code;
-use super::limits::{HANDSHAKE, MEMBERS, VISITORS};
+use super::limits::{HANDSHAKE, LONGEST_LOAD, MEMBERS, VISITORS};
 use super::member::{self, Hall};
 use super::page::Page;
 use http_body_util::Full;
@@ -93,7 +93,8 @@ impl Server {
         let mut http = http1::Builder::new();
         http.timer(TokioTimer::new()).header_read_timeout(HANDSHAKE).max_buf_size(LONGEST_HEAD);
         // What goes wrong is the client's to find out.
-        let _ = http.serve_connection(TokioIo::new(stream), service).with_upgrades().await;
+        let served = http.serve_connection(TokioIo::new(stream), service).with_upgrades();
+        let _ = time::timeout(LONGEST_LOAD, served).await;
     }
 
     fn answer(self: &Arc<Self>, request: Request<Incoming>, permit: &Permit) -> Answer {

@@ -24,6 +24,8 @@ pub(super) const CODE_LENGTH: std::ops::RangeInclusive<usize> = 4..=12;
 pub(super) const VISITORS: usize = 256;
 /// Longest handshake, and longest pause between two requests.
 pub(super) const HANDSHAKE: Duration = Duration::from_secs(5);
+/// Longest time of a connection that does not go into a room.
+pub(super) const LONGEST_LOAD: Duration = Duration::from_secs(120);
 /// Longest time without a sign of life of a member.
 pub(super) const SILENCE: Duration = Duration::from_secs(60);
 /// Time between two questions whether a member is there.

@@ -15,7 +15,7 @@ const PORT: u16 = 8080;
 /// Longest time for each step of a connection.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Most messages that are taken at once, so that no server holds a frame.
-const MOST: usize = 4096;
+const MOST: usize = 512;
 /// Bytes that wait to be sent; what is more is lost.
 const LONGEST_QUEUE: usize = 1 << 20;
 
@@ -101,20 +101,19 @@ impl Room {
             }
         }
         let State::Open(socket) = &mut self.0 else { return None };
-        loop {
-            return match socket.read() {
-                Ok(Message::Binary(frame)) => match relay::notice(&frame) {
-                    Some(notice) => Some(notice),
-                    None => Some(Notice::Closed("the server says what no server of rooms says".to_owned())),
-                },
-                Ok(Message::Ping(_) | Message::Pong(_)) => continue,
-                Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => {
-                    // What could not be sent before; that it fails is read next time.
-                    let _ = socket.flush();
-                    None
-                }
-                _ => Some(Notice::Closed(CUT.to_owned())),
-            };
+        match socket.read() {
+            Ok(Message::Binary(frame)) => match relay::notice(&frame) {
+                Some(notice) => Some(notice),
+                None => Some(Notice::Closed("the server says what no server of rooms says".to_owned())),
+            },
+            // The rest waits for the next frame, however many there are.
+            Ok(Message::Ping(_) | Message::Pong(_)) => None,
+            Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => {
+                // What could not be sent before; that it fails is read next time.
+                let _ = socket.flush();
+                None
+            }
+            _ => Some(Notice::Closed(CUT.to_owned())),
         }
     }
 }
