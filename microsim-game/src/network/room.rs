@@ -1,63 +1,17 @@
 //! A room: who is there, under which names, who is ready, and the match that they start.
 
+use super::message::{Hello, Message, Program, Start, clean, clean_text, round_of, write};
 use super::pacing::Pacing;
 use super::session::Session;
 use super::told::Told;
 use super::transport::{Member, Notice, Transport};
-use crate::rules::round::{MOST_PLAYERS, Round};
-use crate::rules::two_players::{self, TwoPlayers};
+use crate::rules::round::MOST_PLAYERS;
+use crate::rules::two_players::TwoPlayers;
 use microsim_core::Intent;
-use microsim_core::scenario::Scenario;
-use serde::{Deserialize, Serialize};
 
-/// Changes with every change of a message.
-const PROTOCOL: u16 = 1;
-/// Longest name, letters.
-const LONGEST_NAME: usize = 24;
 /// Time between two messages of who is there, and between two calls to start, ms.
 const GREETING: u32 = 1000;
 const CALLING: u32 = 200;
-/// Steps of the run whose digest tells whether two programs compute the same worlds.
-const PROBE_STEPS: u32 = 30;
-
-/// What members say to each other.
-#[derive(Debug, Serialize, Deserialize)]
-enum Message {
-    Hello(Hello),
-    Start(Start),
-    /// A packet of the match of this number.
-    Packet(u32, Vec<u8>),
-}
-
-/// Who somebody is.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Hello {
-    program: Program,
-    name: String,
-    is_ready: bool,
-    together: bool,
-    /// The number of its last match.
-    number: u32,
-}
-
-/// What must be equal for a match.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Program {
-    protocol: u16,
-    version: String,
-    /// Of a short run.
-    digest: u64,
-}
-
-/// A match, as the first member calls it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Start {
-    number: u32,
-    seed: u64,
-    together: bool,
-    /// Who plays, in the order of their cells.
-    seats: Vec<Member>,
-}
 
 /// A match of a room.
 #[derive(Debug)]
@@ -361,41 +315,8 @@ impl Match {
     }
 }
 
-impl Program {
-    /// This program.
-    fn own() -> Self {
-        let digest = round_of(2, 1).map_or(0, |mut round| {
-            let right = Intent::toward(round.world().config().size).unwrap_or(Intent::REST);
-            (0..PROBE_STEPS).for_each(|_| round.step_all(&[right, right]));
-            round.world().digest()
-        });
-        Self { protocol: PROTOCOL, version: env!("CARGO_PKG_VERSION").to_owned(), digest }
-    }
-}
-
 fn way(together: bool) -> TwoPlayers {
     if together { TwoPlayers::Together } else { TwoPlayers::Versus }
-}
-
-fn round_of(players: usize, seed: u64) -> Result<Round, String> {
-    let mut scenario = Scenario::parse(&two_players::text(players), &[]).map_err(|problems| problems.to_string())?;
-    scenario.set_seed(seed);
-    Round::new(&scenario)
-}
-
-fn write(message: &Message) -> Vec<u8> {
-    // Into memory this cannot fail.
-    postcard::to_stdvec(message).unwrap_or_default()
-}
-
-/// A name as it may be shown: short, and without what controls or reorders letters.
-fn clean(name: &str) -> String {
-    clean_text(name, LONGEST_NAME)
-}
-
-fn clean_text(text: &str, most: usize) -> String {
-    let is_plain = |c: &char| matches!(c, '"' | '\'' | '\\') || c.escape_debug().len() == 1;
-    text.chars().filter(is_plain).take(most).collect::<String>().trim().to_owned()
 }
 
 #[cfg(test)]
