@@ -386,3 +386,7 @@ impl Session {
         self.tracks.get(player).map_or((&[], None), |track| (track.since(0, usize::MAX), track.end))
     }
 }
+
+#[cfg(test)]
+#[path = "session_tests.rs"]
+mod tests;
