@@ -236,8 +236,9 @@ pub(crate) struct Pellicle {
 pub(crate) struct AmoeboidLook {
     /// In the body, where it is thickest.
     pub matter: Matter,
-    /// Width of the rim in which the body rises.
+    /// Width of the rim in which the body rises, and width of that without granules; both are uneven.
     pub rim: f32,
+    pub ectoplasm: f32,
     pub texture: Texture,
     pub lamella: Lamella,
     pub nucleus: NucleusLook,
@@ -294,6 +295,8 @@ pub(crate) struct GranuleLook {
     pub radius: f32,
     pub spread: f32,
     pub limits: [f32; 2],
+    /// Smaller ones that a granule has grown together with, at most.
+    pub companions: u32,
     /// Of a granule one micrometre thick.
     pub matter: Matter,
     pub shape: SpotShape,

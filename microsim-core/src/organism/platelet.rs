@@ -109,10 +109,10 @@ impl Spec for PlateletSpec {
             texture: Texture { amount: 0.25, size: 0.4 },
             outline: OutlineLook {
                 size: 0.05,
-                waves: [0.07, 0.04],
-                decay: 1.4,
-                spread: 0.5,
-                spikes: [0, 4],
+                waves: [0.10, 0.07],
+                decay: 2.2,
+                spread: 0.6,
+                spikes: [0, 3],
                 ..OutlineLook::EVEN
             },
             inclusions: &[Inclusion {

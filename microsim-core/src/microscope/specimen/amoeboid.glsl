@@ -65,7 +65,8 @@ void main() {
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
     float rags = two_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
     depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * rags + front_share * edge.y);
-    float dome = mix(rise(depth / middle.w), lamella.z * rise(depth / (0.25 * middle.w)), front_share);
+    float rim = middle.w * (1.0 + RIM_UNEVEN * value(own / (RIM_SIZE * middle.z), shifts[3]));
+    float dome = mix(rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
     vec4 sum = matter * (dome * (1.0 + relief.z * three_octaves(own / relief.w, shifts[0])));
     float ruffle = bell((depth - relief.y) / 0.28) * front_share;
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));

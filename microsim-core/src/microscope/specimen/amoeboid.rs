@@ -4,6 +4,7 @@
 //! particles of the cytoplasm, the nucleus on the membrane's own order of nodes, the front on how the cell moves and is
 //! shaped.
 
+mod granules;
 mod threads;
 
 use super::distance_field::{DistanceField, united};
@@ -11,14 +12,13 @@ use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
-use crate::look::{AmoeboidLook, GranuleLook, SpotShape};
+use crate::look::{AmoeboidLook, SpotShape};
 use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, scramble, shift_of, wobble};
 use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
-use crate::template::Role;
-use crate::world::view::{OrganismView, ParticleView};
+use crate::world::view::OrganismView;
 use glam::{Mat2, Vec2};
 use std::f32::consts::TAU;
 
@@ -41,18 +41,13 @@ const RAGS: f32 = 0.3;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
 const RAGS_BEHIND: f32 = 0.6;
+/// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
+const RIM_SIZE: f32 = 0.45;
+const RIM_UNEVEN: f32 = 0.6;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
 const CHROMATIN: [f32; 2] = [-0.45, 0.5];
-/// Brownian motion of a granule of 0.2 micrometres: how far it gets, micrometres, and how often it turns back, 1/s.
-const JIGGLE: f32 = 0.09;
-const JIGGLE_RATE: f32 = 3.0;
-/// Share of the regions of granules that are out of focus.
-const OUT_OF_FOCUS: f32 = 0.3;
-/// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
-const REGION: u32 = 16;
-
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
 
@@ -62,6 +57,8 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
+        ("RIM_SIZE", &[RIM_SIZE]),
+        ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
     ],
@@ -197,6 +194,11 @@ impl AmoeboidBody {
         smaller(self.look.rim, 0.6 * self.radius)
     }
 
+    /// How wide its rims are at a place of its own frame, as a share of their width.
+    fn rim_share(&self, own: Vec2) -> f32 {
+        1.0 + RIM_UNEVEN * octaves(own / (RIM_SIZE * self.radius), 1, self.seed ^ SALTS[3])
+    }
+
     /// Its matter at a place, without what floats in it.
     fn at(&self, place: Vec2, softness: f32) -> Matter {
         let look = self.look;
@@ -209,7 +211,7 @@ impl AmoeboidBody {
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
         let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
         let depth = depth + look.lamella.rags * (ragged + lamella * PULSE * (self.pulse() - 1.0));
-        let rim = self.rim();
+        let rim = self.rim() * self.rim_share(own);
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = look.matter * (dome * texture);
@@ -269,59 +271,6 @@ impl AmoeboidBody {
         let uneven = 0.03 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
-    }
-
-    /// Granules, each on the particle of cytoplasm that carries it, and the walls of what was taken in.
-    pub(super) fn spots(&self, organism: OrganismView<'_>) -> Vec<Spot> {
-        let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
-        let mut spots = Vec::new();
-        carriers.for_each(|carrier| self.granules_on(&carrier, &mut spots));
-        spots
-    }
-
-    fn granules_on(&self, carrier: &ParticleView, spots: &mut Vec<Spot>) {
-        // Not of the cell: in a division a particle becomes another cell's.
-        let mut rng = HashRng::new(carrier.index);
-        let spacing = 2.0 * carrier.radius;
-        let mut region = HashRng::new(carrier.index / REGION);
-        for look in self.look.granules {
-            // Particles of a fluid at rest lie on a hexagonal lattice.
-            let mut own = |spread: f32| libm::expf(spread * region.normal());
-            let (many, size) = (0.55 * own(1.1), own(0.3));
-            let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
-            let expected = look.density * 0.866 * spacing * spacing * many;
-            let count = (expected + rng.unit()) as u32;
-            let granule = |_| self.granule(look, (carrier.position, spacing), (size, focus), &mut rng);
-            spots.extend((0..count.min(16)).filter_map(granule));
-        }
-    }
-
-    /// A granule of a region where they are larger by a factor, and out of focus by some chirp.
-    fn granule(
-        &self,
-        look: &GranuleLook,
-        (carrier, spacing): (Vec2, f32),
-        (size, focus): (f32, f32),
-        rng: &mut HashRng,
-    ) -> Option<Spot> {
-        let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
-        let radius = look.radius * size * libm::expf(look.spread * rng.normal());
-        let radius = radius.clamp(look.limits[0], look.limits[1]);
-        let dense = rng.range([0.35, 1.25]);
-        let seed = rng.bits();
-        let now = self.time * JIGGLE_RATE;
-        let jitter = Vec2::new(wobble(now, seed), wobble(now, seed ^ 1)) * (JIGGLE * (0.2 / radius).sqrt());
-        let at = self.field.pushed_inside(carrier + offset + jitter, radius + 0.1);
-        let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius);
-        let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
-        let matter = look.matter * (2.0 * radius * share * dense);
-        let shown = if focus > 0.0 && radius < 0.3 {
-            let wide = radius + 0.08 * focus;
-            Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
-        } else {
-            Spot { at, radius, matter, shape: look.shape }
-        };
-        (share > 0.02).then_some(shown)
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.

@@ -4,9 +4,10 @@ use crate::look::{AmoeboidLook, GranuleLook, Lamella, Matter, NucleusLook, SpotS
 
 pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 2.4, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
-    rim: 8.0,
+    rim: 7.0,
+    ectoplasm: 2.4,
     texture: Texture { amount: 0.02, size: 1.2 },
-    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 0.5, pulse: 8.0 },
+    lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 1.1, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 1],
         radius: [0.235, 0.235],
@@ -18,8 +19,8 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     },
     granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],
     fibres: 0,
-    processes: 18,
-    longest_process: 3.0,
+    processes: 7,
+    longest_process: 2.0,
     blebs: [0.0, 0.0],
 };
 
@@ -29,18 +30,20 @@ const DENSER: GranuleLook = GranuleLook {
     radius: 0.9,
     spread: 0.4,
     limits: [0.4, 1.8],
-    matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.06, nucleus: 0.0 },
+    companions: 0,
+    matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.08, nucleus: 0.0 },
     shape: SpotShape::Bump,
 };
 
 const THINNER: GranuleLook =
-    GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.06, nucleus: 0.0 }, ..DENSER };
+    GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.08, nucleus: 0.0 }, ..DENSER };
 
 const FINE: GranuleLook = GranuleLook {
     density: 0.7,
     radius: 0.22,
     spread: 0.35,
     limits: [0.1, 0.5],
+    companions: 0,
     matter: Matter { phase: 0.024 * WAVE, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
@@ -50,7 +53,8 @@ const GRANULES: GranuleLook = GranuleLook {
     radius: 0.34,
     spread: 0.60,
     limits: [0.15, 0.9],
-    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
+    companions: 2,
+    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.08, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -59,6 +63,7 @@ const VACUOLES: GranuleLook = GranuleLook {
     radius: 1.2,
     spread: 0.4,
     limits: [0.5, 2.4],
+    companions: 0,
     matter: Matter { phase: -0.016 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

@@ -5,6 +5,7 @@ use crate::look::{AmoeboidLook, GranuleLook, Lamella, Matter, NucleusLook, SpotS
 pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 0.0185 * WAVE * 4.0, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
     rim: 3.6,
+    ectoplasm: 0.5,
     texture: Texture { amount: 0.10, size: 0.45 },
     lamella: Lamella { length: 0.33, thickness: 0.30, ruffle: 0.22, ruffle_inset: 0.45, rags: 0.45, pulse: 8.0 },
     nucleus: NucleusLook {
@@ -28,6 +29,7 @@ const DENSE: GranuleLook = GranuleLook {
     radius: 0.19,
     spread: 0.36,
     limits: [0.09, 0.45],
+    companions: 0,
     matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 2.6, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
@@ -37,6 +39,7 @@ const CLEAR: GranuleLook = GranuleLook {
     radius: 0.20,
     spread: 0.3,
     limits: [0.1, 0.4],
+    companions: 0,
     matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.2, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
@@ -46,6 +49,7 @@ const VACUOLES: GranuleLook = GranuleLook {
     radius: 0.5,
     spread: 0.25,
     limits: [0.35, 0.75],
+    companions: 0,
     matter: Matter { phase: -0.030 * WAVE, haemoglobin: 0.0, cytoplasm: -0.60, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

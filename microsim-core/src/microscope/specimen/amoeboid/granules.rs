@@ -1,0 +1,93 @@
+//! Granules of a crawling cell, which its cytoplasm carries.
+
+use super::super::spot::Spot;
+use super::AmoeboidBody;
+use crate::look::{GranuleLook, SpotShape};
+use crate::microscope::maths::smoothstep;
+use crate::microscope::noise::{HashRng, wobble};
+use crate::template::Role;
+use crate::world::view::{OrganismView, ParticleView};
+use glam::Vec2;
+
+/// Brownian motion of a granule of 0.2 micrometres: how far it gets, micrometres, and how often it turns back, 1/s.
+const JIGGLE: f32 = 0.09;
+const JIGGLE_RATE: f32 = 3.0;
+/// Share of the regions of granules that are out of focus.
+const OUT_OF_FOCUS: f32 = 0.3;
+/// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
+const REGION: u32 = 16;
+
+impl AmoeboidBody {
+    /// Granules, each on the particle of cytoplasm that carries it.
+    pub(in super::super) fn spots(&self, organism: OrganismView<'_>) -> Vec<Spot> {
+        let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
+        let mut spots = Vec::new();
+        carriers.for_each(|carrier| self.granules_on(&carrier, &mut spots));
+        spots
+    }
+
+    fn granules_on(&self, carrier: &ParticleView, spots: &mut Vec<Spot>) {
+        // Not of the cell: in a division a particle becomes another cell's.
+        let mut rng = HashRng::new(carrier.index);
+        let spacing = 2.0 * carrier.radius;
+        let mut region = HashRng::new(carrier.index / REGION);
+        for look in self.look.granules {
+            // Particles of a fluid at rest lie on a hexagonal lattice.
+            let mut own = |spread: f32| libm::expf(spread * region.normal());
+            let (many, size) = (0.55 * own(1.1), own(0.3));
+            let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
+            let expected = look.density * 0.866 * spacing * spacing * many;
+            let count = (expected + rng.unit()) as u32;
+            for _ in 0..count.min(16) {
+                let granule = self.granule(look, (carrier.position, spacing), (size, focus), &mut rng);
+                spots.extend(granule);
+                spots.extend(granule.into_iter().flat_map(|granule| companions(granule, look.companions)));
+            }
+        }
+    }
+
+    /// A granule of a region where they are larger by a factor, and out of focus by some chirp.
+    fn granule(
+        &self,
+        look: &GranuleLook,
+        (carrier, spacing): (Vec2, f32),
+        (size, focus): (f32, f32),
+        rng: &mut HashRng,
+    ) -> Option<Spot> {
+        let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
+        let radius = look.radius * size * libm::expf(look.spread * rng.normal());
+        let radius = radius.clamp(look.limits[0], look.limits[1]);
+        let dense = rng.range([0.35, 1.25]);
+        let seed = rng.bits();
+        let now = self.time * JIGGLE_RATE;
+        let jitter = Vec2::new(wobble(now, seed), wobble(now, seed ^ 1)) * (JIGGLE * (0.2 / radius).sqrt());
+        let at = self.field.pushed_inside(carrier + offset + jitter, radius + 0.1);
+        let clear = self.look.ectoplasm * self.rim_share(self.from_shape * (at - self.centre));
+        let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius - clear);
+        let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
+        let matter = look.matter * (2.0 * radius * share * dense);
+        let shown = if focus > 0.0 && radius < 0.3 {
+            let wide = radius + 0.08 * focus;
+            Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
+        } else {
+            Spot { at, radius, matter, shape: look.shape }
+        };
+        (share > 0.02).then_some(shown)
+    }
+}
+
+/// Smaller granules that lie over the edge of one, at most so many, by its size: what is grown together is no ball.
+fn companions(granule: Spot, most: u32) -> impl Iterator<Item = Spot> {
+    let Spot { at, radius, matter, shape } = granule;
+    let mut rng = HashRng::new(radius.to_bits());
+    let count = rng.bits() % (most + 1);
+    (0..count).map(move |_| {
+        let share = rng.range([0.4, 0.85]);
+        Spot {
+            at: at + rng.direction() * (radius * rng.range([0.6, 1.1])),
+            radius: radius * share,
+            matter: matter * share,
+            shape,
+        }
+    })
+}
