@@ -54,7 +54,7 @@ const GRANULES: GranuleLook = GranuleLook {
     spread: 0.60,
     limits: [0.15, 0.9],
     companions: 2,
-    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.08, nucleus: 0.0 },
+    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
