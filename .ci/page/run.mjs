@@ -300,6 +300,42 @@ async function foodChain() {
     await page.context().close();
 }
 
+/** A gamepad moves through menus and steers; the browser's own is replaced by one that the test presses. */
+async function gamepads() {
+    const page = await profile();
+    await page.addInitScript(() => {
+        const pad = { mapping: "standard", axes: [0, 0, 0, 0], buttons: Array.from({ length: 17 }, () => ({ pressed: false })) };
+        globalThis.pad = pad;
+        navigator.getGamepads = () => [null, pad];
+    });
+    const press = async (button) => {
+        await page.evaluate((button) => (globalThis.pad.buttons[button].pressed = true), button);
+        await page.waitForTimeout(400);
+        await page.evaluate((button) => (globalThis.pad.buttons[button].pressed = false), button);
+        await page.waitForTimeout(400);
+    };
+    const [A, B, START, DOWN] = [0, 1, 9, 13];
+    await open(page, "?optics=drawn");
+    await press(DOWN);
+    await press(A);
+    check("gamepads: the cross and A open the slides", (await picture(page)).name === "microsim-slides.png");
+    await press(B);
+    check("gamepads: B leads back", (await picture(page)).name === "microsim-title.png");
+    await openTable(page);
+    await page.evaluate(() => (globalThis.pad.axes[0] = 1));
+    await page.waitForTimeout(1000);
+    await press(START);
+    check("gamepads: Start pauses", (await picture(page)).name === "microsim-pause.png");
+    await press(START);
+    let name = "";
+    for (let tries = 0; tries < 20 && !name.startsWith("microsim-end-"); tries += 1) {
+        await page.waitForTimeout(2000);
+        ({ name } = await picture(page));
+    }
+    check("gamepads: the stick leads to food", /^microsim-end-[1-9]\d*\.png$/.test(name), name);
+    await page.context().close();
+}
+
 async function offline() {
     const page = await profile();
     await open(page, "?scenario=empty&optics=drawn");
@@ -325,7 +361,7 @@ async function mistakes() {
     complaints.length = before;
 }
 
-for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, offline, mistakes]) {
+for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, gamepads, offline, mistakes]) {
     if (wanted.length > 0 && !wanted.includes(part.name)) continue;
     try {
         await part();

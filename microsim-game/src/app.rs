@@ -145,7 +145,7 @@ impl App {
             context.pen.fit(screen, context.settings.text_factor());
         }
         // Read even with a script: unread events pile up.
-        let input = self.device.read(&context.settings.keys);
+        let input = self.device.read(&context.settings.keys, self.screens.is_scene());
         let mut input = match &mut self.options.script {
             Some(script) => script.input(self.frame, context.pen.screen()),
             None => input,
@@ -244,7 +244,7 @@ impl App {
             });
         } else if self.options.screenshot.is_none() {
             // Frames before a planned picture are not shown.
-            self.draw();
+            self.draw(false);
         }
         Ok(())
     }
@@ -252,15 +252,17 @@ impl App {
     fn take(&mut self, path: &Path, size: (u32, u32)) -> std::io::Result<()> {
         let view = self.context.pen.screen();
         self.shot.begin(size, view);
-        self.draw();
+        self.draw(true);
         self.shot.finish(path, view)
     }
 
-    /// Draws the topmost screen over the scene that it belongs to, and the message.
-    fn draw(&mut self) {
+    /// Draws the topmost screen over the scene that it belongs to, and the message, which is no part of a photo.
+    fn draw(&mut self, is_picture: bool) {
         clear_background(crate::draw::palette::INK);
         self.screens.draw(&mut self.context);
-        self.context.draw_message();
+        if !(is_picture && self.context.is_photo()) {
+            self.context.draw_message();
+        }
         self.context.pen.flush();
     }
 

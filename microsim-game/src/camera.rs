@@ -55,6 +55,12 @@ impl Camera {
         self.room
     }
 
+    /// Whether nothing more would be seen from farther away.
+    #[must_use]
+    pub fn shows_all(&self) -> bool {
+        self.height >= self.farthest() - 1e-3
+    }
+
     /// Point of the room in the middle of the picture.
     #[must_use]
     pub fn centre(&self) -> Vec2 {
@@ -78,7 +84,7 @@ impl Camera {
     /// Adapts to a picture of another size.
     pub fn resize(&mut self, screen: Vec2) {
         if screen != self.screen && screen.min_element() >= 1.0 {
-            let was_whole = self.height >= self.farthest() - 1e-3;
+            let was_whole = self.shows_all();
             self.screen = screen;
             if was_whole {
                 self.height = self.farthest();

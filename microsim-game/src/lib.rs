@@ -13,6 +13,7 @@
 //!
 //! Only [`platform`] knows whether this is a desktop or a page in a browser, and only [`convert`] knows both the core's vectors and macroquad's.
 
+pub mod album;
 pub mod app;
 pub mod args;
 pub mod camera;

@@ -176,8 +176,13 @@ impl Scenery {
             _ => false,
         };
         if !is_done {
-            self.painter.paint(frame);
+            self.sketch(frame);
         }
+    }
+
+    /// Draws a frame in the drawn view.
+    pub fn sketch(&mut self, frame: &SceneFrame<'_>) {
+        self.painter.paint(frame);
     }
 
     fn photograph(&mut self, frame: &SceneFrame<'_>, optics: Optics, quality: RenderQuality) -> bool {

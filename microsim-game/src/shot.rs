@@ -20,13 +20,7 @@ impl Shot {
     pub fn begin(&mut self, size: (u32, u32), view: Vec2) {
         self.target.take_if(|(known, _)| *known != size);
         let (_, target) = self.target.get_or_insert_with(|| (size, render_target(size.0, size.1)));
-        // Drawing units from the upper left corner of the target, y down, like the window's.
-        set_camera(&Camera2D {
-            zoom: convert::pair(Vec2::new(2.0, -2.0) / view),
-            target: convert::pair(view * 0.5),
-            render_target: Some(target.clone()),
-            ..Camera2D::default()
-        });
+        draw_into(target, view);
     }
 
     /// Writes the picture as a PNG, and shows it in the window.
@@ -42,6 +36,16 @@ impl Shot {
         draw_texture_ex(&target.texture, 0.0, 0.0, WHITE, params);
         write_png(path, *size, &upright(&image.bytes, *size))
     }
+}
+
+/// From now on everything is drawn into a target that shows `view` drawing units, from its upper left corner, y down, like the window.
+pub fn draw_into(target: &RenderTarget, view: Vec2) {
+    set_camera(&Camera2D {
+        zoom: convert::pair(Vec2::new(2.0, -2.0) / view),
+        target: convert::pair(view * 0.5),
+        render_target: Some(target.clone()),
+        ..Camera2D::default()
+    });
 }
 
 /// Rows as they come from the graphics card, lowest first, turned round; no longer transparent.

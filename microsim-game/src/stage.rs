@@ -8,7 +8,7 @@ use microsim_core::{Census, Intent, Kind, OrganismId, World};
 const CENSUS_INTERVAL: u64 = 60;
 
 /// A running scene.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Stage {
     name: String,
     world: World,

@@ -11,6 +11,8 @@ const STEP_BUDGET: f32 = 0.03;
 /// Zoom factor per second that a key is held, and per notch of the wheel.
 const KEY_ZOOM: f32 = 3.0;
 const WHEEL_ZOOM: f32 = 1.12;
+/// Units that are seen from bottom to top at first when there is somebody to follow.
+pub const FIRST_HEIGHT: f32 = 60.0;
 /// Share of the way to the cursor that the camera looks ahead.
 const LOOK_AHEAD: f32 = 0.12;
 
@@ -100,7 +102,7 @@ impl Viewer {
 
     /// Moves the camera: zooming by keys and wheel, following something, looking ahead to the cursor.
     pub fn look(&mut self, zoom: f32, wheel: f32, target: Option<Vec2>, cursor: Option<Vec2>, elapsed: f32) {
-        let factor = KEY_ZOOM.powf(zoom * elapsed) * WHEEL_ZOOM.powf(wheel);
+        let factor = zoom_factor(zoom, wheel, elapsed);
         if factor != 1.0 {
             let fixed = target.map(|at| self.camera.to_screen(at)).or(cursor).unwrap_or(self.camera.screen() * 0.5);
             self.camera.zoom(factor, fixed);
@@ -110,6 +112,12 @@ impl Viewer {
             self.camera.follow(at + ahead, elapsed);
         }
     }
+}
+
+/// How much closer one looks after a frame of this length, s, by keys and by notches of the wheel.
+#[must_use]
+pub fn zoom_factor(keys: f32, wheel: f32, elapsed: f32) -> f32 {
+    KEY_ZOOM.powf(keys * elapsed) * WHEEL_ZOOM.powf(wheel)
 }
 
 /// The view of a room at first: `height` units around somebody, or all of it.

@@ -222,6 +222,13 @@ function takeItem() {
     return encode(String(taken ?? ""));
 }
 
+/** The usual ones among the gamepads, one a line: the stick's axes in hundredths, and numbers of buttons that are down. */
+function gamepads() {
+    const pads = [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.mapping === "standard");
+    const down = (pad) => [...pad.buttons.keys()].filter((k) => pad.buttons[k].pressed);
+    return encode(pads.map((pad) => [...pad.axes.slice(0, 2).map((share) => Math.round(100 * share)), ...down(pad)].join(" ")).join("\n"));
+}
+
 function hasFloatTargets() {
     const extension = gl.getExtension("EXT_color_buffer_float") ?? gl.getExtension("EXT_color_buffer_half_float");
     return extension && address.get("floats") !== "no" ? encode("") : null;
@@ -234,6 +241,7 @@ const answers = {
     "dropped": () => encode(dropped.splice(0).join("\n")),
     "file": (name) => files.get(name) ?? null,
     "float targets": hasFloatTargets,
+    "gamepads": gamepads,
     "has storage": () => (storageWorks() ? encode("") : null),
     "item": takeItem,
     "held": () => encode([...held].join("\n")),

@@ -1,5 +1,6 @@
-//! Mouse and keyboard.
+//! Mouse, keyboard and gamepads.
 
+use super::gamepad::Hand;
 use super::keys::Keys;
 use super::{Action, Input, Move};
 use crate::convert;
@@ -11,23 +12,26 @@ use macroquad::input::{
 use macroquad::miniquad;
 use microsim_core::glam::Vec2;
 
-/// Reads mouse and keyboard of the open window.
+/// Reads mouse and keyboard of the open window, and gamepads.
 #[derive(Debug)]
 pub struct Device {
     /// Number under which macroquad repeats the window's events.
     subscriber: usize,
     cursor: Vec2,
+    gamepads: platform::Gamepads,
+    hand: Hand,
 }
 
 impl Device {
     /// Listens to the window. Needs an open one.
     #[must_use]
     pub fn new() -> Self {
-        Self { subscriber: utils::register_input_subscriber(), cursor: Vec2::ZERO }
+        let (gamepads, hand) = (platform::Gamepads::default(), Hand::default());
+        Self { subscriber: utils::register_input_subscriber(), cursor: Vec2::ZERO, gamepads, hand }
     }
 
-    /// What they say in this frame.
-    pub fn read(&mut self, keys: &Keys) -> Input {
+    /// What they say in this frame, in a scene or in a menu.
+    pub fn read(&mut self, keys: &Keys, is_scene: bool) -> Input {
         let cursor = convert::point(mouse_position());
         let has_moved = std::mem::replace(&mut self.cursor, cursor) != cursor;
         let all = || Action::ALL.into_iter();
@@ -36,7 +40,7 @@ impl Device {
         let button_step = Move::ALL.into_iter().find(|(_, name)| is_in(&buttons.pressed, name)).map(|(step, _)| step);
         let mut focus = Focus::default();
         utils::repeat_all_miniquad_input(&mut focus, self.subscriber);
-        Input {
+        let mut input = Input {
             cursor,
             has_moved,
             steer: steer(is_key_down),
@@ -53,7 +57,9 @@ impl Device {
             key: get_last_key_pressed(),
             dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,
-        }
+        };
+        self.hand.add(&self.gamepads.read(), is_scene, &mut input);
+        input
     }
 }
 

@@ -94,6 +94,7 @@ fn usual(action: Action) -> KeyCode {
         Action::DebugView => KeyCode::B,
         Action::Plots => KeyCode::P,
         Action::Panel => KeyCode::Tab,
+        Action::Undo => KeyCode::Z,
         Action::Screenshot => KeyCode::F12,
         Action::FullScreen => KeyCode::F11,
     }

@@ -1,6 +1,7 @@
-//! What the player does in one frame, whether by mouse and keyboard or from a script.
+//! What the player does in one frame, whether by mouse, keyboard and gamepad or from a script.
 
 pub mod device;
+pub mod gamepad;
 pub mod keys;
 pub mod script;
 
@@ -39,6 +40,8 @@ pub enum Action {
     Plots,
     /// Hide or show the panel of tools.
     Panel,
+    /// The world of before the last tool's act.
+    Undo,
     /// Save a picture.
     Screenshot,
     /// Fill the screen, or a window again.
@@ -47,11 +50,11 @@ pub enum Action {
 
 impl Action {
     /// All of them, in the order of the settings.
-    pub const ALL: [Self; 15] = {
+    pub const ALL: [Self; 16] = {
         use Action::*;
         [
             Consume, ZoomIn, ZoomOut, Divide, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots, Panel,
-            Screenshot, FullScreen,
+            Undo, Screenshot, FullScreen,
         ]
     };
 
@@ -83,6 +86,7 @@ impl Action {
             Self::DebugView => ["debug-view", "Debug view"],
             Self::Plots => ["plots", "Plots"],
             Self::Panel => ["panel", "Panel"],
+            Self::Undo => ["undo", "Undo (simulation)"],
             Self::Screenshot => ["screenshot", "Picture"],
             Self::FullScreen => ["full-screen", "Full screen"],
         }
@@ -125,7 +129,7 @@ pub struct Input {
     pub cursor: Vec2,
     /// Whether the cursor has moved since the last frame.
     pub has_moved: bool,
-    /// Where the arrow keys point that are down, of length 1 or 0, downwards positive.
+    /// Where the arrow keys that are down point, or a gamepad's stick: of length 1 or 0, downwards positive.
     pub steer: Vec2,
     /// Whether the left button is down.
     pub is_held: bool,

@@ -1,6 +1,7 @@
 //! What all screens share: the pen, the settings, the scores and the message.
 
 use super::{MainScreen, Paused};
+use crate::album::Album;
 use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
@@ -43,6 +44,23 @@ pub struct Asked {
     pub effort: Option<Effort>,
 }
 
+/// What a photo shows of a scene: at first what is seen of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PhotoView(Option<Camera>);
+
+impl PhotoView {
+    fn camera_from(&mut self, seen: &Camera) -> &Camera {
+        let camera = self.0.get_or_insert_with(|| seen.clone());
+        camera.resize(seen.screen());
+        camera
+    }
+
+    /// Its camera, once there is a picture.
+    pub(super) fn camera(&mut self) -> Option<&mut Camera> {
+        self.0.as_mut()
+    }
+}
+
 /// What the command line says of playing over a network.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Party {
@@ -59,6 +77,8 @@ pub struct Party {
 pub struct AppContext {
     /// Draws the scene.
     pub scenery: Scenery,
+    /// Pictures for the list of simulations.
+    pub(super) album: Album,
     /// Draws above it.
     pub pen: Pen,
     /// Plays what is heard.
@@ -92,6 +112,8 @@ pub struct AppContext {
     /// With whom this player plays over a network, and the room that it is in.
     pub party: Party,
     pub(super) room: Option<Room>,
+    /// What a photo shows of the scene, while one is prepared.
+    pub(super) photo: Option<PhotoView>,
     /// Whether the screen that draws has nothing above it.
     pub is_top: bool,
     /// Whether a picture is wanted.
@@ -111,6 +133,7 @@ impl AppContext {
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
+            album: Album::default(),
             pen: Pen::new(),
             speaker: Speaker::default(),
             store,
@@ -128,6 +151,7 @@ impl AppContext {
             chosen: None,
             party: Party::default(),
             room: None,
+            photo: None,
             is_top: true,
             wants_picture: false,
             asked: Asked::default(),
@@ -190,10 +214,18 @@ impl AppContext {
         self.asked.effort.unwrap_or(self.settings.effort)
     }
 
-    /// Draws a scene as the player wants to see it.
-    pub fn paint(&mut self, view: View<'_>, camera: &Camera) {
+    /// Draws a scene as the player wants to see it. Returns what of it is seen, which is another part where a photo is prepared.
+    pub fn paint(&mut self, view: View<'_>, camera: &Camera) -> Camera {
         let time = self.motion().unwrap_or(0.0);
-        self.scenery.paint(&SceneFrame { view, camera, time }, self.sight(), self.effort());
+        let camera = self.photo.as_mut().map_or_else(|| camera.clone(), |photo| photo.camera_from(camera).clone());
+        self.scenery.paint(&SceneFrame { view, camera: &camera, time }, self.sight(), self.effort());
+        camera
+    }
+
+    /// Whether pictures show the scene and nothing above it.
+    #[must_use]
+    pub(crate) fn is_photo(&self) -> bool {
+        self.photo.is_some()
     }
 
     /// Another way of looking.
@@ -219,6 +251,7 @@ impl AppContext {
         let stage = Stage::open(source, &[]).map_err(|problem| self.tell(problem)).ok()?;
         let game = GameChoice { source: source.clone(), overrides: Vec::new(), seed: None };
         if matches!(source, SceneSource::File(_)) {
+            self.album.forget(source);
             self.files.retain(|known| known != source);
             self.files.insert(0, source.clone());
         }

@@ -1,7 +1,7 @@
 //! The end of a round: the score by kind, its place among the best, what was missed, and the next goal.
 
 use super::context::AppContext;
-use super::end_menu::{EndChoice, EndMenu};
+use super::end_menu::{EndMenu, rank};
 use super::page::draw_shade;
 use super::scores::draw_table;
 use super::{MainScreen, Next, Paused, Screen};
@@ -85,16 +85,9 @@ fn plain_name(kind: Kind) -> &'static str {
 
 impl Screen for End {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
-            // A replay leads on to a round of the game.
-            Some(EndChoice::Again | EndChoice::Pick(0)) if self.played == Paused::Replay => {
-                Next::Show(MainScreen::Round)
-            }
-            Some(EndChoice::Again | EndChoice::Pick(0)) => self.played.restart(),
-            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::Replay),
-            Some(_) => Next::Show(MainScreen::Title),
-            None => Next::Stay,
-        }
+        // A replay leads on to a round of the game.
+        let next = if self.played == Paused::Replay { Paused::Round } else { self.played };
+        self.menu.lead(input, context, MENU_TOP, || next.restart(), &[|_| Next::Show(MainScreen::Replay)])
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -104,9 +97,8 @@ impl Screen for End {
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
         pen.write(heading, TextSize::Large, Align::Centre, HALO, &self.heading);
         if let Some(place) = self.place {
-            let text = if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) };
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(TextSize::Large));
-            pen.write(below, TextSize::Body, Align::Centre, READY, &text);
+            pen.write(below, TextSize::Body, Align::Centre, READY, &rank(place));
         }
         let told = [self.missed.as_deref(), self.goal.as_deref()].into_iter().flatten();
         let told: Vec<String> = told.flat_map(|text| pen.wrap(TextSize::Small, text, 0.94 * screen.x)).collect();

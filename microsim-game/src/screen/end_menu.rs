@@ -1,6 +1,7 @@
 //! The menu at an end: it opens under a hand that may still be steering, and waits until that has let go.
 
 use super::context::AppContext;
+use super::{MainScreen, Next};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
 
@@ -34,6 +35,23 @@ impl EndMenu {
         Self { menu, since: 0.0, has_let_go: false, has_moved: false }
     }
 
+    /// Where the player's choice leads: the first item again, the next ones to `others`, all else to the title.
+    pub(super) fn lead(
+        &mut self,
+        input: &Input,
+        context: &AppContext,
+        top: f32,
+        again: impl FnOnce() -> Next,
+        others: &[fn(&AppContext) -> Next],
+    ) -> Next {
+        match self.update(input, context, &MenuLayout::middle(&context.pen, top)) {
+            Some(EndChoice::Again | EndChoice::Pick(0)) => again(),
+            Some(EndChoice::Pick(item)) if item <= others.len() => others[item - 1](context),
+            Some(_) => Next::Show(MainScreen::Title),
+            None => Next::Stay,
+        }
+    }
+
     pub(super) fn update(&mut self, input: &Input, context: &AppContext, layout: &MenuLayout) -> Option<EndChoice> {
         self.since += context.pace.elapsed;
         self.has_let_go |= !input.is_held;
@@ -53,4 +71,9 @@ impl EndMenu {
             _ => None,
         }
     }
+}
+
+/// What is said of a place among the best, from 0 on.
+pub(super) fn rank(place: usize) -> String {
+    if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) }
 }

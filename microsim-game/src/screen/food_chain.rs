@@ -3,9 +3,9 @@
 use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
-use crate::input::{Input, Move};
+use crate::input::Input;
 use crate::rules::food_chain::NAME;
-use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuItem};
 use macroquad::miniquad;
 
 /// Length of a day, s.
@@ -36,15 +36,8 @@ impl Screen for FoodChainMenu {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        if input.step == Some(Move::Back) {
-            return Next::Back;
-        }
-        match self.page.update(input, &context.pen) {
-            Some(MenuChoice::Pick(0)) => Next::Show(MainScreen::FoodChain(todays_seed(context))),
-            Some(MenuChoice::Pick(1)) => Next::Show(MainScreen::FoodChain(new_seed(context))),
-            Some(_) => Next::Back,
-            None => Next::Stay,
-        }
+        let seed = |item| if item == 0 { todays_seed(context) } else { new_seed(context) };
+        self.page.choose(input, &context.pen, |item| Next::Show(MainScreen::FoodChain(seed(item))))
     }
 
     fn draw(&mut self, context: &mut AppContext) {

@@ -1,7 +1,7 @@
 //! The end of a food chain: how long the cell lived, what ended it, and the way to the same water again.
 
 use super::context::AppContext;
-use super::end_menu::{EndChoice, EndMenu};
+use super::end_menu::{EndMenu, rank};
 use super::food_chain::LONGEST;
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
@@ -50,11 +50,7 @@ impl FoodChainEnd {
         });
         let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
         let mut lines = vec![(TextSize::Large, HALO, format!("Your line lived {:.0} s{doubt}", life.time.floor()))];
-        match place {
-            Some(0) => lines.push((TextSize::Body, READY, "The best so far!".to_owned())),
-            Some(place) => lines.push((TextSize::Body, READY, format!("Number {} so far", place + 1))),
-            None => {}
-        }
+        lines.extend(place.map(|place| (TextSize::Body, READY, rank(place))));
         let told = life.fate.map(|fate| if fate == Fate::Starved { STARVED } else { EATEN });
         lines.extend(told.map(|told| (TextSize::Body, HALO, told.to_owned())));
         let share = format!("Water {}. {}", life.seed, platform::way_to_play(NAME, life.seed));
@@ -73,13 +69,8 @@ impl Screen for FoodChainEnd {
             Paused::Round | Paused::OtherGame => self.played.restart(),
             _ => Next::Show(MainScreen::FoodChain(self.life.seed)),
         };
-        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
-            Some(EndChoice::Again | EndChoice::Pick(0)) => again(),
-            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::FoodChain(new_seed(context))),
-            Some(EndChoice::Pick(2)) => Next::Show(MainScreen::Replay),
-            Some(_) => Next::Show(MainScreen::Title),
-            None => Next::Stay,
-        }
+        let other: fn(&AppContext) -> Next = |context| Next::Show(MainScreen::FoodChain(new_seed(context)));
+        self.menu.lead(input, context, MENU_TOP, again, &[other, |_| Next::Show(MainScreen::Replay)])
     }
 
     fn draw(&mut self, context: &mut AppContext) {

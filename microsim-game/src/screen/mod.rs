@@ -13,6 +13,7 @@ mod keys;
 mod lobby;
 mod page;
 mod pause;
+mod photo;
 mod pick;
 mod play;
 mod quit;
@@ -130,6 +131,8 @@ pub enum Overlay {
     FoodChainEnd(Box<RoundResult>, Life, Paused),
     /// The end of a round of two cells: the result, how they played, and what was played.
     TwoPlayersEnd(Box<RoundResult>, TwoPlayers, Paused),
+    /// The scene that a menu stops, to take pictures of.
+    Photo,
     /// The way into the food chain.
     FoodChain,
     /// The ways in which two cells play.

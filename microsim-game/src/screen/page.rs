@@ -1,15 +1,18 @@
 //! Pages: a heading and a menu, over what lies below, darkened.
 
+use super::Next;
 use crate::draw::palette::{HALO, INK, fade};
-use crate::input::Input;
+use crate::input::{Input, Move};
 use crate::ui::font::TextSize;
-use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, ROW};
 use crate::ui::pen::{Align, Pen};
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu, and above the middle of the heading.
 const TOP: f32 = 0.3;
 const HEADING: f32 = 0.15;
+/// Height of an item that has room for a picture, lines.
+const TALL: f32 = 2.6;
 /// How dark what lies below gets.
 const SHADE: f32 = 0.76;
 
@@ -18,21 +21,46 @@ const SHADE: f32 = 0.76;
 pub(super) struct MenuPage {
     heading: &'static str,
     pub menu: Menu,
+    /// Height of an item, lines.
+    rows: f32,
 }
 
 impl MenuPage {
     pub(super) fn new(heading: &'static str, items: Vec<MenuItem>) -> Self {
-        Self { heading, menu: Menu::new(items) }
+        Self { heading, menu: Menu::new(items), rows: ROW }
+    }
+
+    /// The same with items that have room for pictures.
+    pub(super) fn tall(self) -> Self {
+        Self { rows: TALL, ..self }
+    }
+
+    /// Where the menu lies.
+    pub(super) fn layout(&self, pen: &Pen) -> MenuLayout {
+        MenuLayout::rows(pen, TOP, self.rows)
     }
 
     /// Moves through the menu.
     pub(super) fn update(&mut self, input: &Input, pen: &Pen) -> Option<MenuChoice> {
-        self.menu.update(input, &MenuLayout::middle(pen, TOP))
+        let layout = self.layout(pen);
+        self.menu.update(input, &layout)
+    }
+
+    /// Moves through a menu of which the last item leads back, the others where `lead` says.
+    pub(super) fn choose(&mut self, input: &Input, pen: &Pen, lead: impl FnOnce(usize) -> Next) -> Next {
+        if input.step == Some(Move::Back) {
+            return Next::Back;
+        }
+        match self.update(input, pen) {
+            Some(MenuChoice::Pick(item)) if item + 1 < self.menu.items.len() => lead(item),
+            Some(MenuChoice::Pick(_)) => Next::Back,
+            _ => Next::Stay,
+        }
     }
 
     pub(super) fn draw(&self, pen: &mut Pen) {
         draw_heading(pen, self.heading);
-        self.menu.draw(pen, &MenuLayout::middle(pen, TOP));
+        self.menu.draw(pen, &self.layout(pen));
     }
 
     /// Writes a note between the heading and the menu, as much of it as there is room for.

@@ -16,8 +16,8 @@ pub(super) struct Pause {
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
-            Paused::Simulation => ["Go on", "Settings", "Title"].as_slice(),
-            _ => &["Go on", "Restart", "Settings", "Title"],
+            Paused::Simulation => ["Go on", "Photo", "Settings", "Title"].as_slice(),
+            _ => &["Go on", "Restart", "Photo", "Settings", "Title"],
         };
         Self { page: MenuPage::new("Paused", labels.iter().map(|&label| MenuItem::new(label)).collect()), paused }
     }
@@ -35,6 +35,7 @@ impl Screen for Pause {
         match self.page.menu.items[item].label.as_str() {
             "Go on" => Next::Back,
             "Restart" => self.paused.restart(),
+            "Photo" => Next::Open(Overlay::Photo),
             "Settings" => Next::Open(Overlay::Settings),
             _ => Next::Show(MainScreen::Title),
         }

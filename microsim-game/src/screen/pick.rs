@@ -6,8 +6,11 @@ use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::scene_source::SceneSource;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use microsim_core::glam::Vec2;
 use microsim_core::scenario;
 
+/// Edge around a picture, drawing units.
+const EDGE: f32 = 2.0;
 /// Names of built-in scenarios for people.
 const TITLES: &[(&str, &str)] = &[
     ("absorb-agar", "A first meal"),
@@ -42,7 +45,7 @@ impl Pick {
             scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), found.summary));
         let sources: Vec<_> = files.chain(builtins).collect();
         let items = sources.iter().map(|(source, _)| MenuItem::new(title(source))).collect();
-        Self { page: MenuPage::new("Simulation", items), sources }
+        Self { page: MenuPage::new("Simulation", items).tall(), sources }
     }
 }
 
@@ -58,6 +61,8 @@ impl Screen for Pick {
         if input.step == Some(Move::Back) {
             return Next::Back;
         }
+        let seen = self.page.menu.shown(&self.page.layout(&context.pen));
+        context.album.add_one(seen.map(|(item, _)| &self.sources[item].0), &mut context.scenery);
         let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
         context.open(&self.sources[item].0).map_or(Next::Stay, Next::Show)
     }
@@ -66,6 +71,12 @@ impl Screen for Pick {
         self.page.draw(&mut context.pen);
         let summary = self.sources.get(self.page.menu.focus()).map_or("", |(_, summary)| *summary);
         self.page.draw_note(&mut context.pen, summary);
+        context.pen.flush();
+        let layout = self.page.layout(&context.pen);
+        for (item, low) in self.page.menu.shown(&layout) {
+            let corner = low + Vec2::new(layout.item.x - EDGE, EDGE);
+            context.album.show(&self.sources[item].0, corner, layout.item.y - 2.0 * EDGE - 2.0);
+        }
     }
 
     fn menu(&self) -> Option<&Menu> {

@@ -277,10 +277,10 @@ impl Screen for Play {
     fn draw(&mut self, context: &mut AppContext) {
         self.viewer.camera.resize(context.pen.screen());
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
-        context.paint(view, camera);
+        let seen = context.paint(view, camera);
         if self.round.attempt().is_some() {
             view.chemicals()
-                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), camera, chemical, ALERT, SCENT));
+                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, SCENT));
         }
         if !context.is_top {
             return;

@@ -10,6 +10,7 @@ use super::join::Join;
 use super::keys::KeysMenu;
 use super::lobby::{self, Lobby};
 use super::pause::Pause;
+use super::photo::Photo;
 use super::pick::Pick;
 use super::play::Play;
 use super::quit::Quit;
@@ -95,6 +96,9 @@ impl Stack {
 
     /// Goes to a screen. One that cannot be shown is told in a message.
     pub fn go(&mut self, next: Next, context: &mut AppContext) {
+        if !matches!(next, Next::Stay) {
+            context.photo = None;
+        }
         match next {
             Next::Stay => {}
             Next::Back => drop(self.screens.pop()),
@@ -137,6 +141,7 @@ fn show(main: MainScreen, context: &mut AppContext) -> Result<Box<dyn Screen>, S
 fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
     match overlay {
         Overlay::Pause(paused) => Box::new(Pause::new(paused)),
+        Overlay::Photo => Box::new(Photo::new(context)),
         Overlay::End(result, played) => Box::new(End::new(*result, played, context)),
         Overlay::SlideEnd(result, paused) => Box::new(SlideEnd::new(*result, paused, context)),
         Overlay::FoodChainEnd(result, life, paused) => Box::new(FoodChainEnd::new(*result, life, paused, context)),

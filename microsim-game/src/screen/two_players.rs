@@ -3,11 +3,12 @@
 use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Screen};
-use crate::input::{Input, Move};
+use crate::input::Input;
 use crate::rules::two_players::TwoPlayers;
-use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::ui::menu::{Menu, MenuItem};
 
-const ABOUT: &str = "Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys.";
+const ABOUT: &str = "Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys \
+                     or a gamepad.";
 
 #[derive(Debug)]
 pub(super) struct TwoPlayersMenu {
@@ -28,11 +29,7 @@ impl Screen for TwoPlayersMenu {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        if input.step == Some(Move::Back) {
-            return Next::Back;
-        }
-        let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
-        TwoPlayers::ALL.get(item).map_or(Next::Back, |&way| Next::Show(MainScreen::TwoPlayers(way)))
+        self.page.choose(input, &context.pen, |item| Next::Show(MainScreen::TwoPlayers(TwoPlayers::ALL[item])))
     }
 
     fn draw(&mut self, context: &mut AppContext) {

@@ -1,7 +1,7 @@
 //! The end of a round of two cells: who was better, or what both earned.
 
 use super::context::AppContext;
-use super::end_menu::{EndChoice, EndMenu};
+use super::end_menu::{EndMenu, rank};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -53,12 +53,8 @@ impl Screen for TwoPlayersEnd {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        match self.menu.update(input, context, &MenuLayout::middle(&context.pen, MENU_TOP)) {
-            Some(EndChoice::Again | EndChoice::Pick(0)) => Next::Show(MainScreen::TwoPlayers(self.way)),
-            Some(EndChoice::Pick(1)) => Next::Show(MainScreen::Replay),
-            Some(_) => Next::Show(MainScreen::Title),
-            None => Next::Stay,
-        }
+        let again = || Next::Show(MainScreen::TwoPlayers(self.way));
+        self.menu.lead(input, context, MENU_TOP, again, &[|_| Next::Show(MainScreen::Replay)])
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -70,8 +66,7 @@ impl Screen for TwoPlayersEnd {
             at.y += pen.line(TextSize::Large);
         }
         if let Some(place) = self.place {
-            let text = if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) };
-            pen.write(at, TextSize::Body, Align::Centre, READY, &text);
+            pen.write(at, TextSize::Body, Align::Centre, READY, &rank(place));
         }
         self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
     }

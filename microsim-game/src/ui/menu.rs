@@ -57,6 +57,9 @@ pub enum MenuChoice {
 const BACK: f32 = 0.56;
 const BACK_PLACE: std::ops::Range<f32> = 0.5..0.62;
 
+/// Height of an item, lines.
+pub const ROW: f32 = 1.55;
+
 /// Where a menu lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MenuLayout {
@@ -74,9 +77,15 @@ impl MenuLayout {
     /// In the middle of the picture, from `top` (share of its height) down.
     #[must_use]
     pub fn middle(pen: &Pen, top: f32) -> Self {
+        Self::rows(pen, top, ROW)
+    }
+
+    /// The same with items that are so many lines high.
+    #[must_use]
+    pub fn rows(pen: &Pen, top: f32, lines: f32) -> Self {
         let screen = pen.screen();
         let (line, bottom) = (pen.line(TextSize::Body), 0.95 * screen.y);
-        let item = Vec2::new((18.0 * line).min(0.86 * screen.x), 1.55 * line);
+        let item = Vec2::new((18.0 * line).min(0.86 * screen.x), lines * line);
         // Where two items have room.
         let top = (top * screen.y).min(bottom - 2.0 * item.y).max(0.0);
         Self::of_height(Vec2::new(0.5 * (screen.x - item.x), top), item, bottom, TextSize::Body)
@@ -92,7 +101,7 @@ impl MenuLayout {
     #[must_use]
     pub fn title(pen: &Pen) -> Self {
         let line = pen.line(TextSize::Body);
-        let (item, bottom) = (Vec2::new(11.5 * line, 1.55 * line), 0.95 * pen.screen().y);
+        let (item, bottom) = (Vec2::new(11.5 * line, ROW * line), 0.95 * pen.screen().y);
         // Below the title, but where two items have room.
         let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]).min(bottom - 2.0 * item.y).max(0.0);
         Self::of_height(Vec2::new(0.06 * pen.screen().x, top), item, bottom, TextSize::Body)
@@ -208,12 +217,17 @@ impl Menu {
         None
     }
 
+    /// The items that are seen, each with its upper left corner.
+    pub fn shown(&self, layout: &MenuLayout) -> impl Iterator<Item = (usize, Vec2)> + use<> {
+        let (corner, height) = (layout.corner, layout.item.y);
+        let seen = self.first..self.items.len().min(self.first + layout.visible);
+        seen.enumerate().map(move |(row, index)| (index, corner + Vec2::new(0.0, row as f32 * height)))
+    }
+
     /// Draws it.
     pub fn draw(&self, pen: &mut Pen, layout: &MenuLayout) {
-        let shown = self.items.iter().enumerate().skip(self.first).take(layout.visible);
-        for (row, (index, item)) in shown.enumerate() {
-            let low = layout.corner + Vec2::new(0.0, row as f32 * layout.item.y);
-            self.draw_item(pen, layout, low, item, index == self.focus);
+        for (index, low) in self.shown(layout) {
+            self.draw_item(pen, layout, low, &self.items[index], index == self.focus);
         }
         let (above, below) = (self.first > 0, self.first + layout.visible < self.items.len());
         let end = layout.corner.y + layout.item.y * layout.visible.min(self.items.len()) as f32;
@@ -230,7 +244,7 @@ impl Menu {
         let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.76), HALO) };
         pen.canvas().rectangle(low, high, back);
         let middle = 0.5 * (low.y + high.y);
-        let inset = 0.4 * layout.item.y;
+        let inset = 0.4 * layout.item.y.min(ROW * pen.line(layout.size));
         // The item in focus is marked by shape as well.
         let mark = if has_focus { "> " } else { "  " };
         let label = format!("{mark}{}", item.label);

@@ -2,11 +2,13 @@
 
 #[cfg(windows)]
 mod console;
+mod gamepads;
 mod room;
 mod speaker;
 mod storage;
 mod window;
 
+pub use gamepads::Gamepads;
 pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;

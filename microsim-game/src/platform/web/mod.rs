@@ -1,10 +1,12 @@
 //! A page in a browser: the address in place of a command line, downloads, values in its own storage.
 
+mod gamepads;
 mod host;
 mod room;
 mod speaker;
 mod storage;
 
+pub use gamepads::Gamepads;
 pub use room::open_room;
 pub use speaker::Speaker;
 pub use storage::Storage;

@@ -1,9 +1,11 @@
 //! Simulation mode: any scenario, without rules or hints, to look at and to meddle with.
 
 mod anatomy;
+mod ghost;
 mod panel;
 mod plots;
 mod tools;
+mod undo;
 
 use super::context::AppContext;
 use super::{Next, Overlay, Paused, Screen};
@@ -14,14 +16,15 @@ use crate::stage::Stage;
 use crate::ui::font::TextSize;
 use crate::ui::menu::Menu;
 use crate::ui::pen::{Align, Pen};
-use crate::viewer::{Viewer, first_view};
+use crate::viewer::{FIRST_HEIGHT, Viewer, first_view};
 use microsim_core::geometry::signed_area;
 use microsim_core::glam::Vec2;
 use plots::Plots;
 use tools::Tools;
+use undo::Undo;
 
-/// Units that are seen from bottom to top at first when there is somebody to follow.
-const VIEW: f32 = 60.0;
+/// Why tools that take time do nothing.
+const STOPPED: &str = "Time stands still: let it go on first.";
 /// How fast time can pass.
 const SPEEDS: [f32; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
 const USUAL_SPEED: usize = 3;
@@ -32,6 +35,7 @@ pub(super) struct Sandbox {
     stage: Stage,
     viewer: Viewer,
     tools: Tools,
+    undo: Undo,
     panel: Menu,
     plots: Plots,
     /// What was heard in this frame.
@@ -52,12 +56,12 @@ struct Shows {
 impl Sandbox {
     /// A scene that runs.
     pub(super) fn new(stage: Stage, context: &AppContext) -> Self {
-        let camera = first_view(stage.world(), stage.player(), VIEW, context.pen.screen());
+        let camera = first_view(stage.world(), stage.player(), FIRST_HEIGHT, context.pen.screen());
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
         let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
-        let (tools, plots) = (Tools::default(), Plots::default());
+        let (tools, undo, plots) = (Tools::default(), Undo::default(), Plots::default());
         let (heard, speed) = (Vec::new(), USUAL_SPEED);
-        let mut sandbox = Self { stage, viewer, tools, panel, plots, heard, speed, shows, is_paused: false };
+        let mut sandbox = Self { stage, viewer, tools, undo, panel, plots, heard, speed, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
         sandbox
     }
@@ -68,6 +72,32 @@ impl Sandbox {
             Ok(stage) => *self = Self { shows: self.shows, speed: self.speed, ..Self::new(stage, context) },
             Err(problem) => context.tell(problem),
         }
+    }
+
+    /// The scene of before the last tool's act.
+    fn undo(&mut self, context: &mut AppContext) {
+        let Some(before) = self.undo.take() else {
+            context.tell("There is nothing to undo.");
+            return;
+        };
+        self.viewer = Viewer::new(before.world(), self.viewer.camera.clone());
+        self.stage = before;
+        self.tools.let_go();
+    }
+
+    /// Uses the tool as the mouse says; what it does to the world can be undone.
+    fn use_tool(&mut self, input: &Input, is_on_panel: bool, context: &mut AppContext) {
+        let begins = input.is_clicked && !is_on_panel;
+        let before = (begins && self.tools.tool.is_act()).then(|| self.stage.clone());
+        let digests = context.settings.digests(input);
+        let told = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests);
+        let stands = begins && self.is_paused && self.tools.tool.needs_time();
+        match (told.or(stands.then(|| STOPPED.to_owned())), before) {
+            (Some(problem), _) => context.tell(problem),
+            (None, Some(before)) => self.undo.keep(before),
+            (None, None) => {}
+        }
+        self.tools.foresee(self.stage.world(), self.viewer.camera.to_room(input.cursor), is_on_panel);
     }
 
     fn press(&mut self, input: &Input) {
@@ -149,6 +179,9 @@ impl Screen for Sandbox {
             self.restart(context);
             return Next::Stay;
         }
+        if input.presses(Action::Undo) {
+            self.undo(context);
+        }
         self.press(input);
         let place = panel::place(&context.pen);
         let is_on_panel = self.shows.panel && self.panel.contains(input.cursor, &place);
@@ -160,10 +193,7 @@ impl Screen for Sandbox {
                 return next;
             }
         }
-        let digests = context.settings.digests(input);
-        if let Some(problem) = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests) {
-            context.tell(problem);
-        }
+        self.use_tool(input, is_on_panel, context);
         self.run(context);
         let looks_around = self.tools.look_around(&mut self.viewer.camera);
         let at = self.viewer.place_of(self.stage.world(), self.stage.player()).filter(|_| !looks_around);
@@ -177,9 +207,9 @@ impl Screen for Sandbox {
     fn draw(&mut self, context: &mut AppContext) {
         self.viewer.camera.resize(context.pen.screen());
         let (view, camera) = (self.viewer.view(self.stage.world()), &self.viewer.camera);
-        context.paint(view, camera);
+        let seen = context.paint(view, camera);
         if self.shows.anatomy {
-            anatomy::draw(&mut context.pen, view, camera);
+            anatomy::draw(&mut context.pen, view, &seen);
         }
         if !context.is_top {
             return;

@@ -8,7 +8,8 @@ use crate::ui::font::TextSize;
 use crate::ui::menu::{MenuChoice, MenuItem, MenuLayout};
 use crate::ui::pen::Pen;
 
-const PAUSE: usize = Tool::ALL.len();
+const UNDO: usize = Tool::ALL.len();
+const PAUSE: usize = UNDO + 1;
 const STEP: usize = PAUSE + 1;
 const SPEED: usize = STEP + 1;
 const ANATOMY: usize = SPEED + 1;
@@ -29,6 +30,7 @@ pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
         if tool == Tool::Spawn { MenuItem::with(label, sandbox.tools.spawn_name()) } else { MenuItem::new(label) }
     };
     let others = [
+        MenuItem::new("Undo"),
         MenuItem::new(if sandbox.is_paused { "Go on" } else { "Pause" }),
         MenuItem::new("Single step"),
         MenuItem::with("Speed", format!("{} x", SPEEDS[sandbox.speed])),
@@ -56,6 +58,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
         return Next::Stay;
     }
     match item {
+        UNDO => sandbox.undo(context),
         PAUSE => sandbox.is_paused ^= true,
         STEP => {
             sandbox.is_paused = true;

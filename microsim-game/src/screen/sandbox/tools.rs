@@ -1,5 +1,6 @@
 //! What the mouse does in a simulation: steer, drag, push, spawn, remove, follow.
 
+use super::ghost::Ghost;
 use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
@@ -25,7 +26,9 @@ const PUSH: f32 = 1.6;
 
 /// Why tools do nothing.
 const NOBODY: &str = "There is nobody to steer: follow somebody first.";
+const IMMOBILE: &str = "Whoever is followed cannot crawl.";
 const NOTHING: &str = "There is nothing here.";
+const WHOLE: &str = "All of the room is in view: look closer first.";
 
 /// What the mouse does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,6 +56,18 @@ impl Tool {
     ];
 }
 
+impl Tool {
+    /// Whether its use changes the world at once, and so can be undone.
+    pub(super) fn is_act(self) -> bool {
+        matches!(self, Self::Drag | Self::Push | Self::Spawn | Self::Remove)
+    }
+
+    /// Whether it does something only while time passes.
+    pub(super) fn needs_time(self) -> bool {
+        matches!(self, Self::Steer | Self::Drag | Self::Push)
+    }
+}
+
 /// Makes what a tool puts into the world.
 type Make = fn() -> OrganismSpec;
 
@@ -70,7 +85,7 @@ const SPAWNS: [(&str, Make); 9] = [
 ];
 
 /// The tool in hand.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Tools {
     pub tool: Tool,
     spawn: usize,
@@ -79,6 +94,7 @@ pub(super) struct Tools {
     hand: Option<Vec2>,
     /// The point of the room that follows the cursor while looking around.
     grip: Option<Vec2>,
+    ghost: Ghost,
 }
 
 impl Tools {
@@ -117,6 +133,11 @@ impl Tools {
         match (self.tool, found) {
             (Tool::Spawn, _) => return self.put_in(stage, at).err(),
             (Tool::Steer, _) if stage.player().is_none() => return Some(NOBODY.to_owned()),
+            (Tool::Steer, _) if !can_crawl(stage) => return Some(IMMOBILE.to_owned()),
+            (Tool::Look, _) if camera.shows_all() => return Some(WHOLE.to_owned()),
+            (Tool::Push, _) if stage.world().organisms_in_circle(at, PUSH_RADIUS).next().is_none() => {
+                return Some(NOTHING.to_owned());
+            }
             (Tool::Remove | Tool::Drag, None) => return Some(NOTHING.to_owned()),
             (Tool::Follow, None) => {
                 stage.set_player(None);
@@ -128,6 +149,20 @@ impl Tools {
             _ => {}
         }
         None
+    }
+
+    /// Lets go of what is held.
+    pub(super) fn let_go(&mut self) {
+        (self.grasped, self.hand, self.grip) = (None, None, None);
+    }
+
+    /// Shows what a click would put in.
+    pub(super) fn foresee(&mut self, world: &World, at: Vec2, is_on_panel: bool) {
+        if self.tool == Tool::Spawn && !is_on_panel {
+            self.ghost.update(world, self.spawn, &SPAWNS[self.spawn].1(), at);
+        } else {
+            self.ghost.hide();
+        }
     }
 
     fn put_in(&self, stage: &mut Stage, at: Vec2) -> Result<(), String> {
@@ -163,6 +198,7 @@ impl Tools {
 
     /// Draws what the tool is about to do.
     pub(super) fn draw(&self, pen: &mut Pen, view: View<'_>, camera: &Camera) {
+        self.ghost.draw(pen.canvas(), camera);
         let Some(hand) = self.hand else { return };
         let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(TextSize::Body));
         match self.tool {
@@ -175,6 +211,10 @@ impl Tools {
             _ => {}
         }
     }
+}
+
+fn can_crawl(stage: &Stage) -> bool {
+    stage.player().and_then(|id| stage.world().view().organism(id)).is_some_and(|organism| organism.speed() > 0.0)
 }
 
 /// Why something is not put in, for people.
@@ -269,10 +309,17 @@ mod tests {
         for (tool, _) in Tool::ALL {
             let mut tools = Tools { tool, ..Tools::default() };
             let told = tools.use_on(&mut stage, &camera, &click, false, false);
-            let acts = matches!(tool, Tool::Push | Tool::Spawn | Tool::Look);
-            assert_eq!(told.is_none(), acts, "{tool:?}: {told:?}");
+            assert_eq!(told.is_none(), tool == Tool::Spawn, "{tool:?}: {told:?}");
             stage = super::tests::stage();
         }
+        let agar = stage.world_mut().spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        stage.set_player(Some(agar));
+        let told = Tools::default().use_on(&mut stage, &camera, &click, false, false);
+        assert_eq!(told.as_deref(), Some(IMMOBILE));
+        let mut near = Camera::around(0.5 * size, 30.0, size, Vec2::new(640.0, 360.0));
+        let mut tools = Tools { tool: Tool::Look, ..Tools::default() };
+        assert_eq!(tools.use_on(&mut stage, &near, &click, false, false), None, "there is more to see");
+        assert!(tools.look_around(&mut near));
     }
 
     #[test]
