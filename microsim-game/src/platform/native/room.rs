@@ -90,46 +90,45 @@ enum State {
 }
 
 impl Room {
-    /// The next notice, if there is one by now.
-    fn next(&mut self) -> Option<Notice> {
+    /// What comes next, if something has come by now: a notice, or nothing that the game is told.
+    fn next(&mut self) -> Option<Option<Notice>> {
         if let State::Connecting(way) = &self.0 {
             match way.try_recv() {
                 Ok(Ok(socket)) => self.0 = State::Open(Box::new(socket)),
-                Ok(Err(problem)) => return Some(Notice::Closed(problem)),
+                Ok(Err(problem)) => return Some(Some(Notice::Closed(problem))),
                 Err(TryRecvError::Empty) => {}
-                Err(TryRecvError::Disconnected) => return Some(Notice::Closed(CUT.to_owned())),
+                Err(TryRecvError::Disconnected) => return Some(Some(Notice::Closed(CUT.to_owned()))),
             }
         }
         let State::Open(socket) = &mut self.0 else { return None };
-        match socket.read() {
-            Ok(Message::Binary(frame)) => match relay::notice(&frame) {
-                Some(notice) => Some(notice),
-                None => Some(Notice::Closed("the server says what no server of rooms says".to_owned())),
-            },
-            // The rest waits for the next frame, however many there are.
+        let notice = match socket.read() {
+            // A window makes no channels.
+            Ok(Message::Binary(frame)) if relay::is_of_channels(&frame) => None,
+            Ok(Message::Binary(frame)) => {
+                let other = || Notice::Closed("the server says what no server of rooms says".to_owned());
+                Some(relay::notice(&frame).unwrap_or_else(other))
+            }
             Ok(Message::Ping(_) | Message::Pong(_)) => None,
             Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => {
                 // What could not be sent before; that it fails is read next time.
                 let _ = socket.flush();
-                None
+                return None;
             }
             _ => Some(Notice::Closed(CUT.to_owned())),
-        }
+        };
+        Some(notice)
     }
 }
 
 impl Transport for Room {
     fn poll(&mut self) -> Vec<Notice> {
         let mut notices = Vec::new();
-        while let Some(notice) = self.next() {
-            let is_end = matches!(notice, Notice::Closed(_));
-            notices.push(notice);
-            if is_end {
+        for _ in 0..MOST {
+            let Some(next) = self.next() else { break };
+            if matches!(next, Some(Notice::Closed(_))) {
                 self.0 = State::Closed;
             }
-            if notices.len() == MOST {
-                break;
-            }
+            notices.extend(next);
         }
         notices
     }
