@@ -1,14 +1,15 @@
 // The page's side of rooms in headless Chromium, against the real server and under the page's own security policy. The program
 // is not needed: its place is taken by the memory that it would have.
 //
-//   node rooms.mjs SERVER WEB FOLDER     SERVER: microsim with the feature `serve`; WEB: microsim-game/web; FOLDER: is made anew
+//   node rooms.mjs SERVER WEB FOLDER ECHO     SERVER: microsim with the feature `serve`; WEB: microsim-game/web; FOLDER: is made anew
+//                                             ECHO: the game's example room_echo with the feature `webrtc`
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import fs from "node:fs";
 import { chromium } from "playwright-core";
 
-const [program, web, folder] = process.argv.slice(2);
+const [program, web, folder, echo] = process.argv.slice(2);
 fs.rmSync(folder, { recursive: true, force: true });
 fs.mkdirSync(folder, { recursive: true });
 for (const name of ["index.html", "host.js", "mesh.js", "style.css"]) fs.copyFileSync(`${web}/${name}`, `${folder}/${name}`);
@@ -169,6 +170,31 @@ try {
         assert.deepEqual(await exchange(room, one, bad, 1), [20, 0]);
     }
     console.log("ok: a channel with too much in it is closed");
+
+    // A page that offers, and one that answers.
+    for (const room of ["OFFERS", "ANSWERS"]) {
+        const page = await open();
+        let relayed = 0;
+        page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => (relayed += payload[0] !== 255 && payload[1] !== 255)));
+        const enter = () => page.evaluate((room) => globalThis.enter(room, room), room);
+        if (room === "OFFERS") await enter().then(() => next(page, room));
+        const window = spawn(echo, [address.href, room], { stdio: "inherit" });
+        try {
+            if (room === "ANSWERS") {
+                await page.waitForTimeout(500);
+                await enter();
+            }
+            await next(page, room);
+            const other = room === "OFFERS" ? 1 : 0;
+            await meshed(room, page, other);
+            relayed = 0;
+            assert.deepEqual(await exchange(room, page, page, other), [0, 20]);
+            assert.equal(relayed, 0);
+        } finally {
+            window.kill("SIGKILL");
+        }
+    }
+    console.log("ok: a page and a window speak by their channel alone");
 
     const junk = await open("&direct=no");
     await pair("JUNK", one, junk);

@@ -3,16 +3,16 @@
 use super::transport::{LONGEST_MESSAGE, Member, Notice};
 
 /// First byte of what the server itself says.
-const NOTICE: u8 = 0xff;
+pub(crate) const NOTICE: u8 = 0xff;
 const WELCOME: u8 = 0;
-const JOINED: u8 = 1;
-const LEFT: u8 = 2;
+pub(crate) const JOINED: u8 = 1;
+pub(crate) const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
 const HELPERS: u8 = 4;
 /// First byte of what members tell each other to open channels; no message of the game begins with it.
-const SIGNAL: u8 = 0xff;
+pub(crate) const SIGNAL: u8 = 0xff;
 /// Most members of a room.
-const MEMBERS: u8 = 4;
+pub(crate) const MEMBERS: u8 = 4;
 /// Longest reason that is shown, characters.
 const LONGEST_REASON: usize = 200;
 /// Why a connection ends of which the server says nothing.
