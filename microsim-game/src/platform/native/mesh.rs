@@ -195,7 +195,9 @@ mod tests {
         let mut come = 0;
         while one.ways[1].is_some() {
             assert!(begin.elapsed() < PATIENCE, "{come} have come");
-            (0..100).for_each(|_| drop(two.send(0, b"!")));
+            for _ in 0..100 {
+                two.send(0, b"!");
+            }
             come += one.poll().len();
             two.poll();
         }
