@@ -149,6 +149,20 @@ fn guests_of_a_room_meet() {
 }
 
 #[test]
+fn members_are_told_who_helps_them_to_find_each_other() {
+    let server = Server::start(&["--stun", "stun.example", "--turn", "lab:secret@turn.example:3478"]);
+    let told =
+        br#"[{"urls":"stun:stun.example"},{"urls":"turn:turn.example:3478","username":"lab","credential":"secret"}]"#;
+    for number in 0..2 {
+        let mut guest = server.enter("ROOM");
+        assert_eq!(guest.next().unwrap()[..2], [0xff, 0], "guest {number} is welcome first");
+        guest.expect(&[&[0xff, 4], &told[..]].concat());
+    }
+    refused(&["serve", "--turn", "turn.example"], "NAME:PASSWORD@");
+    refused(&["serve", "--stun", "stun:stun.example:1"], "HOST");
+}
+
+#[test]
 fn a_fifth_guest_and_a_room_too_many_are_refused() {
     let server = Server::start(&["--rooms", "1"]);
     let mut four: Vec<Guest> = (0..4).map(|_| server.enter("FULL")).collect();

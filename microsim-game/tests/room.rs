@@ -23,6 +23,8 @@ impl Server {
         let program = std::env::var("MICROSIM_SERVE").expect("MICROSIM_SERVE is a microsim with the feature `serve`");
         let mut command = Command::new("env");
         command.args(["--default-signal=INT", &program, "--quiet", "serve", "--port", "0", "--listen", "127.0.0.1"]);
+        // Members are told of a server that they do not need.
+        command.args(["--stun", "127.0.0.1"]);
         let mut process = command.stdout(Stdio::piped()).spawn().unwrap();
         let mut address = String::new();
         BufReader::new(process.stdout.take().unwrap()).read_line(&mut address).unwrap();
@@ -59,7 +61,7 @@ fn next(room: &mut Box<dyn Transport>) -> Vec<Notice> {
 
 fn number(notice: &Notice) -> u32 {
     let Notice::Message { bytes, .. } = notice else { panic!("{notice:?}") };
-    u32::from_le_bytes(bytes[..4].try_into().unwrap())
+    u32::from_be_bytes(bytes[..4].try_into().unwrap())
 }
 
 #[test]
@@ -78,7 +80,7 @@ fn messages_arrive_in_order() {
         // The server reads a thousand a second of each; what is sent too fast waits, and is lost in the end.
         let due = (begin.elapsed().as_secs_f64() * 1000.0) as u32 + 1000;
         while sent < due.min(COUNT) {
-            let message = [&sent.to_le_bytes()[..], &[0; 56]].concat();
+            let message = [&sent.to_be_bytes()[..], &[0; 56]].concat();
             one.send(1, &message);
             two.send(0, &message);
             sent += 1;

@@ -1,5 +1,7 @@
 // What the game asks of the page, and what it tells it: the functions of `src/platform/web`.
 
+import { Mesh } from "./mesh.js";
+
 const STORE = "microsim/";
 const LONGEST_FILE = 16 << 20;
 /** Seconds by which sound is late, so that a late frame leaves no gap. */
@@ -50,7 +52,7 @@ export async function give(list) {
 export function readAddress(linked) {
     for (const [name, value] of address) {
         if (name === "scenario") words.push(value);
-        else if (name !== "floats" && name !== "simd") words.push(value === "" ? `--${name}` : `--${name}=${value}`);
+        else if (name !== "direct" && name !== "floats" && name !== "simd") words.push(value === "" ? `--${name}` : `--${name}=${value}`);
     }
     words.push(...linked);
 }
@@ -197,23 +199,35 @@ const MOST_UNSENT = 1 << 20;
 function enterRoom(number, code) {
     const socket = new WebSocket(new URL(`room/${decode(code)}`, location.href.replace("http", "ws")));
     const frames = [];
+    const receive = (frame) => (frames.length < MOST_FRAMES ? frames.push(frame) : socket.close());
+    const mesh = address.get("direct") === "no" ? null : new Mesh((frame) => submit(socket, frame), receive);
     socket.binaryType = "arraybuffer";
     socket.onmessage = ({ data }) => {
-        if (typeof data === "string" || data.byteLength > LONGEST_FRAME || frames.length >= MOST_FRAMES) socket.close();
-        else frames.push(new Uint8Array(data));
+        if (typeof data === "string" || data.byteLength > LONGEST_FRAME) return socket.close();
+        const frame = new Uint8Array(data);
+        if (!mesh?.take(frame)) receive(frame);
     };
-    socket.onclose = () => frames.push(Uint8Array.of(255, 3)); // As if the server had refused, without a reason.
-    rooms.set(number, { socket, frames });
+    socket.onclose = () => {
+        mesh?.close();
+        frames.push(Uint8Array.of(255, 3)); // As if the server had refused, without a reason.
+    };
+    rooms.set(number, { socket, frames, mesh });
 }
 
 function leaveRoom(number) {
-    rooms.get(number).socket.close();
+    const { socket, mesh } = rooms.get(number);
+    mesh?.close();
+    socket.close();
     rooms.delete(number);
 }
 
-function send(number, frame) {
-    const { socket } = rooms.get(number);
+function submit(socket, frame) {
     if (socket.readyState === WebSocket.OPEN && socket.bufferedAmount < MOST_UNSENT) socket.send(frame);
+}
+
+function send(number, frame) {
+    const { socket, mesh } = rooms.get(number);
+    if (!mesh?.send(frame)) submit(socket, frame);
 }
 
 function takeItem() {

@@ -3,25 +3,35 @@
 use super::transport::{LONGEST_MESSAGE, Member, Notice};
 
 /// First byte of what the server itself says.
-const NOTICE: u8 = 0xff;
+pub(crate) const NOTICE: u8 = 0xff;
 const WELCOME: u8 = 0;
-const JOINED: u8 = 1;
-const LEFT: u8 = 2;
+pub(crate) const JOINED: u8 = 1;
+pub(crate) const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
+const HELPERS: u8 = 4;
+/// First byte of what members tell each other to open channels; no message of the game begins with it.
+pub(crate) const SIGNAL: u8 = 0xff;
 /// Most members of a room.
-const MEMBERS: u8 = 4;
+pub(crate) const MEMBERS: u8 = 4;
 /// Longest reason that is shown, characters.
 const LONGEST_REASON: usize = 200;
 /// Why a connection ends of which the server says nothing.
 pub const CUT: &str = "the connection to the server is cut";
 
-/// A message as the server takes it; none if it is too long.
+/// A message as the server takes it; none if it is too long or would be taken for a signal.
 #[must_use]
 pub fn frame(to: Member, message: &[u8]) -> Option<Vec<u8>> {
-    (message.len() <= LONGEST_MESSAGE).then(|| [&[to], message].concat())
+    let is_sound = message.len() <= LONGEST_MESSAGE && message.first() != Some(&SIGNAL);
+    is_sound.then(|| [&[to], message].concat())
 }
 
-/// What a frame of the server says; none if it is not of the server's.
+/// Whether a frame is for the channels between members, and not for the game.
+#[must_use]
+pub fn is_of_channels(frame: &[u8]) -> bool {
+    matches!(frame, [NOTICE, HELPERS, ..]) || matches!(frame, [from, SIGNAL, ..] if *from < MEMBERS)
+}
+
+/// What any other frame of the server says; none if it is not of the server's.
 #[must_use]
 pub fn notice(frame: &[u8]) -> Option<Notice> {
     let known = |member: Member| (member < MEMBERS).then_some(member);
@@ -69,6 +79,14 @@ mod tests {
     }
 
     #[test]
+    fn frames_for_channels_are_told_from_others() {
+        let of_channels: [&[u8]; 3] = [&[0xff, 4], b"\xff\x04[]", &[3, 0xff, 0, 1]];
+        assert!(of_channels.iter().all(|frame| is_of_channels(frame)));
+        let others: [&[u8]; 6] = [&[], &[0xff], &[0xff, 3, 4], &[0xff, 0xff], &[4, 0xff], &[1, 0, 0xff]];
+        assert!(!others.iter().any(|frame| is_of_channels(frame)));
+    }
+
+    #[test]
     fn other_frames_are_none() {
         let long = vec![0; LONGEST_MESSAGE + 2];
         let wrong: [&[u8]; 10] = [
@@ -84,7 +102,7 @@ mod tests {
             &long,
         ];
         assert!(wrong.iter().all(|frame| notice(frame).is_none()));
-        assert_eq!(frame(0, &long), None);
+        assert!(frame(0, &long).is_none() && frame(0, &[SIGNAL]).is_none());
     }
 
     /// Whatever a server sends, nobody has a number that is not there.

@@ -35,6 +35,6 @@ pub enum Notice {
 pub trait Transport: std::fmt::Debug {
     /// What happened since the last call, in order.
     fn poll(&mut self) -> Vec<Notice>;
-    /// Sends a message to one member, without waiting.
+    /// Sends a message to one member, without waiting; its first byte is not 255.
     fn send(&mut self, to: Member, bytes: &[u8]);
 }

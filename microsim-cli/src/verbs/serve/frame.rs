@@ -9,6 +9,7 @@ const WELCOME: u8 = 0;
 const JOINED: u8 = 1;
 const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
+const HELPERS: u8 = 4;
 
 /// The room is entered, as this member.
 pub(super) fn welcome(member: u8, others: impl Iterator<Item = u8>) -> Bytes {
@@ -21,6 +22,11 @@ pub(super) fn joined(member: u8) -> Bytes {
 
 pub(super) fn left(member: u8) -> Bytes {
     vec![NOTICE, LEFT, member].into()
+}
+
+/// Servers that help to find paths to other members.
+pub(super) fn helpers(told: &[u8]) -> Bytes {
+    [&[NOTICE, HELPERS], told].concat().into()
 }
 
 /// The last that is said, with a reason for people.

@@ -42,10 +42,10 @@ pub(super) struct Server {
 }
 
 impl Server {
-    pub(super) fn new(page: Page, tls: Option<TlsAcceptor>, rooms: u32) -> Self {
+    pub(super) fn new(hall: Hall, page: Page, tls: Option<TlsAcceptor>, rooms: u32) -> Self {
         let most = rooms * MEMBERS as u32 + VISITORS as u32;
         let connections = Arc::new(Semaphore::new(most as usize));
-        Self { hall: Hall::new(rooms as usize), page, tls, connections, most }
+        Self { hall, page, tls, connections, most }
     }
 
     /// Takes connections for ever.

@@ -26,8 +26,12 @@ pub(super) struct Hall {
 }
 
 impl Hall {
-    pub(super) fn new(most: usize) -> Self {
-        Self { rooms: Mutex::new(Rooms::new(most)), stops: watch::Sender::new(false) }
+    /// `helpers` is what members are told of them.
+    pub(super) fn new(most: usize, helpers: Option<Bytes>) -> Self {
+        Self {
+            rooms: Mutex::new(Rooms::new(most, helpers.as_deref().map(frame::helpers))),
+            stops: watch::Sender::new(false),
+        }
     }
 
     /// Tells all members that the server stops.

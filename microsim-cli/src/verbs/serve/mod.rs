@@ -2,6 +2,7 @@
 
 mod code;
 mod frame;
+mod helper;
 mod http;
 mod limits;
 mod member;
@@ -14,7 +15,9 @@ use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::interrupt;
 use code::Code;
+use helper::Helper;
 use http::Server;
+use member::Hall;
 use page::Page;
 use qrcode::QrCode;
 use qrcode::render::unicode::Dense1x2;
@@ -43,6 +46,12 @@ pub(crate) struct ServeArgs {
     /// Most rooms at the same time
     #[arg(long, value_name = "N", default_value_t = limits::ROOMS, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     rooms: u32,
+    /// STUN server, HOST or HOST:PORT, that members are told of: it tells them their own address. Repeatable
+    #[arg(long, value_name = "SERVER", value_parser = helper::stun)]
+    stun: Vec<Helper>,
+    /// TURN server, NAME:PASSWORD@HOST:PORT, that members are told of, password too: it carries what finds no path. Repeatable
+    #[arg(long, value_name = "SERVER", value_parser = helper::turn)]
+    turn: Vec<Helper>,
     /// Certificates in PEM, for https and wss at the same port
     #[arg(long, value_name = "FILE", requires = "key")]
     certificate: Option<PathBuf>,
@@ -58,7 +67,8 @@ pub(crate) fn serve(args: &ServeArgs, console: &Console) -> Result<(), Failure> 
     let secured = args.certificate.as_deref().zip(args.key.as_deref());
     let tls = secured.map(|(certificate, key)| tls::acceptor(certificate, key)).transpose()?;
     let scheme = if tls.is_some() { "https" } else { "http" };
-    let server = Arc::new(Server::new(page.transpose()?.unwrap_or_default(), tls, args.rooms));
+    let hall = Hall::new(args.rooms as usize, helper::told(&[&args.stun[..], &args.turn].concat()));
+    let server = Arc::new(Server::new(hall, page.transpose()?.unwrap_or_default(), tls, args.rooms));
     let failed = |error: io::Error| {
         Failure::Message(format!("cannot listen at {}: {error}", SocketAddr::new(args.listen, args.port)))
     };

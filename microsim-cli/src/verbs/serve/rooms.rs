@@ -84,12 +84,14 @@ impl<O: Outbox> Room<O> {
 pub(super) struct Rooms<O> {
     rooms: HashMap<Code, Room<O>>,
     most: usize,
+    /// What each member is told after the welcome.
+    helpers: Option<Bytes>,
     tickets: u64,
 }
 
 impl<O: Outbox> Rooms<O> {
-    pub(super) fn new(most: usize) -> Self {
-        Self { rooms: HashMap::new(), most, tickets: 0 }
+    pub(super) fn new(most: usize, helpers: Option<Bytes>) -> Self {
+        Self { rooms: HashMap::new(), most, helpers, tickets: 0 }
     }
 
     /// Takes the lowest free seat. The first frame for the new member is his welcome.
@@ -102,7 +104,11 @@ impl<O: Outbox> Rooms<O> {
         let (member, _) = free.ok_or(Refusal::RoomIsFull)?;
         self.tickets += 1;
         let place = Place { code, member, ticket: self.tickets };
+        // Nothing waits for a new member: there is room for both.
         outbox.offer(frame::welcome(member, room.members()));
+        if let Some(helpers) = &self.helpers {
+            outbox.offer(helpers.clone());
+        }
         room.0[usize::from(member)] = Some(Seat { ticket: place.ticket, outbox });
         room.send_to_others(member, &frame::joined(member));
         Ok(place)
@@ -166,7 +172,7 @@ mod tests {
 
     /// A room with so many members, who have read everything.
     fn room_of(count: usize) -> (Rooms<Shelf>, Vec<(Place, Shelf)>) {
-        let mut rooms = Rooms::new(10);
+        let mut rooms = Rooms::new(10, None);
         let mut join = || {
             let shelf = Shelf::new(100);
             (rooms.join(code("ROOM"), shelf.clone()).unwrap(), shelf)
@@ -225,7 +231,7 @@ mod tests {
 
     #[test]
     fn rooms_are_counted_and_go_with_the_last_member() {
-        let mut rooms = Rooms::new(2);
+        let mut rooms = Rooms::new(2, None);
         let place = rooms.join(code("ONE1"), Shelf::new(9)).unwrap();
         rooms.join(code("TWO2"), Shelf::new(9)).unwrap();
         assert_eq!(rooms.join(code("THREE"), Shelf::new(9)), Err(Refusal::NoRoomLeft));
@@ -259,7 +265,7 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 33) as usize % count
         };
-        let mut rooms = Rooms::new(1);
+        let mut rooms = Rooms::new(1, None);
         let mut members: Vec<(Place, Shelf, BTreeSet<u8>)> = Vec::new();
         for _ in 0..20_000 {
             match below(8) {

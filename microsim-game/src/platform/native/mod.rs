@@ -3,9 +3,13 @@
 #[cfg(windows)]
 mod console;
 mod gamepads;
+#[cfg_attr(not(feature = "webrtc"), path = "no_mesh.rs")]
+mod mesh;
 mod room;
 mod speaker;
 mod storage;
+#[cfg(feature = "webrtc")]
+mod way;
 mod window;
 
 pub use gamepads::Gamepads;

@@ -1,5 +1,6 @@
 //! A room of a server, by WebSocket.
 
+use super::mesh::Mesh;
 use crate::network::relay::{self, CUT};
 use crate::network::transport::{LONGEST_MESSAGE, Member, Notice, Transport};
 use std::io::{self, ErrorKind};
@@ -31,7 +32,7 @@ pub fn open_room(server: &str, code: &str) -> Result<Box<dyn Transport>, String>
         let _ = sender.send(connect(&host, &code));
     };
     thread::Builder::new().name("room".to_owned()).spawn(connect).map_err(|error| error.to_string())?;
-    Ok(Box::new(Room(State::Connecting(way))))
+    Ok(Box::new(Room { state: State::Connecting(way), mesh: None }))
 }
 
 /// `HOST:PORT` of an address.
@@ -80,7 +81,10 @@ fn reach(host: &str) -> io::Result<TcpStream> {
 }
 
 #[derive(Debug)]
-struct Room(State);
+struct Room {
+    state: State,
+    mesh: Option<Mesh>,
+}
 
 #[derive(Debug)]
 enum State {
@@ -90,52 +94,59 @@ enum State {
 }
 
 impl Room {
-    /// The next notice, if there is one by now.
-    fn next(&mut self) -> Option<Notice> {
-        if let State::Connecting(way) = &self.0 {
+    /// What comes next, if something has come by now: a notice, or nothing that the game is told.
+    fn next(&mut self) -> Option<Option<Notice>> {
+        if let State::Connecting(way) = &self.state {
             match way.try_recv() {
-                Ok(Ok(socket)) => self.0 = State::Open(Box::new(socket)),
-                Ok(Err(problem)) => return Some(Notice::Closed(problem)),
+                Ok(Ok(socket)) => {
+                    self.mesh = socket.get_ref().local_addr().ok().and_then(|own| Mesh::new(own.ip()));
+                    self.state = State::Open(Box::new(socket));
+                }
+                Ok(Err(problem)) => return Some(Some(Notice::Closed(problem))),
                 Err(TryRecvError::Empty) => {}
-                Err(TryRecvError::Disconnected) => return Some(Notice::Closed(CUT.to_owned())),
+                Err(TryRecvError::Disconnected) => return Some(Some(Notice::Closed(CUT.to_owned()))),
             }
         }
-        let State::Open(socket) = &mut self.0 else { return None };
-        match socket.read() {
-            Ok(Message::Binary(frame)) => match relay::notice(&frame) {
-                Some(notice) => Some(notice),
-                None => Some(Notice::Closed("the server says what no server of rooms says".to_owned())),
-            },
-            // The rest waits for the next frame, however many there are.
+        let State::Open(socket) = &mut self.state else { return None };
+        let notice = match socket.read() {
+            Ok(Message::Binary(frame)) => {
+                let other = || Notice::Closed("the server says what no server of rooms says".to_owned());
+                if let Some(signal) = self.mesh.as_mut().and_then(|mesh| mesh.take(&frame)) {
+                    // As with messages below.
+                    let _ = socket.send(Message::binary(signal));
+                }
+                (!relay::is_of_channels(&frame)).then(|| relay::notice(&frame).unwrap_or_else(other))
+            }
             Ok(Message::Ping(_) | Message::Pong(_)) => None,
             Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => {
                 // What could not be sent before; that it fails is read next time.
                 let _ = socket.flush();
-                None
+                return None;
             }
             _ => Some(Notice::Closed(CUT.to_owned())),
-        }
+        };
+        Some(notice)
     }
 }
 
 impl Transport for Room {
     fn poll(&mut self) -> Vec<Notice> {
         let mut notices = Vec::new();
-        while let Some(notice) = self.next() {
-            let is_end = matches!(notice, Notice::Closed(_));
-            notices.push(notice);
-            if is_end {
-                self.0 = State::Closed;
+        for _ in 0..MOST {
+            let Some(next) = self.next() else { break };
+            if matches!(next, Some(Notice::Closed(_))) {
+                (self.state, self.mesh) = (State::Closed, None);
             }
-            if notices.len() == MOST {
-                break;
-            }
+            notices.extend(next);
         }
+        notices.extend(self.mesh.iter_mut().flat_map(Mesh::poll));
         notices
     }
 
     fn send(&mut self, to: Member, bytes: &[u8]) {
-        if let (State::Open(socket), Some(frame)) = (&mut self.0, relay::frame(to, bytes)) {
+        if let (State::Open(socket), Some(frame)) = (&mut self.state, relay::frame(to, bytes))
+            && !self.mesh.as_mut().is_some_and(|mesh| mesh.send(to, bytes))
+        {
             // What does not go now waits, up to a limit; a connection that is cut is read of.
             let _ = socket.send(Message::binary(frame));
         }
@@ -144,7 +155,7 @@ impl Transport for Room {
 
 impl Drop for Room {
     fn drop(&mut self) {
-        if let State::Open(socket) = &mut self.0 {
+        if let State::Open(socket) = &mut self.state {
             // The server notices without a word too, only later.
             let _ = socket.close(None);
             let _ = socket.flush();

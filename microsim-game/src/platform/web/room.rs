@@ -30,6 +30,10 @@ impl Transport for Room {
         while self.is_open
             && let Some(frame) = host::ask("room", &self.number)
         {
+            // The page makes no channels, or it would have taken it.
+            if relay::is_of_channels(&frame) {
+                continue;
+            }
             let notice = relay::notice(&frame).unwrap_or_else(|| Notice::Closed(relay::CUT.to_owned()));
             self.is_open = !matches!(notice, Notice::Closed(_));
             notices.push(notice);

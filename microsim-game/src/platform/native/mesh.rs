@@ -1,0 +1,232 @@
+//! Channels from this window to the other members of a room, without the server between (WebRTC): docs/network.md has the signals.
+//! What comes from another member may be anything.
+
+use super::way::{Signal, Way};
+use crate::network::relay::{JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
+use crate::network::transport::{Member, Notice};
+use std::fmt;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
+use std::time::Instant;
+use str0m::Input;
+use str0m::net::{Protocol, Receive};
+
+/// Most offers of a member; one may have been for who had this number before.
+const MOST_OFFERS: u8 = 3;
+/// Longest signal, bytes.
+const LONGEST_SIGNAL: usize = 8192;
+/// Longest packet, bytes: that of an Ethernet.
+const LONGEST_PACKET: usize = 1500;
+/// Most packets that are taken at once.
+const MOST_PACKETS: usize = 2000;
+
+/// The channels of one room.
+pub(super) struct Mesh {
+    socket: UdpSocket,
+    address: SocketAddr,
+    ways: [Option<Way>; MEMBERS as usize],
+    /// How many offers have come, by member.
+    offers: [u8; MEMBERS as usize],
+    attempts: u8,
+}
+
+impl Mesh {
+    /// Channels that begin at the address from which the server is reached, or from which others would be if it is on this
+    /// machine; none if the system gives no socket.
+    pub(super) fn new(own: IpAddr) -> Option<Self> {
+        let own = if own.is_loopback() { outward().unwrap_or(own) } else { own };
+        let socket = UdpSocket::bind((own, 0)).ok()?;
+        socket.set_nonblocking(true).ok()?;
+        let address = socket.local_addr().ok()?;
+        Some(Self { socket, address, ways: Default::default(), offers: Default::default(), attempts: 0 })
+    }
+
+    /// Takes what the server has sent, and returns a frame that is to be sent to it.
+    pub(super) fn take(&mut self, frame: &[u8]) -> Option<Vec<u8>> {
+        let (member, signal) = match *frame {
+            [NOTICE, kind @ (JOINED | LEFT), member] if member < MEMBERS => {
+                self.ways[usize::from(member)] = None;
+                self.offers[usize::from(member)] = 0;
+                // Who is there already offers a way to who comes.
+                (member, if kind == JOINED { self.offer(member) } else { None })
+            }
+            [member, SIGNAL, ref signal @ ..] if member < MEMBERS && signal.len() <= LONGEST_SIGNAL => {
+                (member, self.hear(member, &Signal::read(signal)?))
+            }
+            _ => return None,
+        };
+        Some([&[member, SIGNAL][..], &signal?.write()].concat())
+    }
+
+    fn offer(&mut self, member: Member) -> Option<Signal> {
+        self.attempts = self.attempts.wrapping_add(1);
+        let (way, offer) = Way::offer(self.attempts, self.address)?;
+        self.ways[usize::from(member)] = Some(way);
+        Some(offer)
+    }
+
+    fn hear(&mut self, member: Member, signal: &Signal) -> Option<Signal> {
+        let place = usize::from(member);
+        if !signal.is_offer() {
+            let way = self.ways[place].as_mut().filter(|way| way.attempt() == signal.attempt)?;
+            way.take(signal);
+            return None;
+        }
+        self.offers[place] = self.offers[place].saturating_add(1);
+        if self.offers[place] > MOST_OFFERS {
+            return None;
+        }
+        self.ways[place] = None;
+        let (way, answer) = Way::answer(signal, self.address)?;
+        self.ways[place] = Some(way);
+        Some(answer)
+    }
+
+    /// What has come by channels.
+    pub(super) fn poll(&mut self) -> Vec<Notice> {
+        let now = Instant::now();
+        let mut packet = [0; LONGEST_PACKET];
+        for _ in 0..MOST_PACKETS {
+            let Ok((length, source)) = self.socket.recv_from(&mut packet) else { break };
+            let Ok(contents) = packet[..length].try_into() else { continue };
+            let received = Receive { proto: Protocol::Udp, source, destination: self.address, contents };
+            let input = Input::Receive(now, received);
+            if let Some(way) = self.ways.iter_mut().flatten().find(|way| way.accepts(&input)) {
+                way.receive(input, &self.socket, now);
+            }
+        }
+        let mut notices = Vec::new();
+        for (from, place) in (0..).zip(&mut self.ways) {
+            let Some(way) = place else { continue };
+            way.drive(&self.socket, now);
+            notices.extend(way.messages().map(|bytes| Notice::Message { from, bytes }));
+            if way.is_lost() {
+                *place = None;
+            }
+        }
+        notices
+    }
+
+    /// Sends a message by a channel, and returns whether it need not go by the server as well.
+    pub(super) fn send(&mut self, to: Member, message: &[u8]) -> bool {
+        let way = self.ways.get_mut(usize::from(to)).and_then(Option::as_mut);
+        way.is_some_and(|way| way.send(message, &self.socket, Instant::now()))
+    }
+}
+
+impl fmt::Debug for Mesh {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Mesh").field("address", &self.address).finish_non_exhaustive()
+    }
+}
+
+/// The address of this machine in its network: the one that it would send from. Nothing is sent; the address to send to is
+/// one of those for documentation (RFC 5737).
+fn outward() -> Option<IpAddr> {
+    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
+    socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9)).ok()?;
+    Some(socket.local_addr().ok()?.ip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread;
+    use std::time::Duration;
+
+    const PATIENCE: Duration = Duration::from_secs(20);
+
+    fn pair() -> (Mesh, Mesh) {
+        let own = Ipv4Addr::LOCALHOST.into();
+        (Mesh::new(own).unwrap(), Mesh::new(own).unwrap())
+    }
+
+    /// Carries a frame of a member to another one, as the server does.
+    fn carried(from: Member, frame: &[u8]) -> Vec<u8> {
+        [&[from], &frame[1..]].concat()
+    }
+
+    /// Members 0 and 1, whose channel is open.
+    fn meshed() -> (Mesh, Mesh) {
+        let (mut one, mut two) = pair();
+        let offer = one.take(&[NOTICE, JOINED, 1]).unwrap();
+        let answer = two.take(&carried(0, &offer)).unwrap();
+        assert_eq!(one.take(&carried(1, &answer)), None);
+        let begin = Instant::now();
+        while !(one.send(1, b"?") && two.send(0, b"?")) {
+            assert!(begin.elapsed() < PATIENCE, "no channel opens");
+            one.poll();
+            two.poll();
+            thread::sleep(Duration::from_millis(1));
+        }
+        (one, two)
+    }
+
+    fn next(mesh: &mut Mesh, other: &mut Mesh) -> Notice {
+        let begin = Instant::now();
+        loop {
+            other.poll();
+            let notices = mesh.poll();
+            let found =
+                notices.into_iter().find(|notice| !matches!(notice, Notice::Message { bytes, .. } if bytes == b"?"));
+            if let Some(notice) = found {
+                return notice;
+            }
+            assert!(begin.elapsed() < PATIENCE, "nothing comes");
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn members_speak_by_a_channel_until_one_leaves() {
+        let (mut one, mut two) = meshed();
+        assert!(one.send(1, b"eat"));
+        assert_eq!(next(&mut two, &mut one), Notice::Message { from: 0, bytes: b"eat".to_vec() });
+        assert!(two.send(0, &[7; 1100]));
+        assert_eq!(next(&mut one, &mut two), Notice::Message { from: 1, bytes: vec![7; 1100] });
+        assert!(!two.send(0, &[7; 1101]), "long ones go by the server");
+        assert_eq!(one.take(&[NOTICE, LEFT, 1]), None);
+        assert!(!one.send(1, b"eat"));
+    }
+
+    #[test]
+    fn who_floods_a_channel_loses_it() {
+        let (mut one, mut two) = meshed();
+        let begin = Instant::now();
+        let mut come = 0;
+        while one.ways[1].is_some() {
+            assert!(begin.elapsed() < PATIENCE, "{come} have come");
+            for _ in 0..100 {
+                two.send(0, b"!");
+            }
+            come += one.poll().len();
+            two.poll();
+        }
+        assert!(!one.send(1, b"eat"));
+    }
+
+    #[test]
+    fn signals_that_are_none_change_nothing() {
+        let (mut one, mut two) = meshed();
+        let mut state = 1u64;
+        let mut byte = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 56) as u8
+        };
+        let offer = two.take(&[NOTICE, JOINED, 2]).unwrap();
+        for _ in 0..2000 {
+            // A damaged offer, or noise, of a member without a way.
+            let mut frame = carried(3, &offer);
+            let place = 2 + usize::from(byte()) % (frame.len() - 2);
+            frame[place] = byte();
+            frame.truncate(2 + usize::from(byte()) * 4);
+            let _ = one.take(&frame);
+            one.offers[3] = 0;
+        }
+        one.poll();
+        assert!(one.send(1, b"eat") && one.take(&[3, SIGNAL]).is_none() && one.take(&[9, SIGNAL, 0, 0]).is_none());
+        assert_eq!(next(&mut two, &mut one), Notice::Message { from: 0, bytes: b"eat".to_vec() });
+        (0..9).for_each(|_| drop(one.take(&carried(3, &offer))));
+        assert_eq!(one.offers[3], 9);
+        assert!(one.take(&carried(3, &offer)).is_none(), "no more than three are answered");
+    }
+}
