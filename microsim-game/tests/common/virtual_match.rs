@@ -153,9 +153,9 @@ impl Match {
 
     /// A room knows of those who have left a moment later, and gives their cells away.
     fn notice_those_who_left(&mut self, member: usize) {
-        let gone: Vec<usize> =
-            self.leaving.iter().filter(|&&(_, when)| when as f32 + 50.0 <= self.now).map(|(who, _)| *who).collect();
-        for who in gone.into_iter().filter(|&who| !self.is_there(who)) {
+        let is_known = |&(who, when): &(usize, u32)| when as f32 + 50.0 <= self.now && !self.is_there(who);
+        let gone: Vec<usize> = self.leaving.iter().copied().filter(is_known).map(|(who, _)| who).collect();
+        for who in gone {
             if let Some(seat) = self.seat_of(&self.sessions[member], who) {
                 self.sessions[member].leave(seat);
             }

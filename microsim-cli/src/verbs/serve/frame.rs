@@ -9,6 +9,7 @@ const WELCOME: u8 = 0;
 const JOINED: u8 = 1;
 const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
+const BACK: u8 = 5;
 
 /// The room is entered, as this member.
 pub(super) fn welcome(member: u8, others: impl Iterator<Item = u8>) -> Bytes {
@@ -21,6 +22,11 @@ pub(super) fn joined(member: u8) -> Bytes {
 
 pub(super) fn left(member: u8) -> Bytes {
     vec![NOTICE, LEFT, member].into()
+}
+
+/// Who was cut is there again.
+pub(super) fn back(member: u8) -> Bytes {
+    vec![NOTICE, BACK, member].into()
 }
 
 /// The last that is said, with a reason for people.

@@ -7,7 +7,7 @@ mod speaker;
 mod storage;
 mod window;
 
-pub use room::open_room;
+pub use room::{open_room, room_key};
 pub use speaker::Speaker;
 pub use storage::Storage;
 pub(crate) use window::run;

@@ -5,7 +5,7 @@ mod room;
 mod speaker;
 mod storage;
 
-pub use room::open_room;
+pub use room::{open_room, room_key};
 pub use speaker::Speaker;
 pub use storage::Storage;
 
