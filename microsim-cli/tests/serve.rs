@@ -8,7 +8,12 @@ use common::{Folder, heeding_signals, microsim, refused, stdout};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tokio_rustls::rustls::crypto::ring;
+use tokio_rustls::rustls::pki_types::CertificateDer;
+use tokio_rustls::rustls::pki_types::pem::PemObject;
+use tokio_rustls::rustls::{ClientConfig, ClientConnection, RootCertStore, StreamOwned};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
@@ -41,6 +46,10 @@ impl Server {
     }
 
     /// A guest in a room, or the status of the answer.
+    fn enter_with_key(&self, code: &str, key: &str) -> Guest {
+        self.enter(&format!("{code}?key={key}"))
+    }
+
     fn try_enter(&self, code: &str, origin: Option<&str>) -> Result<Guest, u16> {
         let mut request = format!("ws://127.0.0.1:{}/room/{code}", self.port).into_client_request().unwrap();
         if let Some(origin) = origin {
@@ -160,6 +169,92 @@ fn members_are_told_who_helps_them_to_find_each_other() {
     }
     refused(&["serve", "--turn", "turn.example"], "NAME:PASSWORD@");
     refused(&["serve", "--stun", "stun:stun.example:1"], "HOST");
+}
+
+#[test]
+fn who_was_cut_has_its_number_again_and_who_goes_has_not() {
+    let server = Server::start(&[]);
+    let mut one = server.enter("ROOM");
+    one.expect(&[0xff, 0, 0]);
+    let mut two = server.enter_with_key("ROOM", "a1b2c3");
+    two.expect(&[0xff, 0, 1, 0]);
+    one.expect(&[0xff, 1, 1]);
+    drop(two);
+    one.expect(&[0xff, 2, 1]);
+    server.enter_with_key("ROOM", "a1b2c4").expect(&[0xff, 0, 2, 0]);
+    one.expect(&[0xff, 1, 2]);
+    one.expect(&[0xff, 2, 2]);
+    let mut two = server.enter_with_key("ROOM", "a1b2c3");
+    two.expect(&[0xff, 0, 1, 0]);
+    one.expect(&[0xff, 5, 1]);
+    // Before the server knows that it is cut.
+    let mut again = server.enter_with_key("ROOM", "a1b2c3");
+    again.expect(&[0xff, 0, 1, 0]);
+    one.expect(&[0xff, 5, 1]);
+    again.send(0, b"here");
+    one.expect(b"\x01here");
+    assert_eq!(two.reason(), "the connection is too slow");
+    again.0.close(None).unwrap();
+    let _ = again.0.flush();
+    one.expect(&[0xff, 2, 1]);
+    server.enter("ROOM").expect(&[0xff, 0, 1, 0]);
+}
+
+/// A certificate that is its own issuer, and its key, made now.
+fn certificate(folder: &Folder) -> [String; 2] {
+    let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| folder.path(name));
+    let more = ["subjectAltName=DNS:localhost", "basicConstraints=critical,CA:FALSE"];
+    let mut command = Command::new("openssl");
+    command.args(["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2"]);
+    command.args([
+        "-subj",
+        "/CN=localhost",
+        "-addext",
+        more[0],
+        "-addext",
+        more[1],
+        "-keyout",
+        &key,
+        "-out",
+        &certificate,
+    ]);
+    let made = command.stderr(Stdio::null()).status().expect("openssl is there");
+    assert!(made.success());
+    [certificate, key]
+}
+
+fn secured(server: &Server, trusted: &[CertificateDer<'static>]) -> StreamOwned<ClientConnection, TcpStream> {
+    let mut roots = RootCertStore::empty();
+    trusted.iter().for_each(|certificate| roots.add(certificate.clone()).unwrap());
+    let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
+        .with_safe_default_protocol_versions()
+        .unwrap()
+        .with_root_certificates(roots)
+        .with_no_client_auth();
+    let connection = ClientConnection::new(Arc::new(config), "localhost".try_into().unwrap()).unwrap();
+    StreamOwned::new(connection, server.connect())
+}
+
+#[test]
+fn a_page_and_a_room_are_served_by_tls_with_a_certificate() {
+    let folder = Folder::new("serve-tls");
+    folder.file("page/index.html", b"<p>page</p>");
+    let [certificate, key] = certificate(&folder);
+    let server = Server::start(&["--page", &folder.path("page"), "--certificate", &certificate, "--key", &key]);
+    assert!(server.line.starts_with("https://"), "{}", server.line);
+    let own = [CertificateDer::from_pem_file(&certificate).unwrap()];
+    let mut stream = secured(&server, &own);
+    stream.write_all(b"GET / HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n").unwrap();
+    let mut answer = Vec::new();
+    let _ = stream.read_to_end(&mut answer);
+    let answer = String::from_utf8_lossy(&answer);
+    assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("<p>page</p>"), "{answer}");
+    let (mut socket, _) = tungstenite::client("wss://localhost/room/ROOM", secured(&server, &own)).unwrap();
+    assert_eq!(socket.read().unwrap(), Message::binary([0xff, 0, 0].to_vec()));
+    assert!(server.get("/").ends_with("<p>page</p>"), "the same port speaks http");
+    assert!(secured(&server, &[]).write_all(b"GET").is_err(), "nobody else trusts it");
+    let all = ["serve", "--port", "0", "--certificate", &key, "--key", &certificate];
+    refused(&all, "certificate.pem");
 }
 
 #[test]

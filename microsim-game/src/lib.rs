@@ -134,7 +134,7 @@ impl Start {
                 }
             }
         };
-        let party = Party { server, code: room.unwrap_or_default(), name };
+        let party = Party { server, code: room.unwrap_or_default(), name, key: platform::room_key() };
         Ok(Self { first, game, files, record, party, options })
     }
 

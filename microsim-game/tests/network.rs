@@ -8,6 +8,7 @@ use microsim_core::Rng;
 use microsim_core::scenario::Scenario;
 use microsim_game::network::pacing::Pacing;
 use microsim_game::network::session::Session;
+use microsim_game::network::told::Told;
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use proptest::prelude::*;
@@ -53,6 +54,54 @@ fn a_bot_takes_over_from_those_who_leave_in_the_same_frame_for_all() {
         game.play();
         game.check();
     }
+}
+
+const ROUGH: Weather = Weather { latency: 60.0, jitter: 50.0, loss: 0.05, doubled: 0.05, bursts: 0.05, cut: [0, 0] };
+
+/// Frames in which a player's own hand steered.
+fn steered(session: &Session, player: usize, frames: std::ops::Range<usize>) -> usize {
+    session.told(player).0[frames].iter().filter(|told| **told != Told::BOT).count()
+}
+
+#[test]
+fn who_was_cut_comes_back_and_takes_its_cell_from_the_bot_in_the_same_frame_for_all() {
+    for (players, cut) in [(2, 1), (2, 0), (3, 0)] {
+        let mut game = Match::new(players, 8.0, Pacing::USUAL, ROUGH, 3);
+        (game.leaving, game.coming) = (vec![(cut, 1000)], vec![(cut, 3000)]);
+        game.play();
+        game.check();
+        for session in &game.sessions {
+            assert_eq!((session.own().is_some(), session.successor(cut)), (true, Some(cut as u8)));
+            assert!(steered(session, cut, 40..90) == 0, "a bot steers while it is away");
+            assert!(steered(session, cut, 180..240) > 55, "it steers again");
+        }
+    }
+}
+
+#[test]
+fn one_can_be_cut_again_and_another_one_after_it() {
+    let mut game = Match::new(2, 12.0, Pacing::USUAL, ROUGH, 4);
+    game.leaving = vec![(0, 700), (0, 5000), (1, 8000)];
+    game.coming = vec![(0, 1500), (0, 6000), (1, 8600)];
+    game.play();
+    game.check();
+    assert!(game.sessions.iter().all(|session| session.own().is_some()));
+}
+
+#[test]
+fn who_comes_late_takes_a_bots_cell_and_else_watches_without_slowing_anybody() {
+    let mut game = Match::new(2, 8.0, Pacing::USUAL, Weather { latency: 40.0, ..Weather::default() }, 5);
+    game.coming = vec![(2, 1000)];
+    game.play();
+    game.check();
+    assert_eq!(game.sessions[2].own(), None);
+    assert!(game.sessions[..2].iter().all(|session| session.tally().waits < 5), "{:?}", game.sessions[0].tally());
+    let mut game = Match::new(2, 8.0, Pacing::USUAL, ROUGH, 5);
+    (game.coming, game.leaving) = (vec![(2, 500), (3, 900)], vec![(0, 2000)]);
+    game.play();
+    game.check();
+    let seats: Vec<Option<usize>> = game.sessions[1..].iter().map(Session::own).collect();
+    assert!(seats == [Some(1), Some(0), None] || seats == [Some(1), None, Some(0)], "{seats:?}");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Rooms of the real server, as the window meets them: `.ci/serve` builds the server and runs this.
 #![cfg(unix)]
 
-use microsim_game::network::room::{Match, Room};
+use microsim_game::network::contest::Match;
+use microsim_game::network::room::Room;
 use microsim_game::network::transport::{LONGEST_MESSAGE, Notice, Transport};
 use microsim_game::platform::open_room;
 use microsim_game::rules::bot::{Bot, Policy};
@@ -33,7 +34,7 @@ impl Server {
 
     /// Goes into a room, and returns the notices up to the first one as well.
     fn enter(&self, code: &str) -> (Box<dyn Transport>, Vec<Notice>) {
-        let mut room = open_room(&self.1, code).unwrap();
+        let mut room = open_room(&self.1, code, "").unwrap();
         let notices = next(&mut room);
         (room, notices)
     }
@@ -141,7 +142,7 @@ struct Player {
 
 impl Player {
     fn enter(server: &Server, name: &str, seed: u64) -> Self {
-        let room = Room::new(open_room(&server.1, "MATCH").unwrap(), "MATCH", name);
+        let room = Room::new(open_room(&server.1, "MATCH", "").unwrap(), "MATCH", name);
         Self { room, bot: Bot::new(Policy::Greedy, seed), game: None }
     }
 
@@ -151,7 +152,7 @@ impl Player {
         self.game = self.game.take().or(begun);
         let Some(game) = &mut self.game else { return };
         let round = game.session().round();
-        let cell = round.players().nth(game.own()).unwrap();
+        let cell = round.players().nth(game.own().unwrap()).unwrap();
         let intent = self.bot.intent(round.world(), cell);
         game.advance(&mut self.room, intent, now);
     }

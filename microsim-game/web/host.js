@@ -230,6 +230,17 @@ function send(number, frame) {
     if (!mesh?.send(frame)) submit(socket, frame);
 }
 
+/** A key that nobody can guess; a page that is loaded again in its tab has the same. */
+function roomKey() {
+    const bytes = crypto.getRandomValues(new Uint8Array(16));
+    const key = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+    try {
+        return encode((sessionStorage.roomKey ??= key));
+    } catch {
+        return encode(key); // Storage is forbidden.
+    }
+}
+
 function takeItem() {
     const taken = item;
     item = null;
@@ -261,6 +272,7 @@ const answers = {
     "held": () => encode([...held].join("\n")),
     "kept": readKept,
     "room": (number) => rooms.get(number).frames.shift() ?? null,
+    "room key": roomKey,
     "pressed": () => encode(pressed.splice(0).join("\n")),
 };
 

@@ -5,7 +5,7 @@
 const SIGNAL = 255;
 const OFFER = 0, ANSWER = 1, CANDIDATE = 2;
 /** What the server itself says: first byte and kind. */
-const NOTICE = 255, JOINED = 1, LEFT = 2, HELPERS = 4;
+const NOTICE = 255, JOINED = 1, LEFT = 2, HELPERS = 4, BACK = 5;
 /** Longest signal, bytes; most signals of an attempt, and most offers of a member. One may have been for who had this number before. */
 const LONGEST_SIGNAL = 8192, MOST_SIGNALS = 64, MOST_OFFERS = 3;
 /** Longest message of a channel, bytes: it fits in one packet. Longer ones go by the server. */
@@ -105,12 +105,13 @@ export class Mesh {
             return kind === SIGNAL;
         }
         if (kind === HELPERS) this.#helpers = JSON.parse(decode(frame.subarray(2)));
-        if (kind === JOINED || kind === LEFT) {
+        const comes = kind === JOINED || kind === BACK;
+        if (comes || kind === LEFT) {
             this.#drop(member);
             this.#offers.delete(member);
         }
         // Who is there already offers a way to who comes.
-        if (kind === JOINED) {
+        if (comes) {
             this.#attempts = (this.#attempts + 1) % 256;
             quietly(this.#way(member, this.#attempts)?.offer());
         }

@@ -1,17 +1,17 @@
 //! The player's own cell has a rim that no other has, in every way of looking. Cells of several players have numbers.
 
 use super::marks::Style;
-use crate::draw::palette::{HALO, INK, READY, fade};
+use crate::draw::palette::{INK, PLAYERS, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 
-/// Draws the rim, and the number of one of several players; the rim of `is_first` stands out.
+/// Draws the rim, and the number of one of several players, each in a colour of its own; the rim of `is_first` is wider.
 pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>, is_first: bool) {
-    let rim = if is_first { READY } else { HALO };
+    let rim = number.map_or(READY, |number| PLAYERS[(number - 1) % PLAYERS.len()].1);
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
-    let width = 0.1 * pen.line(TextSize::Body);
+    let width = if is_first { 0.1 } else { 0.06 } * pen.line(TextSize::Body);
     for (width, colour) in [(2.2 * width, fade(INK, 0.35)), (width, fade(rim, 0.7))] {
         for k in 0..outline.len() {
             pen.canvas().segment(outline[k], outline[(k + 1) % outline.len()], width, colour);
@@ -28,6 +28,7 @@ mod tests {
     use super::*;
     use crate::camera::Camera;
     use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
+    use std::collections::BTreeSet;
 
     #[test]
     fn the_players_own_cell_has_a_rim_on_its_outline() {
@@ -43,5 +44,20 @@ mod tests {
         let is_near = |at: Vec2| at.cmpgt(a.min(b) - 6.0).all() && at.cmplt(a.max(b) + 6.0).all();
         let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
         assert!(corners.len() >= 8 * cell.outline().len() && corners.into_iter().all(is_near));
+    }
+
+    #[test]
+    fn cells_of_players_have_four_colours() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let colours = |number| {
+            let mut pen = Pen::bare();
+            draw_own(&mut pen, &style, world.view().organism(cell).unwrap(), Some(number), true);
+            pen.canvas().corners().map(|(_, _, colour)| colour).collect::<BTreeSet<_>>()
+        };
+        let all: BTreeSet<_> = (1..=4).map(colours).collect();
+        assert_eq!(all.len(), 4);
     }
 }

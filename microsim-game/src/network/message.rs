@@ -8,7 +8,7 @@ use microsim_core::scenario::Scenario;
 use serde::{Deserialize, Serialize};
 
 /// Changes with every change of a message.
-const PROTOCOL: u16 = 1;
+const PROTOCOL: u16 = 2;
 /// Longest name, letters.
 const LONGEST_NAME: usize = 24;
 /// Steps of the run whose digest tells whether two programs compute the same worlds.
@@ -21,6 +21,8 @@ pub(super) enum Message {
     Start(Start),
     /// A packet of the match of this number.
     Packet(u32, Vec<u8>),
+    /// A match that is on, for one who is ready and has no cell in it.
+    Invite(Start),
 }
 
 /// Who somebody is.
@@ -29,6 +31,7 @@ pub(super) struct Hello {
     pub program: Program,
     pub name: String,
     pub is_ready: bool,
+    pub is_playing: bool,
     pub together: bool,
     /// The number of its last match.
     pub number: u32,

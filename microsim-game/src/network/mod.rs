@@ -6,9 +6,13 @@
 //!
 //! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
 
+pub mod contest;
+mod guest;
 mod message;
+mod moment;
 pub mod pacing;
 mod packet;
+mod post;
 pub mod relay;
 pub mod room;
 pub mod session;

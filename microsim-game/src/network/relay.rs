@@ -9,6 +9,7 @@ pub(crate) const JOINED: u8 = 1;
 pub(crate) const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
 const HELPERS: u8 = 4;
+pub(crate) const BACK: u8 = 5;
 /// First byte of what members tell each other to open channels; no message of the game begins with it.
 pub(crate) const SIGNAL: u8 = 0xff;
 /// Most members of a room.
@@ -42,6 +43,7 @@ pub fn notice(frame: &[u8]) -> Option<Notice> {
         }
         [NOTICE, JOINED, member] => known(*member).map(Notice::Joined),
         [NOTICE, LEFT, member] => known(*member).map(Notice::Left),
+        [NOTICE, BACK, member] => known(*member).map(Notice::Back),
         [NOTICE, REFUSED] => Some(Notice::Closed(CUT.to_owned())),
         [NOTICE, REFUSED, reason @ ..] => {
             let reason = String::from_utf8_lossy(reason);
@@ -63,6 +65,12 @@ pub fn check_code(code: &str) -> Result<String, String> {
     is_code.then(|| code.to_ascii_uppercase()).ok_or_else(|| "a code has 4 to 12 letters and digits".to_owned())
 }
 
+/// The end of a room's address, for who has this key.
+#[must_use]
+pub fn way(code: &str, key: &str) -> String {
+    if key.is_empty() { code.to_owned() } else { format!("{code}?key={key}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,6 +80,7 @@ mod tests {
         assert_eq!(notice(&[0xff, 0, 2, 0, 1]), Some(Notice::Welcome { member: 2, others: vec![0, 1] }));
         assert_eq!(notice(&[0xff, 1, 3]), Some(Notice::Joined(3)));
         assert_eq!(notice(&[0xff, 2, 0]), Some(Notice::Left(0)));
+        assert_eq!(notice(&[0xff, 5, 1]), Some(Notice::Back(1)));
         assert_eq!(notice(b"\xff\x03full\x1b[2J"), Some(Notice::Closed("full[2J".into())));
         assert_eq!(notice(&[0xff, 3]), Some(Notice::Closed(CUT.into())));
         assert_eq!(notice(&[1, 7, 8]), Some(Notice::Message { from: 1, bytes: vec![7, 8] }));
@@ -124,7 +133,12 @@ mod tests {
                         member < 4 && others.len() < 4 && others.iter().all(|other| *other < 4 && *other != member)
                     );
                 }
-                Some(Notice::Joined(member) | Notice::Left(member) | Notice::Message { from: member, .. }) => {
+                Some(
+                    Notice::Joined(member)
+                    | Notice::Back(member)
+                    | Notice::Left(member)
+                    | Notice::Message { from: member, .. },
+                ) => {
                     assert!(member < 4);
                 }
                 Some(Notice::Closed(reason)) => assert!(!reason.contains(char::is_control)),

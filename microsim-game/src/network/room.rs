@@ -1,35 +1,22 @@
 //! A room: who is there, under which names, who is ready, and the match that they start.
 
-use super::message::{Hello, Message, Program, Start, clean, clean_text, round_of, write};
-use super::pacing::Pacing;
-use super::session::Session;
-use super::told::Told;
+use super::contest::{Match, way};
+use super::message::{Hello, Message, Program, Start, clean, clean_text, write};
 use super::transport::{Member, Notice, Transport};
 use crate::rules::round::MOST_PLAYERS;
 use crate::rules::two_players::TwoPlayers;
-use microsim_core::Intent;
 
 /// Time between two messages of who is there, and between two calls to start, ms.
 const GREETING: u32 = 1000;
 const CALLING: u32 = 200;
-
-/// A match of a room.
-#[derive(Debug)]
-pub struct Match {
-    start: Start,
-    session: Session,
-    /// The seat of this player.
-    own: usize,
-    /// Who has sent a packet of it, by seat.
-    heard: Vec<bool>,
-    called: u32,
-}
 
 /// Somebody else in the room, as far as it has said who it is.
 #[derive(Clone, Debug)]
 struct Guest {
     member: Member,
     hello: Option<Hello>,
+    /// Whether it was cut and has come back, as the server says.
+    is_back: bool,
 }
 
 /// One member, as the lobby shows it.
@@ -46,7 +33,7 @@ pub struct Seat {
 /// A room that this player is in.
 #[derive(Debug)]
 pub struct Room {
-    transport: Box<dyn Transport>,
+    pub(super) transport: Box<dyn Transport>,
     code: String,
     own: Option<Member>,
     hello: Hello,
@@ -62,7 +49,8 @@ impl Room {
     /// A room that is being entered.
     #[must_use]
     pub fn new(transport: Box<dyn Transport>, code: &str, name: &str) -> Self {
-        let hello = Hello { program: Program::own(), name: clean(name), is_ready: false, together: false, number: 0 };
+        let (program, name) = (Program::own(), clean(name));
+        let hello = Hello { program, name, is_ready: false, is_playing: false, together: false, number: 0 };
         let (own, guests, greeted, closed) = (None, Vec::new(), None, None);
         Self { transport, code: code.to_owned(), own, hello, guests, greeted, number: 0, is_playing: false, closed }
     }
@@ -77,8 +65,12 @@ impl Room {
         }
         if self.greeted.is_none_or(|at| now.wrapping_sub(at) >= GREETING) {
             self.greeted = Some(now);
-            let is_ready = self.hello.is_ready && !self.is_playing;
-            self.send_all(&Message::Hello(Hello { is_ready, number: self.number, ..self.hello.clone() }));
+            let (is_ready, is_playing) = (self.hello.is_ready && !self.is_playing, self.is_playing);
+            self.send_all(&Message::Hello(Hello { is_ready, is_playing, number: self.number, ..self.hello.clone() }));
+            let names = self.guests.iter().map(|guest| (guest.member, self.name_of(guest.member)));
+            if let Some(current) = current.as_deref_mut() {
+                names.for_each(|(member, name)| current.note_name(member, name));
+            }
         }
         if !self.is_playing && self.leads() && self.is_complete() {
             let seats = self.members();
@@ -86,6 +78,7 @@ impl Room {
         }
         if let Some(current) = current.or(begun.as_mut()) {
             self.call(current, now);
+            self.give_cells(current, now);
         }
         begun
     }
@@ -97,7 +90,12 @@ impl Room {
                 others.into_iter().for_each(|other| self.meet(other));
             }
             Notice::Joined(member) => self.meet(member),
-            Notice::Left(member) => self.part(member, current),
+            Notice::Back(member) => {
+                self.part(member, now, current);
+                self.meet(member);
+                self.guests.iter_mut().filter(|guest| guest.member == member).for_each(|guest| guest.is_back = true);
+            }
+            Notice::Left(member) => self.part(member, now, current),
             Notice::Message { from, bytes } => return self.hear(from, &bytes, now, current),
             Notice::Closed(reason) => self.closed = Some(clean_text(&reason, 200)),
         }
@@ -107,34 +105,30 @@ impl Room {
     fn meet(&mut self, member: Member) {
         let is_new = Some(member) != self.own && self.guests.iter().all(|guest| guest.member != member);
         if is_new && self.guests.len() + 1 < MOST_PLAYERS && usize::from(member) < MOST_PLAYERS {
-            self.guests.push(Guest { member, hello: None });
+            self.guests.push(Guest { member, hello: None, is_back: false });
             self.guests.sort_by_key(|guest| guest.member);
             self.greeted = None;
         }
     }
 
-    fn part(&mut self, member: Member, current: Option<&mut Match>) {
+    fn part(&mut self, member: Member, now: u32, current: Option<&mut Match>) {
         self.guests.retain(|guest| guest.member != member);
-        if let Some(current) = current
-            && let Some(seat) = current.seat_of(member)
-        {
-            current.session.leave(seat);
+        if let Some(current) = current {
+            current.part(member, now);
         }
     }
 
     fn hear(&mut self, from: Member, bytes: &[u8], now: u32, current: Option<&mut Match>) -> Option<Match> {
-        let guest = self.guests.iter_mut().find(|guest| guest.member == from)?;
+        let guest = self.guests.iter().position(|guest| guest.member == from)?;
         match postcard::from_bytes(bytes).ok()? {
-            Message::Hello(hello) => guest.hello = Some(Hello { name: clean(&hello.name), ..hello }),
+            Message::Hello(hello) => self.guests[guest].hello = Some(Hello { name: clean(&hello.name), ..hello }),
             Message::Start(start) if self.first() == Some(from) && self.is_due(&start) => {
                 return self.begin(start, now);
             }
-            Message::Start(_) => {}
+            Message::Invite(start) if self.may_join(from, &start) => return self.join(start, now),
+            Message::Start(_) | Message::Invite(_) => {}
             Message::Packet(number, packet) => {
-                let current = current.filter(|current| current.start.number == number)?;
-                let seat = current.seat_of(from)?;
-                current.heard[seat] = true;
-                current.session.receive(seat, &packet, now);
+                current.filter(|current| current.start.number == number)?.receive(from, &packet, now);
             }
         }
         None
@@ -154,29 +148,84 @@ impl Room {
         !self.is_playing && self.hello.is_ready && start.number != self.number && is_sound && is_called
     }
 
-    fn begin(&mut self, start: Start, now: u32) -> Option<Match> {
-        let own = start.seats.iter().position(|&member| Some(member) == self.own)?;
-        let round = round_of(start.seats.len(), start.seed).ok()?;
-        let (mut session, heard) = (Session::new(round, own, Pacing::USUAL), vec![false; start.seats.len()]);
-        // Who has gone since the call.
-        let here = self.members();
-        let gone = start.seats.iter().enumerate().filter(|(_, member)| !here.contains(member));
-        gone.for_each(|(seat, _)| session.leave(seat));
-        (self.number, self.is_playing, self.greeted) = (start.number, true, None);
-        Some(Match { start, session, own, heard, called: now.wrapping_sub(CALLING) })
+    fn may_join(&self, from: Member, start: &Start) -> bool {
+        let is_alike = self.hello_of(from).is_some_and(|hello| hello.program == self.hello.program);
+        let are_seats = start.seats.iter().all(|member| usize::from(*member) < MOST_PLAYERS);
+        is_alike
+            && !self.is_playing
+            && self.hello.is_ready
+            && (2..=MOST_PLAYERS).contains(&start.seats.len())
+            && are_seats
     }
 
-    /// Calls those who have not begun yet.
+    fn begin(&mut self, start: Start, now: u32) -> Option<Match> {
+        let own = start.seats.iter().position(|&member| Some(member) == self.own)?;
+        self.play(Match::new(start, own, now.wrapping_sub(CALLING))?, now)
+    }
+
+    /// Watches a match that is on, until there is a cell to take.
+    fn join(&mut self, start: Start, now: u32) -> Option<Match> {
+        self.play(Match::watch(start, self.own?, now)?, now)
+    }
+
+    fn play(&mut self, mut game: Match, now: u32) -> Option<Match> {
+        // Who has gone since the call.
+        let here = self.members();
+        let gone: Vec<Member> = game.start.seats.iter().filter(|member| !here.contains(member)).copied().collect();
+        gone.into_iter().for_each(|member| game.part(member, now));
+        (self.number, self.is_playing, self.greeted) = (game.start.number, true, None);
+        here.into_iter().for_each(|member| game.note_name(member, self.name_of(member)));
+        Some(game)
+    }
+
+    /// Calls those who have not begun yet, and those who have come late or come back.
     fn call(&mut self, current: &mut Match, now: u32) {
-        if !self.leads() || now.wrapping_sub(current.called) < CALLING {
+        if now.wrapping_sub(current.called) < CALLING {
             return;
         }
         current.called = now;
+        let late: Vec<Member> = if self.leads() { current.silent() } else { Vec::new() };
         let bytes = write(&Message::Start(current.start.clone()));
-        let present: Vec<usize> = current.session.present().collect();
-        let late = current.start.seats.iter().zip(&current.heard).enumerate();
-        let late = late.filter(|(seat, (_, heard))| !**heard && present.contains(seat)).map(|(_, (member, _))| *member);
-        late.filter(|&member| Some(member) != self.own).for_each(|member| self.transport.send(member, &bytes));
+        late.into_iter()
+            .filter(|&member| Some(member) != self.own)
+            .for_each(|member| self.transport.send(member, &bytes));
+        if !current.session.leads() || current.session.round().is_over() {
+            return;
+        }
+        let is_ready = |guest: &&Guest| {
+            guest.hello.as_ref().is_some_and(|hello| hello.is_ready && hello.program == self.hello.program)
+                && !current.has(guest.member)
+        };
+        let ready: Vec<Member> = self.guests.iter().filter(is_ready).map(|guest| guest.member).collect();
+        let bytes = write(&Message::Invite(Start { seats: current.members(), ..current.start.clone() }));
+        ready.into_iter().for_each(|member| self.transport.send(member, &bytes));
+    }
+
+    /// Gives cells of bots to those who have caught up.
+    fn give_cells(&self, current: &mut Match, now: u32) {
+        if current.session.leads() {
+            self.guests.iter().for_each(|guest| current.give_cell(guest.member, guest.is_back, now));
+        }
+    }
+
+    /// Goes into the room again by another way, to go on with the match.
+    pub fn reopen(&mut self, transport: Box<dyn Transport>) {
+        self.transport = transport;
+        (self.own, self.greeted, self.closed, self.is_playing) = (None, None, None, false);
+        self.guests.clear();
+        self.hello.is_ready = true;
+    }
+
+    /// Whether all others here are known, and none of them plays.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.own.is_some() && self.guests.iter().all(|guest| guest.hello.is_some()) && !self.has_match()
+    }
+
+    /// Whether others here play.
+    #[must_use]
+    pub fn has_match(&self) -> bool {
+        self.guests.iter().any(|guest| guest.hello.as_ref().is_some_and(|hello| hello.is_playing))
     }
 
     /// Ends the match that is on: everybody is asked again whether they are ready.
@@ -258,65 +307,32 @@ impl Room {
         self.closed.as_deref()
     }
 
+    fn hello_of(&self, member: Member) -> Option<&Hello> {
+        let guest = self.guests.iter().find(|guest| guest.member == member);
+        if Some(member) == self.own { Some(&self.hello) } else { guest?.hello.as_ref() }
+    }
+
+    fn name_of(&self, member: Member) -> String {
+        let name = self.hello_of(member).map_or("", |hello| &hello.name);
+        if name.is_empty() { format!("Player {}", member + 1) } else { name.to_owned() }
+    }
+
     /// All members, in order.
     #[must_use]
     pub fn seats(&self) -> Vec<Seat> {
-        let name = |member: Member, hello: Option<&Hello>| {
-            let name = hello.map_or("", |hello| &hello.name);
-            if name.is_empty() { format!("Player {}", member + 1) } else { name.to_owned() }
-        };
         let seat = |member: Member| {
             let is_own = Some(member) == self.own;
-            let guest = self.guests.iter().find(|guest| guest.member == member);
-            let hello = if is_own { Some(&self.hello) } else { guest.and_then(|guest| guest.hello.as_ref()) };
-            let note = match hello {
+            let note = match self.hello_of(member) {
                 None => "is coming",
                 Some(hello) if hello.program != self.hello.program => "has another version",
+                Some(hello) if hello.is_playing => "plays",
                 Some(hello) if hello.is_ready => "ready",
                 Some(_) => "not ready",
             };
-            Seat { name: name(member, hello), is_own, note }
+            Seat { name: self.name_of(member), is_own, note }
         };
         self.members().into_iter().map(seat).collect()
     }
-}
-
-impl Match {
-    /// One frame, with what this player tells its cell. Returns whether one was taken.
-    pub fn advance(&mut self, room: &mut Room, intent: Intent, now: u32) -> bool {
-        let size = self.session.round().world().config().size;
-        let is_taken = self.session.advance(Told::new(intent, size));
-        for (seat, packet) in self.session.packets(now) {
-            room.transport.send(self.start.seats[seat], &write(&Message::Packet(self.start.number, packet)));
-        }
-        is_taken
-    }
-
-    fn seat_of(&self, member: Member) -> Option<usize> {
-        self.start.seats.iter().position(|&other| other == member)
-    }
-
-    /// What is played.
-    #[must_use]
-    pub fn session(&self) -> &Session {
-        &self.session
-    }
-
-    /// How it is played.
-    #[must_use]
-    pub fn way(&self) -> TwoPlayers {
-        way(self.start.together)
-    }
-
-    /// The number of this player in it, from 0 on.
-    #[must_use]
-    pub fn own(&self) -> usize {
-        self.own
-    }
-}
-
-fn way(together: bool) -> TwoPlayers {
-    if together { TwoPlayers::Together } else { TwoPlayers::Versus }
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ impl Player {
 }
 
 fn players(names: &[&str]) -> (Vec<Player>, Boxes) {
-    let boxes: Boxes = Rc::new(RefCell::new(vec![Vec::new(); names.len()]));
+    let boxes: Boxes = Rc::new(RefCell::new(vec![Vec::new(); 4]));
     let members: Vec<Member> = (0..names.len() as Member).collect();
     let players = (0..).zip(names).map(|(own, name)| {
         let others = members.iter().copied().filter(|&other| other != own).collect();
@@ -53,6 +53,7 @@ fn run(players: &mut [Player], ticks: std::ops::Range<u32>) {
             let begun = room.update(33 * tick, 7, current.as_mut());
             *current = current.take().or(begun);
             if let Some(current) = current {
+                (0..20).take_while(|_| current.catch_up()).for_each(drop);
                 current.advance(room, Intent::REST, 33 * tick);
             }
         }
@@ -82,6 +83,111 @@ fn all_who_are_ready_begin_the_same_match_and_one_who_leaves_is_replaced() {
     let digests: Vec<_> = matches.iter().map(|current| &current.session().digests()[..2]).collect();
     assert_eq!(digests[0], digests[1]);
     assert!(matches.iter().all(|current| current.way() == TwoPlayers::Together));
+}
+
+/// Two who play, and a member who comes to their room; the match that it is in is a new one.
+fn enter(players: &mut [Player], boxes: &Boxes, own: Member, news: Notice) -> Player {
+    let others = vec![0, 1, 2].into_iter().filter(|&other| other != own && other < players.len() as Member).collect();
+    let mut all = boxes.borrow_mut();
+    all[usize::from(own)] = vec![Notice::Welcome { member: own, others }];
+    let there = (0..players.len()).filter(|&other| other != usize::from(own));
+    there.for_each(|other| all[other].push(news.clone()));
+    let mut room = Room::new(Box::new(Wire { own, boxes: boxes.clone() }), "ABCD", "Cid");
+    room.set_ready(true);
+    Player { room, current: None }
+}
+
+fn two_who_play() -> (Vec<Player>, Boxes) {
+    let (mut players, boxes) = players(&["Ada", "Ben"]);
+    players.iter_mut().for_each(|player| player.room.set_ready(true));
+    run(&mut players, 0..50);
+    (players, boxes)
+}
+
+/// The numbers of cells, when all are in the same world.
+fn cells(players: &[Player]) -> Vec<Option<usize>> {
+    let matches: Vec<&Match> = players.iter().filter_map(|player| player.current.as_ref()).collect();
+    let digests: Vec<_> = matches.iter().map(|game| game.session().digests().to_vec()).collect();
+    let least = digests.iter().map(Vec::len).min().unwrap_or(0);
+    assert!(least > 0 && digests.iter().all(|own| own[..least] == digests[0][..least]), "{digests:?}");
+    assert!(matches.iter().all(|game| game.session().desync().is_none() && game.session().tally().refused == 0));
+    matches.iter().map(|game| game.own()).collect()
+}
+
+#[test]
+fn who_was_cut_gets_its_cell_back_and_a_stranger_only_after_thirty_seconds() {
+    for (news, after) in [(Notice::Back(1), 150), (Notice::Joined(1), 1050)] {
+        let (mut players, boxes) = two_who_play();
+        boxes.borrow_mut()[0].push(Notice::Left(1));
+        players.pop();
+        run(&mut players, 50..90);
+        let player = enter(&mut players, &boxes, 1, news);
+        players.push(player);
+        run(&mut players, 90..after);
+        if after > 200 {
+            assert_eq!(cells(&players), [Some(0), None], "it may come back yet");
+            run(&mut players, after..after + 50);
+        }
+        assert_eq!(cells(&players), [Some(0), Some(1)]);
+    }
+}
+
+#[test]
+fn who_is_cut_for_a_moment_goes_on_in_the_same_room() {
+    let (mut players, boxes) = two_who_play();
+    players[1].room.reopen(Box::new(Wire { own: 1, boxes: boxes.clone() }));
+    players[1].current = None;
+    boxes.borrow_mut()[1] = vec![Notice::Welcome { member: 1, others: vec![0] }];
+    boxes.borrow_mut()[0].push(Notice::Back(1));
+    run(&mut players, 50..150);
+    assert_eq!(cells(&players), [Some(0), Some(1)]);
+}
+
+#[test]
+fn who_comes_late_watches_and_nobody_waits_for_it() {
+    let (mut players, boxes) = two_who_play();
+    let player = enter(&mut players, &boxes, 2, Notice::Joined(2));
+    players.push(player);
+    run(&mut players, 50..150);
+    assert_eq!(cells(&players), [Some(0), Some(1), None]);
+    let frames: Vec<u32> = players.iter().map(Player::frame).collect();
+    assert!(frames[0] > 140 && frames[2] + 8 > frames[0], "{frames:?}");
+    assert_eq!(players[2].current.as_ref().unwrap().names(), ["Ada", "Ben"]);
+    // It falls silent, and they go on; they leave one after the other, and it sees the rest.
+    let late = players.pop().unwrap();
+    run(&mut players, 150..200);
+    assert!(players.iter().all(|player| player.frame() > 190));
+    players.push(late);
+    boxes.borrow_mut()[1].push(Notice::Left(0));
+    boxes.borrow_mut()[2].push(Notice::Left(0));
+    players.remove(0);
+    run(&mut players, 200..300);
+    let frames: Vec<u32> = players.iter().map(Player::frame).collect();
+    assert!(frames[1] + 8 > frames[0] && frames[0] > 280, "{frames:?}");
+}
+
+#[test]
+fn odd_invitations_are_none() {
+    let (mut players, boxes) = players(&["a", "b"]);
+    run(&mut players, 0..3);
+    let invite = |seats: Vec<Member>| {
+        let start = Start { number: 1, seed: 1, together: false, seats };
+        Notice::Message { from: 1, bytes: write(&Message::Invite(start)) }
+    };
+    boxes.borrow_mut()[0].push(invite(vec![0, 1]));
+    run(&mut players, 3..5);
+    assert!(players[0].current.is_none(), "not ready");
+    players[0].room.set_ready(true);
+    let odd = [vec![], vec![1], vec![0, 4], vec![0, 1, 2, 3, 0]];
+    boxes.borrow_mut()[0].extend(odd.map(invite));
+    run(&mut players, 5..7);
+    assert!(players[0].current.is_none());
+    players[1].room.hello.program.digest ^= 1;
+    players[1].room.set_ready(false);
+    run(&mut players, 7..9);
+    boxes.borrow_mut()[0].push(invite(vec![0, 1]));
+    run(&mut players, 9..11);
+    assert!(players[0].current.is_none(), "another program");
 }
 
 #[test]

@@ -3,11 +3,13 @@
 //!
 //! Inputs of a match are kept from its first frame on (five bytes each), so there is no input that could be too old to be sent.
 
+use super::guest::Guest;
+use super::moment::{Moment, Tally};
 use super::pacing::Pacing;
-use super::packet::{LONGEST_RUN, Packet, Run};
+use super::packet::{Packet, Run, Takeover};
 use super::told::Told;
 use super::track::Track;
-use crate::rules::bot::{Bot, Policy};
+use super::transport::Member;
 use crate::rules::referee::Gain;
 use crate::rules::round::Round;
 use crate::sound::Cue;
@@ -17,64 +19,34 @@ use microsim_core::Intent;
 const WAIT_INTERVAL: u32 = 8;
 /// By how many frames a player is ahead when it waits.
 const AHEAD: i32 = 2;
-
-/// What going back cost, and what was sent.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    /// Frames in which the round went back, and frames that were taken again.
-    pub rollbacks: u32,
-    /// See above.
-    pub repeated: u32,
-    /// Most frames that were taken again at once.
-    pub deepest: u32,
-    /// Frames that were left out: others were too far behind, or slower.
-    pub waits: u32,
-    /// Bytes of packets.
-    pub sent: u64,
-    /// See above.
-    pub received: u64,
-    /// Packets that no player of this version sends.
-    pub refused: u32,
-}
-
-/// A moment of the match, to go back to.
-#[derive(Debug)]
-struct Moment {
-    round: Round,
-    bots: Vec<Bot>,
-}
-
-impl Clone for Moment {
-    fn clone(&self) -> Self {
-        Self { round: self.round.clone(), bots: self.bots.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.round.clone_from(&source.round);
-        self.bots.clone_from(&source.bots);
-    }
-}
+/// How many inputs ahead one who watches takes.
+const LONGEST_STORE: u32 = 1024;
 
 /// A match, as one of its players takes part.
 #[derive(Debug)]
 pub struct Session {
-    pacing: Pacing,
-    /// The number of this player.
-    own: usize,
+    pub(super) pacing: Pacing,
+    /// The number of this player; none if it watches.
+    pub(super) own: Option<usize>,
+    /// Its number in the room, if it has come to watch.
+    pub(super) member: Option<Member>,
     now: Moment,
-    frame: u32,
+    pub(super) frame: u32,
     /// Moments before the last frames, by frame.
     kept: Vec<Moment>,
-    tracks: Vec<Track>,
+    pub(super) tracks: Vec<Track>,
+    /// Those who watch, and the last takeover of each cell.
+    pub(super) guests: Vec<Guest>,
+    pub(super) takeovers: Vec<Takeover>,
     /// The first frame that was taken with a wrong prediction.
     wrong_from: Option<u32>,
     /// The frame after which the round was over.
     over_at: Option<u32>,
     /// The frame in which this player waited last.
     waited: u32,
-    digests: Vec<(u32, u64)>,
-    desync: Option<u32>,
-    tally: Tally,
+    pub(super) digests: Vec<(u32, u64)>,
+    pub(super) desync: Option<u32>,
+    pub(super) tally: Tally,
     /// What was heard and earned in the last frame, if one was taken.
     heard: Vec<Cue>,
     gains: Vec<Gain>,
@@ -84,16 +56,28 @@ impl Session {
     /// A match from a round at its beginning, which is the same for all. `own` is the number of this player.
     #[must_use]
     pub fn new(round: Round, own: usize, pacing: Pacing) -> Self {
+        Self::begin(round, Some(own), None, pacing)
+    }
+
+    /// The same match as a member of the room sees it that has no cell yet. `round` is that of its beginning.
+    #[must_use]
+    pub fn watch(round: Round, member: Member, pacing: Pacing) -> Self {
+        Self::begin(round, None, Some(member), pacing)
+    }
+
+    fn begin(round: Round, own: Option<usize>, member: Option<Member>, pacing: Pacing) -> Self {
         let players = round.players().count();
-        let bots = (0..players).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
-        let now = Moment { round, bots };
+        let now = Moment::new(round);
         Self {
             pacing,
             own,
+            member,
             kept: vec![now.clone(); pacing.kept() as usize],
             now,
             frame: 0,
             tracks: vec![Track::new(players, pacing.delay); players],
+            guests: Vec::new(),
+            takeovers: Vec::new(),
             wrong_from: None,
             over_at: None,
             waited: 0,
@@ -107,51 +91,61 @@ impl Session {
 
     /// Takes in a packet of another player. One that no player sends is counted and changes nothing. `now` is a clock, ms.
     pub fn receive(&mut self, from: usize, bytes: &[u8], now: u32) {
-        let is_other = from != self.own && self.tracks.get(from).is_some_and(|track| !track.has_left);
+        let is_other = Some(from) != self.own && self.tracks.get(from).is_some_and(|track| !track.has_left);
         let packet = Packet::read(bytes, self.tracks.len()).filter(|packet| is_other && self.is_possible(from, packet));
         let Some(packet) = packet else {
             self.tally.refused += 1;
             return;
         };
         self.tally.received += bytes.len() as u64;
-        let agree = packet.ends == self.ends();
+        let leads = self.leader() == from;
+        for takeover in packet.takeovers.iter().filter(|_| leads) {
+            self.take_over(*takeover);
+        }
+        let agree = packet.ends == self.ends() && packet.takeovers == self.takeovers;
+        // Of one who came back since, the end is an old one.
+        let news = |&&(player, end): &&(u8, u32)| end >= self.tracks[usize::from(player)].since;
+        let ends: Vec<(u8, u32)> = packet.ends.iter().filter(news).copied().collect();
         // A bot has steered from one frame on here and from another one there.
         let differs = |&(player, end): &(u8, u32)| self.tracks[usize::from(player)].end.is_some_and(|own| own != end);
-        self.desync = self.desync.or(packet.ends.iter().copied().find(differs).map(|(_, end)| end));
+        self.desync = self.desync.or(ends.iter().copied().find(differs).map(|(_, end)| end));
         let track = &mut self.tracks[from];
         track.note(&packet, self.frame, now);
-        // Before both know from where on a bot steers, their worlds may differ.
+        // Before both know from where on bots steer, their worlds may differ.
         track.digest = track.digest.filter(|_| agree);
-        let leads = self.leader() == from;
-        for &(player, end) in packet.ends.iter().filter(|_| leads) {
+        for &(player, end) in ends.iter().filter(|_| leads) {
+            self.tracks[usize::from(player)].has_left |= self.own.is_none();
             self.finish(player.into(), end);
         }
         for Run { player, first, told } in &packet.runs {
-            let track = &mut self.tracks[usize::from(*player)];
-            // What one who left has told is passed on by the others.
-            let is_meant = usize::from(*player) == from || (track.has_left && leads);
+            let (is_guest, track) = (self.own.is_none(), &mut self.tracks[usize::from(*player)]);
+            // What one who left has told is passed on by the others, and all to one who watches.
+            let is_meant = usize::from(*player) == from || ((track.has_left || is_guest) && leads);
             let wrong = if is_meant { track.extend(*first, told) } else { None };
             self.note_wrong(wrong);
         }
     }
 
     fn is_possible(&self, from: usize, packet: &Packet) -> bool {
+        let Some(own) = self.own else {
+            let is_near =
+                |run: &Run| u64::from(run.first) + run.told.len() as u64 <= u64::from(self.frame + LONGEST_STORE);
+            return packet.runs.iter().all(is_near);
+        };
         let most = self.frame + self.pacing.horizon();
         // What is passed on has come to somebody who may be ahead.
         let passed_on = |run: &Run| if usize::from(run.player) == from { 0 } else { self.pacing.horizon() };
         let is_near = |run: &Run| u64::from(run.first) + run.told.len() as u64 <= u64::from(most + passed_on(run));
-        packet.frame <= most
-            && packet.runs.iter().all(is_near)
-            && packet.known[self.own] <= self.tracks[self.own].count()
+        packet.frame <= most && packet.runs.iter().all(is_near) && packet.known[own] <= self.tracks[own].count()
     }
 
     /// A player has left: from now on a bot steers, from the same frame on for all, which the first of the others says.
     pub fn leave(&mut self, player: usize) {
-        if player == self.own || player >= self.tracks.len() {
+        if Some(player) == self.own || player >= self.tracks.len() {
             return;
         }
         self.tracks[player].has_left = true;
-        if self.leader() == self.own {
+        if self.leads() {
             let open = |track: &Track| track.has_left && track.end.is_none();
             let left: Vec<usize> = (0..self.tracks.len()).filter(|&k| open(&self.tracks[k])).collect();
             for player in left {
@@ -160,12 +154,19 @@ impl Session {
         }
     }
 
-    /// The first of those who are there.
-    fn leader(&self) -> usize {
-        self.tracks.iter().position(|track| !track.has_left).unwrap_or(self.own)
+    /// The first of those who are there longest.
+    pub(super) fn leader(&self) -> usize {
+        let there = self.tracks.iter().enumerate().filter(|(_, track)| !track.has_left);
+        there.min_by_key(|(k, track)| (track.since, *k)).map_or(self.own.unwrap_or(0), |(k, _)| k)
     }
 
-    fn finish(&mut self, player: usize, end: u32) {
+    /// Whether this player says what becomes of those who come and go.
+    #[must_use]
+    pub fn leads(&self) -> bool {
+        self.own == Some(self.leader())
+    }
+
+    pub(super) fn finish(&mut self, player: usize, end: u32) {
         let track = &mut self.tracks[player];
         let is_kept =
             self.frame < end.saturating_add(self.pacing.kept()) && end <= self.frame + 2 * self.pacing.horizon();
@@ -192,11 +193,14 @@ impl Session {
         self.check();
         self.heard.clear();
         self.gains.clear();
-        if self.frame >= self.final_frame().saturating_add(self.pacing.window) || self.is_ahead() {
+        let most = if self.own.is_some() { self.pacing.window } else { 0 };
+        if self.frame >= self.final_frame().saturating_add(most) || self.is_ahead() {
             self.tally.waits += 1;
             return false;
         }
-        self.tracks[self.own].push(wanted);
+        if let Some(own) = self.own {
+            self.tracks[own].push(self.frame + self.pacing.delay, wanted);
+        }
         self.take_frame();
         true
     }
@@ -220,7 +224,7 @@ impl Session {
         gains.clear();
         self.kept[(*frame % self.pacing.kept()) as usize].clone_from(now);
         let size = now.round.world().config().size;
-        let told: Vec<Option<Told>> = tracks.iter_mut().map(|track| track.act(*frame)).collect();
+        let told: Vec<Told> = tracks.iter_mut().map(|track| track.act(*frame)).collect();
         let cells: Vec<_> = now.round.players().collect();
         for _ in 0..self.pacing.steps {
             if now.round.is_over() {
@@ -229,7 +233,11 @@ impl Session {
             let world = now.round.world();
             let players = told.iter().zip(&cells).zip(&mut now.bots);
             let intents: Vec<Intent> = players
-                .map(|((told, cell), bot)| told.map_or_else(|| bot.intent(world, *cell), |told| told.intent(size)))
+                .map(
+                    |((told, cell), bot)| {
+                        if *told == Told::BOT { bot.intent(world, *cell) } else { told.intent(size) }
+                    },
+                )
                 .collect();
             now.round.step_all(&intents);
             heard.extend(now.round.heard());
@@ -255,6 +263,9 @@ impl Session {
 
     /// Whether this player is ahead of one who is slower: then it waits, a frame at a time.
     fn is_ahead(&mut self) -> bool {
+        if self.own.is_none() || self.is_behind() {
+            return false;
+        }
         let others = self.others().map(|k| (self.tracks[k].ahead - self.tracks[k].advantage) / 2);
         let is_ahead = others.max().unwrap_or(0) >= AHEAD && self.frame >= self.waited + WAIT_INTERVAL;
         if is_ahead {
@@ -263,45 +274,26 @@ impl Session {
         is_ahead
     }
 
-    /// What is to be sent now, and to whom.
-    pub fn packets(&mut self, now: u32) -> Vec<(usize, Vec<u8>)> {
-        let others: Vec<usize> = self.others().collect();
-        others.into_iter().map(|to| (to, self.packet(to, now))).collect()
+    pub(super) fn is_other(&self, player: usize) -> bool {
+        Some(player) != self.own && !self.tracks[player].has_left
     }
 
-    fn packet(&mut self, to: usize, now: u32) -> Vec<u8> {
-        let known = self.tracks.iter().map(Track::count).collect();
-        let run = |(player, track): (usize, &Track)| {
-            let is_passed_on = player == self.own || (track.has_left && player != to);
-            let first = self.tracks[to].known[player];
-            let told = track.since(first, LONGEST_RUN).to_vec();
-            (is_passed_on && !told.is_empty()).then_some(Run { player: player as u8, first, told })
-        };
-        let runs = self.tracks.iter().enumerate().filter_map(run).collect();
-        let (frame, ends, digest) = (self.frame, self.ends(), self.digests.last().copied());
-        let track = &mut self.tracks[to];
-        let advantage = track.ahead.clamp(i16::MIN.into(), i16::MAX.into()) as i16;
-        let (number, heard) = (track.sent, track.clock(now));
-        track.sent += 1;
-        let packet = Packet { number, frame, advantage, sent: now, heard, known, ends, runs, digest }.write();
-        self.tally.sent += packet.len() as u64;
-        packet
+    pub(super) fn others(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.tracks.len()).filter(|&k| self.is_other(k))
     }
 
-    /// From which frames on bots steer, by player.
-    fn ends(&self) -> Vec<(u8, u32)> {
-        (0..).zip(&self.tracks).filter_map(|(k, track)| Some((k, track.end?))).collect()
-    }
-
-    fn others(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.tracks.len()).filter(|&k| k != self.own && !self.tracks[k].has_left)
+    /// For how many frames the own inputs are told.
+    pub(super) fn told_until(&self) -> u32 {
+        self.own.map_or(0, |own| self.tracks[own].count())
     }
 
     /// The frame before which nothing changes any more: the inputs of all are known.
     #[must_use]
     pub fn final_frame(&self) -> u32 {
-        let known = self.tracks.iter().enumerate().filter(|(k, _)| *k != self.own).map(|(_, track)| track.certain());
-        known.min().unwrap_or(u32::MAX).min(self.frame.max(self.tracks[self.own].count()))
+        let known =
+            self.tracks.iter().enumerate().filter(|(k, _)| self.own != Some(*k)).map(|(_, track)| track.certain());
+        let known = known.min().unwrap_or(u32::MAX);
+        if self.own.is_none() && known < u32::MAX { known } else { known.min(self.frame.max(self.told_until())) }
     }
 
     /// Steps of the world in a frame.
@@ -339,8 +331,8 @@ impl Session {
     pub fn is_over(&self) -> bool {
         self.wrong_from.is_none()
             && self.over_at.is_some_and(|end| {
-                let is_known = |k: usize| self.tracks[k].known[self.own] >= end;
-                self.final_frame() >= end && self.others().all(is_known)
+                let is_known = |own: usize| self.others().all(|k| self.tracks[k].known[own] >= end);
+                self.final_frame() >= end && self.own.is_none_or(is_known) && self.is_seen(end)
             })
     }
 
@@ -378,6 +370,12 @@ impl Session {
     #[must_use]
     pub fn digests(&self) -> &[(u32, u64)] {
         &self.digests
+    }
+
+    /// The number of this player, from 0 on; none if it watches.
+    #[must_use]
+    pub fn own(&self) -> Option<usize> {
+        self.own
     }
 
     /// What a player told its cell in each frame that is known, and the frame from which on a bot steers.

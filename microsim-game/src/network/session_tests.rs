@@ -9,8 +9,20 @@ fn session(own: usize) -> Session {
 }
 
 fn packet(ends: Vec<(u8, u32)>, runs: Vec<Run>) -> Vec<u8> {
-    Packet { number: 1, frame: 0, advantage: 0, sent: 0, heard: None, known: vec![2; 3], ends, runs, digest: None }
-        .write()
+    Packet {
+        number: 1,
+        frame: 0,
+        advantage: 0,
+        sent: 0,
+        heard: None,
+        known: vec![2; 3],
+        ends,
+        takeovers: Vec::new(),
+        wants: false,
+        runs,
+        digest: None,
+    }
+    .write()
 }
 
 fn run(player: u8, count: usize) -> Vec<Run> {

@@ -11,12 +11,16 @@ const STEPS: f32 = 65535.0;
 /// Bits of the last byte.
 const GOES: u8 = 1;
 const DIGESTS: u8 = 2;
+const BOT: u8 = 4;
 
 /// An intent as it is sent: all players act on these bytes, and so on the same numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Told([u8; 5]);
 
 impl Told {
+    /// In this frame a bot steers.
+    pub const BOT: Self = Self([0, 0, 0, 0, BOT]);
+
     /// An intent on a slide of this size. A goal outside of what can be said is moved to its edge.
     #[must_use]
     pub fn new(intent: Intent, size: Vec2) -> Self {
@@ -40,7 +44,7 @@ impl Told {
     /// Whether [`Told::new`] makes such bytes.
     pub(super) fn is_sound(self) -> bool {
         let Self([a, b, c, d, flags]) = self;
-        flags <= GOES | DIGESTS && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
+        self == Self::BOT || flags <= GOES | DIGESTS && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
     }
 }
 
@@ -64,7 +68,7 @@ mod tests {
 
     #[test]
     fn bytes_that_say_nothing_are_known() {
-        assert!(!Told([0, 0, 0, 0, 4]).is_sound() && !Told([1, 0, 0, 0, DIGESTS]).is_sound());
+        assert!(Told::BOT.is_sound() && !Told([0, 0, 0, 0, 5]).is_sound() && !Told([1, 0, 0, 0, DIGESTS]).is_sound());
         let far = Told::new(Intent::toward(Vec2::splat(1e5)).unwrap(), Vec2::ONE);
         assert_eq!(far.intent(Vec2::ONE).goal(), Some(Vec2::splat(2.0)));
     }

@@ -1,6 +1,6 @@
 //! What is known of one player of a match: its inputs, when it left, and how well its packets come through.
 
-use super::packet::Packet;
+use super::packet::{Packet, Takeover};
 use super::told::Told;
 
 /// What is known of a player.
@@ -13,6 +13,10 @@ pub(super) struct Track {
     /// Whether it has left, and the frame from which on a bot steers.
     pub has_left: bool,
     pub end: Option<u32>,
+    /// The frame from which on it steers: not the first if it took over from a bot.
+    pub since: u32,
+    /// Frames that it had taken by its newest packet.
+    pub frame: u32,
     /// For how many frames it knows the inputs of each player.
     pub known: Vec<u32>,
     /// Its last digest of a frame.
@@ -54,8 +58,14 @@ impl Track {
         &rest[..rest.len().min(most)]
     }
 
-    pub(super) fn push(&mut self, told: Told) {
-        self.told.push(told);
+    /// What it wants from now on counts in a frame; until then a bot steers what it has not said.
+    pub(super) fn push(&mut self, frame: u32, told: Told) {
+        while self.count() < frame {
+            self.told.push(Told::BOT);
+        }
+        if self.count() == frame {
+            self.told.push(told);
+        }
     }
 
     /// Takes over what is new of a run of inputs; the first frame in which its cell was told something else.
@@ -75,15 +85,24 @@ impl Track {
         self.told.truncate(end as usize);
     }
 
-    /// What its cell is told in a frame: what is known, or the same as in the last frame that is known; `None` if a bot steers.
-    pub(super) fn act(&mut self, frame: u32) -> Option<Told> {
-        if self.end.is_some_and(|end| frame >= end) {
-            return None;
+    /// A player takes over from the bot: who was there before is forgotten, but for what its cell was told.
+    pub(super) fn take_over(&mut self, takeover: &Takeover, delay: u32) {
+        // Else the rest comes in packets.
+        if self.end == Some(self.count()) {
+            self.told.resize(takeover.since as usize, Told::BOT);
         }
-        let told = self.told.get(frame as usize).or(self.told.last()).copied().unwrap_or_default();
+        let (told, acted) = (std::mem::take(&mut self.told), std::mem::take(&mut self.acted));
+        let known = vec![delay; self.known.len()];
+        *self = Self { told, acted, known, since: takeover.since, ..Self::default() };
+    }
+
+    /// What its cell is told in a frame: what is known, or the same as in the last frame that is known.
+    pub(super) fn act(&mut self, frame: u32) -> Told {
+        let known = self.told.get(frame as usize).or(self.told.last()).copied().unwrap_or_default();
+        let told = if self.end.is_some_and(|end| frame >= end) { Told::BOT } else { known };
         self.acted.truncate(frame as usize);
         self.acted.push(told);
-        Some(told)
+        told
     }
 
     /// Notes what a packet says of its sender. `frame` is that of the receiver.
@@ -95,7 +114,7 @@ impl Track {
         if self.heard.is_some() && packet.number <= self.newest {
             return;
         }
-        self.newest = packet.number;
+        (self.newest, self.frame) = (packet.number, packet.frame);
         self.heard = Some((packet.sent, now));
         self.ahead = frame as i32 - packet.frame as i32;
         self.advantage = packet.advantage.into();
@@ -106,6 +125,11 @@ impl Track {
     /// Its clock as it is heard now, without the way to here.
     pub(super) fn clock(&self, now: u32) -> Option<u32> {
         self.heard.map(|(sent, at)| sent.wrapping_add(now.wrapping_sub(at)))
+    }
+
+    /// Time since its newest packet came, ms.
+    pub(super) fn silence(&self, now: u32) -> u32 {
+        self.heard.map_or(0, |(_, at)| now.wrapping_sub(at))
     }
 
     /// Share of its packets that were lost, 0 to 1.

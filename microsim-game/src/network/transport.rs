@@ -18,6 +18,8 @@ pub enum Notice {
     },
     /// Another member has come.
     Joined(Member),
+    /// A member whose connection was cut has come back; nobody else can have its number meanwhile.
+    Back(Member),
     /// Another member has gone.
     Left(Member),
     /// A message of another member.

@@ -51,9 +51,9 @@ impl TwoPlayers {
         }
     }
 
-    /// What the end says.
+    /// What the end says. Players without a name have a number.
     #[must_use]
-    pub fn verdict(self, scores: &[u32]) -> String {
+    pub fn verdict(self, scores: &[u32], names: &[String]) -> String {
         if self == Self::Together {
             return format!("{} points together", scores.iter().sum::<u32>());
         }
@@ -66,7 +66,7 @@ impl TwoPlayers {
                 let name = match (self, winner) {
                     (Self::Bot, 1) => "You win".to_owned(),
                     (Self::Bot, _) => "The program wins".to_owned(),
-                    _ => format!("Player {winner} wins"),
+                    _ => format!("{} wins", names.get(winner - 1).unwrap_or(&format!("Player {winner}"))),
                 };
                 format!("{name}, {best} to {}", others.join(", "))
             }
@@ -177,12 +177,14 @@ mod tests {
 
     #[test]
     fn a_verdict_names_the_better_one_or_the_sum() {
-        assert_eq!(TwoPlayers::Versus.verdict(&[50, 20]), "Player 1 wins, 50 to 20");
-        assert_eq!(TwoPlayers::Bot.verdict(&[20, 50]), "The program wins, 50 to 20");
-        assert_eq!(TwoPlayers::Versus.verdict(&[30, 30]), "A draw, 30 points each");
-        assert_eq!(TwoPlayers::Together.verdict(&[50, 20]), "70 points together");
-        assert_eq!(TwoPlayers::Versus.verdict(&[20, 50, 30]), "Player 2 wins, 50 to 20, 30");
-        assert_eq!(TwoPlayers::Versus.verdict(&[50, 50, 30]), "A draw of the best, 50 points each");
+        assert_eq!(TwoPlayers::Versus.verdict(&[50, 20], &[]), "Player 1 wins, 50 to 20");
+        assert_eq!(TwoPlayers::Bot.verdict(&[20, 50], &[]), "The program wins, 50 to 20");
+        assert_eq!(TwoPlayers::Versus.verdict(&[30, 30], &[]), "A draw, 30 points each");
+        assert_eq!(TwoPlayers::Together.verdict(&[50, 20], &[]), "70 points together");
+        assert_eq!(TwoPlayers::Versus.verdict(&[20, 50, 30], &[]), "Player 2 wins, 50 to 20, 30");
+        let names = ["Ada", "Ben"].map(str::to_owned);
+        assert_eq!(TwoPlayers::Versus.verdict(&[20, 50], &names), "Ben wins, 50 to 20");
+        assert_eq!(TwoPlayers::Versus.verdict(&[50, 50, 30], &[]), "A draw of the best, 50 points each");
     }
 
     /// By hand: `cargo test --release -p microsim-game --lib two_players -- --ignored --nocapture`.

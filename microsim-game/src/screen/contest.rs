@@ -4,11 +4,14 @@ use super::context::AppContext;
 use super::lobby::clock;
 use super::steer::{Hands, draw_prey};
 use super::{MainScreen, Next, Screen};
+use crate::draw::palette::PLAYERS;
 use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
-use crate::network::room::Match;
+use crate::network::contest::Match;
 use crate::platform;
 use crate::viewer::{Viewer, first_view};
+use microsim_core::Intent;
+use std::time::Duration;
 
 /// Time for which the player is told what to do, s.
 const ADVICE_TIME: f64 = 7.0;
@@ -20,6 +23,11 @@ const PATIENCE: u32 = 15;
 const LAST_WORD: u32 = 60;
 /// The same after which a match with somebody who does not answer is a draw.
 const LONGEST_WAIT: u32 = 900;
+/// Time for which a cut connection is tried again, s, and time between two trials, s.
+const RETURN_TIME: f32 = 30.0;
+const RETRY_INTERVAL: f32 = 2.0;
+/// Time of a frame in which one who comes late takes frames of the past.
+const CATCH_UP_TIME: Duration = Duration::from_millis(20);
 /// Files of a match that came apart.
 const RECORD: &str = "desync.replay";
 const WORLD: &str = "desync.snapshot";
@@ -35,6 +43,9 @@ pub(super) struct Contest {
     /// Until when Escape leaves, s.
     leaves_until: f32,
     shows_net: bool,
+    /// Since when the connection is cut, and when it is tried again, s.
+    cut_since: Option<f32>,
+    retries_at: f32,
 }
 
 impl Contest {
@@ -42,20 +53,23 @@ impl Contest {
         let (world, steps) = (game.session().round().world(), game.session().steps());
         let viewer = Viewer::with_long_steps(world, first_view(world, None, 1.0, context.pen.screen()), steps);
         let (hands, gains) = (Hands::default(), marks::Gains::default());
-        Self { game, viewer, hands, gains, waiting: 0, leaves_until: 0.0, shows_net: false }
+        let (cut_since, retries_at) = (None, 0.0);
+        Self { game, viewer, hands, gains, waiting: 0, leaves_until: 0.0, shows_net: false, cut_since, retries_at }
     }
 
     fn run(&mut self, input: &Input, context: &mut AppContext) {
         self.hands.note(input, context.settings.click_to_crawl);
         let (pace, digests) = (context.pace, context.settings.digests(input));
         let Self { game, viewer, hands, gains, waiting, .. } = self;
-        let goal = hands.goal(input, &viewer.camera, game.session().round(), game.own());
+        let goal = game.own().and_then(|own| hands.goal(input, &viewer.camera, game.session().round(), own));
         let Some(room) = &mut context.room else { return };
+        let began = platform::now();
+        while platform::now() - began < CATCH_UP_TIME && game.catch_up() {}
         let mut heard = Vec::new();
         viewer.run(pace, 1.0, game, |game| {
             let round = game.session().round();
-            let cell = round.players().nth(game.own()).unwrap_or(round.player());
-            let intent = hands.intent(0, round, cell, goal).digesting(digests);
+            let cell = game.own().and_then(|own| round.players().nth(own));
+            let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
             let is_taken = game.advance(room, intent, clock());
             *waiting = if is_taken { 0 } else { *waiting + 1 };
             heard.extend_from_slice(game.session().heard());
@@ -89,18 +103,43 @@ impl Contest {
         if let Some(record) = round.record() {
             context.keep_game(record, Ok(()));
         }
-        Some(format!("{}. You were player {}.", self.game.way().verdict(&round.scores()), self.game.own() + 1))
+        let own = self.game.own().map_or_else(|| "You watched".to_owned(), |own| format!("You were {}", player(own)));
+        Some(format!("{}. {own}.", self.game.way().verdict(&round.scores(), self.game.names())))
+    }
+
+    /// The connection is cut: goes into the room again, for a while.
+    fn come_back(&mut self, since: f32, context: &mut AppContext) -> Next {
+        let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
+        if context.time - since > RETURN_TIME {
+            let reason = room.closed().unwrap_or("nobody goes on with the match").to_owned();
+            context.room = None;
+            context.tell(reason);
+            return Next::Show(MainScreen::Title);
+        }
+        if room.closed().is_some() && context.time >= self.retries_at {
+            self.retries_at = context.time + RETRY_INTERVAL;
+            if let Ok(way) = platform::open_room(&context.party.server, room.code(), &context.party.key) {
+                room.reopen(way);
+            }
+        }
+        if room.is_idle() {
+            room.finish();
+            return Next::Show(MainScreen::Lobby(Some("The match is over.".to_owned())));
+        }
+        Next::Stay
     }
 
     fn advice(&self, context: &AppContext) -> Option<String> {
         let time = self.game.session().round().world().time();
         if context.time < self.leaves_until {
             Some("Escape again: leave the match".to_owned())
+        } else if self.cut_since.is_some() {
+            Some("The connection is cut. Coming back ...".to_owned())
         } else if self.waiting > PATIENCE {
             Some("Waiting for the others ...".to_owned())
         } else {
-            let text =
-                || format!("You are player {}. Hold the mouse button or a finger to crawl.", self.game.own() + 1);
+            let Some(own) = self.game.own() else { return Some("You watch.".to_owned()) };
+            let text = || format!("You are {}. Hold the mouse button or a finger to crawl.", player(own));
             (time < ADVICE_TIME).then(text)
         }
     }
@@ -123,13 +162,14 @@ impl Contest {
 impl Screen for Contest {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
-        // No other match begins while this one is on.
-        let _ = room.update(clock(), 0, Some(&mut self.game));
-        if let Some(reason) = room.closed().map(str::to_owned) {
-            context.room = None;
-            context.tell(reason);
-            return Next::Show(MainScreen::Title);
+        let current = if self.cut_since.is_none() { Some(&mut self.game) } else { None };
+        // No other match begins while this one is on; after a cut this one begins again.
+        if let Some(game) = room.update(clock(), 0, current) {
+            *self = Self::new(game, context);
+            return Next::Stay;
         }
+        let is_cut = room.closed().is_some();
+        let is_alone = self.game.own().is_none() && room.is_idle();
         if input.step == Some(Move::Back) {
             if context.time < self.leaves_until {
                 context.room = None;
@@ -138,8 +178,15 @@ impl Screen for Contest {
             self.leaves_until = context.time + LEAVING_TIME;
         }
         self.shows_net ^= input.presses(Action::Plots);
+        if is_cut {
+            self.cut_since.get_or_insert(context.time);
+        }
+        if let Some(since) = self.cut_since {
+            return self.come_back(since, context);
+        }
         self.run(input, context);
-        let Some(news) = self.outcome(context) else { return Next::Stay };
+        let over = is_alone.then(|| "The match is over.".to_owned());
+        let Some(news) = self.outcome(context).or(over) else { return Next::Stay };
         if let Some(room) = &mut context.room {
             room.finish();
         }
@@ -157,13 +204,13 @@ impl Screen for Contest {
         let pen = &mut context.pen;
         for (k, id) in round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, &style, cell, Some(k + 1), k == self.game.own());
+                own::draw_own(pen, &style, cell, Some(k + 1), Some(k) == self.game.own());
             }
         }
         places::draw_food(pen, &style, view);
         let mut taken = marks::MarkLayout::default();
         self.gains.draw(pen, &style, &mut taken);
-        if let Some(cell) = round.players().nth(self.game.own()) {
+        if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
             draw_prey(pen, &style, &mut taken, round, view, cell);
         }
         let referee = round.referee();
@@ -188,4 +235,9 @@ impl Screen for Contest {
     fn is_at_stake(&self) -> bool {
         true
     }
+}
+
+/// A player, for people.
+fn player(own: usize) -> String {
+    format!("player {}, {}", own + 1, PLAYERS[own % PLAYERS.len()].0)
 }

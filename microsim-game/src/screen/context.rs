@@ -70,6 +70,8 @@ pub struct Party {
     pub code: String,
     /// Name of this player.
     pub name: String,
+    /// What only this player knows: by it the server gives the place in a room back after a cut.
+    pub key: String,
 }
 
 /// What all screens share.

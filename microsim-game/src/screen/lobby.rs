@@ -3,6 +3,7 @@
 use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
+use crate::draw::palette::PLAYERS;
 use crate::input::{Input, Move};
 use crate::network::room::Room;
 use crate::platform;
@@ -27,7 +28,7 @@ pub(super) struct Lobby {
 /// Says why it cannot be entered.
 pub(super) fn enter(code: &str, context: &mut AppContext) -> Result<Lobby, String> {
     context.room = None;
-    let transport = platform::open_room(&context.party.server, code)?;
+    let transport = platform::open_room(&context.party.server, code, &context.party.key)?;
     context.room = Some(Room::new(transport, code, &context.party.name));
     Ok(Lobby::new(None))
 }
@@ -48,9 +49,9 @@ impl Lobby {
         } else {
             MenuItem::new(format!("Play: {}", room.way().label()))
         };
-        let seats = (1..).zip(room.seats()).map(|(number, seat)| {
+        let seats = (1..).zip(PLAYERS).zip(room.seats()).map(|((number, (colour, _)), seat)| {
             let own = if seat.is_own { " (you)" } else { "" };
-            MenuItem::new(format!("{number} {}{own}: {}", seat.name, seat.note))
+            MenuItem::new(format!("{number} {}{own}, {colour}: {}", seat.name, seat.note))
         });
         let items = [MenuItem::switch("Ready", room.is_ready()), way, MenuItem::new("Leave")];
         self.page.menu.items = items.into_iter().chain(seats).collect();
@@ -93,6 +94,9 @@ impl Screen for Lobby {
         let code = room.code();
         let note = match &self.news {
             Some(news) => format!("{news} Whoever is ready plays again."),
+            None if room.is_entered() && room.has_match() => {
+                format!("Code {code}. A match is on: whoever is ready takes a cell without a player, or watches.")
+            }
             None if room.is_entered() => {
                 format!("Code {code}. The match begins when two to four are here and all are ready.")
             }

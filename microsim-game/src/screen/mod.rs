@@ -29,7 +29,7 @@ mod two_players;
 mod two_players_end;
 
 use crate::input::Input;
-use crate::network::room::Match;
+use crate::network::contest::Match;
 use crate::rules::food_chain::change::Change;
 use crate::rules::round::{Life, RoundResult};
 use crate::rules::two_players::TwoPlayers;

@@ -33,7 +33,7 @@ impl TwoPlayersEnd {
         let points = scores.iter().sum();
         let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
         // A replay does not know how they played.
-        let told = if played == Paused::Replay { TwoPlayers::Versus.summary(scores) } else { way.verdict(scores) };
+        let told = if played == Paused::Replay { TwoPlayers::Versus.summary(scores) } else { way.verdict(scores, &[]) };
         let place = result.record.and_then(|record| {
             let game = format!("{NAME}, together");
             let score = Score { game, time: result.time, points, small: 0, rigid: 0 };

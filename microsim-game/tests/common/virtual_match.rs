@@ -5,6 +5,7 @@ use microsim_core::{Intent, Rng};
 use microsim_game::network::pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
+use microsim_game::network::transport::Member;
 use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
@@ -43,6 +44,9 @@ pub(crate) struct Match {
     pub(crate) frame_ms: Vec<f64>,
     /// When players leave, ms.
     pub(crate) leaving: Vec<(usize, u32)>,
+    /// When members come, or come back, ms: they watch until a bot's cell is theirs.
+    pub(crate) coming: Vec<(usize, u32)>,
+    pub(crate) players: usize,
     pacing: Pacing,
     weather: Weather,
     seconds: f32,
@@ -67,11 +71,13 @@ impl Match {
             sessions: (0..players).map(|own| Session::new(start.clone(), own, pacing)).collect(),
             frame_ms: Vec::new(),
             leaving: Vec::new(),
+            coming: Vec::new(),
+            players,
             pacing,
             weather,
             seconds,
             letters: Vec::new(),
-            bots: (0..players).map(|k| (Bot::new(Policy::Greedy, 50 + k as u64), Intent::REST)).collect(),
+            bots: (0..4).map(|k| (Bot::new(Policy::Greedy, 50 + k as u64), Intent::REST)).collect(),
             rng: Rng::new(seed, 0),
             now: 0.0,
         }
@@ -84,8 +90,27 @@ impl Match {
         }
     }
 
-    pub(crate) fn is_there(&self, player: usize) -> bool {
-        !self.leaving.iter().any(|&(who, when)| who == player && when as f32 <= self.now)
+    pub(crate) fn is_there(&self, member: usize) -> bool {
+        let last = |times: &[(usize, u32)]| {
+            let past = times.iter().filter(|&&(who, when)| who == member && when as f32 <= self.now);
+            past.map(|&(_, when)| when + 1).max().unwrap_or(0)
+        };
+        let (left, came) = (last(&self.leaving), last(&self.coming));
+        left < came || left == 0 && member < self.players
+    }
+
+    /// A member begins to watch.
+    fn come(&mut self, member: usize) {
+        let mut session = Session::watch(round(self.players, self.seconds), member as Member, self.pacing);
+        let away = (0..self.players).filter(|&player| player == member || !self.is_there(player));
+        away.for_each(|player| session.leave(player));
+        if member < self.sessions.len() { self.sessions[member] = session } else { self.sessions.push(session) }
+    }
+
+    /// The seat of a member, as a session knows it.
+    fn seat_of(&self, session: &Session, member: usize) -> Option<usize> {
+        let mut present = session.present();
+        present.find(|&player| session.successor(player).map_or(player, usize::from) == member)
     }
 
     pub(crate) fn is_over(&self) -> bool {
@@ -94,32 +119,59 @@ impl Match {
 
     /// One frame of all.
     pub(crate) fn tick(&mut self) {
+        let before = self.now;
         self.now += 1000.0 * self.pacing.steps as f32 / 60.0;
-        for player in (0..self.sessions.len()).filter(|&player| self.is_there(player)).collect::<Vec<_>>() {
+        let is_due = |when: u32| before < when as f32 && when as f32 <= self.now;
+        let came: Vec<usize> =
+            self.coming.iter().filter(|(_, when)| is_due(*when)).map(|(member, _)| *member).collect();
+        came.into_iter().for_each(|member| self.come(member));
+        for member in (0..self.sessions.len()).filter(|&member| self.is_there(member)).collect::<Vec<_>>() {
             let began = Instant::now();
             let arrived: Vec<Letter> =
-                self.letters.extract_if(.., |letter| letter.to == player && letter.due <= self.now).collect();
-            let told = self.decide(player);
-            let session = &mut self.sessions[player];
+                self.letters.extract_if(.., |letter| letter.to == member && letter.due <= self.now).collect();
             for letter in arrived {
-                session.receive(letter.from, &letter.bytes, self.now as u32);
+                match self.seat_of(&self.sessions[member], letter.from) {
+                    Some(seat) => self.sessions[member].receive(seat, &letter.bytes, self.now as u32),
+                    None => self.sessions[member].receive_guest(letter.from as Member, &letter.bytes, self.now as u32),
+                }
             }
-            // A room knows of those who have left a moment later.
-            for &(who, _) in self.leaving.iter().filter(|&&(_, when)| when as f32 + 50.0 <= self.now) {
-                session.leave(who);
-            }
+            self.notice_those_who_left(member);
+            let told = self.decide(member);
+            let session = &mut self.sessions[member];
+            // As many as a window takes in a frame.
+            (0..20).take_while(|_| session.is_behind() && session.catch_up()).for_each(drop);
             session.advance(told);
-            let packets = session.packets(self.now as u32);
+            let (packets, guests) = (session.packets(self.now as u32), session.guest_packets(self.now as u32));
             self.frame_ms.push(1000.0 * began.elapsed().as_secs_f64());
-            packets.into_iter().for_each(|(to, bytes)| self.post(player, to, bytes));
+            for (seat, bytes) in packets {
+                let to = self.sessions[member].successor(seat).map_or(seat, usize::from);
+                self.post(member, to, bytes);
+            }
+            guests.into_iter().for_each(|(to, bytes)| self.post(member, to.into(), bytes));
         }
     }
 
-    fn decide(&mut self, player: usize) -> Told {
-        let (session, (bot, intent)) = (&self.sessions[player], &mut self.bots[player]);
+    /// A room knows of those who have left a moment later, and gives their cells away.
+    fn notice_those_who_left(&mut self, member: usize) {
+        let is_known = |&(who, when): &(usize, u32)| when as f32 + 50.0 <= self.now && !self.is_there(who);
+        let gone: Vec<usize> = self.leaving.iter().copied().filter(is_known).map(|(who, _)| who).collect();
+        for who in gone {
+            if let Some(seat) = self.seat_of(&self.sessions[member], who) {
+                self.sessions[member].leave(seat);
+            }
+        }
+        let session = &mut self.sessions[member];
+        for guest in session.wanting().into_iter().filter(|_| session.leads()).collect::<Vec<_>>() {
+            let away = (0..self.players).find(|player| session.present().all(|there| there != *player));
+            away.into_iter().for_each(|player| session.seat(player, guest));
+        }
+    }
+
+    fn decide(&mut self, member: usize) -> Told {
+        let (session, (bot, intent)) = (&self.sessions[member], &mut self.bots[member]);
         let world = session.round().world();
         if session.frame() % DECISION == 0
-            && let Some(cell) = session.round().players().nth(player)
+            && let Some(cell) = session.own().and_then(|own| session.round().players().nth(own))
         {
             *intent = bot.intent(world, cell);
         }
@@ -143,7 +195,7 @@ impl Match {
     /// Checks that all have the world that one process computes from the same inputs. The digest of its end.
     pub(crate) fn check(&self) -> u64 {
         let first = self.sessions.iter().enumerate().find(|(k, _)| self.is_there(*k)).expect("somebody is there").1;
-        let mut round = round(self.sessions.len(), self.seconds);
+        let mut round = round(self.players, self.seconds);
         let cells: Vec<_> = round.players().collect();
         let mut bots: Vec<_> = (0..cells.len()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
         let size = round.world().config().size;
@@ -152,6 +204,7 @@ impl Match {
             for _ in 0..self.pacing.steps {
                 let intent = |k: usize| match first.told(k) {
                     (_, Some(end)) if frame >= end as usize => bots[k].intent(round.world(), cells[k]),
+                    (told, _) if told[frame] == Told::BOT => bots[k].intent(round.world(), cells[k]),
                     (told, _) => told[frame].intent(size),
                 };
                 let intents: Vec<Intent> = (0..cells.len()).map(intent).collect();
@@ -159,7 +212,7 @@ impl Match {
             }
             frame += 1;
         }
-        for session in (0..cells.len()).filter(|&k| self.is_there(k)).map(|k| &self.sessions[k]) {
+        for session in (0..self.sessions.len()).filter(|&k| self.is_there(k)).map(|k| &self.sessions[k]) {
             assert!(session.is_over() && session.desync().is_none(), "{:?}", session.tally());
             assert_eq!(session.round().world().digest(), round.world().digest());
             assert_eq!((session.round().scores(), session.round().record()), (round.scores(), round.record()));

@@ -10,6 +10,7 @@ const JOINED: u8 = 1;
 const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
 const HELPERS: u8 = 4;
+const BACK: u8 = 5;
 
 /// The room is entered, as this member.
 pub(super) fn welcome(member: u8, others: impl Iterator<Item = u8>) -> Bytes {
@@ -27,6 +28,11 @@ pub(super) fn left(member: u8) -> Bytes {
 /// Servers that help to find paths to other members.
 pub(super) fn helpers(told: &[u8]) -> Bytes {
     [&[NOTICE, HELPERS], told].concat().into()
+}
+
+/// Who was cut is there again.
+pub(super) fn back(member: u8) -> Bytes {
+    vec![NOTICE, BACK, member].into()
 }
 
 /// The last that is said, with a reason for people.

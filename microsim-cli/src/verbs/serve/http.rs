@@ -1,7 +1,7 @@
 //! Connections: the page's files by HTTP, and the way into rooms by WebSocket, with or without TLS, all at one port.
 
 use super::code::Code;
-use super::limits::{HANDSHAKE, LONGEST_LOAD, MEMBERS, VISITORS};
+use super::limits::{HANDSHAKE, LONGEST_KEY, LONGEST_LOAD, MEMBERS, VISITORS};
 use super::member::{self, Hall};
 use super::page::Page;
 use http_body_util::Full;
@@ -99,14 +99,17 @@ impl Server {
 
     fn answer(self: &Arc<Self>, request: Request<Incoming>, permit: &Permit) -> Answer {
         match request.uri().path().strip_prefix("/room/").map(Code::read) {
-            Some(Some(code)) => self.open(request, code, Arc::clone(permit)),
+            Some(Some(code)) => {
+                let key = key(request.uri().query()).to_owned();
+                self.open(request, code, key, Arc::clone(permit))
+            }
             Some(None) => plain(StatusCode::NOT_FOUND, "no code of a room"),
             None => self.file(&request),
         }
     }
 
     /// Lets a client into a room.
-    fn open(self: &Arc<Self>, mut request: Request<Incoming>, code: Code, permit: Permit) -> Answer {
+    fn open(self: &Arc<Self>, mut request: Request<Incoming>, code: Code, key: String, permit: Permit) -> Answer {
         if !is_from_here(request.headers()) {
             return plain(StatusCode::FORBIDDEN, "a page of another server");
         }
@@ -116,7 +119,7 @@ impl Server {
         let server = Arc::clone(self);
         tokio::spawn(async move {
             if let Ok(stream) = hyper::upgrade::on(&mut request).await {
-                member::attend(TokioIo::new(stream), code, &server.hall).await;
+                member::attend(TokioIo::new(stream), code, key, &server.hall).await;
             }
             drop(permit);
         });
@@ -140,6 +143,13 @@ fn is_from_here(headers: &HeaderMap) -> bool {
     let host = headers.get(header::HOST).map(|host| host.as_bytes());
     let origin = origin.as_bytes();
     host.is_some_and(|host| [&b"http://"[..], b"https://"].iter().any(|way| origin.strip_prefix(*way) == Some(host)))
+}
+
+/// The key of a member in the question of an address; empty if it has none that can be one.
+fn key(question: Option<&str>) -> &str {
+    let key = question.and_then(|question| question.strip_prefix("key=")).unwrap_or_default();
+    let is_key = key.len() <= LONGEST_KEY && key.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    if is_key { key } else { "" }
 }
 
 fn plain(status: StatusCode, text: &'static str) -> Answer {

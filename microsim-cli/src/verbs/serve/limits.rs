@@ -32,6 +32,10 @@ pub(super) const SILENCE: Duration = Duration::from_secs(60);
 pub(super) const PING: Duration = Duration::from_secs(20);
 /// Longest time in which a member takes what is sent to him.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
+/// Time for which the place of a member is kept whose connection was cut.
+pub(super) const RETURN: Duration = Duration::from_secs(30);
+/// Most characters of the key by which a member gets it back.
+pub(super) const LONGEST_KEY: usize = 64;
 /// Longest farewell: what a member has sent already is read, or he would not read why he is dropped.
 pub(super) const FAREWELL: Duration = Duration::from_secs(1);
 

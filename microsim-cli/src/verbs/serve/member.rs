@@ -2,7 +2,7 @@
 
 use super::code::Code;
 use super::frame;
-use super::limits::{Allowance, FAREWELL, LONGEST_MESSAGE, PATIENCE, PING, SILENCE};
+use super::limits::{Allowance, FAREWELL, LONGEST_MESSAGE, PATIENCE, PING, RETURN, SILENCE};
 use super::queue::{Receiver, Sender, queue};
 use super::rooms::{Place, Refusal, Rooms};
 use futures_util::{SinkExt, StreamExt};
@@ -12,11 +12,15 @@ use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::sync::watch;
 use tokio::time::{self, Instant};
 use tokio_tungstenite::WebSocketStream;
+use tokio_tungstenite::tungstenite::protocol::frame::coding::CloseCode;
 use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
 use tokio_tungstenite::tungstenite::{Error, Message};
 
 /// Bytes that are read at once; there is one such buffer for each member.
 const READ_BUFFER: usize = 4 * 1024;
+
+/// Said by a member who goes of its own accord: its place is free at once.
+const GOODBYE: &str = "goodbye";
 
 /// All rooms, and whether the server stops.
 #[derive(Debug)]
@@ -45,7 +49,7 @@ impl Hall {
 }
 
 /// Lets a connection into a room, until one of them has enough.
-pub(super) async fn attend<S: AsyncRead + AsyncWrite + Unpin>(stream: S, code: Code, hall: &Hall) {
+pub(super) async fn attend<S: AsyncRead + AsyncWrite + Unpin>(stream: S, code: Code, key: String, hall: &Hall) {
     // A frame is a message and its receiver.
     let config = WebSocketConfig::default()
         .read_buffer_size(READ_BUFFER)
@@ -53,12 +57,13 @@ pub(super) async fn attend<S: AsyncRead + AsyncWrite + Unpin>(stream: S, code: C
         .max_frame_size(Some(LONGEST_MESSAGE + 1));
     let mut socket = WebSocketStream::from_raw_socket(stream, Role::Server, Some(config)).await;
     let (outbox, inbox) = queue();
-    let joined = hall.rooms().join(code, outbox);
+    let joined = hall.rooms().join(code, key, Instant::now().into_std(), outbox);
     let reason = match joined {
         Ok(place) => {
             let reason = converse(&mut socket, inbox, &place, hall).await;
-            hall.rooms().leave(&place);
-            reason
+            let until = (reason != Some(GOODBYE)).then(|| (Instant::now() + RETURN).into_std());
+            hall.rooms().leave(&place, until);
+            reason.filter(|reason| *reason != GOODBYE)
         }
         Err(refusal) => Some(refusal.reason()),
     };
@@ -82,7 +87,7 @@ async fn dismiss<S: AsyncRead + AsyncWrite + Unpin>(
     closed
 }
 
-/// Passes messages on, both ways, and returns why that ends; none when the member goes by himself.
+/// Passes messages on, both ways, and returns why that ends; none when the connection is cut.
 async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
     socket: &mut WebSocketStream<S>,
     mut inbox: Receiver,
@@ -124,12 +129,16 @@ async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
     }
 }
 
-/// What a member sends. The error says why he is dropped; none when he goes by himself.
+/// What a member sends. The error says why he is dropped; none when the connection is cut.
 fn read(received: Option<Result<Message, Error>>) -> Result<Message, Option<&'static str>> {
     match received {
         Some(Ok(Message::Text(_))) => Err(Some("text in place of bytes")),
         Some(Err(Error::Capacity(_))) => Err(Some("a message that is too long")),
         Some(Err(Error::Protocol(_) | Error::Utf8(_))) => Err(Some("no WebSocket frame")),
+        Some(Ok(Message::Close(frame))) if !frame.is_some_and(|frame| frame.code == CloseCode::Away) => {
+            Err(Some(GOODBYE))
+        }
+        // A page that is loaded again is away.
         None | Some(Err(_) | Ok(Message::Close(_))) => Err(None),
         Some(Ok(message)) => Ok(message),
     }

@@ -1,10 +1,11 @@
-//! Who is in which room, and who is told what. It knows no sockets and no time.
+//! Who is in which room, and who is told what. It knows no sockets and no clock.
 
 use super::code::Code;
 use super::frame;
 use super::limits::MEMBERS;
 use hyper::body::Bytes;
 use std::collections::HashMap;
+use std::time::Instant;
 
 /// The way to a member.
 pub(super) trait Outbox {
@@ -46,12 +47,22 @@ pub(super) struct Place {
 #[derive(Debug)]
 struct Seat<O> {
     ticket: u64,
+    /// By which its member gets it back after a cut; may be empty.
+    key: String,
     outbox: O,
 }
 
-/// Seats by the numbers of members.
+/// The place of a member whose connection was cut.
 #[derive(Debug)]
-struct Room<O>([Option<Seat<O>>; MEMBERS]);
+struct Kept {
+    member: u8,
+    key: String,
+    until: Instant,
+}
+
+/// Seats by the numbers of members, and those that are kept.
+#[derive(Debug)]
+struct Room<O>([Option<Seat<O>>; MEMBERS], Vec<Kept>);
 
 impl<O: Outbox> Room<O> {
     fn members(&self) -> impl Iterator<Item = u8> {
@@ -71,6 +82,21 @@ impl<O: Outbox> Room<O> {
 
     fn send_to_others(&mut self, member: u8, frame: &Bytes) {
         (0..MEMBERS as u8).filter(|to| *to != member).for_each(|to| self.send(to, frame.clone()));
+    }
+
+    /// The number of who has this key, if it is here or was a moment ago.
+    fn number_of(&self, key: &str) -> Option<u8> {
+        let has_key = |(_, seat): &(u8, &Option<Seat<O>>)| seat.as_ref().is_some_and(|seat| seat.key == key);
+        let here = (0..).zip(&self.0).find(has_key).map(|(member, _)| member);
+        let kept = || self.1.iter().find(|kept| kept.key == key).map(|kept| kept.member);
+        here.or_else(kept).filter(|_| !key.is_empty())
+    }
+
+    /// The lowest number that nobody has or may come back to.
+    fn free(&self) -> Option<u8> {
+        let is_kept = |member: u8| self.1.iter().any(|kept| kept.member == member);
+        let mut free = (0..).zip(&self.0).filter(|(member, seat)| seat.is_none() && !is_kept(*member));
+        free.next().map(|(member, _)| member)
     }
 
     fn remove(&mut self, member: u8) {
@@ -94,30 +120,37 @@ impl<O: Outbox> Rooms<O> {
         Self { rooms: HashMap::new(), most, helpers, tickets: 0 }
     }
 
-    /// Takes the lowest free seat. The first frame for the new member is his welcome.
-    pub(super) fn join(&mut self, code: Code, outbox: O) -> Result<Place, Refusal> {
+    /// Takes the seat that this key had, or the lowest free one. The first frame for the new member is his welcome.
+    pub(super) fn join(&mut self, code: Code, key: String, now: Instant, outbox: O) -> Result<Place, Refusal> {
         if self.rooms.len() >= self.most && !self.rooms.contains_key(&code) {
             return Err(Refusal::NoRoomLeft);
         }
-        let room = self.rooms.entry(code.clone()).or_insert_with(|| Room([const { None }; MEMBERS]));
-        let free = (0..).zip(&room.0).find(|(_, seat)| seat.is_none());
-        let (member, _) = free.ok_or(Refusal::RoomIsFull)?;
+        let room = self.rooms.entry(code.clone()).or_insert_with(|| Room([const { None }; MEMBERS], Vec::new()));
+        room.1.retain(|kept| kept.until > now);
+        let former = room.number_of(&key);
+        let member = former.or_else(|| room.free()).ok_or(Refusal::RoomIsFull)?;
+        room.1.retain(|kept| kept.member != member);
         self.tickets += 1;
         let place = Place { code, member, ticket: self.tickets };
+        outbox.offer(frame::welcome(member, room.members().filter(|other| *other != member)));
         // Nothing waits for a new member: there is room for both.
-        outbox.offer(frame::welcome(member, room.members()));
         if let Some(helpers) = &self.helpers {
             outbox.offer(helpers.clone());
         }
-        room.0[usize::from(member)] = Some(Seat { ticket: place.ticket, outbox });
-        room.send_to_others(member, &frame::joined(member));
+        room.0[usize::from(member)] = Some(Seat { ticket: place.ticket, key, outbox });
+        let news = if former.is_some() { frame::back(member) } else { frame::joined(member) };
+        room.send_to_others(member, &news);
         Ok(place)
     }
 
-    /// Gives a seat back; nothing if that has happened.
-    pub(super) fn leave(&mut self, place: &Place) {
+    /// Gives a seat back, or keeps it for its member's key until then; nothing if that has happened.
+    pub(super) fn leave(&mut self, place: &Place, until: Option<Instant>) {
         let Some(room) = self.rooms.get_mut(&place.code) else { return };
         if room.has(place) {
+            let seat = room.0[usize::from(place.member)].as_ref();
+            let key = seat.map(|seat| seat.key.clone()).filter(|key| !key.is_empty());
+            let kept = key.zip(until).map(|(key, until)| Kept { member: place.member, key, until });
+            room.1.extend(kept);
             room.remove(place.member);
         }
         if room.members().next().is_none() {
@@ -143,6 +176,7 @@ mod tests {
     use std::cell::RefCell;
     use std::collections::BTreeSet;
     use std::rc::Rc;
+    use std::time::Duration;
 
     /// Frames for a member, with room for so many.
     #[derive(Clone, Debug)]
@@ -170,14 +204,19 @@ mod tests {
         Code::read(text).unwrap()
     }
 
+    /// Somebody without a key.
+    fn join(rooms: &mut Rooms<Shelf>, code: Code, shelf: Shelf) -> Result<Place, Refusal> {
+        rooms.join(code, String::new(), Instant::now(), shelf)
+    }
+
     /// A room with so many members, who have read everything.
     fn room_of(count: usize) -> (Rooms<Shelf>, Vec<(Place, Shelf)>) {
         let mut rooms = Rooms::new(10, None);
-        let mut join = || {
+        let mut enter = || {
             let shelf = Shelf::new(100);
-            (rooms.join(code("ROOM"), shelf.clone()).unwrap(), shelf)
+            (join(&mut rooms, code("ROOM"), shelf.clone()).unwrap(), shelf)
         };
-        let members: Vec<_> = (0..count).map(|_| join()).collect();
+        let members: Vec<_> = (0..count).map(|_| enter()).collect();
         members.iter().for_each(|(_, shelf)| drop(shelf.take()));
         (rooms, members)
     }
@@ -186,22 +225,47 @@ mod tests {
     fn the_lowest_free_number_is_given_and_all_are_told() {
         let (mut rooms, members) = room_of(4);
         assert_eq!(members.iter().map(|(place, _)| place.member).collect::<Vec<_>>(), [0, 1, 2, 3]);
-        assert_eq!(rooms.join(code("room"), Shelf::new(9)), Err(Refusal::RoomIsFull));
-        rooms.leave(&members[1].0);
+        assert_eq!(join(&mut rooms, code("room"), Shelf::new(9)), Err(Refusal::RoomIsFull));
+        rooms.leave(&members[1].0, None);
         assert_eq!(members[0].1.take(), [[0xff, 2, 1]]);
         let again = Shelf::new(9);
-        assert_eq!(rooms.join(code("ROOM"), again.clone()).unwrap().member, 1);
+        assert_eq!(join(&mut rooms, code("ROOM"), again.clone()).unwrap().member, 1);
         assert_eq!(again.take(), [[0xff, 0, 1, 0, 2, 3]]);
         assert_eq!(members[3].1.take(), [[0xff, 2, 1], [0xff, 1, 1]]);
-        rooms.leave(&members[1].0);
+        rooms.leave(&members[1].0, None);
         assert!(members[0].1.take().iter().all(|frame| *frame != [0xff, 2, 1]), "the number is another's now");
+    }
+
+    #[test]
+    fn who_was_cut_gets_its_number_back_by_its_key_and_nobody_else_meanwhile() {
+        let (mut rooms, members) = room_of(2);
+        let now = Instant::now();
+        let enter = |rooms: &mut Rooms<Shelf>, key: &str, after| {
+            let place = rooms.join(code("ROOM"), key.to_owned(), now + Duration::from_secs(after), Shelf::new(9));
+            place.map(|place| (place.member, place))
+        };
+        let (number, place) = enter(&mut rooms, "secret", 0).unwrap();
+        assert_eq!((number, members[0].1.take()), (2, vec![vec![0xff, 1, 2]]));
+        rooms.leave(&place, Some(now + Duration::from_secs(30)));
+        let (other, stranger) = enter(&mut rooms, "guess", 1).unwrap();
+        assert_eq!((other, members[0].1.take()), (3, vec![vec![0xff, 2, 2], vec![0xff, 1, 3]]));
+        assert_eq!(enter(&mut rooms, "", 2), Err(Refusal::RoomIsFull), "the place is kept");
+        let (number, place) = enter(&mut rooms, "secret", 29).unwrap();
+        assert_eq!((number, members[0].1.take()), (2, vec![vec![0xff, 5, 2]]));
+        let (number, again) = enter(&mut rooms, "secret", 29).unwrap();
+        assert_eq!((number, members[0].1.take()), (2, vec![vec![0xff, 5, 2]]), "before the cut was seen");
+        rooms.leave(&place, None);
+        assert!(rooms.relay(&place, &[0, 1]).is_err() && rooms.relay(&again, &[0, 1]).is_ok());
+        rooms.leave(&stranger, None);
+        rooms.leave(&again, Some(now + Duration::from_secs(59)));
+        assert_eq!(enter(&mut rooms, "", 59).unwrap().0, 2, "after that it is anybody's");
     }
 
     #[test]
     fn a_message_goes_to_its_receiver_alone() {
         let (mut rooms, members) = room_of(3);
         let other = Shelf::new(9);
-        rooms.join(code("OTHER"), other.clone()).unwrap();
+        join(&mut rooms, code("OTHER"), other.clone()).unwrap();
         other.take();
         rooms.relay(&members[2].0, &[1, 7, 8]).unwrap();
         assert_eq!(members[1].1.take(), [[2, 7, 8]]);
@@ -223,7 +287,7 @@ mod tests {
     fn a_slow_member_is_dropped_and_the_others_are_told() {
         let (mut rooms, members) = room_of(2);
         let slow = Shelf::new(2);
-        let place = rooms.join(code("ROOM"), slow.clone()).unwrap();
+        let place = join(&mut rooms, code("ROOM"), slow.clone()).unwrap();
         (0..2).for_each(|_| rooms.relay(&members[0].0, &[2, 1]).unwrap());
         assert_eq!(members[1].1.take(), [[0xff, 1, 2], [0xff, 2, 2]]);
         assert_eq!(rooms.relay(&place, &[0, 1]), Err(Refusal::TooSlow));
@@ -232,13 +296,13 @@ mod tests {
     #[test]
     fn rooms_are_counted_and_go_with_the_last_member() {
         let mut rooms = Rooms::new(2, None);
-        let place = rooms.join(code("ONE1"), Shelf::new(9)).unwrap();
-        rooms.join(code("TWO2"), Shelf::new(9)).unwrap();
-        assert_eq!(rooms.join(code("THREE"), Shelf::new(9)), Err(Refusal::NoRoomLeft));
-        rooms.join(code("TWO2"), Shelf::new(9)).unwrap();
-        rooms.leave(&place);
-        rooms.leave(&place);
-        assert!(rooms.join(code("THREE"), Shelf::new(9)).is_ok());
+        let place = join(&mut rooms, code("ONE1"), Shelf::new(9)).unwrap();
+        join(&mut rooms, code("TWO2"), Shelf::new(9)).unwrap();
+        assert_eq!(join(&mut rooms, code("THREE"), Shelf::new(9)), Err(Refusal::NoRoomLeft));
+        join(&mut rooms, code("TWO2"), Shelf::new(9)).unwrap();
+        rooms.leave(&place, None);
+        rooms.leave(&place, None);
+        assert!(join(&mut rooms, code("THREE"), Shelf::new(9)).is_ok());
     }
 
     fn is_there(rooms: &Rooms<Shelf>, place: &Place) -> bool {
@@ -271,10 +335,10 @@ mod tests {
             match below(8) {
                 0 => {
                     let shelf = Shelf::new(6);
-                    let joined = rooms.join(code("ROOM"), shelf.clone());
+                    let joined = join(&mut rooms, code("ROOM"), shelf.clone());
                     members.extend(joined.map(|place| (place, shelf, BTreeSet::new())));
                 }
-                1 if !members.is_empty() => rooms.leave(&members.swap_remove(below(members.len())).0),
+                1 if !members.is_empty() => rooms.leave(&members.swap_remove(below(members.len())).0, None),
                 k if !members.is_empty() => {
                     let frame: Vec<u8> = (0..below(4)).map(|_| below(6) as u8).collect();
                     let sender = below(members.len());
@@ -284,7 +348,7 @@ mod tests {
                         let (place, shelf, others) = &mut members[sender];
                         told(others, &shelf.take());
                         if !is_there(&rooms, place) {
-                            rooms.leave(&members.swap_remove(sender).0);
+                            rooms.leave(&members.swap_remove(sender).0, None);
                         }
                     }
                 }

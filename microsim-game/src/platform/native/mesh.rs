@@ -2,7 +2,7 @@
 //! What comes from another member may be anything.
 
 use super::way::{Signal, Way};
-use crate::network::relay::{JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
+use crate::network::relay::{BACK, JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
 use crate::network::transport::{Member, Notice};
 use std::fmt;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
@@ -43,11 +43,11 @@ impl Mesh {
     /// Takes what the server has sent, and returns a frame that is to be sent to it.
     pub(super) fn take(&mut self, frame: &[u8]) -> Option<Vec<u8>> {
         let (member, signal) = match *frame {
-            [NOTICE, kind @ (JOINED | LEFT), member] if member < MEMBERS => {
+            [NOTICE, kind @ (JOINED | LEFT | BACK), member] if member < MEMBERS => {
                 self.ways[usize::from(member)] = None;
                 self.offers[usize::from(member)] = 0;
                 // Who is there already offers a way to who comes.
-                (member, if kind == JOINED { self.offer(member) } else { None })
+                (member, if kind == LEFT { None } else { self.offer(member) })
             }
             [member, SIGNAL, ref signal @ ..] if member < MEMBERS && signal.len() <= LONGEST_SIGNAL => {
                 (member, self.hear(member, &Signal::read(signal)?))

@@ -13,7 +13,7 @@ mod way;
 mod window;
 
 pub use gamepads::Gamepads;
-pub use room::open_room;
+pub use room::{open_room, room_key};
 pub use speaker::Speaker;
 pub use storage::Storage;
 pub(crate) use window::run;

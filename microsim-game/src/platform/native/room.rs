@@ -3,6 +3,8 @@
 use super::mesh::Mesh;
 use crate::network::relay::{self, CUT};
 use crate::network::transport::{LONGEST_MESSAGE, Member, Notice, Transport};
+use std::collections::hash_map::RandomState;
+use std::hash::{BuildHasher, Hasher};
 use std::io::{self, ErrorKind};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -20,19 +22,27 @@ const MOST: usize = 512;
 /// Bytes that wait to be sent; what is more is lost.
 const LONGEST_QUEUE: usize = 1 << 20;
 
-/// Goes into a room. `server` is `HOST`, `HOST:PORT`, or the address of its page.
+/// Goes into a room, with the key by which a place is given back after a cut, if any. `server` is `HOST`, `HOST:PORT`, or the address of its page.
 ///
 /// # Errors
 /// When the address or the code is none. All else is told later, as [`Notice::Closed`].
-pub fn open_room(server: &str, code: &str) -> Result<Box<dyn Transport>, String> {
-    let (host, code) = (host(server)?, relay::check_code(code)?);
-    let (sender, way) = channel();
+pub fn open_room(server: &str, code: &str, key: &str) -> Result<Box<dyn Transport>, String> {
+    let (host, way) = (host(server)?, relay::way(&relay::check_code(code)?, key));
+    let (sender, connected) = channel();
     let connect = move || {
         // Nobody receives it when the room has been left meanwhile.
-        let _ = sender.send(connect(&host, &code));
+        let _ = sender.send(connect(&host, &way));
     };
     thread::Builder::new().name("room".to_owned()).spawn(connect).map_err(|error| error.to_string())?;
-    Ok(Box::new(Room { state: State::Connecting(way), mesh: None }))
+    Ok(Box::new(Room { state: State::Connecting(connected), mesh: None }))
+}
+
+/// A key that nobody can guess.
+#[must_use]
+pub fn room_key() -> String {
+    // The standard library seeds each by chance of the system.
+    let chance = || RandomState::new().build_hasher().finish();
+    format!("{:016x}{:016x}", chance(), chance())
 }
 
 /// `HOST:PORT` of an address.
@@ -51,14 +61,14 @@ fn host(server: &str) -> Result<String, String> {
     Ok(if has_port { host.to_owned() } else { format!("{host}:{PORT}") })
 }
 
-fn connect(host: &str, code: &str) -> Result<WebSocket<TcpStream>, String> {
+fn connect(host: &str, way: &str) -> Result<WebSocket<TcpStream>, String> {
     let unreachable = |error: io::Error| format!("cannot reach {host}: {error}");
     let stream = reach(host).map_err(unreachable)?;
     let config = WebSocketConfig::default()
         .max_message_size(Some(LONGEST_MESSAGE + 1))
         .max_frame_size(Some(LONGEST_MESSAGE + 1))
         .max_write_buffer_size(LONGEST_QUEUE);
-    let connected = client::client_with_config(format!("ws://{host}/room/{code}"), stream, Some(config));
+    let connected = client::client_with_config(format!("ws://{host}/room/{way}"), stream, Some(config));
     let (socket, _) = connected.map_err(|error| format!("{host} has no rooms: {error}"))?;
     socket.get_ref().set_nonblocking(true).map_err(unreachable)?;
     Ok(socket)
@@ -187,7 +197,7 @@ mod tests {
         let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap().to_string();
         drop(listener);
-        let mut room = open_room(&address, "K7M2QX").unwrap();
+        let mut room = open_room(&address, "K7M2QX", "").unwrap();
         let begin = Instant::now();
         let mut notices = Vec::new();
         while notices.is_empty() && begin.elapsed() < PATIENCE {

@@ -7,7 +7,7 @@ mod speaker;
 mod storage;
 
 pub use gamepads::Gamepads;
-pub use room::open_room;
+pub use room::{open_room, room_key};
 pub use speaker::Speaker;
 pub use storage::Storage;
 

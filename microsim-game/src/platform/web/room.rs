@@ -9,12 +9,18 @@ use std::sync::atomic::{AtomicU32, Ordering};
 ///
 /// # Errors
 /// When the code is none. All else is told later, as [`Notice::Closed`].
-pub fn open_room(_: &str, code: &str) -> Result<Box<dyn Transport>, String> {
+pub fn open_room(_: &str, code: &str, key: &str) -> Result<Box<dyn Transport>, String> {
     static NUMBERS: AtomicU32 = AtomicU32::new(0);
-    let code = relay::check_code(code)?;
+    let way = relay::way(&relay::check_code(code)?, key);
     let number = NUMBERS.fetch_add(1, Ordering::Relaxed).to_string();
-    host::tell("enter room", &number, code.as_bytes());
+    host::tell("enter room", &number, way.as_bytes());
     Ok(Box::new(Room { number, is_open: true }))
+}
+
+/// A key that nobody can guess, the same until the tab is closed.
+#[must_use]
+pub fn room_key() -> String {
+    host::ask("room key", "").and_then(|key| String::from_utf8(key).ok()).unwrap_or_default()
 }
 
 /// The page knows it by its number.

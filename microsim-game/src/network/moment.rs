@@ -1,0 +1,49 @@
+//! A moment of a match, and what it took to get there.
+
+use crate::rules::bot::{Bot, Policy};
+use crate::rules::round::Round;
+
+/// What going back cost, and what was sent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Frames in which the round went back, and frames that were taken again.
+    pub rollbacks: u32,
+    /// See above.
+    pub repeated: u32,
+    /// Most frames that were taken again at once.
+    pub deepest: u32,
+    /// Frames that were left out: others were too far behind, or slower.
+    pub waits: u32,
+    /// Bytes of packets.
+    pub sent: u64,
+    /// See above.
+    pub received: u64,
+    /// Packets that no player of this version sends.
+    pub refused: u32,
+}
+
+/// A moment of the match, to go back to.
+#[derive(Debug)]
+pub(super) struct Moment {
+    pub round: Round,
+    pub bots: Vec<Bot>,
+}
+
+impl Moment {
+    /// The beginning, with a bot for each player: it steers when the player is not there.
+    pub(super) fn new(round: Round) -> Self {
+        let bots = (0..round.players().count()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
+        Self { round, bots }
+    }
+}
+
+impl Clone for Moment {
+    fn clone(&self) -> Self {
+        Self { round: self.round.clone(), bots: self.bots.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.round.clone_from(&source.round);
+        self.bots.clone_from(&source.bots);
+    }
+}
