@@ -9,8 +9,12 @@ use parry2d::query::{Contact, ShapeCastOptions, cast_shapes, contact};
 use parry2d::shape::{Ball, Shape, SharedShape};
 use std::cell::Cell;
 
-/// Farthest that a first guess of a distance may be off, units.
-const GUESS: f32 = 1.0;
+/// Gap of shapes that touch, units.
+const CLOSE: f32 = 1e-3;
+/// Largest gap that is looked at, units.
+const FAR: f32 = 1e5;
+/// Most looks on the way to a shape; what is not touched by then is grazed.
+const LOOKS: u32 = 32;
 
 /// A shape on its way.
 struct Cast<'s> {
@@ -79,30 +83,42 @@ impl Queries<'_> {
 }
 
 impl Cast<'_> {
-    /// Where it first touches another shape.
+    /// Where it first touches another shape. From where it is it goes as far as the gap allows along the gap's normal, and looks
+    /// again: a convex shape is never passed (conservative advancement, Mirtich 1996, PhD thesis, Berkeley).
     fn meets(&self, shape: &dyn Shape, pose: &Pose) -> Option<Touch> {
-        let options = ShapeCastOptions { max_time_of_impact: self.length, ..ShapeCastOptions::default() };
-        let hit = cast_shapes(&self.pose, self.direction, self.shape, pose, Vec2::ZERO, shape, options);
-        let mut distance = hit.ok().flatten()?.time_of_impact;
-        let begins_inside = distance == 0.0;
-        let mut nearest = self.nearest(distance, shape, pose)?;
-        // Newton's method: where large shapes touch is off by a hundredth of a unit at first.
-        for _ in 0..4 {
-            let approach = nearest.normal1.dot(self.direction);
-            if begins_inside || approach <= 0.01 {
-                break;
+        let is_convex = shape.as_support_map().is_some();
+        let mut distance = if is_convex { 0.0 } else { self.time_of_impact(shape, pose)? };
+        for _ in 0..LOOKS {
+            let near = self.nearest(distance, shape, pose)?;
+            let begins_inside = distance == 0.0 && near.dist <= 0.0;
+            let normal = if begins_inside { Vec2::ZERO } else { near.normal2 };
+            let touch = near.point2.is_finite().then_some(Touch { distance, point: near.point2, normal });
+            let approach = near.normal1.dot(self.direction);
+            if begins_inside || near.dist.abs() <= CLOSE {
+                return touch;
             }
-            distance = (distance + nearest.dist / approach).clamp(0.0, self.length);
-            nearest = self.nearest(distance, shape, pose)?;
+            if approach <= 0.0 {
+                return touch.filter(|_| near.dist < 0.0 || !is_convex);
+            }
+            distance += near.dist / approach;
+            if !(0.0..=self.length).contains(&distance) {
+                return None;
+            }
         }
-        let normal = if begins_inside { Vec2::ZERO } else { nearest.normal2 };
-        nearest.point2.is_finite().then_some(Touch { distance, point: nearest.point2, normal })
+        None
     }
 
-    /// The nearest points of both shapes when it has come so far.
+    fn time_of_impact(&self, shape: &dyn Shape, pose: &Pose) -> Option<f32> {
+        let options = ShapeCastOptions { max_time_of_impact: self.length, ..ShapeCastOptions::default() };
+        let hit = cast_shapes(&self.pose, self.direction, self.shape, pose, Vec2::ZERO, shape, options);
+        Some(hit.ok().flatten()?.time_of_impact)
+    }
+
+    /// The nearest points of both shapes when it has come so far; `None` if it cannot come so near.
     fn nearest(&self, distance: f32, shape: &dyn Shape, pose: &Pose) -> Option<Contact> {
         let moved = Pose::from_parts(self.pose.translation + self.direction * distance, self.pose.rotation);
-        contact(&moved, self.shape, pose, shape, GUESS).ok().flatten()
+        let farthest = if self.length < FAR { self.length } else { FAR };
+        contact(&moved, self.shape, pose, shape, farthest + CLOSE).ok().flatten()
     }
 }
 
