@@ -340,7 +340,9 @@ fn conclude(world: &mut World) {
     }
     world.quarantine();
     world.conclude_joints();
-    let everything = std::iter::once(0..world.particles.len());
-    integrate::for_each_chunk(&mut world.particles, everything, world.dispatch, integrate::move_origins);
+    let World { particles, blocks, sleep, dispatch, .. } = world;
+    // Sleepers have not moved.
+    let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
+    integrate::for_each_chunk(particles, awake, *dispatch, integrate::move_origins);
     world.supply();
 }

@@ -79,7 +79,8 @@ impl Choices<'_> {
             }
         };
         let scale = if c.byte() < 220 { 1.0 } else { c.number(0.5, 2.0) };
-        Placement::at(at.x, at.y).turned(c.number(-4.0, 4.0)).scaled(scale).steered_by(controller)
+        let placed = Placement::at(at.x, at.y).turned(c.number(-4.0, 4.0)).scaled(scale).steered_by(controller);
+        if c.byte() < 220 { placed } else { placed.overlapping(c.number(0.0, 0.9)) }
     }
 
     pub(super) fn spec(&mut self) -> OrganismSpec {
@@ -113,7 +114,7 @@ impl Choices<'_> {
         }
     }
 
-    fn amoeboid_cell(&mut self) -> AmoeboidCellSpec {
+    pub(super) fn amoeboid_cell(&mut self) -> AmoeboidCellSpec {
         let c = self;
         let mut spec = AmoeboidCellSpec { speed: c.number(2.0, 20.0), ..Default::default() };
         let radius = c.number(4.0, 14.0);

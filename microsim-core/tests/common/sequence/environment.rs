@@ -3,8 +3,8 @@
 use super::{Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    CollisionGroups, Drain, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, OrganismId, Recipe,
-    Region,
+    CollisionGroups, ContactReporting, Drain, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind,
+    OrganismId, Recipe, Region,
 };
 
 impl Sequence<'_> {
@@ -54,10 +54,14 @@ impl Sequence<'_> {
         }
     }
 
+    fn recipe(&mut self) -> Recipe {
+        let template = self.templates.last().copied().filter(|_| self.choices.flag());
+        template.map_or_else(|| Recipe::Organism(self.choices.spec()), Recipe::Template)
+    }
+
     pub(super) fn change_emitter(&mut self) -> Outcome {
         let (centre, count) = (self.place(), self.emitters.len());
-        let template = self.templates.last().copied().filter(|_| self.choices.flag());
-        let recipe = template.map_or_else(|| Recipe::Organism(self.choices.spec()), Recipe::Template);
+        let recipe = self.recipe();
         let emitter = Emitter {
             velocity: self.vector(30.0),
             angle: self.choices.flag().then_some(1.0),
@@ -83,7 +87,8 @@ impl Sequence<'_> {
 
     pub(super) fn change_field(&mut self) -> Outcome {
         let (centre, acceleration, count) = (self.place(), self.choices.number(-200.0, 200.0), self.fields.len());
-        let kind = match self.choices.below(3) {
+        let kind = match self.choices.below(4) {
+            3 => FieldKind::Thermal { mobility: self.choices.number(0.0, 20.0) },
             0 => FieldKind::Uniform { acceleration: self.vector(100.0) },
             1 => FieldKind::Radial { centre, acceleration },
             _ => FieldKind::Vortex { centre, acceleration },
@@ -100,13 +105,21 @@ impl Sequence<'_> {
     pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
         let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
         let gravity = self.vector(30.0);
-        match self.choices.below(8) {
+        match self.choices.below(12) {
             0 => self.world.set_gravity(gravity),
             6 => self.world.set_scale(id, self.choices.number(0.7, 1.5)),
             7 => {
-                let (spec, placement) = (self.choices.spec(), self.choices.placement(self.world.config().size));
-                self.world.replace(id, &spec.into(), placement).map(|new| self.handles.push(new))
+                let (recipe, placement) = (self.recipe(), self.choices.placement(self.world.config().size));
+                self.world.replace(id, &recipe, placement).map(|new| self.handles.push(new))
             }
+            8 => self.world.set_speed(id, self.choices.number(0.0, 30.0)),
+            9 => self.world.set_phagocytosis(id, self.choices.amoeboid_cell().phagocytosis),
+            10 => {
+                let hit_speed = self.choices.flag().then(|| self.choices.number(0.0, 20.0));
+                let reporting = self.choices.flag().then_some(ContactReporting { hit_speed });
+                self.world.set_contact_reporting(reporting)
+            }
+            11 => self.world.shrink(id, self.choices.byte().into()),
             1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
             2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),
             3 => self.world.set_gravity_scale(id, self.choices.number(-2.0, 3.0)),

@@ -106,6 +106,10 @@ impl Sequence<'_> {
         if count > 2 {
             builder.constraint(Bend::new([0, 1, 2], c.number(-3.0, 3.0), c.number(0.0, 1e-2)));
         }
+        if c.byte() < 40 {
+            let slots: Vec<u32> = (0..1 + c.below(6) as u32).collect();
+            builder.self_contacts(&slots);
+        }
         if c.flag() {
             let channel = builder.channel([c.number(0.5, 1.5), c.number(0.5, 1.5)]);
             builder.muscle(channel, Rope { a: 0, b: c.below(3) as u32, max_length: c.number(1.0, 4.0) });

@@ -1,10 +1,8 @@
-//! A slime that rolls and jumps: `cargo run --release -p microsim-game --example slime_platformer [FILE.png]`.
+//! A slime that rolls and jumps.
 //!
 //! Arrows move it, space or arrow up lets it jump. Platforms are solid from above only; the last one is a lift.
 
-mod toy;
-
-use macroquad::input::{KeyCode, is_key_down, is_key_pressed};
+use super::{Keys, Scene};
 use microsim_core::{Area, prelude::*};
 
 const NODES: u8 = 16;
@@ -13,7 +11,7 @@ const MASS: f32 = 4.0;
 const JUMP: f32 = 30.0;
 const GRAVITY: f32 = 30.0;
 
-fn main() -> Result<(), Error> {
+pub(crate) fn scene() -> Scene {
     let size = Vec2::new(96.0, 54.0);
     let gravity = Vec2::new(0.0, -GRAVITY);
     let mut world =
@@ -29,19 +27,19 @@ fn main() -> Result<(), Error> {
     let template = world.add_template(slime()?);
     let slime = world.spawn_template(template, Placement::at(24.0, 18.0))?;
 
-    toy::run("slime", world, move |world, inputs| {
+    let mut is_held = false;
+    let act = move |world: &mut World, inputs: &mut Inputs, Keys { left, right, jump }: Keys| {
         let height = 22.0 - 12.0 * (world.time() as f32).cos();
         world.move_obstacle(lift, Pose::translation(78.0, height))?;
-        let direction =
-            f32::from(u8::from(is_key_down(KeyCode::Right))) - f32::from(u8::from(is_key_down(KeyCode::Left)));
+        let direction = f32::from(u8::from(right)) - f32::from(u8::from(left));
         let mut push = Actuation::force(Vec2::new(direction * 25.0 * MASS, 0.0));
-        let jumps = is_key_pressed(KeyCode::Space) || is_key_pressed(KeyCode::Up);
-        if jumps && stands(world, slime) {
+        if jump && !is_held && stands(world, slime) {
             push.impulse = Vec2::new(0.0, JUMP * MASS);
         }
+        is_held = jump;
         inputs.actuate(slime, push)
-    });
-    Ok(())
+    };
+    Ok((world, Box::new(act)))
 }
 
 /// Whether something is right below it.

@@ -1,10 +1,9 @@
-//! Eight jellyfish of one template beat out of phase: `cargo run --release -p microsim-game --example jellyfish [FILE.png]`.
+//! Eight jellyfish of one template beat out of phase.
 //!
 //! A bell contracts by its muscles. The drag of the medium is the same at all times, so that what a stroke gains would be lost
 //! again: the thrust of the water that a bell throws out is a force of its own.
 
-mod toy;
-
+use super::Scene;
 use microsim_core::{Distance, MinDistance, prelude::*};
 use std::f32::consts::PI;
 
@@ -14,7 +13,7 @@ const BEAT: f32 = 1.6;
 const STROKE: f32 = 0.3;
 const THRUST: f32 = 220.0;
 
-fn main() -> Result<(), Error> {
+pub(crate) fn scene() -> Scene {
     let mut world = World::new(WorldConfig { size: Vec2::new(128.0, 72.0), damping: 1.5, ..WorldConfig::default() })?;
     world.set_gravity(Vec2::new(0.0, -4.0))?;
     let template = world.add_template(bell()?);
@@ -24,7 +23,7 @@ fn main() -> Result<(), Error> {
         })
         .collect::<Result<Vec<_>, _>>()?;
 
-    toy::run("jellyfish", world, move |world, inputs| {
+    let act = move |world: &mut World, inputs: &mut Inputs, _| {
         for (&id, k) in jellyfish.iter().zip(0u8..) {
             let phase = (world.time() as f32 / BEAT + f32::from(k) / 8.0).fract();
             let contracts = phase < STROKE;
@@ -37,8 +36,8 @@ fn main() -> Result<(), Error> {
             inputs.actuate(id, Actuation { force, torque: upright, ..Actuation::default() })?;
         }
         Ok(())
-    });
-    Ok(())
+    };
+    Ok((world, Box::new(act)))
 }
 
 /// An arch of discs. Muscles draw its halves together; what is not a muscle keeps its length and its curvature.

@@ -1,15 +1,11 @@
-//! Bacilli that grow and divide: one rod becomes a colony of 500.
+//! Rods that grow and divide.
 //!
 //! A rod is a template whose one channel is its length. What it does is a rule of this program: the length of each rod grows
 //! exponentially, and a rod that has become long enough for two is replaced by two, which have its number as their mother's.
-//!
-//! `cargo run --release -p microsim-core --example colony`
-#![allow(clippy::disallowed_types, reason = "measures time, outside the world")]
 
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::prelude::*;
 use microsim_core::{Distance, Rng};
-use std::time::Instant;
 
 /// Half a rod's width, units.
 const RADIUS: f32 = 0.5;
@@ -20,7 +16,8 @@ const SHORTEST: f32 = 1.8;
 const LONGEST: f32 = 2.0 * SHORTEST + 2.0 * RADIUS;
 /// Time in which a length doubles, s.
 const DOUBLING: f32 = 4.0;
-const COLONY: usize = 500;
+/// Rods of a full colony.
+pub(crate) const COLONY: usize = 500;
 
 /// A rod in the program's own books.
 struct Cell {
@@ -29,33 +26,45 @@ struct Cell {
     rate: f32,
 }
 
-fn main() -> Result<(), Error> {
+/// The rods of a colony.
+pub(crate) struct Colony {
+    rod: TemplateId,
+    cells: Vec<Cell>,
+    births: u128,
+    rng: Rng,
+}
+
+/// A room with one rod in it.
+pub(crate) fn colony() -> Result<(World, Colony), Error> {
     let mut world = World::new(WorldConfig { size: Vec2::splat(120.0), damping: 8.0, ..WorldConfig::default() })?;
-    let template = world.add_template(rod()?);
-    let (mut rng, mut inputs, mut births) = (Rng::new(1, 1), Inputs::new(), 0u128);
-    let mut cells = vec![born(&mut world, template, Placement::at(60.0, 60.0), 0, &mut rng)?];
-    let begin = Instant::now();
-    while cells.len() < COLONY {
+    let (rod, mut rng) = (world.add_template(rod()?), Rng::new(1, 1));
+    let cells = vec![born(&mut world, rod, Placement::at(60.0, 60.0), 0, &mut rng)?];
+    Ok((world, Colony { rod, cells, births: 0, rng }))
+}
+
+impl Colony {
+    /// Number of rods.
+    pub(crate) fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Before each step: rods that are long enough divide, and all grow.
+    pub(crate) fn grow(&mut self, world: &mut World, inputs: &mut Inputs) -> Result<(), Error> {
         inputs.clear();
-        for cell in std::mem::take(&mut cells) {
+        for cell in std::mem::take(&mut self.cells) {
             if cell.length < LONGEST {
-                cells.push(cell);
+                self.cells.push(cell);
                 continue;
             }
-            births += 1;
-            cells.extend(divide(&mut world, template, &cell, births, &mut rng)?);
+            self.births += 1;
+            self.cells.extend(divide(world, self.rod, &cell, self.births, &mut self.rng)?);
         }
-        for cell in &mut cells {
+        for cell in &mut self.cells {
             cell.length += cell.length * cell.rate * world.config().dt;
             inputs.activate(cell.id, 0, ((cell.length - SHORTEST) / (LONGEST - SHORTEST)).clamp(0.0, 1.0))?;
         }
-        world.step(&inputs);
+        Ok(())
     }
-    let per_step = begin.elapsed().as_secs_f64() * 1e3 / world.step_index() as f64;
-    assert_eq!((world.validate().is_ok(), cells.len()), (true, world.organisms().count()));
-    let overlap = world.quality().penetration_max;
-    println!("{} rods after {:.1} s, {per_step:.2} ms per step, overlap {overlap:.3} radii", cells.len(), world.time());
-    Ok(())
 }
 
 /// Discs in a line, each linked to the next two and the ends to each other: straight, and as long as its channel says.

@@ -1,11 +1,8 @@
-//! A wheel drives over a bridge of rope, and a crane carries a load: `cargo run --release -p microsim-game --example
-//! rope_and_wheel [FILE.png]`.
+//! A wheel drives over a bridge of rope, and a crane carries a load.
 //!
 //! Arrows drive the wheel; without them it turns by itself.
 
-mod toy;
-
-use macroquad::input::{KeyCode, is_key_down};
+use super::{Keys, Scene};
 use microsim_core::prelude::*;
 use std::f32::consts::TAU;
 
@@ -14,7 +11,7 @@ const PITCH: f32 = 2.0;
 const SPOKES: u8 = 14;
 const TORQUE: f32 = 150.0;
 
-fn main() -> Result<(), Error> {
+pub(crate) fn scene() -> Scene {
     let gravity = Vec2::new(0.0, -20.0);
     let size = Vec2::new(96.0, 54.0);
     let mut world = World::new(WorldConfig { size, gravity, damping: 0.1, max_speed: 80.0, ..WorldConfig::default() })?;
@@ -27,16 +24,15 @@ fn main() -> Result<(), Error> {
     let wheel = world.spawn_template(template, Placement::at(10.0, 24.5))?;
     let crane = crane(&mut world)?;
 
-    toy::run("rope and wheel", world, move |world, inputs| {
+    let act = move |world: &mut World, inputs: &mut Inputs, Keys { left, right, .. }: Keys| {
         let turn = 0.5 * (0.5 * world.time() as f32).sin();
         world.move_obstacle(crane, Pose::translation(48.0 + 40.0 * turn, 50.0))?;
-        let (left, right) = (is_key_down(KeyCode::Left), is_key_down(KeyCode::Right));
         let torque = if left { TORQUE } else { -TORQUE };
         let is_at_end = world.centroid(wheel).is_some_and(|at| at.x > 78.0);
         let torque = if is_at_end && !(left || right) { 0.0 } else { torque };
         inputs.actuate(wheel, Actuation::torque(torque))
-    });
-    Ok(())
+    };
+    Ok((world, Box::new(act)))
 }
 
 /// Discs on a rope from cliff to cliff.

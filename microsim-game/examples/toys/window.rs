@@ -1,7 +1,7 @@
-//! What the toys share: a window, a loop of fixed steps, and plain drawing.
-//!
-//! With the name of a file as its argument a toy writes a picture there after a few seconds, and ends.
+//! The window of the toys: a loop of fixed steps, and plain drawing.
 
+use super::{Act, Keys};
+use macroquad::input::{KeyCode, is_key_down};
 use macroquad::prelude::{Camera2D, Color, Conf, Vec2 as Pair};
 use macroquad::{camera, shapes, texture, time, window};
 use microsim_core::drawing::shape::{Colour, Geometry, Item, Paint};
@@ -15,8 +15,8 @@ const FRAMES: u32 = 300;
 /// Most steps for a frame: what is slower than that runs in slow motion.
 const MOST_STEPS: u32 = 4;
 
-/// Opens a window on a world. `act` sets the inputs of each step, and may change the world before it.
-pub(crate) fn run(title: &str, world: World, act: impl FnMut(&mut World, &mut Inputs) -> Result<(), Error> + 'static) {
+/// Opens a window on a world; with the name of a file, writes a picture there after a few seconds, and ends.
+pub(crate) fn run(title: &str, world: World, act: Act, picture: Option<String>) {
     let size = world.config().size;
     let conf = Conf {
         window_title: title.to_owned(),
@@ -25,24 +25,20 @@ pub(crate) fn run(title: &str, world: World, act: impl FnMut(&mut World, &mut In
         ..Conf::default()
     };
     macroquad::Window::from_config(conf, async move {
-        if let Err(error) = play(world, act).await {
+        if let Err(error) = play(world, act, picture).await {
             eprintln!("{error}");
         }
     });
 }
 
-async fn play(
-    mut world: World,
-    mut act: impl FnMut(&mut World, &mut Inputs) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let picture = std::env::args().nth(1);
+async fn play(mut world: World, mut act: Act, picture: Option<String>) -> Result<(), Error> {
     let (mut inputs, mut before, mut owed) = (Inputs::new(), world.moment(), 0.0);
     for frame in 0.. {
         owed += if picture.is_some() { world.config().dt } else { time::get_frame_time() };
         owed = owed.min(MOST_STEPS as f32 * world.config().dt);
         while owed >= world.config().dt {
             before = world.moment();
-            act(&mut world, &mut inputs)?;
+            act(&mut world, &mut inputs, keys())?;
             world.step(&inputs);
             owed -= world.config().dt;
         }
@@ -54,6 +50,11 @@ async fn play(
         window::next_frame().await;
     }
     Ok(())
+}
+
+fn keys() -> Keys {
+    let jump = is_key_down(KeyCode::Space) || is_key_down(KeyCode::Up);
+    Keys { left: is_key_down(KeyCode::Left), right: is_key_down(KeyCode::Right), jump }
 }
 
 /// The room upright and whole, obstacles, organisms and joints.
