@@ -226,7 +226,7 @@ impl Play {
         } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
             Some(format!("Hold {key} to digest what you have taken in"))
         } else if time < ADVICE_TIME && matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together)) {
-            Some("Player 1: hold the left mouse button to crawl. Player 2: arrow keys.".to_owned())
+            Some("Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.".to_owned())
         } else if time < ADVICE_TIME {
             let what = held_to_crawl(has_buttons);
             Some(format!("Hold {what} to crawl. Push your front against food."))

@@ -100,3 +100,27 @@ pub(super) fn draw_prey(
     marks::draw_held(pen, style, taken, &hints.held);
     marks::draw_targets(pen, style, taken, &targets_of(round, view, player, &hints));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::gamepad::{Gamepad, Hand};
+    use crate::rules::two_players::TEXT;
+    use microsim_core::scenario::Scenario;
+
+    #[test]
+    fn a_gamepad_steers_the_second_of_two_cells_and_the_only_one() {
+        let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
+        let camera = Camera::whole(round.world().config().size, Vec2::new(640.0, 360.0));
+        let mut input = Input::default();
+        Hand::default().add(&[Gamepad { stick: Vec2::X, down: Vec::new() }], true, &mut input);
+        let at: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
+        let goals = |two| Hands::default().goals(&input, &camera, &round, two);
+        let right = |at: Vec2| Some(at + Vec2::new(STEERED, 0.0));
+        let near = |a: Option<Vec2>, b: Option<Vec2>| a.zip(b).is_some_and(|(a, b)| a.distance(b) < 0.1);
+        let [first, second] = goals(Some(TwoPlayers::Versus));
+        assert!(first.is_none() && near(second, right(at[1])), "{first:?} {second:?}");
+        let [first, second] = goals(None);
+        assert!(near(first, right(at[0])) && second.is_none(), "{first:?} {second:?}");
+    }
+}

@@ -5,7 +5,7 @@ use crate::input::gamepad::{Gamepad, PadButton};
 use microsim_core::glam::Vec2;
 
 /// Buttons by their numbers in the browser's usual layout.
-const BUTTONS: [(usize, PadButton); 7] = [
+const BUTTONS: [(i32, PadButton); 7] = [
     (0, PadButton::South),
     (1, PadButton::East),
     (9, PadButton::Start),
@@ -30,6 +30,6 @@ impl Gamepads {
 fn gamepad(line: &str) -> Option<Gamepad> {
     let numbers: Vec<i32> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
     let [x, y, down @ ..] = numbers.as_slice() else { return None };
-    let known = BUTTONS.into_iter().filter(|(number, _)| down.contains(&(*number as i32)));
+    let known = BUTTONS.into_iter().filter(|(number, _)| down.contains(number));
     Some(Gamepad { stick: 0.01 * Vec2::new(*x as f32, *y as f32), down: known.map(|(_, button)| button).collect() })
 }

@@ -2,9 +2,12 @@
 
 use crate::camera::Camera;
 use crate::draw::canvas::Canvas;
-use crate::draw::palette::{ALERT, HALO, fade};
+use crate::draw::palette::{ALERT, HALO, INK, fade};
 use microsim_core::glam::Vec2;
 use microsim_core::{OrganismSpec, Placement, World, WorldConfig};
+
+/// Half the width of a cross, pixels.
+const CROSS: f32 = 9.0;
 
 /// How it would lie, and whether it may.
 #[derive(Debug, Default)]
@@ -35,14 +38,18 @@ impl Ghost {
 
     pub(super) fn draw(&self, canvas: &mut Canvas, camera: &Camera) {
         let Some((at, fits)) = self.seen else { return };
-        let colour = fade(if fits { HALO } else { ALERT }, 0.7);
-        for (from, radius) in &self.shape {
-            canvas.circle(camera.to_screen(at + *from), (radius * camera.scale()).max(1.5), 1.2, colour);
+        let bright = if fits { HALO } else { ALERT };
+        // A bright line on a dark one is seen on any ground.
+        for (width, colour) in [(2.6, fade(INK, 0.7)), (1.0, fade(bright, 0.9))] {
+            for (from, radius) in &self.shape {
+                canvas.circle(camera.to_screen(at + *from), (radius * camera.scale()).max(2.0), width, colour);
+            }
         }
         if !fits {
-            let (middle, reach) = (camera.to_screen(at), 9.0);
+            let middle = camera.to_screen(at);
             for way in [Vec2::ONE, Vec2::new(1.0, -1.0)] {
-                canvas.segment(middle - reach * way, middle + reach * way, 3.0, ALERT);
+                canvas.segment(middle - CROSS * way, middle + CROSS * way, 6.0, INK);
+                canvas.segment(middle - CROSS * way, middle + CROSS * way, 3.0, ALERT);
             }
         }
     }
@@ -75,7 +82,7 @@ mod tests {
             ghost.update(&world, 4, &spec, at);
             let mut canvas = Canvas::bare();
             ghost.draw(&mut canvas, &camera);
-            (canvas.corners().count(), canvas.count(ALERT), canvas.count(fade(HALO, 0.7)))
+            (canvas.corners().count(), canvas.count(ALERT), canvas.count(fade(HALO, 0.9)))
         };
         let (all, crossed, free) = drawn(Vec2::new(100.0, 45.0));
         assert!(all > 100 && crossed == 0 && free > 0, "{all} {crossed} {free}");
