@@ -10,12 +10,12 @@ use microsim_core::geometry::triangulate;
 use microsim_core::prelude::*;
 use microsim_game::convert::pair;
 
-/// Frames before a picture is written.
-const FRAMES: u32 = 300;
+/// Frames before a picture is written: half a minute.
+const FRAMES: u32 = 1800;
 /// Most steps for a frame: what is slower than that runs in slow motion.
 const MOST_STEPS: u32 = 4;
 
-/// Opens a window on a world; with the name of a file, writes a picture there after a few seconds, and ends.
+/// Opens a window on a world; with the name of a file, writes a picture there of the world after half a minute, and ends.
 pub(crate) fn run(title: &str, world: World, act: Act, picture: Option<String>) {
     let size = world.config().size;
     let conf = Conf {
@@ -42,9 +42,12 @@ async fn play(mut world: World, mut act: Act, picture: Option<String>) -> Result
             world.step(&inputs);
             owed -= world.config().dt;
         }
+        if picture.is_some() && frame < FRAMES {
+            continue;
+        }
         paint(world.view_since(&before, owed / world.config().dt));
-        if let Some(file) = picture.as_ref().filter(|_| frame == FRAMES) {
-            texture::get_screen_data().export_png(file);
+        if let Some(file) = picture {
+            texture::get_screen_data().export_png(&file);
             return Ok(());
         }
         window::next_frame().await;

@@ -9,7 +9,7 @@ use std::f32::consts::{PI, TAU};
 
 const NODES: u8 = 12;
 /// Time in which a wave passes one link, s.
-const PACE: f32 = 0.1;
+const PACE: f32 = 0.06;
 
 pub(crate) fn scene() -> Scene {
     let gravity = Vec2::new(0.0, -30.0);
