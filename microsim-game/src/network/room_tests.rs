@@ -117,7 +117,7 @@ fn cells(players: &[Player]) -> Vec<Option<usize>> {
 
 #[test]
 fn who_was_cut_gets_its_cell_back_and_a_stranger_only_after_thirty_seconds() {
-    for (news, after) in [(Notice::Back(1), 150), (Notice::Joined(1), 1050)] {
+    for (news, after) in [(Notice::Back(1), 150), (Notice::Joined(1), 930)] {
         let (mut players, boxes) = two_who_play();
         boxes.borrow_mut()[0].push(Notice::Left(1));
         players.pop();
@@ -127,7 +127,7 @@ fn who_was_cut_gets_its_cell_back_and_a_stranger_only_after_thirty_seconds() {
         run(&mut players, 90..after);
         if after > 200 {
             assert_eq!(cells(&players), [Some(0), None], "it may come back yet");
-            run(&mut players, after..after + 50);
+            run(&mut players, after..after + 80);
         }
         assert_eq!(cells(&players), [Some(0), Some(1)]);
     }
