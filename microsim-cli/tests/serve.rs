@@ -238,6 +238,7 @@ fn secured(server: &Server, trusted: &[CertificateDer<'static>]) -> StreamOwned<
 #[test]
 fn a_page_and_a_room_are_served_by_tls_with_a_certificate() {
     let folder = Folder::new("serve-tls");
+    std::fs::create_dir_all(folder.root().join("page")).unwrap();
     folder.file("page/index.html", b"<p>page</p>");
     let [certificate, key] = certificate(&folder);
     let server = Server::start(&["--page", &folder.path("page"), "--certificate", &certificate, "--key", &key]);

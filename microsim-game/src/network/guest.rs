@@ -88,17 +88,17 @@ impl Session {
         };
         if self.leads() {
             let since = (self.told_until() + self.pacing.window).max(end + 1);
-            self.take_over(Takeover { player: player as u8, member, end, since });
+            self.take_over(Takeover { player: player as u8, member, end, since }, false);
         }
     }
 
-    /// Takes over what the first of the players says of cells that were a bot's.
-    pub(super) fn take_over(&mut self, takeover: Takeover) {
+    /// Takes over what the first of the players says of cells that were a bot's; in the past, if one is a bot's again.
+    pub(super) fn take_over(&mut self, takeover: Takeover, is_past: bool) {
         let player = usize::from(takeover.player);
         if takeover.since <= self.tracks[player].since || self.own == Some(player) {
             return;
         }
-        let is_own = self.own.is_none() && self.member == Some(takeover.member);
+        let is_own = !is_past && self.own.is_none() && self.member == Some(takeover.member);
         self.tracks[player].has_left = true;
         self.finish(player, takeover.end);
         let track = &mut self.tracks[player];

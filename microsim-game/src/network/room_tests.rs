@@ -1,6 +1,7 @@
 //! Rooms whose members are all in this process.
 
 use super::*;
+use microsim_core::Intent;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -116,7 +117,7 @@ fn cells(players: &[Player]) -> Vec<Option<usize>> {
 
 #[test]
 fn who_was_cut_gets_its_cell_back_and_a_stranger_only_after_thirty_seconds() {
-    for (news, after) in [(Notice::Back(1), 150), (Notice::Joined(1), 1050)] {
+    for (news, after) in [(Notice::Back(1), 150), (Notice::Joined(1), 930)] {
         let (mut players, boxes) = two_who_play();
         boxes.borrow_mut()[0].push(Notice::Left(1));
         players.pop();
@@ -126,7 +127,7 @@ fn who_was_cut_gets_its_cell_back_and_a_stranger_only_after_thirty_seconds() {
         run(&mut players, 90..after);
         if after > 200 {
             assert_eq!(cells(&players), [Some(0), None], "it may come back yet");
-            run(&mut players, after..after + 50);
+            run(&mut players, after..after + 80);
         }
         assert_eq!(cells(&players), [Some(0), Some(1)]);
     }
@@ -229,10 +230,12 @@ fn a_newcomer_who_is_the_first_begins_the_next_match() {
     players[0] = Player { room: Room::new(Box::new(wire), "ABCD", "Cid"), current: None };
     players[0].room.set_ready(true);
     run(&mut players, 10..80);
-    assert!(players[0].current.is_none(), "Ben plays, and is not ready");
-    players[1].current = None;
-    players[1].room.finish();
-    players[1].room.set_ready(true);
+    assert_eq!(players[0].current.as_ref().unwrap().own(), None, "Ben plays, and Cid watches");
+    for player in &mut players {
+        player.current = None;
+        player.room.finish();
+        player.room.set_ready(true);
+    }
     run(&mut players, 80..150);
-    assert!(players.iter().all(|player| player.frame() > 0));
+    assert!(players.iter().all(|player| player.frame() > 0 && player.current.as_ref().unwrap().own().is_some()));
 }

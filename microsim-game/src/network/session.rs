@@ -100,7 +100,8 @@ impl Session {
         self.tally.received += bytes.len() as u64;
         let leads = self.leader() == from;
         for takeover in packet.takeovers.iter().filter(|_| leads) {
-            self.take_over(*takeover);
+            let is_past = packet.ends.iter().any(|(player, _)| *player == takeover.player);
+            self.take_over(*takeover, is_past);
         }
         let agree = packet.ends == self.ends() && packet.takeovers == self.takeovers;
         // Of one who came back since, the end is an old one.

@@ -135,7 +135,7 @@ fn read(received: Option<Result<Message, Error>>) -> Result<Message, Option<&'st
         Some(Ok(Message::Text(_))) => Err(Some("text in place of bytes")),
         Some(Err(Error::Capacity(_))) => Err(Some("a message that is too long")),
         Some(Err(Error::Protocol(_) | Error::Utf8(_))) => Err(Some("no WebSocket frame")),
-        Some(Ok(Message::Close(frame))) if !frame.is_some_and(|frame| frame.code == CloseCode::Away) => {
+        Some(Ok(Message::Close(ref frame))) if !frame.as_ref().is_some_and(|frame| frame.code == CloseCode::Away) => {
             Err(Some(GOODBYE))
         }
         // A page that is loaded again is away.
