@@ -145,10 +145,12 @@ impl World {
         }
     }
 
-    /// Takes what is in drains: each looks only at what lies between its least and its largest x, so that many cost little.
+    /// Takes what is in drains: each looks only at what lies between its least and its largest x, so that many cost little. Only what
+    /// some drain is for is sorted: that is most of the work.
     fn drain(&mut self) {
         let drains: Vec<_> = self.drains().map(|(id, drain)| (id, *drain)).collect();
         let mut places = if drains.is_empty() { Vec::new() } else { self.drainable() };
+        places.retain(|place| drains.iter().any(|(_, drain)| place.is_a(drain.kind)));
         places.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
         let mut is_taken = vec![false; places.len()];
         let mut fluid = Vec::new();
