@@ -1,73 +1,18 @@
-//! Division and fusion of amoeboid cells (conformance T84) in whole worlds.
+//! Division of amoeboid cells in whole worlds.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
 
 use common::chase::{WAYS, agar_of, begins, by, chase, digesting, ingests, small_rigid};
-use common::{assert_sound, distances_from_centre, happens, outline, room_with, run, toward};
-use microsim_core::geometry::polygon::{contains_point, is_simple, signed_area};
+use common::lobes::{CENTRE, cell_in_room, divide, finish, fuse, run_checked};
+use common::{distances_from_centre, outline, room_with, run, toward};
+use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
-    OrganismSpec, Placement, PlateletSpec, Refusal, Rng, Role, World, WorldConfig,
+    OrganismSpec, Placement, Refusal, World, WorldConfig,
 };
-
-const CENTRE: Vec2 = Vec2::new(80.0, 45.0);
-/// Steps, s, and their numbers of substeps.
-const STEPPINGS: [(f32, u32); 5] =
-    [(1.0 / 30.0, 8), (1.0 / 60.0, 4), (1.0 / 60.0, 8), (1.0 / 60.0, 16), (1.0 / 120.0, 8)];
-
-fn cell_in_room(spec: AmoeboidCellSpec) -> (World, OrganismId) {
-    let (mut world, cell) = room_with(spec, CENTRE.x, CENTRE.y);
-    run(&mut world, &Inputs::new(), 30);
-    (world, cell)
-}
-
-fn count(world: &World, cell: OrganismId, role: Role) -> usize {
-    world.view().organism(cell).unwrap().particles().filter(|p| p.role == role).count()
-}
-
-/// What must hold in every step: every membrane simple and counter-clockwise, nothing lost, no link too long.
-fn check(world: &World, what: &str) {
-    assert_sound(world, what);
-    assert!(world.quality().edge_stretch_max < 0.5, "{what}: {:?}", world.quality());
-    for organism in world.view().organisms().filter(|organism| organism.kind() == microsim_core::Kind::AmoeboidCell) {
-        let ring: Vec<Vec2> = organism.outline().collect();
-        assert!(is_simple(&ring) && signed_area(&ring) > 0.0, "{what}: {ring:?}");
-    }
-}
-
-/// Takes `steps` steps and checks the world after each.
-fn run_checked(world: &mut World, inputs: &Inputs, steps: u32, what: &str) {
-    for step in 0..steps {
-        run(world, inputs, 1);
-        check(world, &format!("{what}, step {step}"));
-    }
-}
-
-/// Steps until an event says how the division of a cell ended.
-fn finish(world: &mut World, what: &str) -> Option<Event> {
-    for step in 0..2000 {
-        run(world, &Inputs::new(), 1);
-        check(world, &format!("{what}, step {step}"));
-        let ends = |event: &&Event| {
-            matches!(event, Event::Divided { .. } | Event::DivisionRefused { .. } | Event::DivisionAbandoned { .. })
-        };
-        if let Some(event) = world.events().iter().find(ends) {
-            return Some(*event);
-        }
-    }
-    None
-}
-
-fn divide(world: &mut World, cell: OrganismId, what: &str) -> OrganismId {
-    world.divide(cell).unwrap();
-    match finish(world, what) {
-        Some(Event::Divided { parent, daughter }) if parent == cell => daughter,
-        other => panic!("{what}: {other:?}"),
-    }
-}
 
 /// Why a cell refuses to divide; the refusal leaves the counts as they are.
 fn refusal(world: &mut World, cell: OrganismId) -> Refusal {
@@ -85,110 +30,6 @@ fn reason_not_to_divide(world: &mut World, cell: OrganismId) -> Refusal {
         _ => None,
     });
     reason.expect("refused")
-}
-
-/// Lets two cells crawl towards each other until they are one, which it returns.
-fn fuse(world: &mut World, a: OrganismId, b: OrganismId, what: &str) -> OrganismId {
-    for step in 0..900 {
-        let mut inputs = toward(a, world.centroid(b).unwrap());
-        inputs.set(b, Intent::toward(world.centroid(a).unwrap()).unwrap());
-        world.fuse(a, b).unwrap();
-        world.step(&inputs);
-        check(world, &format!("{what}, fusing, step {step}"));
-        if happens(world, |event| matches!(event, Event::Fused { .. })) {
-            let (has_a, has_b) = (world.kind(a).is_some(), world.kind(b).is_some());
-            assert!(has_a != has_b, "one handle is stale");
-            return if has_a { a } else { b };
-        }
-    }
-    panic!("{what}: not fused");
-}
-
-/// A cell of random size among platelets, divided and fused again.
-fn divide_and_fuse(seed: u64) {
-    let what = format!("seed {seed}");
-    let mut rng = Rng::new(seed, 77);
-    let radii = Vec2::new(rng.range(8.0, 15.0), rng.range(8.0, 13.0));
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec { radii, ..AmoeboidCellSpec::default() });
-    for _ in 0..40 {
-        // Where there is no room there is no platelet.
-        let _ =
-            world.spawn(&PlateletSpec::default().into(), Placement::at(rng.range(40.0, 120.0), rng.range(5.0, 85.0)));
-    }
-    let goal = CENTRE + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 60.0;
-    run(&mut world, &toward(cell, goal), seed as u32 % 40);
-    let (nodes, fluid) = (count(&world, cell, Role::Membrane), count(&world, cell, Role::Cytoplasm));
-    let others = world.census().particles - nodes - fluid;
-
-    let daughter = divide(&mut world, cell, &what);
-    let halves = [cell, daughter].map(|id| count(&world, id, Role::Cytoplasm));
-    assert_eq!(halves.iter().sum::<usize>(), fluid, "{what}");
-    assert!(*halves.iter().min().unwrap() * 3 > fluid, "{what}: {halves:?} is not about even");
-    run_checked(&mut world, &Inputs::new(), 120, &format!("{what}, divided"));
-    for id in [cell, daughter] {
-        let ring = outline(&world, id);
-        let held = world.view().organism(id).unwrap();
-        assert!(held.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&ring, p.position)));
-        // Two circles of half the area: each has about 0.71 times the nodes of the whole.
-        let share = (count(&world, id, Role::Cytoplasm) as f32 / fluid as f32).sqrt();
-        assert!((ring.len() as f32 - share * nodes as f32).abs() <= 1.0, "{what}: {} of {nodes}", ring.len());
-    }
-
-    let left = fuse(&mut world, cell, daughter, &what);
-    run_checked(&mut world, &Inputs::new(), 300, &format!("{what}, fused"));
-    assert_eq!((count(&world, left, Role::Membrane), count(&world, left, Role::Cytoplasm)), (nodes, fluid), "{what}");
-    assert_eq!(world.census().particles, others + nodes + fluid, "{what}: nothing left over");
-}
-
-#[test]
-fn t84_division_and_fusion_conserve_what_there_is() {
-    (0..6).for_each(divide_and_fuse);
-}
-
-#[test]
-#[ignore = "a soak: minutes in release"]
-fn t84_division_and_fusion_of_100_seeds() {
-    (0..100).for_each(divide_and_fuse);
-}
-
-#[test]
-fn dividing_before_a_fusion_has_rounded_off_leaves_no_nodes_behind() {
-    let (mut world, mut cell) = cell_in_room(AmoeboidCellSpec::default());
-    let nodes = outline(&world, cell).len();
-    for turn in 0..3 {
-        let daughter = divide(&mut world, cell, &format!("turn {turn}"));
-        cell = fuse(&mut world, cell, daughter, &format!("turn {turn}"));
-        assert!(outline(&world, cell).len() > nodes + 5, "the next turn begins while the membrane is too long");
-    }
-    run(&mut world, &Inputs::new(), 600);
-    assert_eq!(outline(&world, cell).len(), nodes);
-}
-
-/// Divides a cell of this radius, fuses the halves, and tells the whole to divide at once.
-fn divide_right_after_a_fusion(radius: f32, dt: f32, substeps: u32) {
-    let what = format!("radius {radius}, {substeps} substeps of {dt} s");
-    let mut world = World::new(WorldConfig { dt, substeps, ..WorldConfig::default() }).unwrap();
-    let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() };
-    let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
-    run(&mut world, &Inputs::new(), 30);
-    let daughter = divide(&mut world, cell, &what);
-    let whole = fuse(&mut world, cell, daughter, &what);
-    divide(&mut world, whole, &what);
-}
-
-#[test]
-fn the_first_order_right_after_a_fusion_is_carried_out() {
-    for (k, (dt, substeps)) in STEPPINGS.into_iter().enumerate() {
-        (0..3).for_each(|j| divide_right_after_a_fusion(8.0 + 0.375 * (8 * j + k) as f32, dt, substeps));
-    }
-}
-
-#[test]
-#[ignore = "a soak: 120 cells"]
-fn the_first_order_right_after_a_fusion_is_carried_out_for_24_radii() {
-    for (dt, substeps) in STEPPINGS {
-        (0..24).for_each(|k| divide_right_after_a_fusion(8.0 + 0.375 * k as f32, dt, substeps));
-    }
 }
 
 #[test]
@@ -386,28 +227,4 @@ fn cells_do_not_divide_or_fuse_while_they_take_in() {
         let reason = if way == IngestionWay::Gate { refusal } else { reason_not_to_divide };
         assert_eq!(reason(&mut world, cell), Refusal::Ingesting);
     }
-}
-
-#[test]
-fn who_cannot_fuse_says_why() {
-    let (mut world, cell) = cell_in_room(AmoeboidCellSpec::default());
-    let far = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(120.0, 45.0)).unwrap();
-    let other = AmoeboidCellSpec { node_radius: 0.6, ..AmoeboidCellSpec::default() };
-    let other = world.spawn(&other.into(), Placement::at(30.0, 45.0)).unwrap();
-    let agar = world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
-    let reason = |world: &mut World, with| {
-        world.fuse(cell, with).unwrap();
-        run(world, &Inputs::new(), 1);
-        world.events().iter().find_map(|event| match event {
-            Event::FusionRefused { organism, with: w, reason } if (*organism, *w) == (cell, with) => Some(*reason),
-            _ => None,
-        })
-    };
-    assert_eq!(reason(&mut world, far), Some(Refusal::NotTouching));
-    for with in [other, agar, cell] {
-        assert_eq!(reason(&mut world, with), Some(Refusal::NoPartner));
-    }
-    world.divide(far).unwrap();
-    run(&mut world, &Inputs::new(), 1);
-    assert_eq!(reason(&mut world, far), Some(Refusal::Dividing));
 }

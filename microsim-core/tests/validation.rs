@@ -104,6 +104,12 @@ fn agar_is_taken_in_whatever_the_step() {
 }
 
 #[test]
+fn a_rigid_cell_is_not_released_in_long_substeps() {
+    let absorption = refinement::absorb("absorb-rigid", 1, Stepping { dt: 1.0 / 60.0, substeps: 4 });
+    assert!(absorption.ingested.is_some() && absorption.flaws.is_empty(), "{absorption}");
+}
+
+#[test]
 fn grains_make_no_energy() {
     for friction in [0.0, 0.5] {
         let energies = granular_energy::energy(Vec2::new(40.0, 60.0), friction, 6.0).unwrap();

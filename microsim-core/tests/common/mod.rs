@@ -7,6 +7,7 @@ use microsim_core::{
 };
 
 pub(crate) mod chase;
+pub(crate) mod lobes;
 
 /// A world of the default size with one organism.
 pub(crate) fn room_with(spec: impl Into<OrganismSpec>, x: f32, y: f32) -> (World, OrganismId) {
