@@ -3,145 +3,17 @@
 #![cfg(unix)]
 
 mod common;
+#[path = "common/serve.rs"]
+mod serve;
 
-use common::{Folder, heeding_signals, microsim, refused, stdout};
+use common::{microsim, refused};
+use serve::{Guest, PATIENCE, Server};
 use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
-use std::sync::Arc;
+use std::process::Stdio;
 use std::time::{Duration, Instant};
-use tokio_rustls::rustls::crypto::ring;
-use tokio_rustls::rustls::pki_types::CertificateDer;
-use tokio_rustls::rustls::pki_types::pem::PemObject;
-use tokio_rustls::rustls::{ClientConfig, ClientConnection, RootCertStore, StreamOwned};
-use tungstenite::client::IntoClientRequest;
-use tungstenite::{Message, WebSocket};
+use tungstenite::Message;
 
 const LONGEST: usize = 64 * 1024;
-/// Longest time that anything takes here.
-const PATIENCE: Duration = Duration::from_secs(20);
-
-/// A server that ends with the test.
-struct Server {
-    process: Child,
-    /// What it prints first.
-    line: String,
-    port: u16,
-}
-
-impl Server {
-    fn start(more: &[&str]) -> Self {
-        let all = [&["--quiet", "serve", "--port", "0", "--listen", "127.0.0.1"], more].concat();
-        let mut process = heeding_signals(&all).stdout(Stdio::piped()).spawn().unwrap();
-        let mut line = String::new();
-        BufReader::new(process.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
-        let port = line.split([':', '/']).find_map(|part| part.parse().ok()).unwrap();
-        Self { process, line, port }
-    }
-
-    fn connect(&self) -> TcpStream {
-        let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream.set_read_timeout(Some(PATIENCE)).unwrap();
-        stream
-    }
-
-    /// A guest in a room, or the status of the answer.
-    fn enter_with_key(&self, code: &str, key: &str) -> Guest {
-        self.enter(&format!("{code}?key={key}"))
-    }
-
-    fn try_enter(&self, code: &str, origin: Option<&str>) -> Result<Guest, u16> {
-        let mut request = format!("ws://127.0.0.1:{}/room/{code}", self.port).into_client_request().unwrap();
-        if let Some(origin) = origin {
-            request.headers_mut().insert("origin", origin.parse().unwrap());
-        }
-        match tungstenite::client(request, self.connect()) {
-            Ok((socket, _)) => Ok(Guest(socket)),
-            Err(tungstenite::HandshakeError::Failure(tungstenite::Error::Http(answer))) => {
-                Err(answer.status().as_u16())
-            }
-            Err(error) => panic!("{error}"),
-        }
-    }
-
-    fn enter(&self, code: &str) -> Guest {
-        self.try_enter(code, None).unwrap()
-    }
-
-    /// Guests 0 and 1 of a room, who know of each other.
-    fn pair(&self, code: &str) -> (Guest, Guest) {
-        let mut one = self.enter(code);
-        one.expect(&[0xff, 0, 0]);
-        let mut two = self.enter(code);
-        two.expect(&[0xff, 0, 1, 0]);
-        one.expect(&[0xff, 1, 1]);
-        (one, two)
-    }
-
-    /// What the server answers to bytes, until it ends the connection.
-    fn ask(&self, bytes: &[u8]) -> String {
-        let mut stream = self.connect();
-        stream.write_all(bytes).unwrap();
-        let mut answer = Vec::new();
-        let _ = stream.read_to_end(&mut answer);
-        String::from_utf8_lossy(&answer).into_owned()
-    }
-
-    fn get(&self, path: &str) -> String {
-        self.ask(format!("GET {path} HTTP/1.1\r\nhost: here\r\nconnection: close\r\n\r\n").as_bytes())
-    }
-
-    fn interrupt(&self) {
-        let done = Command::new("kill").args(["-INT", &self.process.id().to_string()]).status().unwrap();
-        assert!(done.success());
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
-
-struct Guest(WebSocket<TcpStream>);
-
-impl Guest {
-    fn send(&mut self, to: u8, message: &[u8]) {
-        self.0.send(Message::binary([&[to], message].concat())).unwrap();
-    }
-
-    /// The next frame; none at the end.
-    fn next(&mut self) -> Option<Vec<u8>> {
-        loop {
-            match self.0.read() {
-                Ok(Message::Binary(frame)) => return Some(frame.to_vec()),
-                Ok(Message::Ping(_) | Message::Pong(_)) => {}
-                Ok(Message::Close(_)) => return None,
-                Ok(Message::Text(_) | Message::Frame(_)) => panic!("only bytes are sent"),
-                Err(tungstenite::Error::Io(error)) if error.kind() == std::io::ErrorKind::WouldBlock => {
-                    panic!("nothing came")
-                }
-                Err(_) => return None,
-            }
-        }
-    }
-
-    fn expect(&mut self, frame: &[u8]) {
-        assert_eq!(self.next().as_deref(), Some(frame));
-    }
-
-    /// Reads to the end and returns the reason that the server gives.
-    fn reason(mut self) -> String {
-        let mut last = Vec::new();
-        while let Some(frame) = self.next() {
-            last = frame;
-        }
-        assert_eq!(last.get(..2), Some(&[0xff, 3][..]), "a reason comes last");
-        String::from_utf8(last[2..].to_vec()).unwrap()
-    }
-}
-
 #[test]
 fn guests_of_a_room_meet() {
     let server = Server::start(&[]);
@@ -198,64 +70,6 @@ fn who_was_cut_has_its_number_again_and_who_goes_has_not() {
     let _ = again.0.flush();
     one.expect(&[0xff, 2, 1]);
     server.enter("ROOM").expect(&[0xff, 0, 1, 0]);
-}
-
-/// A certificate that is its own issuer, and its key, made now.
-fn certificate(folder: &Folder) -> [String; 2] {
-    let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| folder.path(name));
-    let more = ["subjectAltName=DNS:localhost", "basicConstraints=critical,CA:FALSE"];
-    let mut command = Command::new("openssl");
-    command.args(["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2"]);
-    command.args([
-        "-subj",
-        "/CN=localhost",
-        "-addext",
-        more[0],
-        "-addext",
-        more[1],
-        "-keyout",
-        &key,
-        "-out",
-        &certificate,
-    ]);
-    let made = command.stderr(Stdio::null()).status().expect("openssl is there");
-    assert!(made.success());
-    [certificate, key]
-}
-
-fn secured(server: &Server, trusted: &[CertificateDer<'static>]) -> StreamOwned<ClientConnection, TcpStream> {
-    let mut roots = RootCertStore::empty();
-    trusted.iter().for_each(|certificate| roots.add(certificate.clone()).unwrap());
-    let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
-        .with_safe_default_protocol_versions()
-        .unwrap()
-        .with_root_certificates(roots)
-        .with_no_client_auth();
-    let connection = ClientConnection::new(Arc::new(config), "localhost".try_into().unwrap()).unwrap();
-    StreamOwned::new(connection, server.connect())
-}
-
-#[test]
-fn a_page_and_a_room_are_served_by_tls_with_a_certificate() {
-    let folder = Folder::new("serve-tls");
-    std::fs::create_dir_all(folder.root().join("page")).unwrap();
-    folder.file("page/index.html", b"<p>page</p>");
-    let [certificate, key] = certificate(&folder);
-    let server = Server::start(&["--page", &folder.path("page"), "--certificate", &certificate, "--key", &key]);
-    assert!(server.line.starts_with("https://"), "{}", server.line);
-    let own = [CertificateDer::from_pem_file(&certificate).unwrap()];
-    let mut stream = secured(&server, &own);
-    stream.write_all(b"GET / HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n").unwrap();
-    let mut answer = Vec::new();
-    let _ = stream.read_to_end(&mut answer);
-    let answer = String::from_utf8_lossy(&answer);
-    assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("<p>page</p>"), "{answer}");
-    let (mut socket, _) = tungstenite::client("wss://localhost/room/ROOM", secured(&server, &own)).unwrap();
-    assert_eq!(socket.read().unwrap(), Message::binary([0xff, 0, 0].to_vec()));
-    assert!(server.get("/").ends_with("<p>page</p>"), "the same port speaks http");
-    assert!(secured(&server, &[]).write_all(b"GET").is_err(), "nobody else trusts it");
-    let all = ["serve", "--port", "0", "--certificate", &key, "--key", &certificate];
-    refused(&all, "certificate.pem");
 }
 
 #[test]
@@ -381,31 +195,6 @@ fn half_a_handshake_is_cut() {
 }
 
 #[test]
-fn the_page_is_served_and_nothing_else() {
-    let folder = Folder::new("serve-page");
-    folder.file("secret.txt", b"secret");
-    std::fs::create_dir_all(folder.root().join("page/more")).unwrap();
-    folder.file("page/index.html", b"<p>page</p>");
-    folder.file("page/game.wasm", b"\0asm");
-    folder.file("page/more/a.js", b"1");
-    let server = Server::start(&["--page", &folder.path("page")]);
-    let index = server.get("/?room=K7M2QX");
-    assert!(index.starts_with("HTTP/1.1 200") && index.ends_with("<p>page</p>"), "{index}");
-    assert!(index.contains("content-type: text/html") && index.contains("nosniff"), "{index}");
-    assert!(server.get("/game.wasm").contains("content-type: application/wasm"));
-    assert!(server.get("/more/a.js").ends_with("\r\n\r\n1"));
-    for path in ["/../secret.txt", "/%2e%2e/secret.txt", "//secret.txt", "/more", "/game.wasm/", "/index.html%00"] {
-        assert!(server.get(path).starts_with("HTTP/1.1 404"), "{path}");
-    }
-    assert!(server.ask(b"POST / HTTP/1.1\r\nhost: here\r\nconnection: close\r\n\r\n").starts_with("HTTP/1.1 405"));
-    #[cfg(unix)]
-    {
-        std::os::unix::fs::symlink(folder.root().join("secret.txt"), folder.root().join("page/link.txt")).unwrap();
-        refused(&["serve", "--port", "0", "--page", &folder.path("page")], "is not a regular file");
-    }
-}
-
-#[test]
 fn the_server_says_that_it_stops() {
     let mut server = Server::start(&[]);
     let mut guest = server.enter("ROOM");
@@ -431,13 +220,6 @@ fn the_address_has_a_code_and_a_picture() {
     refused(&["serve", "--listen", "127.0.0.1", "--port", &server.port.to_string()], "cannot listen at 127.0.0.1:");
     refused(&["serve", "--rooms", "0"], "1..=100000");
     refused(&["serve", "--key", "key.pem"], "--certificate");
-}
-
-#[test]
-fn the_page_of_the_documentation_has_the_help() {
-    let help = stdout(&common::success(&["serve", "--help"]));
-    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/network.md")).unwrap();
-    assert!(page.contains(&help), "{help}");
 }
 
 /// What a room takes, and how much the server carries with the guests of this one thread beside it.

@@ -8,7 +8,7 @@ use std::time::Duration;
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [server, code] = &arguments[..] else { return Err("room_echo SERVER CODE".to_owned()) };
-    let mut room = open_room(server, code)?;
+    let mut room = open_room(server, code, "")?;
     loop {
         for notice in room.poll() {
             match notice {
