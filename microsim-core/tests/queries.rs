@@ -299,6 +299,19 @@ proptest! {
     }
 }
 
+#[test]
+fn a_shape_beside_a_wall_casts_away_from_it_and_along_it() {
+    let mut world = World::new(WorldConfig { size: SIZE, ..WorldConfig::default() }).unwrap();
+    world.add_obstacle(Obstacle::new(SharedShape::cuboid(20.0, 1.0), Pose::translation(40.0, 30.0))).unwrap();
+    let plank = SharedShape::cuboid(2.0, 1.0);
+    let cast = |y: f32, way| {
+        let (queries, filter) = (world.queries(), QueryFilter::default());
+        queries.cast_shape(&plank, &Pose::translation(40.0, y), way, 5.0, &filter).map(|hit| hit.distance)
+    };
+    assert_eq!((cast(32.0005, Vec2::Y), cast(32.0005, Vec2::X)), (None, None));
+    assert!(cast(32.0005, Vec2::NEG_Y).is_some_and(|distance| distance < 1e-2));
+}
+
 fn hit(queries: &Queries<'_>, filter: &QueryFilter<'_>) -> Option<Collider> {
     queries.cast_ray(Vec2::new(5.0, 30.0), Vec2::X, 1e4, filter).map(|hit| hit.collider)
 }

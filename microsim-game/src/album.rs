@@ -37,6 +37,11 @@ impl Album {
         self.pictures.retain(|(known, _)| known != source);
     }
 
+    /// Forgets all: graphics that were lost come back without what was drawn.
+    pub fn clear(&mut self) {
+        self.pictures.clear();
+    }
+
     /// Shows a picture, if it is drawn, as high as this and with its right edge at a point: its upper right corner.
     pub fn show(&self, source: &SceneSource, corner: Vec2, height: f32) {
         let found = self.pictures.iter().find(|(known, _)| known == source);

@@ -150,6 +150,10 @@ impl App {
             Some(script) => script.input(self.frame, context.pen.screen()),
             None => input,
         };
+        // A page tells the loss of its graphics so, too.
+        if input.has_lost_focus {
+            context.album.clear();
+        }
         input.has_lost_focus &= !is_of_resizing(context.time - self.resized);
         input
     }

@@ -38,13 +38,15 @@ impl Screen for Choose {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        self.since += context.pace.elapsed;
+        self.has_let_go |= !input.is_held;
+        let is_late = self.since >= DELAY;
+        // Buttons of a gamepad that digest and divide in the scene confirm and lead back here.
+        let step = input.step.filter(|_| is_late);
+        let input = Input { is_clicked: input.is_clicked && is_late && self.has_let_go, step, ..input.clone() };
         if input.step == Some(Move::Back) {
             return Next::Open(Overlay::Pause(self.played));
         }
-        self.since += context.pace.elapsed;
-        self.has_let_go |= !input.is_held;
-        let is_awake = self.since >= DELAY && self.has_let_go;
-        let input = Input { is_clicked: input.is_clicked && is_awake, ..input.clone() };
         if let Some(MenuChoice::Pick(item)) = self.page.update(&input, &context.pen) {
             context.chosen = Some(self.offer[item]);
             return Next::Back;

@@ -21,10 +21,12 @@ impl KeysMenu {
     }
 
     fn assign(&mut self, action: Action, input: &Input, context: &mut AppContext) {
-        let Some(key) = input.key else { return };
         if input.step == Some(Move::Back) {
             self.waiting = None;
-        } else if context.settings.keys.set(action, key) {
+            return;
+        }
+        let Some(key) = input.key else { return };
+        if context.settings.keys.set(action, key) {
             self.waiting = None;
             context.save_settings();
         } else {

@@ -94,7 +94,7 @@ impl Cast<'_> {
             let normal = if begins_inside { Vec2::ZERO } else { near.normal2 };
             let touch = near.point2.is_finite().then_some(Touch { distance, point: near.point2, normal });
             let approach = near.normal1.dot(self.direction);
-            if begins_inside || near.dist.abs() <= CLOSE {
+            if begins_inside || (near.dist.abs() <= CLOSE && approach > 0.0) {
                 return touch;
             }
             if approach <= 0.0 {

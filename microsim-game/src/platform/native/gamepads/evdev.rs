@@ -31,7 +31,13 @@ impl Gamepads {
             self.look();
         }
         let known = &mut self.known;
-        self.open.retain_mut(|(path, device, state)| state.drain(device) || !known.remove(path));
+        self.open.retain_mut(|(path, device, state)| {
+            let is_there = state.drain(device);
+            if !is_there {
+                known.remove(path);
+            }
+            is_there
+        });
         self.open.iter().map(|(_, _, state)| state.pad.clone()).collect()
     }
 
