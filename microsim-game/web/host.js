@@ -199,11 +199,11 @@ const MOST_UNSENT = 1 << 20;
 function enterRoom(number, code) {
     const socket = new WebSocket(new URL(`room/${decode(code)}`, location.href.replace("http", "ws")));
     const frames = [];
-    const receive = (frame) => (frames.length < MOST_FRAMES ? frames.push(frame) : socket.close());
+    const receive = (frame) => (frames.length < MOST_FRAMES ? frames.push(frame) : socket.close(4000));
     const mesh = address.get("direct") === "no" ? null : new Mesh((frame) => submit(socket, frame), receive);
     socket.binaryType = "arraybuffer";
     socket.onmessage = ({ data }) => {
-        if (typeof data === "string" || data.byteLength > LONGEST_FRAME) return socket.close();
+        if (typeof data === "string" || data.byteLength > LONGEST_FRAME) return socket.close(4000);
         const frame = new Uint8Array(data);
         if (!mesh?.take(frame)) receive(frame);
     };

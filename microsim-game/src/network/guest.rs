@@ -12,7 +12,7 @@ use super::transport::Member;
 
 /// Frames that one who watches is behind what it knows, so that packets may be late.
 const BEHIND: u32 = 2;
-/// Time without a packet after which one who watches is forgotten, ms.
+/// Time without a packet after which one who watches is sent none, ms.
 const SILENCE: u32 = 5000;
 
 /// Who watches, as one of the players knows it.
@@ -26,15 +26,13 @@ pub(super) struct Guest {
 impl Session {
     /// Takes in a packet of a member of the room that has no cell. `now` is a clock, ms.
     pub fn receive_guest(&mut self, member: Member, bytes: &[u8], now: u32) {
-        let is_told = |packet: &Packet| {
-            packet.runs.is_empty()
-                && packet.known.iter().zip(&self.tracks).all(|(known, track)| *known <= track.count())
-        };
-        let packet = Packet::read(bytes, self.tracks.len()).filter(|packet| self.own.is_some() && is_told(packet));
-        let Some(packet) = packet else {
+        let packet = Packet::read(bytes, self.tracks.len());
+        let Some(mut packet) = packet.filter(|packet| self.own.is_some() && packet.runs.is_empty()) else {
             self.tally.refused += 1;
             return;
         };
+        // It may know more than this player, from one who has left.
+        packet.known.iter_mut().zip(&self.tracks).for_each(|(known, track)| *known = track.count().min(*known));
         self.tally.received += bytes.len() as u64;
         let place = self.guests.iter().position(|guest| guest.member == member).unwrap_or_else(|| {
             let track = Track::new(self.tracks.len(), self.pacing.delay);
@@ -48,13 +46,11 @@ impl Session {
 
     /// What is to be sent to those who watch.
     pub fn guest_packets(&mut self, now: u32) -> Vec<(Member, Vec<u8>)> {
-        self.guests.retain(|guest| guest.track.silence(now) < SILENCE);
-        let packets: Vec<_> =
-            self.guests.iter().map(|guest| (guest.member, self.packet(&guest.track, None, now))).collect();
-        for (guest, (_, packet)) in self.guests.iter_mut().zip(&packets) {
-            guest.track.sent += 1;
-            self.tally.sent += packet.len() as u64;
-        }
+        let is_heard = |guest: &&mut Guest| guest.track.silence(now) < SILENCE;
+        let heard = self.guests.iter().filter(|guest| guest.track.silence(now) < SILENCE);
+        let packets: Vec<_> = heard.map(|guest| (guest.member, self.packet(&guest.track, None, now))).collect();
+        self.guests.iter_mut().filter(is_heard).for_each(|guest| guest.track.sent += 1);
+        self.tally.sent += packets.iter().map(|(_, packet)| packet.len() as u64).sum::<u64>();
         packets
     }
 
@@ -72,7 +68,8 @@ impl Session {
     /// Those who would take over from a bot now.
     #[must_use]
     pub fn wanting(&self) -> Vec<Member> {
-        self.guests.iter().filter(|guest| guest.wants).map(|guest| guest.member).collect()
+        let is_near = |guest: &&Guest| guest.track.frame + self.pacing.horizon() >= self.frame;
+        self.guests.iter().filter(is_near).filter(|guest| guest.wants).map(|guest| guest.member).collect()
     }
 
     /// Whether all who watch have what they need to see a frame. Those who are far behind do not count.
@@ -110,6 +107,9 @@ impl Session {
             return;
         }
         track.take_over(&takeover, self.pacing.delay);
+        // Packets to it are counted on.
+        let guest = self.guests.iter().find(|guest| guest.member == takeover.member);
+        track.sent = guest.map_or(0, |guest| guest.track.sent);
         self.own = self.own.or(is_own.then_some(player));
         self.forget(takeover.member);
         self.takeovers.retain(|other| other.player != takeover.player);

@@ -51,3 +51,44 @@ fn inputs_of_ones_own_are_of_the_near_future_and_what_is_passed_on_may_be_of_a_l
     session.receive(1, &packet(Vec::new(), run(1, near + 1)), 0);
     assert_eq!(session.tally().refused, 1);
 }
+
+/// A packet of one who watches.
+fn watching(number: u32, frame: u32) -> Vec<u8> {
+    let told = Packet::read(&packet(Vec::new(), Vec::new()), 3).unwrap();
+    Packet { number, frame, known: vec![1000; 3], wants: true, ..told }.write()
+}
+
+/// The first of three players, alone since the others left, after 40 frames.
+fn alone() -> Session {
+    let mut session = session(0);
+    [1, 2].into_iter().for_each(|player| session.leave(player));
+    (0..40).for_each(|_| assert!(session.advance(Told::default())));
+    session
+}
+
+#[test]
+fn one_who_watches_and_knows_more_is_heard_and_one_who_is_far_behind_gets_no_cell() {
+    let mut session = alone();
+    session.receive_guest(3, &watching(1, 0), 0);
+    assert_eq!((session.tally().refused, session.is_watched_by(3)), (0, true));
+    assert!(session.wanting().is_empty());
+    session.receive_guest(3, &watching(2, 39), 0);
+    assert_eq!(session.wanting(), [3]);
+}
+
+#[test]
+fn packets_to_one_who_watched_are_counted_on_when_it_plays_and_after_a_silence() {
+    let mut session = alone();
+    session.receive_guest(3, &watching(1, 39), 0);
+    assert_eq!(session.guest_packets(0).len(), 1);
+    assert!(session.guest_packets(SILENT).is_empty());
+    session.receive_guest(3, &watching(2, 39), SILENT);
+    let number = |bytes: &[u8]| Packet::read(bytes, 3).unwrap().number;
+    assert_eq!(number(&session.guest_packets(SILENT)[0].1), 1);
+    session.seat(1, 3);
+    let packets = session.packets(SILENT);
+    assert_eq!((packets[0].0, number(&packets[0].1)), (1, 2));
+}
+
+/// Longer than one who watches may be silent, ms.
+const SILENT: u32 = 6000;

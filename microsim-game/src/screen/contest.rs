@@ -3,7 +3,7 @@
 use super::context::AppContext;
 use super::lobby::clock;
 use super::steer::{Hands, draw_prey};
-use super::{MainScreen, Next, Screen};
+use super::{MainScreen, Next, Screen, new_seed};
 use crate::draw::palette::PLAYERS;
 use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
@@ -161,10 +161,11 @@ impl Contest {
 
 impl Screen for Contest {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
+        let seed = new_seed(context);
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         let current = if self.cut_since.is_none() { Some(&mut self.game) } else { None };
         // No other match begins while this one is on; after a cut this one begins again.
-        if let Some(game) = room.update(clock(), 0, current) {
+        if let Some(game) = room.update(clock(), seed, current) {
             *self = Self::new(game, context);
             return Next::Stay;
         }

@@ -135,10 +135,10 @@ fn read(received: Option<Result<Message, Error>>) -> Result<Message, Option<&'st
         Some(Ok(Message::Text(_))) => Err(Some("text in place of bytes")),
         Some(Err(Error::Capacity(_))) => Err(Some("a message that is too long")),
         Some(Err(Error::Protocol(_) | Error::Utf8(_))) => Err(Some("no WebSocket frame")),
-        Some(Ok(Message::Close(ref frame))) if !frame.as_ref().is_some_and(|frame| frame.code == CloseCode::Away) => {
+        Some(Ok(Message::Close(ref frame))) if frame.as_ref().is_none_or(|frame| frame.code == CloseCode::Normal) => {
             Err(Some(GOODBYE))
         }
-        // A page that is loaded again is away.
+        // A page that is loaded again is away, and one that was hidden for long gives up its connection but not its place.
         None | Some(Err(_) | Ok(Message::Close(_))) => Err(None),
         Some(Ok(message)) => Ok(message),
     }
