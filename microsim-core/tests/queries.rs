@@ -7,9 +7,7 @@ use common::run;
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::segment::nearest_on_segment;
 use microsim_core::glam::Vec2;
-use microsim_core::parry2d::math::Pose;
-use microsim_core::parry2d::query::contact;
-use microsim_core::parry2d::shape::{Ball, Shape, SharedShape};
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Collider, CollisionGroups, Inputs, Kind, Obstacle, OrganismId, Placement, Queries,
     QueryFilter, RigidCellSpec, Rng, Wall, World, WorldConfig,
@@ -248,68 +246,6 @@ fn box_gap(world: &World, collider: Collider, corners: &[Vec2; 4]) -> f32 {
     let least = points.map(|at| distance_to(world, collider, at)).fold(f32::MAX, f32::min);
     // Half the diagonal of a cell of the grid.
     if least == 0.0 { 0.0 } else { (least - 0.5 * (high - low).length() / 40.0).max(1e-6) }
-}
-
-/// How far a shape overlaps what can be touched, at most.
-fn overlap(world: &World, shape: &SharedShape, pose: &Pose) -> f32 {
-    let depth = |pose2: &Pose, other: &dyn Shape| {
-        let contact = contact(pose, shape.as_ref(), pose2, other, 0.0).unwrap();
-        contact.map_or(0.0, |contact| -contact.dist)
-    };
-    let balls = discs(world).into_iter().map(|(_, at, radius)| depth(&Pose::from_translation(at), &Ball::new(radius)));
-    let solid = world.obstacles().map(|id| world.obstacle(id).unwrap()).filter(|obstacle| obstacle.is_solid());
-    let aabb = shape.compute_aabb(pose);
-    let walls = [-aabb.mins, aabb.maxs - SIZE].into_iter().flat_map(|corner| corner.to_array());
-    balls.chain(solid.map(|obstacle| depth(&obstacle.pose, obstacle.shape.0.as_ref()))).chain(walls).fold(0.0, f32::max)
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(80) })]
-
-    #[test]
-    fn shapes_go_as_far_as_they_overlap_nothing(
-        seed in 0u64..6, steps in 0u32..12, origin in place(), angle in 0.0f32..6.2, turn in 0.0f32..6.2, length in 0.0f32..150.0,
-        kind in 0usize..4,
-    ) {
-        let world = crowd(seed, steps);
-        let shape = [
-            SharedShape::cuboid(3.0, 0.4),
-            SharedShape::triangle(Vec2::ZERO, Vec2::new(2.5, 0.0), Vec2::new(1.0, 1.5)),
-            SharedShape::capsule(Vec2::ZERO, Vec2::new(2.0, 0.0), 0.5),
-            SharedShape::ball(1.0),
-        ][kind].clone();
-        let direction = Vec2::new(angle.cos(), angle.sin());
-        let pose = |distance: f32| Pose::new(origin + direction * distance, turn);
-        let (queries, filter) = (world.queries(), QueryFilter::default());
-        let found = queries.cast_shape(&shape, &pose(0.0), direction, length, &filter);
-        let free = found.map_or(length, |hit| hit.distance);
-        for k in 0..200u8 {
-            let before = (free - 0.02) * f32::from(k) / 200.0;
-            prop_assert!(before <= 0.0 || overlap(&world, &shape, &pose(before)) < 0.01, "{found:?} at {before}");
-        }
-        if let Some(hit) = found {
-            prop_assert!(hit.distance == 0.0 || overlap(&world, &shape, &pose(free)) < 0.01, "{hit:?}");
-            prop_assert!(overlap(&world, &shape, &pose(free + 0.1)) > 0.0 || hit.normal.dot(direction) > -0.5, "{hit:?}");
-        }
-        if kind == 3 {
-            let disc = queries.cast_disc(origin, direction, length, 1.0, &filter);
-            let distances = [found, disc].map(|hit| hit.map_or(length, |hit| hit.distance));
-            prop_assert!((distances[0] - distances[1]).abs() < 0.02 || overlap(&world, &shape, &pose(free)) < 0.01);
-        }
-    }
-}
-
-#[test]
-fn a_shape_beside_a_wall_casts_away_from_it_and_along_it() {
-    let mut world = World::new(WorldConfig { size: SIZE, ..WorldConfig::default() }).unwrap();
-    world.add_obstacle(Obstacle::new(SharedShape::cuboid(20.0, 1.0), Pose::translation(40.0, 30.0))).unwrap();
-    let plank = SharedShape::cuboid(2.0, 1.0);
-    let cast = |y: f32, way| {
-        let (queries, filter) = (world.queries(), QueryFilter::default());
-        queries.cast_shape(&plank, &Pose::translation(40.0, y), way, 5.0, &filter).map(|hit| hit.distance)
-    };
-    assert_eq!((cast(32.0005, Vec2::Y), cast(32.0005, Vec2::X)), (None, None));
-    assert!(cast(32.0005, Vec2::NEG_Y).is_some_and(|distance| distance < 1e-2));
 }
 
 fn hit(queries: &Queries<'_>, filter: &QueryFilter<'_>) -> Option<Collider> {

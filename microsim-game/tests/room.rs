@@ -154,7 +154,7 @@ impl Player {
         let round = game.session().round();
         let cell = round.players().nth(game.own().unwrap()).unwrap();
         let intent = self.bot.intent(round.world(), cell);
-        game.advance(&mut self.room, intent, now);
+        self.room.advance(game, intent, now);
     }
 
     fn is_over(&self) -> bool {

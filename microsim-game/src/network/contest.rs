@@ -2,10 +2,9 @@
 
 use super::message::{Message, Start, round_of, write};
 use super::pacing::Pacing;
-use super::room::Room;
 use super::session::Session;
 use super::told::Told;
-use super::transport::Member;
+use super::transport::{Member, Transport};
 use crate::rules::two_players::TwoPlayers;
 use microsim_core::Intent;
 
@@ -104,14 +103,14 @@ impl Match {
     }
 
     /// One frame, with what this player tells its cell. Returns whether one was taken.
-    pub fn advance(&mut self, room: &mut Room, intent: Intent, now: u32) -> bool {
+    pub(super) fn advance(&mut self, transport: &mut dyn Transport, intent: Intent, now: u32) -> bool {
         let size = self.session.round().world().config().size;
         let is_taken = self.session.advance(Told::new(intent, size));
         let to_players = self.session.packets(now);
         let mut packets = self.session.guest_packets(now);
         packets.extend(to_players.into_iter().map(|(seat, packet)| (self.member(seat), packet)));
         for (member, packet) in packets {
-            room.transport.send(member, &write(&Message::Packet(self.start.number, packet)));
+            transport.send(member, &write(&Message::Packet(self.start.number, packet)));
         }
         is_taken
     }

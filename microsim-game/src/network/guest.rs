@@ -7,21 +7,13 @@
 use super::packet::{Packet, Takeover};
 use super::session::Session;
 use super::told::Told;
-use super::track::Track;
+use super::track::{Guest, Track};
 use super::transport::Member;
 
 /// Frames that one who watches is behind what it knows, so that packets may be late.
 const BEHIND: u32 = 2;
 /// Time without a packet after which one who watches is sent none, ms.
 const SILENCE: u32 = 5000;
-
-/// Who watches, as one of the players knows it.
-#[derive(Debug)]
-pub(super) struct Guest {
-    pub member: Member,
-    pub track: Track,
-    wants: bool,
-}
 
 impl Session {
     /// Takes in a packet of a member of the room that has no cell. `now` is a clock, ms.

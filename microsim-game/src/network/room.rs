@@ -5,6 +5,7 @@ use super::message::{Hello, Message, Program, Start, clean, clean_text, write};
 use super::transport::{Member, Notice, Transport};
 use crate::rules::round::MOST_PLAYERS;
 use crate::rules::two_players::TwoPlayers;
+use microsim_core::Intent;
 
 /// Time between two messages of who is there, and between two calls to start, ms.
 const GREETING: u32 = 1000;
@@ -199,6 +200,11 @@ impl Room {
         let ready: Vec<Member> = self.guests.iter().filter(is_ready).map(|guest| guest.member).collect();
         let bytes = write(&Message::Invite(Start { seats: current.members(), ..current.start.clone() }));
         ready.into_iter().for_each(|member| self.transport.send(member, &bytes));
+    }
+
+    /// One frame of a match, with what this player tells its cell. Returns whether one was taken.
+    pub fn advance(&mut self, game: &mut Match, intent: Intent, now: u32) -> bool {
+        game.advance(self.transport.as_mut(), intent, now)
     }
 
     /// Gives cells of bots to those who have caught up.

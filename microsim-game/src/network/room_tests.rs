@@ -55,7 +55,7 @@ fn run(players: &mut [Player], ticks: std::ops::Range<u32>) {
             *current = current.take().or(begun);
             if let Some(current) = current {
                 (0..20).take_while(|_| current.catch_up()).for_each(drop);
-                current.advance(room, Intent::REST, 33 * tick);
+                room.advance(current, Intent::REST, 33 * tick);
             }
         }
     }

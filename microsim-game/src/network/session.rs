@@ -3,12 +3,11 @@
 //!
 //! Inputs of a match are kept from its first frame on (five bytes each), so there is no input that could be too old to be sent.
 
-use super::guest::Guest;
 use super::moment::{Moment, Tally};
 use super::pacing::Pacing;
 use super::packet::{Packet, Run, Takeover};
 use super::told::Told;
-use super::track::Track;
+use super::track::{Guest, Track};
 use super::transport::Member;
 use crate::rules::referee::Gain;
 use crate::rules::round::Round;

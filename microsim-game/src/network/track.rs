@@ -2,6 +2,7 @@
 
 use super::packet::{Packet, Takeover};
 use super::told::Told;
+use super::transport::Member;
 
 /// What is known of a player.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +34,15 @@ pub(super) struct Track {
     came: u32,
     /// Packets that were sent to it.
     pub sent: u32,
+}
+
+/// Who watches, as one of the players knows it.
+#[derive(Debug)]
+pub(super) struct Guest {
+    pub member: Member,
+    pub track: Track,
+    /// Whether it would take over from a bot now.
+    pub wants: bool,
 }
 
 impl Track {

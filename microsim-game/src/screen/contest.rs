@@ -70,7 +70,7 @@ impl Contest {
             let round = game.session().round();
             let cell = game.own().and_then(|own| round.players().nth(own));
             let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
-            let is_taken = game.advance(room, intent, clock());
+            let is_taken = room.advance(game, intent, clock());
             *waiting = if is_taken { 0 } else { *waiting + 1 };
             heard.extend_from_slice(game.session().heard());
             gains.add(game.session().gains().iter().copied());

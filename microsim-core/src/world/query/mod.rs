@@ -4,7 +4,6 @@
 mod filter;
 mod index;
 mod region;
-mod shape_cast;
 mod sorted;
 
 use super::World;
@@ -263,7 +262,8 @@ impl<'w> Queries<'w> {
     /// The obstacles and walls along a ray.
     fn surfaces_along<'a>(&'a self, ray: Ray, filter: &'a QueryFilter<'_>) -> impl Iterator<Item = RayHit> + 'a {
         self.surfaces(filter).filter_map(move |(collider, obstacle, aabb)| {
-            if !may_meet(&ray, &aabb) {
+            let (start, distance) = (aabb.loosened(ray.radius), aabb.loosened(ray.radius + ray.length));
+            if !distance.contains_local_point(ray.origin) || !may_enter(&ray, &start) {
                 return None;
             }
             let (distance, along) = meets(&ray, obstacle)?;
@@ -310,11 +310,10 @@ fn ray(origin: Vec2, direction: Vec2, length: f32, radius: f32) -> Option<Ray> {
     is_sound.then_some(Ray { origin, direction, length, radius })
 }
 
-/// Whether the disc of a ray may come into a box.
-fn may_meet(ray: &Ray, aabb: &Aabb) -> bool {
-    let line = parry2d::query::Ray::new(ray.origin, ray.direction);
-    aabb.loosened(ray.radius + ray.length).contains_local_point(ray.origin)
-        && aabb.loosened(ray.radius).clip_ray_parameters(&line).is_some()
+/// Whether a ray comes into a box.
+fn may_enter(ray: &Ray, aabb: &Aabb) -> bool {
+    let ray = parry2d::query::Ray::new(ray.origin, ray.direction);
+    aabb.clip_ray_parameters(&ray).is_some()
 }
 
 /// How far along a ray an obstacle is met, and for a line the normal of its surface there.

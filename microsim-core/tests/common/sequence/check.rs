@@ -2,7 +2,6 @@
 
 use super::{Outcome, Sequence};
 use microsim_core::glam::Vec2;
-use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{Collider, Measure, QueryFilter, World};
 
 impl Sequence<'_> {
@@ -57,9 +56,6 @@ impl Sequence<'_> {
         let is_sooner = !radius.is_finite()
             || first.is_none_or(|first| cast.is_some_and(|cast| cast.distance <= first.distance + 0.01));
         assert!(is_sooner, "a disc of {radius} from {a} to {b}: {cast:?}, a ray {first:?}");
-        let (plank, pose) = (SharedShape::cuboid(3.0, 0.5), Pose::new(a, radius));
-        let shape = queries.cast_shape(&plank, &pose, b - a, 10.0 * radius, &all);
-        assert!(shape.is_none_or(|hit| is_known(hit.collider) && hit.point.is_finite()));
         let boxed = queries.overlap_box(a, b, &all);
         let near = [queries.overlap_disc(a, radius, &all), boxed, queries.overlap_polygon(&[a, b, a + b], &all)];
         assert!(near.iter().flatten().all(|&collider| is_known(collider)));
