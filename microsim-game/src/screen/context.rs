@@ -80,7 +80,7 @@ pub struct AppContext {
     /// Draws the scene.
     pub scenery: Scenery,
     /// Pictures for the list of simulations.
-    pub(super) album: Album,
+    pub album: Album,
     /// Draws above it.
     pub pen: Pen,
     /// Plays what is heard.
