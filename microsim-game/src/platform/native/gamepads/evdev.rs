@@ -193,10 +193,10 @@ mod tests {
         assert!(state.share(1, 128).abs() < 0.01 && state.share(1, 0) == -1.0 && state.share(1, 300) == 1.0);
     }
 
-    /// Where programs may make devices of their own, a real one is read.
     #[test]
-    fn a_device_of_our_own_is_read_where_there_may_be_one() {
-        let Some(mut device) = virtual_pad() else { return };
+    #[ignore = "makes a device: needs the right to write /dev/uinput and to read /dev/input"]
+    fn a_device_of_our_own_is_read() {
+        let mut device = virtual_pad().expect("/dev/uinput");
         let mut pads = Gamepads::default();
         let mut found = Vec::new();
         for _ in 0..60 {
