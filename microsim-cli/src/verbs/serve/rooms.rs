@@ -62,20 +62,23 @@ struct Kept {
 
 /// Seats by the numbers of members, and those that are kept.
 #[derive(Debug)]
-struct Room<O>([Option<Seat<O>>; MEMBERS], Vec<Kept>);
+struct Room<O> {
+    seats: [Option<Seat<O>>; MEMBERS],
+    kept: Vec<Kept>,
+}
 
 impl<O: Outbox> Room<O> {
     fn members(&self) -> impl Iterator<Item = u8> {
-        (0..).zip(&self.0).filter(|(_, seat)| seat.is_some()).map(|(member, _)| member)
+        (0..).zip(&self.seats).filter(|(_, seat)| seat.is_some()).map(|(member, _)| member)
     }
 
     fn has(&self, place: &Place) -> bool {
-        self.0[usize::from(place.member)].as_ref().is_some_and(|seat| seat.ticket == place.ticket)
+        self.seats[usize::from(place.member)].as_ref().is_some_and(|seat| seat.ticket == place.ticket)
     }
 
     /// Sends to one member; whoever is too slow leaves.
     fn send(&mut self, to: u8, frame: Bytes) {
-        if self.0[usize::from(to)].as_ref().is_some_and(|seat| !seat.outbox.offer(frame)) {
+        if self.seats[usize::from(to)].as_ref().is_some_and(|seat| !seat.outbox.offer(frame)) {
             self.remove(to);
         }
     }
@@ -87,20 +90,20 @@ impl<O: Outbox> Room<O> {
     /// The number of who has this key, if it is here or was a moment ago.
     fn number_of(&self, key: &str) -> Option<u8> {
         let has_key = |(_, seat): &(u8, &Option<Seat<O>>)| seat.as_ref().is_some_and(|seat| seat.key == key);
-        let here = (0..).zip(&self.0).find(has_key).map(|(member, _)| member);
-        let kept = || self.1.iter().find(|kept| kept.key == key).map(|kept| kept.member);
+        let here = (0..).zip(&self.seats).find(has_key).map(|(member, _)| member);
+        let kept = || self.kept.iter().find(|kept| kept.key == key).map(|kept| kept.member);
         here.or_else(kept).filter(|_| !key.is_empty())
     }
 
     /// The lowest number that nobody has or may come back to.
     fn free(&self) -> Option<u8> {
-        let is_kept = |member: u8| self.1.iter().any(|kept| kept.member == member);
-        let mut free = (0..).zip(&self.0).filter(|(member, seat)| seat.is_none() && !is_kept(*member));
+        let is_kept = |member: u8| self.kept.iter().any(|kept| kept.member == member);
+        let mut free = (0..).zip(&self.seats).filter(|(member, seat)| seat.is_none() && !is_kept(*member));
         free.next().map(|(member, _)| member)
     }
 
     fn remove(&mut self, member: u8) {
-        self.0[usize::from(member)] = None;
+        self.seats[usize::from(member)] = None;
         self.send_to_others(member, &frame::left(member));
     }
 }
@@ -125,11 +128,14 @@ impl<O: Outbox> Rooms<O> {
         if self.rooms.len() >= self.most && !self.rooms.contains_key(&code) {
             return Err(Refusal::NoRoomLeft);
         }
-        let room = self.rooms.entry(code.clone()).or_insert_with(|| Room([const { None }; MEMBERS], Vec::new()));
-        room.1.retain(|kept| kept.until > now);
+        let room = self
+            .rooms
+            .entry(code.clone())
+            .or_insert_with(|| Room { seats: [const { None }; MEMBERS], kept: Vec::new() });
+        room.kept.retain(|kept| kept.until > now);
         let former = room.number_of(&key);
         let member = former.or_else(|| room.free()).ok_or(Refusal::RoomIsFull)?;
-        room.1.retain(|kept| kept.member != member);
+        room.kept.retain(|kept| kept.member != member);
         self.tickets += 1;
         let place = Place { code, member, ticket: self.tickets };
         outbox.offer(frame::welcome(member, room.members().filter(|other| *other != member)));
@@ -137,7 +143,7 @@ impl<O: Outbox> Rooms<O> {
         if let Some(helpers) = &self.helpers {
             outbox.offer(helpers.clone());
         }
-        room.0[usize::from(member)] = Some(Seat { ticket: place.ticket, key, outbox });
+        room.seats[usize::from(member)] = Some(Seat { ticket: place.ticket, key, outbox });
         let news = if former.is_some() { frame::back(member) } else { frame::joined(member) };
         room.send_to_others(member, &news);
         Ok(place)
@@ -147,10 +153,10 @@ impl<O: Outbox> Rooms<O> {
     pub(super) fn leave(&mut self, place: &Place, until: Option<Instant>) {
         let Some(room) = self.rooms.get_mut(&place.code) else { return };
         if room.has(place) {
-            let seat = room.0[usize::from(place.member)].as_ref();
+            let seat = room.seats[usize::from(place.member)].as_ref();
             let key = seat.map(|seat| seat.key.clone()).filter(|key| !key.is_empty());
             let kept = key.zip(until).map(|(key, until)| Kept { member: place.member, key, until });
-            room.1.extend(kept);
+            room.kept.extend(kept);
             room.remove(place.member);
         }
         if room.members().next().is_none() {
