@@ -50,6 +50,7 @@ mod force_field;
 pub mod geometry;
 mod id;
 mod inputs;
+mod instruction_set;
 mod joint;
 mod kind;
 #[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "only the microscope reads it"))]
@@ -121,8 +122,8 @@ pub mod simulation {
     pub use crate::error::{Error, ErrorKind};
     pub use crate::float_environment::with_default_float_environment;
     pub use crate::inputs::{Inputs, Intent};
+    pub use crate::instruction_set::InstructionSet;
     pub use crate::rng::Rng;
-    pub use crate::solver::instruction_set::InstructionSet;
     pub use crate::step::Phase;
     pub use crate::world::World;
     pub use crate::world::state::difference::Difference;

@@ -199,7 +199,7 @@ fn predict_positions(world: &mut World, h: f32) {
     dispatch.run(
         #[inline(always)]
         || {
-            for loose in outside {
+            for loose in outside.filter(|loose| !loose.is_empty()) {
                 integrate::predict_positions(&mut columns.part(loose), config.gravity, config.speed_limit(), h);
             }
         },

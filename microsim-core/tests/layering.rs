@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Every module, and the prefixes of the paths that it may use besides its own.
 const LAYERS: &[(&str, &str)] = &[
-    ("arena error float_environment fnv geometry kind look rng shared value_walk", ""),
+    ("arena error float_environment fnv geometry instruction_set kind look rng shared value_walk", ""),
     ("parallel", "float_environment"),
     ("chemical", "config error"),
     ("config spec_field", "error"),
@@ -22,8 +22,8 @@ const LAYERS: &[(&str, &str)] = &[
     ("force_field", "error"),
     ("collider", "id"),
     ("event", "collider id kind"),
-    ("collision", "geometry parallel particle shared"),
-    ("solver", "collision config error geometry parallel particle spec_field"),
+    ("collision", "geometry instruction_set parallel particle shared"),
+    ("solver", "collision config error geometry instruction_set parallel particle spec_field"),
     ("template", "error float_environment geometry particle solver"),
     ("capability", "chemical collision::obstacle config error geometry id rng spec_field"),
     (
@@ -40,7 +40,7 @@ const LAYERS: &[(&str, &str)] = &[
     (
         "world",
         "arena behavior capability chemical collider collision config error event float_environment fnv force_field \
-        geometry id inputs joint kind organism parallel particle rng shared solver supply template value_walk",
+        geometry id inputs instruction_set joint kind organism parallel particle rng shared solver supply template value_walk",
     ),
     // The step takes the world apart and hands each phase what it needs.
     ("step", "behavior capability float_environment inputs organism parallel particle solver world"),

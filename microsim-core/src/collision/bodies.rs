@@ -3,13 +3,16 @@
 //!
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
+//!
+//! The discs of sleepers are hardly ever asked for, so only their boxes are made.
 
-use super::aabb::Aabb;
+use super::aabb::{Aabb, LaneBoxes};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
 use super::{Contact, Mobility};
+use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
@@ -36,6 +39,9 @@ pub(super) struct BodyProxy {
     is_moving: bool,
     /// Whether constraints link its discs.
     is_linked: bool,
+    /// Its particle in slot 0, and the number of its slots.
+    first: usize,
+    slots: usize,
     discs: Range<usize>,
 }
 
@@ -56,30 +62,30 @@ pub(super) struct PairFilter<'a> {
     pub sleep: &'a Sleep,
 }
 
-/// Some of the blocks, and the parts of the lists that they fill.
-struct Portion<'a> {
+/// Some of the blocks, and the part of a list with an entry for each or for each of their particles.
+struct Portion<'a, T> {
     blocks: &'a [BlockRange],
     first_block: usize,
     first_disc: usize,
-    discs: &'a mut [Disc],
-    aabbs: &'a mut [Aabb],
-    margins: &'a mut [[f32; LANES]],
+    list: &'a mut [T],
 }
 
 /// All bodies.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
-    /// Body by body; entries between two bodies are unused.
+    /// Block by block, in each of them lane by lane, then single ones; entries between two bodies are unused.
     discs: Vec<Disc>,
-    /// The box of each disc.
-    aabbs: Vec<Aabb>,
+    /// By block.
+    has_discs: Vec<bool>,
+    /// Largest displacement of a particle in the step, units.
+    displacement: f32,
     found: Vec<BodyProxy>,
     small: SizeClass,
     large: SizeClass,
 }
 
 impl Bodies {
-    /// Replaces all bodies by those in some blocks, and sets their speculative margins.
+    /// Replaces all bodies by those in some blocks, without discs, and sets their speculative margins.
     pub(super) fn collect(
         &mut self,
         blocks: &[BlockRange],
@@ -87,23 +93,33 @@ impl Bodies {
         sleep: &Sleep,
         limits: DisplacementLimits,
         margins: &mut SpeculativeMargins,
+        dispatch: Dispatch,
     ) {
-        let len = blocks.iter().map(BlockRange::len).sum();
-        self.discs.resize(len, Disc::default());
-        self.aabbs.resize(len, Aabb::EMPTY);
-        let portions = portions(blocks, &mut self.discs, &mut self.aabbs, margins.reset(blocks.len()));
-        let collected = parallel::map(portions, |portion| portion.collect(particles, sleep, limits));
+        self.displacement = limits.step;
+        self.discs.resize(blocks.iter().map(BlockRange::len).sum(), Disc::default());
+        let portions = portions(blocks, margins.reset(blocks.len()), |_| 1);
+        let collected = parallel::map(portions, |portion| portion.collect(particles, sleep, limits, dispatch));
         self.found.clear();
         self.found.extend(collected.into_iter().flatten());
     }
 
+    /// Makes the discs of all that is awake in the blocks.
+    pub(super) fn make_discs(&mut self, blocks: &[BlockRange], particles: &Particles, sleep: &Sleep) {
+        let Self { discs, has_discs, displacement, .. } = self;
+        has_discs.clear();
+        has_discs.extend((0..).map(|k| !sleep.is_asleep(k)).take(blocks.len()));
+        let portions = portions(blocks, discs, BlockRange::len);
+        parallel::for_each(portions, |portion| portion.make_discs(particles, has_discs, *displacement));
+    }
+
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
-        let (aabb, first) = (disc.aabb(), self.discs.len());
-        let (lane, slack, is_moving, discs) = (0, 0.0, true, first..first + 1);
-        self.found.push(BodyProxy { aabb, owner, block: NO_BLOCK, lane, slack, is_moving, is_linked: false, discs });
+        let (aabb, end) = (disc.aabb(), self.discs.len());
+        let (lane, slack, is_moving, discs) = (0, 0.0, true, end..end + 1);
+        let (is_linked, first, slots) = (false, disc.index as usize, 1);
+        let block = NO_BLOCK;
+        self.found.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, slots, discs });
         self.discs.push(disc);
-        self.aabbs.push(aabb);
     }
 
     /// Sorts the bodies for the search.
@@ -115,22 +131,27 @@ impl Bodies {
         large.sort(&larger, size);
     }
 
-    fn iter(&self) -> impl Iterator<Item = &BodyProxy> {
+    fn iter(&self) -> impl Iterator<Item = &BodyProxy> + Clone {
         self.small.bodies.iter().chain(&self.large.bodies)
     }
 
     /// Its discs.
-    pub(super) fn discs_of(&self, body: &BodyProxy) -> &[Disc] {
-        &self.discs[body.discs.clone()]
+    #[inline]
+    pub(super) fn discs_of(&self, body: &BodyProxy, particles: &Particles) -> impl Iterator<Item = Disc> {
+        let are_made = body.block == NO_BLOCK || self.has_discs[body.block as usize];
+        let (made, missing) = if are_made { (body.discs.clone(), 0) } else { (0..0, body.slots) };
+        let (columns, first, displacement) = (DiscColumns::of(particles), body.first, self.displacement);
+        let others = (0..missing).filter_map(move |slot| columns.disc(first + slot * LANES, displacement));
+        self.discs[made].iter().copied().chain(others)
     }
 
     /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
-    pub(super) fn pairs_with(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
+    pub(super) fn pairs_with(&self, grid: &DiscGrid, particles: &Particles, mut visit: impl FnMut(&Disc, &Disc)) {
         for body in self.iter() {
             let near_body = grid.in_box(body.aabb.low(), body.aabb.high());
             near_body.filter(|other| other.aabb().overlaps(body.aabb)).for_each(|other| {
-                let near = self.discs_of(body).iter().filter(|disc| disc.is_near(other));
-                near.for_each(|disc| visit(disc, other));
+                let near = self.discs_of(body, particles).filter(|disc| disc.is_near(other));
+                near.for_each(|disc| visit(&disc, other));
             });
         }
     }
@@ -146,9 +167,17 @@ impl Bodies {
         self.iter().filter(|body| sleep.is_asleep(body.block))
     }
 
-    /// Whether a body near this one moves.
-    pub(super) fn has_moving_neighbour(&self, body: &BodyProxy) -> bool {
-        self.in_box(body.aabb.low(), body.aabb.high()).any(|other| other.is_moving)
+    /// Blocks of sleepers near which a body moves.
+    pub(super) fn woken(&self, sleep: &Sleep) -> Vec<u32> {
+        let near = |body: &BodyProxy| self.in_box(body.aabb.low(), body.aabb.high());
+        let moving = self.iter().filter(|body| body.is_moving);
+        if moving.clone().count() < self.sleepers(sleep).count() {
+            let near = moving.flat_map(near).filter(|other| sleep.is_asleep(other.block));
+            near.map(|sleeper| sleeper.block).collect()
+        } else {
+            let woken = self.sleepers(sleep).filter(|body| near(body).any(|other| other.is_moving));
+            woken.map(|sleeper| sleeper.block).collect()
+        }
     }
 
     /// Adds the contacts of discs that may touch within the speculative margins: of small bodies to the lists, strip by strip of
@@ -159,7 +188,9 @@ impl Bodies {
             if a.aabb.shrunk(slack).overlaps(b.aabb)
                 && let Some(mobility) = filter.mobility(a, b)
             {
-                self.pairs_between(a, b, slack, near, |a, b| found.extend(filter.contact(a, b, mobility)));
+                self.pairs_between([a, b], filter.particles, slack, near, |a, b| {
+                    found.extend(filter.contact(a, b, mobility));
+                });
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
@@ -196,7 +227,7 @@ impl Bodies {
                 let Some(mobility) = filter.mobility(body, other) else { continue };
                 let is_lifted = other.block != NO_BLOCK && margins.remaining(other.block, other.lane).is_infinite();
                 let slack = if is_lifted { 0.0 } else { other.slack };
-                self.pairs_between(body, other, slack, &mut near, |a, b| {
+                self.pairs_between([body, other], filter.particles, slack, &mut near, |a, b| {
                     if !a.is_within(b, body.slack + slack) {
                         found.extend(filter.contact(a, b, mobility));
                     }
@@ -210,74 +241,99 @@ impl Bodies {
     /// displacements.
     fn pairs_between(
         &self,
-        a: &BodyProxy,
-        b: &BodyProxy,
+        [a, b]: [&BodyProxy; 2],
+        particles: &Particles,
         slack: f32,
         near: &mut Vec<Disc>,
         mut visit: impl FnMut(&Disc, &Disc),
     ) {
         near.clear();
-        near.extend(self.discs_in(b, a.aabb.shrunk(slack)));
-        for disc in self.discs_in(a, b.aabb.shrunk(slack)) {
-            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(disc, other));
-        }
+        near.extend(self.discs_in(b, a.aabb.shrunk(slack), particles));
+        self.discs_in(a, b.aabb.shrunk(slack), particles).for_each(|disc| {
+            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(&disc, other));
+        });
     }
 
     /// Discs of a body whose boxes overlap a box.
-    fn discs_in(&self, body: &BodyProxy, aabb: Aabb) -> impl Iterator<Item = &Disc> {
-        let discs = self.aabbs[body.discs.clone()].iter().zip(self.discs_of(body));
-        discs.filter(move |(disc, _)| disc.overlaps(aabb)).map(|(_, disc)| disc)
+    fn discs_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles) -> impl Iterator<Item = Disc> {
+        self.discs_of(body, particles).filter(move |disc| disc.aabb().overlaps(aabb))
     }
 }
 
-/// The blocks in portions of fixed size, with the parts of the lists that they fill.
-fn portions<'a>(
+/// The blocks in portions of fixed size, with the parts of a list of which each block has as many entries as `len` says.
+fn portions<'a, T>(
     blocks: &'a [BlockRange],
-    mut discs: &'a mut [Disc],
-    mut aabbs: &'a mut [Aabb],
-    margins: &'a mut [[f32; LANES]],
-) -> Vec<Portion<'a>> {
+    mut list: &'a mut [T],
+    len: impl Fn(&BlockRange) -> usize,
+) -> Vec<Portion<'a, T>> {
     let (mut portions, mut first_block, mut first_disc) = (Vec::new(), 0, 0);
-    for (blocks, margins) in blocks.chunks(PORTION).zip(margins.chunks_mut(PORTION)) {
-        let len = blocks.iter().map(BlockRange::len).sum();
-        let (own_discs, other_discs) = discs.split_at_mut(len);
-        let (own_aabbs, other_aabbs) = aabbs.split_at_mut(len);
-        portions.push(Portion { blocks, first_block, first_disc, discs: own_discs, aabbs: own_aabbs, margins });
-        (discs, aabbs) = (other_discs, other_aabbs);
-        (first_block, first_disc) = (first_block + blocks.len(), first_disc + len);
+    for blocks in blocks.chunks(PORTION) {
+        let (own, others) = list.split_at_mut(blocks.iter().map(&len).sum());
+        portions.push(Portion { blocks, first_block, first_disc, list: own });
+        list = others;
+        (first_block, first_disc) =
+            (first_block + blocks.len(), first_disc + blocks.iter().map(BlockRange::len).sum::<usize>());
     }
     portions
 }
 
-impl Portion<'_> {
-    /// Its bodies, after their discs, boxes and margins have been written.
-    fn collect(self, particles: &Particles, sleep: &Sleep, limits: DisplacementLimits) -> Vec<BodyProxy> {
+impl Portion<'_, [f32; LANES]> {
+    /// Its bodies, after their margins have been written.
+    fn collect(
+        self,
+        particles: &Particles,
+        sleep: &Sleep,
+        limits: DisplacementLimits,
+        dispatch: Dispatch,
+    ) -> Vec<BodyProxy> {
         let columns = DiscColumns::of(particles);
         let mut bodies = Vec::with_capacity(self.blocks.len() * LANES);
-        let mut end = 0;
-        for ((block, margins), index) in self.blocks.iter().zip(self.margins).zip(self.first_block..) {
-            *margins = margins_of(block, particles, limits);
-            for (lane, margin) in margins.iter().enumerate() {
-                let (first, mut aabb) = (end, Aabb::EMPTY);
-                for slot in 0..block.slots {
-                    if let Some(disc) = columns.disc(block.entry(slot, lane), limits.step) {
-                        self.discs[end] = disc;
-                        self.aabbs[end] = disc.aabb();
-                        aabb = aabb.union(self.aabbs[end]);
-                        end += 1;
-                    }
-                }
-                if end > first {
-                    let owner = particles.owner[self.discs[first].index as usize];
-                    let (is_moving, slack) = (sleep.is_moving(index, lane), limits.slack(*margin));
-                    let discs = self.first_disc + first..self.first_disc + end;
-                    let (block, is_linked) = (index as u32, block.slots > 1);
-                    bodies.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, discs });
-                }
+        let mut first_disc = self.first_disc;
+        for ((block, margins), index) in self.blocks.iter().zip(self.list).zip(self.first_block..) {
+            let boxes = dispatch.run(
+                #[inline(always)]
+                || {
+                    *margins = margins_of(block, particles, limits);
+                    boxes_of(block, columns, limits.step)
+                },
+            );
+            for (lane, margin) in margins.iter().enumerate().filter(|(lane, _)| boxes.counts[*lane] > 0) {
+                let (first, slots) = (block.entry(0, lane), block.slots);
+                let (owner, is_moving) = (particles.owner[first], sleep.is_moving(index, lane));
+                let discs = first_disc + lane * slots..first_disc + lane * slots + boxes.counts[lane];
+                let (aabb, slack) = (boxes.aabb(lane), limits.slack(*margin));
+                let (block, is_linked) = (index as u32, slots > 1);
+                bodies.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, slots, discs });
             }
+            first_disc += block.len();
         }
         bodies
     }
+}
+
+impl Portion<'_, Disc> {
+    /// Makes the discs of the blocks that have any.
+    fn make_discs(self, particles: &Particles, has_discs: &[bool], displacement: f32) {
+        let (columns, mut rest) = (DiscColumns::of(particles), self.list);
+        for (block, has_discs) in self.blocks.iter().zip(&has_discs[self.first_block..]) {
+            let (own, others) = rest.split_at_mut(block.len());
+            for lane in (0..LANES).filter(|_| *has_discs) {
+                let discs = (0..block.slots).filter_map(|slot| columns.disc(block.entry(slot, lane), displacement));
+                own[lane * block.slots..].iter_mut().zip(discs).for_each(|(own, disc)| *own = disc);
+            }
+            rest = others;
+        }
+    }
+}
+
+/// The boxes around the discs of each lane of a block.
+#[inline(always)]
+fn boxes_of(block: &BlockRange, columns: DiscColumns<'_>, displacement: f32) -> LaneBoxes {
+    let mut boxes = LaneBoxes::EMPTY;
+    for slot in 0..block.slots {
+        columns.add_to_boxes(block.entry(slot, 0), displacement, &mut boxes);
+    }
+    boxes
 }
 
 impl PairFilter<'_> {
@@ -318,3 +374,6 @@ impl SizeClass {
         cells.flat_map(|range| &self.bodies[range]).filter(move |body| body.aabb.overlaps(aabb))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,7 +8,7 @@
 //! [`disc_grid`]: super::disc_grid
 //! [`speculative_margin`]: super::speculative_margin
 
-use super::bodies::{Bodies, PairFilter};
+use super::bodies::{Bodies, BodyProxy, PairFilter};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
 use super::obstacle::Obstacle;
@@ -16,6 +16,7 @@ use super::obstacle_path::ObstaclePath;
 use super::ring::{Containment, Ring, RingContacts, RingQuery};
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
 use super::{Contact, Contacts, Mobility, ObstacleContact};
+use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::Sleep;
 use crate::particle::{BlockRange, NO_OWNER, Particles, outside_of};
@@ -56,6 +57,7 @@ pub(crate) struct SearchInput<'a> {
     /// Upper right corner of the room.
     pub size: Vec2,
     pub limits: DisplacementLimits,
+    pub dispatch: Dispatch,
 }
 
 impl BroadPhase {
@@ -73,6 +75,7 @@ impl BroadPhase {
             self.keep_awake(input, sleep);
         }
         let sleep = &*sleep;
+        self.bodies.make_discs(input.blocks, input.particles, sleep);
         let Self { contacts, bodies, membranes, fluid, fluid_changes, .. } = self;
         let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
@@ -81,10 +84,10 @@ impl BroadPhase {
         let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
-            bodies.pairs_with(fluid, &mut consider);
+            bodies.pairs_with(fluid, input.particles, &mut consider);
         }
         if input.rings.is_empty() {
-            bodies.pairs_with(membranes, &mut consider);
+            bodies.pairs_with(membranes, input.particles, &mut consider);
             for node in membranes.iter() {
                 fluid.near(node).for_each(|other| consider(node, other));
             }
@@ -108,26 +111,28 @@ impl BroadPhase {
     /// Keeps the blocks of sleepers awake near which something moves. Membranes and fluid always count as moving.
     fn keep_awake(&self, input: SearchInput<'_>, sleep: &mut Sleep) {
         let Self { bodies, membranes, fluid, .. } = self;
-        let woken = bodies.sleepers(sleep).filter(|body| {
-            let (low, high) = (body.aabb.low(), body.aabb.high());
-            let mut disc_grids = [membranes, fluid].into_iter();
-            bodies.has_moving_neighbour(body) || disc_grids.any(|grid| grid.in_box(low, high).next().is_some())
+        let grids = [membranes, fluid].into_iter().filter(|grid| !grid.is_empty());
+        let in_grids = grids.flat_map(|grid| {
+            let is_in = |body: &&BodyProxy| grid.in_box(body.aabb.low(), body.aabb.high()).next().is_some();
+            bodies.sleepers(sleep).filter(is_in)
         });
         let boxes = input.paths.iter().map(|path| path.aabb(&input.obstacles[path.obstacle as usize]));
         let pushed =
             boxes.flat_map(|aabb| bodies.in_box(aabb.mins, aabb.maxs)).filter(|body| sleep.is_asleep(body.block));
-        for block in woken.chain(pushed).map(|body| body.block).collect::<Vec<_>>() {
+        let mut woken = bodies.woken(sleep);
+        woken.extend(in_grids.chain(pushed).map(|body| body.block));
+        for block in woken {
             sleep.keep_awake(block);
         }
     }
 
     fn find_ring_contacts(&mut self, input: SearchInput<'_>) {
         let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
-        let SearchInput { particles, exemptions, containments, rings, limits, .. } = input;
+        let SearchInput { particles, exemptions, containments, rings, limits, dispatch, .. } = input;
         let disc_grids = [&*membranes, &*fluid];
         ring_contacts.get_mut_or(|_| RingContacts::default()).find(
             rings,
-            RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step },
+            RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step, dispatch },
         );
     }
 
@@ -140,11 +145,11 @@ impl BroadPhase {
 
     /// Sorts the colliding particles into bodies, membranes and fluid.
     fn sort(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
-        let SearchInput { particles: p, blocks, size, limits, .. } = input;
+        let SearchInput { particles: p, blocks, size, limits, dispatch, .. } = input;
         let Self { bodies, membranes, fluid, margins, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
-        bodies.collect(blocks, p, sleep, limits, margins);
+        bodies.collect(blocks, p, sleep, limits, margins, dispatch);
         let columns = DiscColumns::of(p);
         let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
         for (i, disc) in loose.filter_map(|i| columns.disc(i, limits.step).map(|disc| (i, disc))) {
@@ -179,14 +184,14 @@ impl BroadPhase {
         let Self { obstacle_contacts, sensor_contacts, bodies, membranes, fluid, .. } = self;
         let (low, high) = (aabb.mins, aabb.maxs);
         let Obstacle { groups, is_sensor, .. } = input.obstacles[obstacle as usize];
-        let is_near = |disc: &&Disc| {
+        let is_near = |disc: &Disc| {
             let (p, i) = (input.particles, disc.index as usize);
             let is_inside = aabb.loosened(disc.swept_radius).contains_local_point(disc.at);
             is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(groups)
         };
         let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
-        let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
-        let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high));
+        let of_bodies = awake.flat_map(|body| bodies.discs_of(body, input.particles));
+        let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high).copied());
         let near = of_bodies.chain(of_grids).filter(is_near);
         let contacts = if is_sensor { sensor_contacts } else { obstacle_contacts };
         contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle }));

@@ -1,8 +1,8 @@
 //! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
 
-use super::aabb::Aabb;
+use super::aabb::{Aabb, LaneBoxes};
 use super::uniform_grid::UniformGrid;
-use crate::particle::{CollisionGroups, Particles};
+use crate::particle::{CollisionGroups, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
 
@@ -42,6 +42,20 @@ impl<'a> DiscColumns<'a> {
             Disc { at, swept_radius: self.radius[i] + displacement, index: i as u32 }
         };
         (self.groups[i].memberships != 0).then(disc)
+    }
+
+    /// Adds the boxes of eight neighbouring particles, of those that collide with anything.
+    #[inline(always)]
+    pub(super) fn add_to_boxes(&self, first: usize, displacement: f32, boxes: &mut LaneBoxes) {
+        let lanes = first..first + LANES;
+        let sum = |a: &[f32], b: &[f32]| {
+            let (a, b) = (&a[lanes.clone()], &b[lanes.clone()]);
+            std::array::from_fn::<f32, LANES, _>(|l| a[l] + b[l])
+        };
+        let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes.clone()]);
+        let swept = std::array::from_fn(|l| radius[l] + displacement);
+        let is_there = std::array::from_fn(|l| groups[l].memberships != 0);
+        boxes.add(sum(self.origin_x, self.x), sum(self.origin_y, self.y), swept, is_there);
     }
 }
 

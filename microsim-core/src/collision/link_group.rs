@@ -2,6 +2,7 @@
 
 use super::aabb::Aabb;
 use super::disc_grid::Disc;
+use crate::instruction_set::Dispatch;
 use crate::particle::LANES;
 use glam::Vec2;
 
@@ -47,31 +48,55 @@ impl LinkGroup {
         self.aabb = self.aabb.union(aabb);
     }
 
-    /// Which of the links a disc may touch.
+    /// Which of the links a disc may touch, one bit each.
     #[inline(always)]
-    pub(super) fn near(&self, disc: &Disc) -> [bool; LANES] {
-        let (at, low, high) = (disc.at, disc.aabb().low(), disc.aabb().high());
-        let mut near = [false; LANES];
-        for (l, near) in near.iter_mut().enumerate() {
-            let (along_x, along_y) = (self.b[0][l] - self.a[0][l], self.b[1][l] - self.a[1][l]);
-            let (from_x, from_y) = (at.x - self.a[0][l], at.y - self.a[1][l]);
-            // As in `nearest_on_segment`.
-            let fraction = (from_x * along_x + from_y * along_y) / (along_x * along_x + along_y * along_y);
-            let nearest = |a: f32, b: f32, along: f32| {
-                let before = if fraction > 0.0 { a + along * fraction } else { a };
-                if fraction >= 1.0 { b } else { before }
-            };
-            let x = at.x - nearest(self.a[0][l], self.b[0][l], along_x);
-            let y = at.y - nearest(self.a[1][l], self.b[1][l], along_y);
-            let distance = disc.swept_radius + self.half_width[l];
-            *near = (x * x + y * y < distance * distance)
-                & (low.x <= self.high[0][l])
-                & (low.y <= self.high[1][l])
-                & (high.x >= self.low[0][l])
-                & (high.y >= self.low[1][l]);
-        }
-        near
+    pub(super) fn near(&self, disc: &Disc, dispatch: Dispatch) -> u32 {
+        // Bits are made outside of the kernel: inside they would keep the compiler from using all lanes.
+        let near = dispatch.run(
+            #[inline(always)]
+            || self.squared_distances(disc),
+        );
+        let bits: [u32; LANES] = std::array::from_fn(|l| if near[l] < f32::INFINITY { 1 << l } else { 0 });
+        bits.iter().fold(0, |all, bit| all | bit)
     }
+
+    /// Squared distances of the links that a disc may touch; of the others, infinity.
+    #[inline(always)]
+    fn squared_distances(&self, disc: &Disc) -> Lanes {
+        let (at, low, high) = (disc.at, disc.aabb().low(), disc.aabb().high());
+        let Self { a: [a_x, a_y], b: [b_x, b_y], half_width, .. } = self;
+        let (along_x, along_y) = (each(|l| b_x[l] - a_x[l]), each(|l| b_y[l] - a_y[l]));
+        let (from_x, from_y) = (each(|l| at.x - a_x[l]), each(|l| at.y - a_y[l]));
+        let dot = each(|l| from_x[l] * along_x[l] + from_y[l] * along_y[l]);
+        let squared_length = each(|l| along_x[l] * along_x[l] + along_y[l] * along_y[l]);
+        // As in `nearest_on_segment`; chosen by one comparison after the other, or else there would be branches.
+        let fraction = each(|l| dot[l] / squared_length[l]);
+        let (inner_x, inner_y) =
+            (each(|l| a_x[l] + along_x[l] * fraction[l]), each(|l| a_y[l] + along_y[l] * fraction[l]));
+        let before_x = each(|l| if fraction[l] > 0.0 { inner_x[l] } else { a_x[l] });
+        let before_y = each(|l| if fraction[l] > 0.0 { inner_y[l] } else { a_y[l] });
+        let nearest_x = each(|l| if fraction[l] >= 1.0 { b_x[l] } else { before_x[l] });
+        let nearest_y = each(|l| if fraction[l] >= 1.0 { b_y[l] } else { before_y[l] });
+        let (x, y) = (each(|l| at.x - nearest_x[l]), each(|l| at.y - nearest_y[l]));
+        let squared = each(|l| x[l] * x[l] + y[l] * y[l]);
+        let distance = each(|l| disc.swept_radius + half_width[l]);
+        let none = f32::INFINITY;
+        let near = each(|l| if squared[l] < distance[l] * distance[l] { squared[l] } else { none });
+        let near = each(|l| if low.x <= self.high[0][l] { near[l] } else { none });
+        let near = each(|l| if low.y <= self.high[1][l] { near[l] } else { none });
+        let near = each(|l| if high.x >= self.low[0][l] { near[l] } else { none });
+        each(|l| if high.y >= self.low[1][l] { near[l] } else { none })
+    }
+}
+
+/// A value for each link.
+#[inline(always)]
+fn each(value: impl Fn(usize) -> f32) -> Lanes {
+    let mut lanes = [0.0; LANES];
+    for (l, lane) in lanes.iter_mut().enumerate() {
+        *lane = value(l);
+    }
+    lanes
 }
 
 #[cfg(test)]
@@ -89,7 +114,9 @@ mod tests {
             let disc = Disc { at: place(), swept_radius: 0.7, index: 0 };
             for first in [0, 8] {
                 let group = LinkGroup::of(first, links[first..].iter().map(|ends| (*ends, 0.5)));
-                for (is_near, k) in group.near(&disc).into_iter().zip(first..) {
+                let near = group.near(&disc, Dispatch::default());
+                for k in first..first + LANES {
+                    let is_near = near >> (k - first) & 1 == 1;
                     let gap = |[a, b]: [Vec2; 2]| (disc.at - nearest_on_segment(a, b, disc.at)).length() - 1.2;
                     assert_eq!(is_near, k < links.len() && gap(links[k]) < 0.0, "link {k}");
                     assert!(!is_near || group.aabb.overlaps(disc.aabb()));

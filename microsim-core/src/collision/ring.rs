@@ -6,6 +6,7 @@ use super::combine;
 use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
 use super::link_group::LinkGroup;
+use crate::instruction_set::Dispatch;
 use crate::particle::{LANES, Particles};
 use std::ops::Range;
 
@@ -21,7 +22,8 @@ pub(crate) struct Ring<'a> {
 impl Ring<'_> {
     /// The link from node `k` of the ring to the next one.
     pub(crate) fn link(&self, k: usize) -> Link {
-        Link { a: self.nodes[k], b: self.nodes[(k + 1) % self.nodes.len()] }
+        let next = if k + 1 < self.nodes.len() { k + 1 } else { 0 };
+        Link { a: self.nodes[k], b: self.nodes[next] }
     }
 }
 
@@ -87,6 +89,16 @@ pub(crate) struct RingContact {
     links: Range<u32>,
 }
 
+/// Links of a group that a disc may touch.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    particle: u32,
+    /// Place of the group's first link in the ring.
+    first: u32,
+    /// Which of its links, one bit each; at least one.
+    lanes: u32,
+}
+
 /// All discs near rings, found once per step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RingContacts {
@@ -96,7 +108,7 @@ pub(crate) struct RingContacts {
     /// Scratch of the search: links of a ring, discs in its box, and which of these are near which links.
     groups: Vec<LinkGroup>,
     discs: Vec<Disc>,
-    near: Vec<(u32, u32)>,
+    hits: Vec<Hit>,
     /// The ring that each particle is a node of, by particle.
     ring_of: Vec<u32>,
 }
@@ -143,6 +155,7 @@ pub(super) struct RingQuery<'a> {
     pub disc_grids: [&'a DiscGrid; 2],
     /// How much the gap between two particles may close in one step.
     pub margin: f32,
+    pub dispatch: Dispatch,
 }
 
 impl RingContacts {
@@ -160,13 +173,13 @@ impl RingContacts {
         self.note_nodes(rings, near.particles.len());
         for (ring, k) in rings.iter().zip(0..) {
             self.find_near(*ring, k, near);
-            self.group(*ring, k as usize, near);
+            self.add_contacts(*ring, k as usize, near);
         }
     }
 
-    /// Finds the links of one ring that each disc may touch, disc by disc.
+    /// Finds the links of one ring that each disc is near to.
     fn find_near(&mut self, ring: Ring<'_>, place: u32, near: RingQuery<'_>) {
-        let Self { groups, discs, near: found, ring_of, .. } = self;
+        let Self { groups, discs, hits, ring_of, .. } = self;
         let p = near.particles;
         let link = |k: usize| {
             let Link { a, b } = ring.link(k);
@@ -184,20 +197,17 @@ impl RingContacts {
                 discs.push(*disc);
             }
         };
-        near.bodies.in_box(low, high).flat_map(|body| near.bodies.discs_of(body)).for_each(&mut add);
+        near.bodies.in_box(low, high).for_each(|body| near.bodies.discs_of(body, p).for_each(|disc| add(&disc)));
         near.disc_grids.into_iter().for_each(|grid| grid.in_box(low, high).for_each(&mut add));
-        discs.sort_unstable_by_key(|disc| disc.index);
-        found.clear();
+        hits.clear();
         for disc in &*discs {
             let aabb = disc.aabb();
             for group in groups.iter().filter(|group| aabb.overlaps(group.aabb)) {
-                let places = group.near(disc).into_iter().zip(group.first..).filter(|(is_near, _)| *is_near);
-                let touching = places
-                    .map(|(_, k)| k)
-                    .filter(|&k| may_touch(near.particles, disc.index, ring.link(k as usize), near.exemptions));
-                touching.for_each(|k| found.push((disc.index, k)));
+                let (particle, first, lanes) = (disc.index, group.first, group.near(disc, near.dispatch));
+                hits.extend((lanes != 0).then_some(Hit { particle, first, lanes }));
             }
         }
+        hits.sort_unstable_by_key(|hit| (hit.particle, hit.first));
     }
 
     fn note_nodes(&mut self, rings: &[Ring<'_>], particles: usize) {
@@ -208,16 +218,21 @@ impl RingContacts {
         }
     }
 
-    /// Turns what was found near one ring into one contact for each disc.
-    fn group(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
+    /// Turns what was found near one ring into one contact for each disc that may touch it.
+    fn add_contacts(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
         let p = near.particles;
-        let Self { contacts, found: FoundLinks { links, nodes, ends }, .. } = self;
+        let Self { contacts, found: FoundLinks { links, nodes, ends }, hits, .. } = self;
         nodes.extend_from_slice(ring.nodes);
         ends.push(nodes.len());
-        for group in self.near.chunk_by(|a, b| a.0 == b.0) {
-            let (particle, first) = (group[0].0, links.len() as u32);
-            links.extend(group.iter().map(|&(_, place)| FoundLink { link: ring.link(place as usize), place }));
-            let (i, node) = (particle as usize, ring.nodes[0] as usize);
+        for hits in hits.chunk_by(|a, b| a.particle == b.particle) {
+            let (particle, first) = (hits[0].particle, links.len() as u32);
+            let places = hits.iter().flat_map(|hit| hit.places());
+            let all = places.map(|place| FoundLink { link: ring.link(place as usize), place });
+            links.extend(all.filter(|found| may_touch(p, particle, found.link, near.exemptions)));
+            let (last, i, node) = (links.len() as u32, particle as usize, ring.nodes[0] as usize);
+            if last == first {
+                continue;
+            }
             contacts.push(RingContact {
                 particle,
                 ring: place,
@@ -226,9 +241,17 @@ impl RingContacts {
                 friction: combine(p.material[i], p.material[node]).0,
                 touched: None,
                 is_close: true,
-                links: first..links.len() as u32,
+                links: first..last,
             });
         }
+    }
+}
+
+impl Hit {
+    /// Places of the links in the ring, ascending.
+    fn places(&self) -> impl Iterator<Item = u32> {
+        let Self { first, lanes, .. } = *self;
+        (0..LANES as u32).filter(move |lane| lanes >> lane & 1 == 1).map(move |lane| first + lane)
     }
 }
 

@@ -70,6 +70,7 @@ impl SpeculativeMargins {
 }
 
 /// Margins of the bodies in a block, by the fastest particle of each.
+#[inline(always)]
 pub(super) fn margins_of(block: &BlockRange, p: &Particles, limits: DisplacementLimits) -> [f32; LANES] {
     let mut fastest = [0.0; LANES];
     for slot in 0..block.slots {

@@ -20,7 +20,17 @@ const DEGENERATE_AREA: f64 = 1.0e-7;
 ///
 /// Source: M. Shimrat, "Algorithm 112: Position of point relative to polygon", CACM 5(8), 1962.
 pub fn contains_point(polygon: &[Vec2], point: Vec2) -> bool {
-    edges(polygon).fold(false, |inside, (a, b)| inside != crosses_ray(a, b, point))
+    let Some(&(mut a)) = polygon.last() else { return false };
+    let (mut is_inside, mut is_above) = (false, a.y > point.y);
+    for &b in polygon {
+        // Most edges have both ends on one side of the ray's line.
+        if is_above != (b.y > point.y) {
+            is_above = !is_above;
+            is_inside ^= crosses_ray(a, b, point);
+        }
+        a = b;
+    }
+    is_inside
 }
 
 /// The area that `polygon` encloses, in squared units of length, signed by the winding.

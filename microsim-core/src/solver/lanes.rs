@@ -41,7 +41,7 @@ pub(crate) fn load<const L: usize>(column: &[f32], at: usize) -> [f32; L] {
 }
 
 /// A value for each lane. (`std::array::from_fn` is not always inlined, and what is not inlined is not compiled for the
-/// instructions of [`super::instruction_set`].)
+/// instructions of [`crate::instruction_set`].)
 #[inline(always)]
 pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
     let mut lanes = [0.0; L];

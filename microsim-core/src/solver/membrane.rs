@@ -7,9 +7,9 @@
 //! [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance joint that will respect a maximum length limit").
 
 use super::constraint::Rope;
-use super::instruction_set::Dispatch;
 use super::ring_lanes::{self, RingTarget, STRIDES};
 use crate::geometry::ring::unit_vector;
+use crate::instruction_set::Dispatch;
 use crate::particle::Particles;
 use crate::solver::lanes::Span;
 use serde::{Deserialize, Serialize};

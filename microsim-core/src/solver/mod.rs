@@ -11,7 +11,6 @@ pub(crate) mod contraction;
 pub(crate) mod drive;
 pub(crate) mod fluid;
 pub(crate) mod force;
-pub(crate) mod instruction_set;
 pub(crate) mod integrate;
 pub(crate) mod joint;
 pub(crate) mod lanes;

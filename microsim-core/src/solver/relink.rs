@@ -6,8 +6,8 @@ use super::block::{self, Block};
 use super::constraint::Constraint;
 use super::contact;
 use super::contact_record::ContactRecorder;
-use super::instruction_set::Dispatch;
 use crate::collision::{Contact, Mobility};
+use crate::instruction_set::Dispatch;
 use crate::particle::Particles;
 
 /// Passes in a substep.

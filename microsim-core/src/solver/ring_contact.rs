@@ -14,10 +14,10 @@
 
 use super::contact::{friction, moved, no_heavier, shift};
 use super::contact_record::{ContactRecorder, Projected, Touched};
-use super::instruction_set::Dispatch;
 use super::lanes::ratio;
 use super::ring_relation::{Relation, Relations, RingNodes};
 use crate::collision::ring::{FoundLink, Link, RingContact, RingContacts};
+use crate::instruction_set::Dispatch;
 use crate::particle::Particles;
 use glam::Vec2;
 

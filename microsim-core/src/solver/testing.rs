@@ -5,6 +5,7 @@ use crate::collision::exemptions::Exemptions;
 use crate::collision::ring::{Containment, Ring, RingContacts};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::geometry::ring::unit_vector;
+use crate::instruction_set::Dispatch;
 use crate::particle::sleep::Sleep;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
 use glam::Vec2;
@@ -42,6 +43,7 @@ pub(crate) fn search_input<'a>(
         containments: &[],
         size,
         limits,
+        dispatch: Dispatch::default(),
     }
 }
 

@@ -52,14 +52,25 @@ impl World {
     /// Finds the pairs of bodies and discs that can touch before the next search, and which blocks are asleep.
     pub(crate) fn find_pairs(&mut self) {
         self.particles.begin_search();
-        let Self { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, .. } = self;
+        let Self { config, particles, blocks, sleep, organisms, obstacles, exemptions, scratch, dispatch, .. } = self;
         let (step, substep) = (config.max_displacement(), config.max_substep_displacement());
         let (size, limits) = (config.size, DisplacementLimits { step, substep, dt: config.dt });
         let rings: Vec<Ring<'_>> = if config.protects_membranes { organisms.rings().collect() } else { Vec::new() };
         let (rings, containments) = (rings.as_slice(), &organisms.containments());
         let blocks: &[BlockRange] = &blocks.iter().map(Block::range).collect::<Vec<_>>();
         let paths = &scratch.obstacle_paths;
-        let input = SearchInput { particles, blocks, obstacles, paths, exemptions, rings, containments, size, limits };
+        let input = SearchInput {
+            particles,
+            blocks,
+            obstacles,
+            paths,
+            exemptions,
+            rings,
+            containments,
+            size,
+            limits,
+            dispatch: *dispatch,
+        };
         scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
     }
 

@@ -28,13 +28,20 @@ impl World {
     fn all_are_valid(&self) -> bool {
         let (p, [low, high]) = (&self.particles, self.config.reach());
         let chunks = (0..p.len()).step_by(CHUNK).map(|first| first..p.len().min(first + CHUNK));
-        let is_valid = |at: Range<usize>| {
-            are_near(&p.origin_x[at.clone()], &p.x[at.clone()], [low.x, high.x])
-                && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], [low.y, high.y])
-                && [&p.vx, &p.vy, &p.prev_x, &p.prev_y].iter().all(|column| are_within(&column[at.clone()], -f32::MAX))
-                && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
+        let are_valid = |at: Range<usize>| {
+            self.dispatch.run(
+                #[inline(always)]
+                || {
+                    are_near(&p.origin_x[at.clone()], &p.x[at.clone()], [low.x, high.x])
+                        && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], [low.y, high.y])
+                        && [&p.vx, &p.vy, &p.prev_x, &p.prev_y]
+                            .iter()
+                            .all(|column| are_within(&column[at.clone()], -f32::MAX))
+                        && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
+                },
+            )
         };
-        parallel::map(chunks.collect(), is_valid).into_iter().all(|is_valid| is_valid)
+        parallel::map(chunks.collect(), are_valid).into_iter().all(|are_valid| are_valid)
     }
 
     /// Whether a load has pressed a membrane flat or turned it inside out; nothing restores those.
@@ -83,12 +90,14 @@ fn is_flat(organism: &Organism, p: &Particles, outline: &mut Vec<Vec2>) -> bool 
 }
 
 /// Whether all positions, each an origin and an offset, are between two coordinates.
+#[inline(always)]
 fn are_near(origins: &[f32], offsets: &[f32], [low, high]: [f32; 2]) -> bool {
     let places = origins.iter().zip(offsets).map(|(origin, offset)| origin + offset);
     places.fold(true, |all, at| all & (at > low) & (at < high))
 }
 
 /// Whether all numbers of a column are finite and at least `least`.
+#[inline(always)]
 fn are_within(column: &[f32], least: f32) -> bool {
     column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
 }

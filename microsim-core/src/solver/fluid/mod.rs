@@ -13,8 +13,8 @@ mod granular;
 mod neighbours;
 mod settle;
 
-use super::instruction_set::Dispatch;
 use crate::error::Error;
+use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::Particles;
 use crate::spec_field::FieldValue::{Number, Word};

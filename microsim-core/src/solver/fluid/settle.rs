@@ -1,8 +1,8 @@
 //! Fluid at rest in a room, for what is spawned: found by projecting its constraints alone, without time.
 
 use super::{Fluid, FluidMode, FluidParams, Workspace};
+use crate::instruction_set::Dispatch;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
-use crate::solver::instruction_set::Dispatch;
 use glam::Vec2;
 
 /// Number of iterations, each of the density and then of the least spacing.
