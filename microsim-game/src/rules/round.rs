@@ -165,6 +165,13 @@ impl Round {
         }
     }
 
+    /// Changes the player's cell, whatever a food chain offers: a trial of what a change is worth.
+    pub(super) fn change(&mut self, change: Change) {
+        if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
+            chain.change(change, &mut run.world, self.seats[0].cell);
+        }
+    }
+
     /// Divides the player's cell, in a food chain: the sister that rests is a second life.
     pub fn divide(&mut self) {
         if let (Course::Live { run, .. }, Some(_)) = (&mut self.course, &self.chain) {

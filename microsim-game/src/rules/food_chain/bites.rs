@@ -1,12 +1,16 @@
 //! Bites: an amoeba gnaws at a smaller one that it touches. Real ones do: *Entamoeba histolytica* kills by taking in pieces of
 //! living cells (trogocytosis; Ralston and others 2014, Nature 508, 526).
 
-use super::change::Change;
+use super::change::{Change, is_own};
 use microsim_core::glam::Vec2;
 use microsim_core::{Kind, OrganismId, OrganismView, Role, World};
 
 /// Area of who bites over that of who is bitten, at least.
-pub const LEAST_RATIO: f32 = 1.5;
+const LEAST_RATIO: f32 = 1.5;
+/// By how much larger each thick coat makes a cell count among amoebae.
+const COAT: f32 = 1.5;
+/// What each wide mouth leaves of that ratio, which never falls below 1.
+const MOUTH: f32 = 2.0 / 3.0;
 /// Gap between two outlines' nodes that counts as touching, units; nodes have radii from 0.5 to 0.8.
 const GAP: f32 = 1.8;
 /// Time for which they have to touch first, s.
@@ -70,7 +74,13 @@ pub fn cytoplasm(cell: OrganismView<'_>) -> u32 {
 /// Whether one amoeba is large enough to bite another.
 #[must_use]
 pub fn can_bite(by: OrganismView<'_>, of: OrganismView<'_>) -> bool {
-    by.cytoplasm_area() >= LEAST_RATIO * of.cytoplasm_area()
+    let ratio = LEAST_RATIO * MOUTH.powi(Change::WideMouth.count(by) as i32);
+    apparent_area(by) >= ratio.max(1.0) * apparent_area(of)
+}
+
+/// Area that a cell counts for among amoebae.
+fn apparent_area(cell: OrganismView<'_>) -> f32 {
+    cell.cytoplasm_area() * COAT.powi(Change::Coat.count(cell) as i32)
 }
 
 /// All amoebae that touch a smaller one that is no sister.
@@ -78,7 +88,7 @@ fn pairs(world: &World) -> Vec<[OrganismView<'_>; 2]> {
     let amoebae: Vec<_> = world.view().organisms().filter(|cell| cell.kind() == Kind::AmoeboidCell).collect();
     let mut pairs = Vec::new();
     for by in &amoebae {
-        let others = amoebae.iter().filter(|of| of.id() != by.id() && of.user_data() != by.user_data());
+        let others = amoebae.iter().filter(|of| is_own(**of) != is_own(*by));
         pairs.extend(others.filter(|of| touch(*by, **of) && can_bite(*by, **of)).map(|of| [*by, *of]));
     }
     pairs
@@ -92,4 +102,57 @@ fn touch(a: OrganismView<'_>, b: OrganismView<'_>) -> bool {
     let near_b = |at: &Vec2| at.cmpgt(low_b - GAP).all() && at.cmplt(high_b + GAP).all();
     let outline: Vec<Vec2> = b.outline().collect();
     a.outline().filter(near_b).any(|at| outline.iter().any(|to| at.distance_squared(*to) < GAP * GAP))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::change::mark_own;
+    use super::*;
+    use microsim_core::{AmoeboidCellSpec, Placement, WorldConfig};
+
+    /// A world with the player's cell, and another whose radius is so much larger.
+    fn meeting(larger: f32, changes: &[Change]) -> (World, [OrganismId; 2]) {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cells = [(1.0, 40.0), (larger, 120.0)].map(|(share, x)| {
+            let spec = AmoeboidCellSpec { radii: share * AmoeboidCellSpec::default().radii, ..Default::default() };
+            world.spawn(&spec.into(), Placement::at(x, 45.0)).unwrap()
+        });
+        mark_own(&mut world, cells[0]).unwrap();
+        changes.iter().for_each(|change| change.make(&mut world, cells[0]).unwrap());
+        (world, cells)
+    }
+
+    /// Whether the other bites the player's cell, and that the other.
+    fn bites(larger: f32, changes: &[Change]) -> [bool; 2] {
+        let (world, cells) = meeting(larger, changes);
+        let [own, other] = cells.map(|cell| world.view().organism(cell).unwrap());
+        [can_bite(other, own), can_bite(own, other)]
+    }
+
+    #[test]
+    fn a_coat_makes_a_cell_count_for_more_and_a_mouth_takes_amoebae_as_large() {
+        assert_eq!(bites(1.35, &[]), [true, false]);
+        assert_eq!(bites(1.35, &[Change::Coat]), [false, false]);
+        assert_eq!(bites(0.9, &[]), [false, false]);
+        assert_eq!(bites(0.9, &[Change::WideMouth]), [false, true]);
+        assert_eq!(bites(0.9, &[Change::Coat]), [false, true]);
+        assert_eq!(bites(1.1, &[Change::WideMouth; 4]), [false, false], "never one that is larger");
+    }
+
+    #[test]
+    fn sisters_do_not_bite_each_other_when_one_has_changed() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let mut spawn = |radius: f32, x: f32| {
+            let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), ..Default::default() };
+            world.spawn(&spec.into(), Placement::at(x, 45.0)).ok()
+        };
+        let large = spawn(9.0, 60.0).unwrap();
+        let small = (0..30).find_map(|k| spawn(5.0, 73.0 + 0.1 * k as f32)).unwrap();
+        assert_eq!(pairs(&world).len(), 0, "neither is the player's");
+        mark_own(&mut world, small).unwrap();
+        assert_eq!(pairs(&world).len(), 1);
+        mark_own(&mut world, large).unwrap();
+        Change::Speed.make(&mut world, large).unwrap();
+        assert!(pairs(&world).is_empty());
+    }
 }

@@ -16,13 +16,13 @@ pub enum Change {
     Speed,
     /// Food sticks to its front: it goes in sooner and from the side.
     StickyFront,
-    /// It digests sooner, makes more of food and hardly slows down over it.
+    /// It digests sooner, makes more of food and slows down less over it.
     Stomach,
     /// It needs less to live on.
     Thrift,
-    /// Bites take less of it.
+    /// It counts as larger among amoebae, and bites take less of it.
     Coat,
-    /// It takes in larger prey.
+    /// It takes in larger prey, and bites larger amoebae.
     WideMouth,
 }
 
@@ -36,11 +36,11 @@ impl Change {
     pub fn words(self) -> [&'static str; 2] {
         match self {
             Self::Speed => ["Quick body", "You crawl 15 % faster."],
-            Self::StickyFront => ["Sticky front", "Food goes in after half the time, and also beside your front."],
-            Self::Stomach => ["Second stomach", "You digest in 60 % of the time and grow a fifth more by it."],
-            Self::Thrift => ["Thrifty body", "You need a quarter less to live on."],
-            Self::Coat => ["Thick coat", "Bites take half as much."],
-            Self::WideMouth => ["Wide mouth", "You take in prey that is a third larger."],
+            Self::StickyFront => ["Sticky front", "Food goes in after 40 % of the time, also beside your front."],
+            Self::Stomach => ["Second stomach", "You digest in 75 % of the time and grow a tenth more by it."],
+            Self::Thrift => ["Thrifty body", "You need a tenth less to live on."],
+            Self::Coat => ["Thick coat", "Amoebae meet you as if half as large again; bites take half."],
+            Self::WideMouth => ["Wide mouth", "Prey may be a third larger, and you bite amoebae your size."],
         }
     }
 
@@ -77,13 +77,13 @@ impl Change {
     fn of_eating(self, mut params: PhagocytosisParams) -> PhagocytosisParams {
         match self {
             Self::StickyFront => {
-                params.hold_time *= 0.5;
-                params.heading_cosine = (params.heading_cosine - 0.4).max(-1.0);
+                params.hold_time *= 0.4;
+                params.heading_cosine = (params.heading_cosine - 0.8).max(-1.0);
             }
             Self::Stomach => {
-                params.digestion_time = params.digestion_time.map(|time| (0.6 * time).max(0.05));
-                params.digestion_speed = 0.5 * (1.0 + params.digestion_speed);
-                params.growth_yield = (1.2 * params.growth_yield).min(4.0);
+                params.digestion_time = params.digestion_time.map(|time| (0.75 * time).max(0.05));
+                params.digestion_speed = 1.0 - 0.75 * (1.0 - params.digestion_speed);
+                params.growth_yield = (1.1 * params.growth_yield).min(4.0);
             }
             _ => params.size_ratio = (0.75 * params.size_ratio).max(0.1),
         }
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(Change::ALL.map(|change| change.count(view)), [2; 6]);
         assert!((view.speed() - 1.3225 * AmoeboidCellSpec::default().speed).abs() < 1e-4);
         let after = view.phagocytosis().unwrap();
-        assert!((after.hold_time - 0.25 * before.hold_time).abs() < 1e-6 && after.size_ratio < 0.6 * before.size_ratio);
+        assert!((after.hold_time - 0.16 * before.hold_time).abs() < 1e-6 && after.size_ratio < 0.6 * before.size_ratio);
         (0..20).for_each(|_| Change::Coat.make(&mut world, cell).unwrap());
         let view = world.view().organism(cell).unwrap();
         assert_eq!((Change::Coat.count(view), Change::WideMouth.count(view)), (15, 2), "none runs over");

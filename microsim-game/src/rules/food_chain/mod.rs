@@ -9,7 +9,7 @@ pub mod change;
 use bites::{Bites, can_bite, cytoplasm};
 use change::{Change, changes, is_own, mark_own};
 use microsim_core::glam::Vec2;
-use microsim_core::{Kind, MealPhase, OrganismId, OrganismView, Rng, View, World};
+use microsim_core::{Kind, OrganismId, OrganismView, Rng, View, World};
 
 /// Name of its scenario.
 pub const NAME: &str = "food-chain";
@@ -25,7 +25,7 @@ const RAMP: f32 = 90.0;
 /// Share of it for a sister, which rests.
 const RESTING: f32 = 0.3;
 /// What each [`Change::Thrift`] leaves of it.
-const THRIFT: f32 = 0.75;
+const THRIFT: f32 = 0.9;
 /// Streams of random numbers from here on are for offers.
 const STREAM: u64 = 5 << 60;
 
@@ -39,7 +39,6 @@ pub struct FoodChain {
     bites: Bites,
     offer: Option<[Change; 3]>,
     rng: Rng,
-    ledger: Ledger,
     fate: Option<Fate>,
     is_over: bool,
 }
@@ -53,31 +52,14 @@ pub enum Fate {
     Eaten,
 }
 
-/// What the player's cell lost and how it spent its time since its last change, which shows what a change would be worth.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
-    /// Steps, and those in which it touched food, and in which it digested.
-    pub steps: u32,
-    /// See above.
-    pub touching: u32,
-    /// See above.
-    pub digesting: u32,
-    /// Cytoplasm that hunger took, particles.
-    pub hunger: f32,
-    /// Cytoplasm that bites took, particles.
-    pub bitten: f32,
-    /// Prey that was too large by less than a third, mean number in sight.
-    pub too_large: f32,
-}
-
 impl FoodChain {
     /// A food chain at its beginning.
     #[must_use]
     pub fn new(world: &World, player: OrganismId) -> Self {
         let first = world.view().organism(player).map_or(1, cytoplasm).max(1);
         let rng = Rng::new(world.config().seed, STREAM);
-        let (owed, bites, ledger) = (Vec::new(), Bites::default(), Ledger::default());
-        Self { first, owed, bites, offer: None, rng, ledger, fate: None, is_over: false }
+        let (owed, bites) = (Vec::new(), Bites::default());
+        Self { first, owed, bites, offer: None, rng, fate: None, is_over: false }
     }
 
     /// What the rules do before a step: bites and hunger. A cell that has nothing left to lose is gone.
@@ -86,7 +68,7 @@ impl FoodChain {
             let _ = mark_own(world, player);
         }
         for [by, of] in self.bites.advance(world) {
-            self.bite(world, by, of, player);
+            self.bite(world, by, of);
         }
         let own: Vec<OrganismId> =
             world.view().organisms().filter(|cell| is_own(*cell)).map(|cell| cell.id()).collect();
@@ -96,14 +78,11 @@ impl FoodChain {
         }
     }
 
-    fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId, player: OrganismId) {
+    fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
         if world.view().organism(by).is_some_and(is_own) {
             let _ = world.grow(by, 0, 1);
-        }
-        if of == player {
-            self.ledger.bitten += 1.0;
         }
     }
 
@@ -121,9 +100,6 @@ impl FoodChain {
         let Some(cell) = world.view().organism(id) else { return };
         let resting = if id == player { 1.0 } else { RESTING };
         let used = resting * self.hunger(cell, world.time() as f32) * world.config().dt;
-        if id == player {
-            self.ledger.hunger += used;
-        }
         let place = self.owed.iter().position(|(known, _)| *known == id).unwrap_or_else(|| {
             self.owed.push((id, 0.0));
             self.owed.len() - 1
@@ -162,7 +138,6 @@ impl FoodChain {
         let heir = view.organism(player).or_else(|| view.organisms().find(|cell| is_own(*cell)));
         self.is_over = heir.is_none();
         let Some(cell) = heir else { return player };
-        self.ledger.note(cell, world);
         if self.offer.is_none() && self.size(cell) >= 2.0_f32.powi(1 + changes(cell) as i32) {
             self.offer = Some(self.draw());
         }
@@ -183,15 +158,16 @@ impl FoodChain {
 
     /// Makes one of the changes that are offered.
     pub fn choose(&mut self, change: Change, world: &mut World, player: OrganismId) {
-        if self.offer.is_some_and(|offer| offer.contains(&change)) && change.make(world, player).is_ok() {
-            (self.offer, self.ledger) = (None, Ledger::default());
+        if self.offer.is_some_and(|offer| offer.contains(&change)) {
+            self.change(change, world, player);
         }
     }
 
-    /// What the player's cell lost since its last change.
-    #[must_use]
-    pub fn ledger(&self) -> &Ledger {
-        &self.ledger
+    /// Makes a change, whatever is offered.
+    pub(super) fn change(&mut self, change: Change, world: &mut World, player: OrganismId) {
+        if change.make(world, player).is_ok() {
+            self.offer = None;
+        }
     }
 
     /// Whether a cell is bitten now.
@@ -210,20 +186,6 @@ impl FoodChain {
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.is_over
-    }
-}
-
-impl Ledger {
-    fn note(&mut self, cell: OrganismView<'_>, world: &World) {
-        self.steps += 1;
-        let has = |is: fn(&MealPhase) -> bool| u32::from(cell.meals().any(|(_, phase)| is(&phase)));
-        self.touching += has(|phase| matches!(phase, MealPhase::Touching(_)));
-        self.digesting += has(|phase| matches!(phase, MealPhase::Digesting(_)));
-        let ratio = cell.phagocytosis().map_or(1.0, |params| params.size_ratio);
-        let share = |prey: OrganismView<'_>| cell.cytoplasm_area() / (ratio * prey.spawn_area());
-        let prey = world.view().organisms().filter(|prey| prey.is_soft_prey());
-        let near = prey.filter(|prey| (0.75..1.0).contains(&share(*prey))).count();
-        self.too_large += (near as f32 - self.too_large) / self.steps as f32;
     }
 }
 
