@@ -12,20 +12,27 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-const OUTPUT: &str = r#"
-    [output]
-    checkpoint_every = 5
-    [output.measures]
-    formats = ["csv", "jsonl"]
-    every = 0.0
-    [output.trajectories]
-    formats = ["csv"]
-    every = 0.0
-"#;
+/// The crowd with every kind of table that this build writes.
+fn scenario() -> String {
+    let parquet = if cfg!(feature = "parquet") { ", \"parquet\"" } else { "" };
+    let output = format!(
+        r#"
+        [output]
+        checkpoint_every = 5
+        [output.measures]
+        formats = ["csv", "jsonl"{parquet}]
+        every = 0.0
+        [output.trajectories]
+        formats = ["csv"{parquet}]
+        every = 0.0
+    "#
+    );
+    crowd() + &output
+}
 
 /// A run that is never stopped by itself within a test.
 fn start(folder: &Folder, out: &str) -> Child {
-    let scenario = folder.file("crowd.toml", (crowd() + OUTPUT).as_bytes());
+    let scenario = folder.file("crowd.toml", scenario().as_bytes());
     let mut command = heeding_signals(&["run", &scenario, "--steps", "100000000", "--out", out, "--quiet"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     while !Path::new(out).join("checkpoint").exists() {
@@ -41,7 +48,7 @@ fn signal(child: &Child, name: &str) {
 /// A run of 300 steps that was stopped by `kill -9`, and its folder.
 fn stopped(name: &str) -> (Folder, String) {
     let folder = Folder::new(name);
-    let scenario = folder.file("crowd.toml", (crowd() + OUTPUT).as_bytes());
+    let scenario = folder.file("crowd.toml", scenario().as_bytes());
     let out = folder.path("out");
     let mut child = microsim(&["run", &scenario, "--steps", "300", "--out", &out, "--quiet"]).spawn().unwrap();
     while !Path::new(&out).join("checkpoint").exists() {

@@ -11,7 +11,7 @@ use crate::world::World;
 const SHRUNK_BY: f32 = 0.6;
 /// Fewest membrane nodes of a cell that forms a cup: in a smaller one the cup takes too much of the membrane.
 const CUP_NODES: usize = 36;
-/// Longest substep of a cup around soft prey, s: in longer ones its lips slip off one in twenty.
+/// Longest substep of a cup, s: in longer ones its lips slip off one prey in twenty.
 const CUP_SUBSTEP: f32 = 1.0 / 360.0 + 1e-5;
 
 impl World {
@@ -19,7 +19,7 @@ impl World {
     pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal) {
         let Self { organisms, fluids, exemptions, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
-        let is_coarse = meal.class == PreyClass::Soft && self.config.substep() > CUP_SUBSTEP;
+        let is_coarse = self.config.substep() > CUP_SUBSTEP;
         if organism.outline.len() < CUP_NODES || is_coarse {
             meal.way = IngestionWay::Gate;
         }
