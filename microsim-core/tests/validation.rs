@@ -104,9 +104,13 @@ fn agar_is_taken_in_whatever_the_step() {
 }
 
 #[test]
-fn a_rigid_cell_is_not_released_in_long_substeps() {
-    let absorption = refinement::absorb("absorb-rigid", 1, Stepping { dt: 1.0 / 60.0, substeps: 4 });
-    assert!(absorption.ingested.is_some() && absorption.flaws.is_empty(), "{absorption}");
+fn prey_is_not_released_in_long_substeps() {
+    // Cups released both.
+    let cases = [("absorb-rigid", 1, 1.0 / 60.0, 4), ("absorb-agar", 123, 1.0 / 240.0, 1)];
+    for (name, seed, dt, substeps) in cases {
+        let absorption = refinement::absorb(name, seed, Stepping { dt, substeps });
+        assert!(absorption.ingested.is_some() && absorption.flaws.is_empty(), "{name}: {absorption}");
+    }
 }
 
 #[test]

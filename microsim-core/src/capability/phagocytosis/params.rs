@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
 /// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
-/// membrane nodes use a gate whatever is asked, and so do all for soft prey in substeps longer than 1/360 s.
+/// membrane nodes use a gate whatever is asked, and so do all in substeps longer than 1/360 s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
     /// The membrane next to the prey ignores it until it is inside, as in the seed.
