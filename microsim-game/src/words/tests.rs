@@ -1,6 +1,12 @@
 use super::*;
 use fluent_bundle::{FluentArgs, FluentBundle, FluentResource};
 use std::collections::BTreeSet;
+use crate::input::Action;
+use crate::scenery::{Effort, Sight};
+use crate::ui::font::TextSize;
+use crate::ui::menu::MenuLayout;
+use crate::ui::pen::Pen;
+use microsim_core::glam::Vec2;
 use std::path::Path;
 
 fn source(language: &Language) -> String {
@@ -105,4 +111,64 @@ fn a_table_of_another_version_is_refused_and_one_that_comes_late_is_taken() {
     assert_eq!(current().code, "en");
     choose(other, || Some(vec![0; COUNT]));
     assert_eq!(current().code, "xx");
+}
+
+/// Widths in a small window with the largest text.
+fn small_window() -> (Pen, impl Fn(TextSize, &str) -> f32) {
+    Pen::measured(Vec2::new(640.0, 360.0), 1.5)
+}
+
+#[test]
+fn settings_and_keys_fit_their_menu_in_a_small_window() {
+    let (pen, measure) = small_window();
+    let (layout, line) = (MenuLayout::middle(&pen, 0.3), pen.line(TextSize::Body));
+    let room = layout.item.x - 0.8 * layout.item.y.min(1.55 * line);
+    let efforts = || Effort::ALL.map(Effort::title).to_vec();
+    for language in &LANGUAGES {
+        choose(language, || None);
+        let switch = || vec![text(Key::MenuOn), text(Key::MenuOff)];
+        let mut items = vec![
+            (Key::SettingsLanguage, LANGUAGES.iter().map(|language| language.name).collect()),
+            (Key::SettingsOptics, Sight::all().map(Sight::title).collect()),
+            (Key::SettingsQuality, efforts()),
+            (Key::SettingsTextSize, vec!["150 %"]),
+            (Key::SettingsPace, vec!["100 %"]),
+            (Key::SettingsSound, vec!["100 %"]),
+        ];
+        let switches = [Key::SettingsMotion, Key::SettingsDigestion, Key::SettingsCrawl, Key::SettingsArrows];
+        items.extend(switches.into_iter().chain([Key::SettingsFullScreen]).map(|key| (key, switch())));
+        items.extend(Action::ALL.map(|action| (action.label(), vec![text(Key::KeysPress)])));
+        for (label, values) in items {
+            for value in values {
+                let line = format!("> {}  {value} >", text(label));
+                assert!(measure(TextSize::Body, &line) <= room, "{}: {line}", language.code);
+            }
+        }
+    }
+}
+
+#[test]
+fn menus_and_headings_fit_a_small_window() {
+    let (pen, measure) = small_window();
+    let title = MenuLayout::title(&pen).item.x;
+    let middle = MenuLayout::middle(&pen, 0.3).item.x;
+    for language in &LANGUAGES {
+        choose(language, || None);
+        for (name, key) in ALL {
+            let room = match name.split_once('-').map_or(name, |(group, _)| group) {
+                "title" if !["title", "title-motto", "title-version"].contains(&name) => title,
+                "quit" | "pause" | "back" | "settings" => middle,
+                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other"].contains(&name) => middle,
+                _ => continue,
+            };
+            if name == "settings-unknown-language" {
+                continue;
+            }
+            let width = measure(TextSize::Body, &format!("> {}", text(key))) + 0.8 * pen.line(TextSize::Body);
+            assert!(width <= room, "{name}, {}: {width} of {room}", language.code);
+        }
+        for key in [Key::ChangeHeading, Key::QuitHeading, Key::TitleNetwork, Key::HudBitten, Key::HudReplayDiffers] {
+            assert!(measure(TextSize::Body, text(key)) <= 0.96 * pen.screen().x, "{}", text(key));
+        }
+    }
 }
