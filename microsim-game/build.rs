@@ -1,7 +1,9 @@
 //! Writes the font without what nothing here reads: letters that are never written, instructions for coarse screens and tables of
 //! layout. Nine tenths of it.
-//! Gives the program for Windows its icon and version.
+//! Makes tables of the texts in all languages. Gives the program for Windows its icon and version.
 
+#[path = "words/compile.rs"]
+mod compile;
 #[path = "src/ui/letters.rs"]
 mod letters;
 
@@ -16,10 +18,12 @@ const KEPT: [&[u8; 4]; 9] = [b"cmap", b"glyf", b"head", b"hhea", b"hmtx", b"loca
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=src/ui/letters.rs");
+    println!("cargo::rerun-if-changed=words/compile.rs");
     let font = epaint_default_fonts::UBUNTU_LIGHT;
     let small = smaller(font).unwrap_or_else(|| font.to_vec());
     let out = env::var_os("OUT_DIR").expect("cargo names a folder");
     std::fs::write(Path::new(&out).join("font.ttf"), small).expect("the folder can be written to");
+    compile::compile(Path::new(&out));
     if env::var("TARGET").is_ok_and(|target| target == "x86_64-pc-windows-gnu") {
         add_windows_resources(Path::new(&out));
     }

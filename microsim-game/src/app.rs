@@ -12,6 +12,7 @@ use crate::shot::Shot;
 use crate::timings::Timings;
 use crate::ui::menu::Menu;
 use crate::viewer::Pace;
+use crate::words::Language;
 use macroquad::window::{clear_background, next_frame, screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use microsim_core::glam::Vec2;
 use std::path::{Path, PathBuf};
@@ -78,6 +79,10 @@ impl App {
         context.pen.fit(view_size(&options), context.settings.text_factor());
         context.pace.is_exact = options.is_exact();
         context.asked = options.asked;
+        if !options.is_exact() {
+            context.system_language = Language::for_locale(&platform::locale());
+        }
+        context.choose_language();
         let screens = Stack::new(first, &mut context);
         let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
         let began = platform::now();
@@ -135,6 +140,7 @@ impl App {
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
         context.time += elapsed;
+        context.choose_language();
         // Time of the steps does not count: less detail would not shorten it.
         let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };
         if let Some(news) = context.scenery.pass(drawing, context.effort(), context.sight()) {

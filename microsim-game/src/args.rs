@@ -2,6 +2,7 @@
 
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Sight};
+use crate::words::{LANGUAGES, Language};
 use lexopt::{Arg, Parser, ValueExt};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -29,6 +30,7 @@ Options:
       --frames <N>       Exit after N frames, 1 to 1000000 (with --screenshot: 120 unless told)
       --size <WxH>       Size of the window, 160x90 to 7680x4320 [default: 1280x720]
       --script <FILE>    Take the player's input from a file instead of mouse and keyboard
+      --language <TAG>   Language of all that is read in the window: en or cs, in place of the settings
       --optics <NAME>    How the world is seen, in place of the settings; drawn suits slow graphics
       --quality <NAME>   How much of the machine pictures may take, in place of the settings
       --timings          Say at the end how long steps and frames took
@@ -72,6 +74,8 @@ pub struct Args {
     pub sight: Option<Sight>,
     /// How much of the machine pictures may take.
     pub effort: Option<Effort>,
+    /// The language of what is read.
+    pub language: Option<&'static Language>,
     /// Whether times are told at the end.
     pub timings: bool,
 }
@@ -93,6 +97,7 @@ impl Default for Args {
             script: None,
             sight: None,
             effort: None,
+            language: None,
             timings: false,
         }
     }
@@ -159,6 +164,7 @@ impl Args {
             "size" => self.size = checked(option, parser, "a size from 160x90 to 7680x4320", size)?,
             "optics" => self.sight = Some(checked(option, parser, &sights(), sight)?),
             "quality" => self.effort = Some(checked(option, parser, &efforts(), Effort::named)?),
+            "language" => self.language = Some(checked(option, parser, &languages(), Language::named)?),
             _ => return Err(Arg::Long(option).unexpected().into()),
         }
         Ok(())
@@ -210,6 +216,10 @@ fn sights() -> String {
     format!("one of {}", Sight::all().map(Sight::name).collect::<Vec<_>>().join(", "))
 }
 
+fn languages() -> String {
+    format!("one of {}", LANGUAGES.iter().map(|language| language.code).collect::<Vec<_>>().join(", "))
+}
+
 fn efforts() -> String {
     format!("one of {}", Effort::ALL.map(Effort::name).join(", "))
 }
@@ -247,7 +257,7 @@ mod tests {
     fn mistakes_are_refused_with_what_is_accepted() {
         assert!(args("--replay a.replay").replay.is_some() && parsed("--room ab12 demo").is_err());
         let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1", "--seed"];
-        let words = ["--wrong", "-x", "--set x", "--set =1", "--optics x", "--quality x", "--play=1"];
+        let words = ["--wrong", "-x", "--set x", "--set =1", "--optics x", "--language x", "--quality x", "--play=1"];
         let replays = ["--play", "demo", "--set a=1", "--seed 1", "--room ab12"]
             .map(|other| format!("--replay a.replay {other}"));
         for line in numbers.into_iter().chain(words).chain(replays.iter().map(String::as_str)) {
@@ -273,6 +283,7 @@ mod tests {
             "size",
             "script",
             "optics",
+            "language",
             "quality",
             "timings",
         ];

@@ -41,6 +41,7 @@ pub mod ui;
 pub mod viewer;
 mod waiting;
 mod window;
+pub mod words;
 
 use app::{App, RunOptions};
 use args::{Answer, Args};
@@ -109,7 +110,7 @@ impl Start {
             frames: args.frames(),
             screenshot: args.screenshot.take(),
             size: args.size,
-            asked: Asked { sight: args.sight, effort: args.effort },
+            asked: Asked { sight: args.sight, effort: args.effort, language: args.language },
             timings: args.timings,
         };
         let record = args.replay.as_deref().map(read_replay).transpose()?;

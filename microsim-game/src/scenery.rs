@@ -4,6 +4,7 @@ use crate::draw::{Painter, SceneFrame};
 use crate::microscope::{RenderQuality, Renderer};
 use crate::platform;
 use crate::viewer::Pace;
+use crate::words::{self, Key};
 use macroquad::window::screen_dpi_scale;
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
@@ -38,6 +39,22 @@ impl Sight {
             Self::Microscope(optics) => optics.name(),
             Self::Drawn => "drawn",
         }
+    }
+
+    /// What the player reads.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        words::text(match self.name() {
+            "bright-field" => Key::SightBrightField,
+            "classic" => Key::SightClassic,
+            "dark-field" => Key::SightDarkField,
+            "dic" => Key::SightDic,
+            "drawn" => Key::SightDrawn,
+            "fluorescence" => Key::SightFluorescence,
+            "negative-phase-contrast" => Key::SightNegativePhaseContrast,
+            "stained" => Key::SightStained,
+            _ => Key::SightPhaseContrast,
+        })
     }
 
     /// The one of this name, or the first.
@@ -90,6 +107,17 @@ impl Effort {
             Self::Medium => "medium",
             Self::Low => "low",
         }
+    }
+
+    /// What the player reads.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        words::text(match self {
+            Self::Automatic => Key::EffortAutomatic,
+            Self::High => Key::EffortHigh,
+            Self::Medium => Key::EffortMedium,
+            Self::Low => Key::EffortLow,
+        })
     }
 
     /// The one of this name.

@@ -1,5 +1,6 @@
 //! The slides that come with the game: a file in `slides/` and a line here for each, in the order of play.
 
+use crate::words;
 use microsim_core::scenario::{Scenario, Slide};
 
 /// A slide that comes with the game.
@@ -37,6 +38,25 @@ impl BuiltinSlide {
     pub fn read(&self) -> Option<Slide> {
         Scenario::parse(self.text, &[]).ok()?.slide().cloned()
     }
+
+    /// The same in the language of the player; the source of the fact stays as it is.
+    #[must_use]
+    pub fn told(&self) -> Option<Slide> {
+        let mut slide = self.read()?;
+        for (part, text) in [("title", &mut slide.title), ("task", &mut slide.task), ("fact", &mut slide.fact)] {
+            if let Some(own) = words::of_slide(self.name, part) {
+                own.clone_into(text);
+            }
+        }
+        Some(slide)
+    }
+}
+
+/// A slide as it is told in the language of the player, if it is one of these.
+#[must_use]
+pub fn told(slide: &Slide) -> Slide {
+    let known = SLIDES.iter().find(|builtin| builtin.read().as_ref() == Some(slide));
+    known.and_then(BuiltinSlide::told).unwrap_or_else(|| slide.clone())
 }
 
 /// The slide of a name.

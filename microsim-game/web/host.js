@@ -259,6 +259,19 @@ function hasFloatTargets() {
     return extension && address.get("floats") !== "no" ? encode("") : null;
 }
 
+/** Texts by language, fetched when the game first asks; null on the way. */
+const languages = new Map();
+
+function wordsOf(code) {
+    if (!languages.has(code)) {
+        languages.set(code, null);
+        fetch(`${code}.words`)
+            .then(async (answer) => answer.ok && languages.set(code, new Uint8Array(await answer.arrayBuffer())))
+            .catch(() => {}); // The texts stay as they are.
+    }
+    return languages.get(code);
+}
+
 const answers = {
     "arguments": () => encode(words.join("\n")),
     "asked": () => encode(question),
@@ -269,8 +282,10 @@ const answers = {
     "gamepads": gamepads,
     "has storage": () => (storageWorks() ? encode("") : null),
     "item": takeItem,
+    "locale": () => encode(navigator.language),
     "held": () => encode([...held].join("\n")),
     "kept": readKept,
+    "words": wordsOf,
     "room": (number) => rooms.get(number).frames.shift() ?? null,
     "room key": roomKey,
     "pressed": () => encode(pressed.splice(0).join("\n")),
@@ -282,6 +297,7 @@ const orders = {
     "fail": (_, bytes) => fail(decode(bytes)),
     "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
+    "language": (code) => ((document.documentElement.lang = code), true),
     "leave room": leaveRoom,
     "offer": (query) => ((water = query), true),
     "print": (_, bytes) => console.log(decode(bytes)),

@@ -6,6 +6,7 @@ use crate::rules::food_chain::Other;
 use crate::rules::food_chain::change::Change;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 
@@ -120,14 +121,18 @@ fn draw_rim(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32)
 /// What the status line says: time that the line has lived, and size; and whether a sister waits.
 #[must_use]
 pub fn summary(time: f32, size: f32, sisters: usize) -> String {
-    let more = if sisters > 0 { format!("  second life: {sisters}") } else { String::new() };
-    format!("Lived {:.0} s  size {size:.1}{more}", time.floor())
+    let size = words::number(size, 1);
+    let lived = words::text_with(Key::HudLived, &[("time", (time as u32).into()), ("size", (&size).into())]);
+    if sisters == 0 {
+        return lived;
+    }
+    format!("{lived}  {}", words::text_with(Key::HudSecondLife, &[("sisters", (sisters as u32).into())]))
 }
 
 /// Writes that the player is being bitten.
 pub fn draw_bitten(pen: &mut Pen) {
     let at = Vec2::new(0.5, 0.2) * pen.screen();
-    pen.label(at, TextSize::Large, Align::Centre, ALERT, "Bitten: get away!");
+    pen.label(at, TextSize::Large, Align::Centre, ALERT, words::text(Key::HudBitten));
 }
 
 #[cfg(test)]

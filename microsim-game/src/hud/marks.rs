@@ -6,6 +6,7 @@ use crate::rules::hint::{HeldPrey, MealState, PreyTarget, Readiness};
 use crate::rules::referee::Gain;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
@@ -71,7 +72,13 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, ta
                 let bar = tip - Vec2::new(0.0, 0.45 * unit);
                 pen.canvas().segment(bar - half, bar + half, 0.3 * unit, INK);
                 pen.canvas().segment(bar - 0.9 * half, bar + 0.9 * half, 0.16 * unit, HALO);
-                pen.label(tip - Vec2::new(0.0, 1.7 * unit), TextSize::Small, Align::Centre, HALO, "full");
+                pen.label(
+                    tip - Vec2::new(0.0, 1.7 * unit),
+                    TextSize::Small,
+                    Align::Centre,
+                    HALO,
+                    words::text(Key::HudFull),
+                );
             }
         }
     }

@@ -5,6 +5,7 @@ pub mod gamepad;
 pub mod keys;
 pub mod script;
 
+use crate::words::Key;
 use macroquad::input::KeyCode;
 use microsim_core::glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -61,34 +62,51 @@ impl Action {
     /// Its name in scripts.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.words()[0]
+        self.word()
     }
 
     /// What it says in the settings.
     #[must_use]
-    pub fn label(self) -> &'static str {
-        self.words()[1]
+    pub fn label(self) -> Key {
+        match self {
+            Self::Consume => Key::ActionConsume,
+            Self::ZoomIn => Key::ActionZoomIn,
+            Self::ZoomOut => Key::ActionZoomOut,
+            Self::Divide => Key::ActionDivide,
+            Self::Pause => Key::ActionPause,
+            Self::Step => Key::ActionStep,
+            Self::Slower => Key::ActionSlower,
+            Self::Faster => Key::ActionFaster,
+            Self::Restart => Key::ActionRestart,
+            Self::Optics => Key::ActionOptics,
+            Self::DebugView => Key::ActionDebugView,
+            Self::Plots => Key::ActionPlots,
+            Self::Panel => Key::ActionPanel,
+            Self::Undo => Key::ActionUndo,
+            Self::Screenshot => Key::ActionScreenshot,
+            Self::FullScreen => Key::ActionFullScreen,
+        }
     }
 
     /// Its name in scripts and in the settings.
-    fn words(self) -> [&'static str; 2] {
+    fn word(self) -> &'static str {
         match self {
-            Self::Consume => ["consume", "Digest (hold)"],
-            Self::ZoomIn => ["zoom-in", "Zoom in"],
-            Self::ZoomOut => ["zoom-out", "Zoom out"],
-            Self::Divide => ["divide", "Divide (food chain)"],
-            Self::Pause => ["pause", "Pause"],
-            Self::Step => ["step", "Single step"],
-            Self::Slower => ["slower", "Slower"],
-            Self::Faster => ["faster", "Faster"],
-            Self::Restart => ["restart", "Restart"],
-            Self::Optics => ["optics", "Next optics"],
-            Self::DebugView => ["debug-view", "Debug view"],
-            Self::Plots => ["plots", "Plots"],
-            Self::Panel => ["panel", "Panel"],
-            Self::Undo => ["undo", "Undo (simulation)"],
-            Self::Screenshot => ["screenshot", "Picture"],
-            Self::FullScreen => ["full-screen", "Full screen"],
+            Self::Consume => "consume",
+            Self::ZoomIn => "zoom-in",
+            Self::ZoomOut => "zoom-out",
+            Self::Divide => "divide",
+            Self::Pause => "pause",
+            Self::Step => "step",
+            Self::Slower => "slower",
+            Self::Faster => "faster",
+            Self::Restart => "restart",
+            Self::Optics => "optics",
+            Self::DebugView => "debug-view",
+            Self::Plots => "plots",
+            Self::Panel => "panel",
+            Self::Undo => "undo",
+            Self::Screenshot => "screenshot",
+            Self::FullScreen => "full-screen",
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What the player is told at the end of a round: what was missed, and the next goal.
 
 use super::round::RoundResult;
+use crate::words::{self, Key};
 use microsim_core::Kind;
 
 /// What was missed in a round, if anything.
@@ -17,15 +18,10 @@ pub fn missed(result: &RoundResult) -> Option<String> {
     };
     let [rigid, small] = [true, false].map(count_of);
     match (result.undigested, small, rigid) {
-        (1, ..) => Some("One thing inside was not digested: only what is digested counts.".to_owned()),
-        (more @ 2.., ..) => Some(format!("{more} things inside were not digested: only what is digested counts.")),
-        (0, Some(0), Some(0) | None) => {
-            Some("Nothing was taken in: crawl with your front against food, and stay on it.".to_owned())
-        }
-        (0, None, Some(0)) => Some("No rigid cell: take one under a green arrow.".to_owned()),
-        (0, _, Some(0)) => {
-            Some("No rigid cell: they count most. Grow on small food, then take one under a green arrow.".to_owned())
-        }
+        (more @ 1.., ..) => Some(words::text_with(Key::MissedUndigested, &[("count", more.into())])),
+        (0, Some(0), Some(0) | None) => Some(words::text(Key::MissedAll).to_owned()),
+        (0, None, Some(0)) => Some(words::text(Key::MissedRigid).to_owned()),
+        (0, _, Some(0)) => Some(words::text(Key::MissedRigidMost).to_owned()),
         _ => None,
     }
 }
@@ -34,9 +30,9 @@ pub fn missed(result: &RoundResult) -> Option<String> {
 #[must_use]
 pub fn next_goal(points: u32, better: Option<u32>) -> String {
     match (points, better) {
-        (_, Some(better)) => format!("Next: more than {better}"),
-        (0, None) => "Next: the first points".to_owned(),
-        (points, None) => format!("Next: more than your best, {points}"),
+        (_, Some(better)) => words::text_with(Key::GoalBetter, &[("points", better.into())]),
+        (0, None) => words::text(Key::GoalFirst).to_owned(),
+        (points, None) => words::text_with(Key::GoalOwnBest, &[("points", points.into())]),
     }
 }
 

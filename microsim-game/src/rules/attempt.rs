@@ -1,6 +1,7 @@
 //! An attempt at a slide: which goals are reached, when all are, and the stars for it.
 
 use super::referee::KindScore;
+use crate::words::{self, Key};
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Game, Goal, Points, Slide};
@@ -83,8 +84,11 @@ impl Attempt {
             let of_sort = self.goals().filter(|(goal, _)| matches!(goal, Goal::Digest { .. }) == is_prey);
             of_sort.fold([0, 0], |[done, all], (goal, more)| [done + more, all + wanted(goal)])
         });
-        let texts = sums.into_iter().zip(["Places", "Digested"]).filter(|([_, all], _)| *all > 0);
-        texts.map(|([done, all], what)| format!("{what} {done}/{all}")).collect::<Vec<_>>().join("  ")
+        let texts = sums.into_iter().zip([Key::HudPlaces, Key::HudDigested]).filter(|([_, all], _)| *all > 0);
+        texts
+            .map(|([done, all], what)| words::text_with(what, &[("done", done.into()), ("all", all.into())]))
+            .collect::<Vec<_>>()
+            .join("  ")
     }
 }
 

@@ -1,15 +1,12 @@
 //! Marks are explained when they are seen first, one at a time.
 
 use super::hint::{Hints, Readiness};
+use crate::words::Key;
 
 /// Time for which an explanation is shown, s.
 const TIME: f32 = 6.0;
 /// What a mark is called here, and its explanation.
-const LESSONS: [&str; 3] = [
-    "A green arrow: you are large enough to take this cell in.",
-    "The bar over a cell says how much of the needed size you have. Small food makes you grow.",
-    "\"full\": only one such cell has room inside. Digest it first.",
-];
+const LESSONS: [Key; 3] = [Key::LessonReady, Key::LessonTooLarge, Key::LessonNoRoom];
 
 /// What was explained so far, and what is being explained.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +17,7 @@ pub struct Lessons {
 
 impl Lessons {
     /// What to tell now, at a time of the program, s.
-    pub fn pass(&mut self, hints: &Hints, time: f32) -> Option<&'static str> {
+    pub fn pass(&mut self, hints: &Hints, time: f32) -> Option<Key> {
         self.shown = self.shown.filter(|(_, until)| time < *until);
         if self.shown.is_none() {
             let places = hints.targets.iter().map(|target| match target.readiness {

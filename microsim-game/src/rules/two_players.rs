@@ -1,6 +1,7 @@
 //! Two under glass: two cells on one slide, which is data, `games/two-under-glass.toml`. Both are scored for themselves.
 
 use super::bot::{Bot, Policy};
+use crate::words::Key;
 
 /// Name of its scenario.
 pub const NAME: &str = "two-under-glass";
@@ -27,11 +28,11 @@ impl TwoPlayers {
 
     /// What players read.
     #[must_use]
-    pub fn label(self) -> &'static str {
+    pub fn label(self) -> Key {
         match self {
-            Self::Versus => "Against each other",
-            Self::Together => "Together",
-            Self::Bot => "Against the program",
+            Self::Versus => Key::TwoVersus,
+            Self::Together => Key::TwoTogether,
+            Self::Bot => Key::TwoBot,
         }
     }
 

@@ -6,6 +6,7 @@ use super::{Next, Overlay, Paused, Screen};
 use crate::input::{Input, Move};
 use crate::rules::food_chain::change::Change;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{self, Key};
 
 /// Time for which the menu does not answer, s: it opens under a hand that steers.
 const DELAY: f32 = 0.5;
@@ -22,13 +23,7 @@ pub(super) struct Choose {
 impl Choose {
     pub(super) fn new(offer: [Change; 3], played: Paused) -> Self {
         let items = offer.map(|change| MenuItem::new(change.words()[0]));
-        Self {
-            page: MenuPage::new("You have doubled: choose", items.into()),
-            offer,
-            played,
-            since: 0.0,
-            has_let_go: false,
-        }
+        Self { page: MenuPage::new(Key::ChangeHeading, items.into()), offer, played, since: 0.0, has_let_go: false }
     }
 }
 
@@ -56,7 +51,7 @@ impl Screen for Choose {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        let note = self.offer.get(self.page.menu.focus()).map_or("", |change| change.words()[1]);
+        let note = self.offer.get(self.page.menu.focus()).map_or("", |change| words::text(change.words()[1]));
         self.page.draw_note(&mut context.pen, note);
     }
 

@@ -6,7 +6,7 @@ use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
 use crate::network::room::Room;
-use crate::platform::Speaker;
+use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
 use crate::rules::game::GameChoice;
 use crate::rules::lesson::Lessons;
@@ -21,6 +21,7 @@ use crate::store::settings::{self as kept, Settings};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::Pace;
+use crate::words::{self, Key, LANGUAGES, Language};
 use microsim_core::View;
 use microsim_core::glam::Vec2;
 use std::io;
@@ -35,13 +36,15 @@ const LONGEST_TIME: f32 = 20.0;
 const MESSAGE_LINES: usize = 10;
 const MESSAGE_LETTERS: usize = 700;
 
-/// The optics and quality that the command line asks for, in place of the settings.
+/// The optics, quality and language that the command line asks for, in place of the settings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Asked {
     /// The way of looking.
     pub sight: Option<Sight>,
     /// How much of the machine pictures may take.
     pub effort: Option<Effort>,
+    /// The language of what is read.
+    pub language: Option<&'static Language>,
 }
 
 /// What a photo shows of a scene: at first what is seen of it.
@@ -122,6 +125,8 @@ pub struct AppContext {
     pub wants_picture: bool,
     /// Ways of looking for this run only, in place of the ones in the settings.
     pub asked: Asked,
+    /// The language of the system.
+    pub(crate) system_language: &'static Language,
     message: Option<(String, f32)>,
 }
 
@@ -157,9 +162,13 @@ impl AppContext {
             is_top: true,
             wants_picture: false,
             asked: Asked::default(),
+            system_language: &LANGUAGES[0],
             message: None,
         };
-        let problems: Vec<String> = [problem, other_problem, third_problem].into_iter().flatten().collect();
+        let other_language = context.settings.refuse_language();
+        let refused = |code: String| words::text_with(Key::SettingsUnknownLanguage, &[("language", (&code).into())]);
+        let problems: Vec<String> =
+            [problem, other_problem, third_problem, other_language.map(refused)].into_iter().flatten().collect();
         if !problems.is_empty() {
             context.tell(problems.join("\n"));
         }
@@ -216,6 +225,27 @@ impl AppContext {
         self.asked.effort.unwrap_or(self.settings.effort)
     }
 
+    /// The language of what is read.
+    #[must_use]
+    pub fn language(&self) -> &'static Language {
+        self.asked.language.or_else(|| Language::named(&self.settings.language)).unwrap_or(self.system_language)
+    }
+
+    /// Another language. The menu that asks for it keeps the settings.
+    pub(super) fn change_language(&mut self, is_back: bool) {
+        self.language().next(is_back).code.clone_into(&mut self.settings.language);
+        self.asked.language = None;
+        self.choose_language();
+    }
+
+    /// Takes over the language that is wanted, once its texts are there.
+    pub(crate) fn choose_language(&mut self) {
+        let language = self.language();
+        if words::choose(language, || platform::words(language.code)) {
+            platform::show_language(language.code);
+        }
+    }
+
     /// Draws a scene as the player wants to see it. Returns what of it is seen, which is another part where a photo is prepared.
     pub fn paint(&mut self, view: View<'_>, camera: &Camera) -> Camera {
         let time = self.motion().unwrap_or(0.0);
@@ -237,7 +267,7 @@ impl AppContext {
         self.asked.sight = None;
         self.scenery.take_heart();
         self.save_settings();
-        self.tell(sight.name());
+        self.tell(sight.title());
     }
 
     /// More or less of the machine for pictures.

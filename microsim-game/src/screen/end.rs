@@ -1,7 +1,7 @@
 //! The end of a round: the score by kind, its place among the best, what was missed, and the next goal.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, rank};
+use super::end_menu::{EndMenu, doubted, rank};
 use super::page::draw_shade;
 use super::scores::draw_table;
 use super::{MainScreen, Next, Paused, Screen};
@@ -14,6 +14,7 @@ use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 
@@ -53,9 +54,8 @@ impl End {
             best = context.scores.of(&game, time).take(5).cloned().collect();
             context.keep_game(record, kept);
         }
-        let menu = EndMenu::new(&["Play again", "Watch it again", "Title"]);
-        let doubt = if is_mismatch { ", not as it was played" } else { "" };
-        let heading = format!("{points} points{doubt}");
+        let menu = EndMenu::new(&[Key::EndAgain, Key::EndWatch, Key::Title]);
+        let heading = doubted(words::text_with(Key::EndPoints, &[("points", points.into())]), is_mismatch);
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
         let goal = is_own.then(|| advice::next_goal(points, better));
         Self { heading, points, kinds, best, place, missed, goal, menu, played }
@@ -75,10 +75,10 @@ impl End {
 /// What players call it.
 fn plain_name(kind: Kind) -> &'static str {
     match kind {
-        Kind::Agar => "agar",
-        Kind::Coccus => "cocci",
-        Kind::Bacillus => "rods",
-        Kind::RigidCell => "rigid cells",
+        Kind::Agar => words::text(Key::KindAgar),
+        Kind::Coccus => words::text(Key::KindCocci),
+        Kind::Bacillus => words::text(Key::KindRods),
+        Kind::RigidCell => words::text(Key::KindRigidCells),
         other => other.name(),
     }
 }

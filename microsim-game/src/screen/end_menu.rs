@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::{MainScreen, Next};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+use crate::words::{self, Key};
 
 /// Time for which the menu does not answer, s.
 const DELAY: f32 = 0.7;
@@ -30,7 +31,7 @@ pub(super) enum EndChoice {
 }
 
 impl EndMenu {
-    pub(super) fn new(labels: &[&str]) -> Self {
+    pub(super) fn new(labels: &[Key]) -> Self {
         let menu = Menu::new(labels.iter().map(|&label| MenuItem::new(label)).collect());
         Self { menu, since: 0.0, has_let_go: false, has_moved: false }
     }
@@ -75,5 +76,14 @@ impl EndMenu {
 
 /// What is said of a place among the best, from 0 on.
 pub(super) fn rank(place: usize) -> String {
-    if place == 0 { "The best so far!".to_owned() } else { format!("Number {} so far", place + 1) }
+    if place == 0 {
+        words::text(Key::EndBest).to_owned()
+    } else {
+        words::text_with(Key::EndRank, &[("place", (place as u32 + 1).into())])
+    }
+}
+
+/// A heading, and a doubt about a replay that went otherwise.
+pub(super) fn doubted(heading: String, is_mismatch: bool) -> String {
+    if is_mismatch { heading + words::text(Key::EndDoubt) } else { heading }
 }

@@ -6,27 +6,26 @@ use super::{MainScreen, Next, Screen, new_seed};
 use crate::input::Input;
 use crate::rules::food_chain::NAME;
 use crate::ui::menu::{Menu, MenuItem};
+use crate::words::{self, Key};
 use macroquad::miniquad;
 
 /// Length of a day, s.
 const DAY: f64 = 86400.0;
 /// Time that the rules allow, s: scores of the food chain are kept under it.
 pub(super) const LONGEST: f32 = 3600.0;
-const ABOUT: &str = "Your cell starves unless it eats, and larger amoebae gnaw at it: flee through the gaps, which are too \
-                     narrow for giants. Each time that you double you choose a change of your body.";
 
 #[derive(Debug)]
 pub(super) struct FoodChainMenu {
     page: MenuPage,
-    note: String,
+    best: Option<u32>,
 }
 
 impl FoodChainMenu {
     pub(super) fn new(context: &AppContext) -> Self {
-        let items = ["Today's water", "Other water", "Back"].map(MenuItem::new);
+        let items = [Key::ChainToday, Key::ChainOther, Key::Back].map(MenuItem::new);
         let best = context.scores.of(NAME, LONGEST).next();
-        let best = best.map_or(String::new(), |score| format!(" Your best: {} s.", score.points));
-        Self { page: MenuPage::new("Food chain", items.into()), note: format!("{ABOUT}{best}") }
+        let best = best.map(|score| score.points);
+        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best }
     }
 }
 
@@ -42,12 +41,20 @@ impl Screen for FoodChainMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        self.page.draw_note(&mut context.pen, &self.note);
+        self.page.draw_note(&mut context.pen, &note(self.best));
     }
 
     fn name(&self) -> String {
         "food-chain".to_owned()
     }
+}
+
+/// What is said of the game, and of the best time, s.
+fn note(best: Option<u32>) -> String {
+    let about = words::text(Key::ChainAbout);
+    best.map_or(about.to_owned(), |time| {
+        words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())])
+    })
 }
 
 /// The number of the day, but for pictures that must come out the same.

@@ -1,7 +1,7 @@
 //! The end of a food chain: how long the cell lived, what ended it, and the way to the same water again.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, rank};
+use super::end_menu::{EndMenu, doubted, rank};
 use super::food_chain::LONGEST;
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
@@ -14,16 +14,13 @@ use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::Align;
+use crate::words::{self, Key};
 use macroquad::color::Color;
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
 const MENU_TOP: f32 = 0.62;
-const STARVED: &str = "It starved. An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the \
-                       end.";
-const EATEN: &str = "A larger amoeba ate it, bite by bite. Entamoeba histolytica kills living cells like this: trogocytosis \
-                     (Ralston and others, 2014, Nature 508).";
 
 #[derive(Debug)]
 pub(super) struct FoodChainEnd {
@@ -48,14 +45,15 @@ impl FoodChainEnd {
             context.keep_game(record, kept);
             place
         });
-        let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
-        let mut lines = vec![(TextSize::Large, HALO, format!("Your line lived {:.0} s{doubt}", life.time.floor()))];
+        let lived = words::text_with(Key::ChainLived, &[("time", (life.time as u32).into())]);
+        let mut lines = vec![(TextSize::Large, HALO, doubted(lived, result.is_mismatch))];
         lines.extend(place.map(|place| (TextSize::Body, READY, rank(place))));
-        let told = life.fate.map(|fate| if fate == Fate::Starved { STARVED } else { EATEN });
-        lines.extend(told.map(|told| (TextSize::Body, HALO, told.to_owned())));
-        let share = format!("Water {}. {}", life.seed, platform::way_to_play(NAME, life.seed));
+        let told = life.fate.map(|fate| if fate == Fate::Starved { Key::ChainStarved } else { Key::ChainEaten });
+        lines.extend(told.map(|told| (TextSize::Body, HALO, words::text(told).to_owned())));
+        let water = words::text_with(Key::ChainWater, &[("seed", (&life.seed.to_string()).into())]);
+        let share = format!("{water} {}", platform::way_to_play(NAME, life.seed));
         lines.push((TextSize::Small, fade(HALO, 0.85), share));
-        Self { life, played, lines, menu: EndMenu::new(&["Same water", "Other water", "Watch it again", "Title"]) }
+        Self { life, played, lines, menu: EndMenu::new(&[Key::ChainSame, Key::ChainOther, Key::EndWatch, Key::Title]) }
     }
 }
 

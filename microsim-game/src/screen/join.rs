@@ -7,6 +7,7 @@ use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
 use crate::ui::font::TextSize;
 use crate::ui::pen::Align;
+use crate::words::{self, Key};
 use macroquad::input::KeyCode;
 use microsim_core::glam::Vec2;
 
@@ -53,13 +54,10 @@ impl Screen for Join {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_heading(pen, "Over the network");
+        draw_heading(pen, words::text(Key::TitleNetwork));
         let (middle, line) = (0.5 * pen.screen(), pen.line(TextSize::Body));
         pen.write(middle, TextSize::Large, Align::Centre, READY, &format!("{}_", self.code));
-        let told = [
-            "Type the code of a room: 4 to 12 letters and digits. Enter goes there, Escape back.",
-            "Two to four who type the same code are in the same room.",
-        ];
+        let told = [words::text(Key::JoinHow), words::text(Key::JoinWho)];
         for (k, text) in told.into_iter().enumerate() {
             let at = middle + Vec2::new(0.0, (2.0 + k as f32) * line);
             pen.write(at, TextSize::Small, Align::Centre, HALO, text);

@@ -6,6 +6,7 @@ use super::{Next, Screen};
 use crate::input::keys::Keys;
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{self, Key};
 
 /// The menu of keys.
 #[derive(Debug)]
@@ -17,7 +18,7 @@ pub(super) struct KeysMenu {
 
 impl KeysMenu {
     pub(super) fn new(context: &AppContext) -> Self {
-        Self { page: MenuPage::new("Keys", items(&context.settings.keys, None)), waiting: None }
+        Self { page: MenuPage::new(Key::SettingsKeys, items(&context.settings.keys, None)), waiting: None }
     }
 
     fn assign(&mut self, action: Action, input: &Input, context: &mut AppContext) {
@@ -30,15 +31,16 @@ impl KeysMenu {
             self.waiting = None;
             context.save_settings();
         } else {
-            context.tell("This key cannot be used. Escape leaves it as it was.");
+            context.tell(words::text(Key::KeysRefused));
         }
     }
 }
 
 fn items(keys: &Keys, waiting: Option<Action>) -> Vec<MenuItem> {
-    let label = |action| if waiting == Some(action) { "press a key".to_owned() } else { keys.label(action) };
+    let label =
+        |action| if waiting == Some(action) { words::text(Key::KeysPress).to_owned() } else { keys.label(action) };
     let actions = Action::ALL.into_iter().map(|action| MenuItem::with(action.label(), label(action)));
-    actions.chain([MenuItem::new("Usual keys"), MenuItem::new("Back")]).collect()
+    actions.chain([MenuItem::new(Key::KeysUsual), MenuItem::new(Key::Back)]).collect()
 }
 
 impl Screen for KeysMenu {

@@ -9,6 +9,7 @@ use crate::network::room::Room;
 use crate::platform;
 use crate::rules::two_players::TwoPlayers;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words;
 
 /// Items before those who are there.
 const READY: usize = 0;
@@ -45,9 +46,9 @@ impl Lobby {
 
     fn show(&mut self, room: &Room) {
         let way = if room.leads() {
-            MenuItem::with("Play", room.way().label())
+            MenuItem::with("Play", words::text(room.way().label()))
         } else {
-            MenuItem::new(format!("Play: {}", room.way().label()))
+            MenuItem::new(format!("Play: {}", words::text(room.way().label())))
         };
         let seats = (1..).zip(PLAYERS).zip(room.seats()).map(|((number, (colour, _)), seat)| {
             let own = if seat.is_own { " (you)" } else { "" };

@@ -6,6 +6,7 @@ use crate::input::{Input, Move};
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, ROW};
 use crate::ui::pen::{Align, Pen};
+use crate::words::Label;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu, and above the middle of the heading.
@@ -19,15 +20,15 @@ const SHADE: f32 = 0.76;
 /// A heading and a menu.
 #[derive(Debug)]
 pub(super) struct MenuPage {
-    heading: &'static str,
+    heading: Label,
     pub menu: Menu,
     /// Height of an item, lines.
     rows: f32,
 }
 
 impl MenuPage {
-    pub(super) fn new(heading: &'static str, items: Vec<MenuItem>) -> Self {
-        Self { heading, menu: Menu::new(items), rows: ROW }
+    pub(super) fn new(heading: impl Into<Label>, items: Vec<MenuItem>) -> Self {
+        Self { heading: heading.into(), menu: Menu::new(items), rows: ROW }
     }
 
     /// The same with items that have room for pictures.
@@ -59,7 +60,7 @@ impl MenuPage {
     }
 
     pub(super) fn draw(&self, pen: &mut Pen) {
-        draw_heading(pen, self.heading);
+        draw_heading(pen, self.heading.text());
         self.menu.draw(pen, &self.layout(pen));
     }
 

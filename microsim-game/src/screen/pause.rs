@@ -6,6 +6,7 @@ use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
 use crate::slides::SLIDES;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{Key, Label};
 
 #[derive(Debug)]
 pub(super) struct Pause {
@@ -16,10 +17,13 @@ pub(super) struct Pause {
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
         let labels = match paused {
-            Paused::Simulation => ["Go on", "Photo", "Settings", "Title"].as_slice(),
-            _ => &["Go on", "Restart", "Photo", "Settings", "Title"],
+            Paused::Simulation => [Key::PauseGoOn, Key::PausePhoto, Key::Settings, Key::Title].as_slice(),
+            _ => &[Key::PauseGoOn, Key::PauseRestart, Key::PausePhoto, Key::Settings, Key::Title],
         };
-        Self { page: MenuPage::new("Paused", labels.iter().map(|&label| MenuItem::new(label)).collect()), paused }
+        Self {
+            page: MenuPage::new(Key::PauseHeading, labels.iter().map(|&label| MenuItem::new(label)).collect()),
+            paused,
+        }
     }
 }
 
@@ -32,11 +36,11 @@ impl Screen for Pause {
             return self.paused.restart();
         }
         let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
-        match self.page.menu.items[item].label.as_str() {
-            "Go on" => Next::Back,
-            "Restart" => self.paused.restart(),
-            "Photo" => Next::Open(Overlay::Photo),
-            "Settings" => Next::Open(Overlay::Settings),
+        match self.page.menu.items[item].label {
+            Label::Key(Key::PauseGoOn) => Next::Back,
+            Label::Key(Key::PauseRestart) => self.paused.restart(),
+            Label::Key(Key::PausePhoto) => Next::Open(Overlay::Photo),
+            Label::Key(Key::Settings) => Next::Open(Overlay::Settings),
             _ => Next::Show(MainScreen::Title),
         }
     }
@@ -44,7 +48,7 @@ impl Screen for Pause {
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
         if let Paused::Slide(index) = self.paused {
-            let task = SLIDES.get(index).and_then(|slide| slide.read()).map(|slide| slide.task);
+            let task = SLIDES.get(index).and_then(|slide| slide.told()).map(|slide| slide.task);
             self.page.draw_note(&mut context.pen, &task.unwrap_or_default());
         }
     }

@@ -6,6 +6,7 @@ use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::scene_source::SceneSource;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 use microsim_core::scenario;
 
@@ -40,12 +41,12 @@ pub(super) struct Pick {
 impl Pick {
     /// The files that the player has named or dropped, and the built-in scenarios.
     pub(super) fn new(context: &AppContext) -> Self {
-        let files = context.files.iter().map(|file| (file.clone(), "a file"));
+        let files = context.files.iter().map(|file| (file.clone(), words::text(Key::PickFile)));
         let builtins =
             scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), found.summary));
         let sources: Vec<_> = files.chain(builtins).collect();
         let items = sources.iter().map(|(source, _)| MenuItem::new(title(source))).collect();
-        Self { page: MenuPage::new("Simulation", items).tall(), sources }
+        Self { page: MenuPage::new(Key::TitleSimulation, items).tall(), sources }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::slides::SLIDES;
 use crate::sound::Cue;
 use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
+use crate::words::{self, Key};
 use microsim_core::View;
 use microsim_core::replay::Replay;
 
@@ -163,13 +164,15 @@ impl Play {
     /// What is new in the food chain is explained when it is there first.
     fn chain_advice(&self, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
-        let divide = if has_buttons { "The button" } else { &self.divide_key };
+        let divide = if has_buttons { words::text(Key::HintChainButton) } else { &self.divide_key };
+        let what = held_to_crawl(has_buttons);
+        let of = |key| words::text(key).to_owned();
         let parts = [
-            (0.0, format!("Hold {} to crawl, and push your front against food.", held_to_crawl(has_buttons))),
-            (6.0, "The clock shows how long your food lasts: without more you starve.".to_owned()),
-            (22.0, "Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.".to_owned()),
-            (30.0, "A giant follows your scent. It does not fit through the gaps.".to_owned()),
-            (38.0, format!("{divide} divides your cell: the sister is a second life.")),
+            (0.0, words::text_with(Key::HintChainCrawl, &[("what", what.into())])),
+            (6.0, of(Key::HintChainClock)),
+            (22.0, of(Key::HintChainRivals)),
+            (30.0, of(Key::HintChainGiant)),
+            (38.0, words::text_with(Key::HintChainDivide, &[("key", divide.into())])),
         ];
         parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
     }
@@ -188,14 +191,14 @@ impl Play {
     fn draw_status(&self, pen: &mut Pen, is_calm: bool) {
         let note = match (self.round.is_replay(), self.round.mismatch()) {
             (false, _) => "",
-            (true, None) => "Replay",
-            (true, Some(_)) => "Replay, not as it was played",
+            (true, None) => words::text(Key::HudReplay),
+            (true, Some(_)) => words::text(Key::HudReplayDiffers),
         };
         let referee = self.round.referee();
         let of_game = || {
             let points = || match self.two {
                 Some(way) => way.summary(&self.round.scores()),
-                None => format!("Score {}", referee.score()),
+                None => words::text_with(Key::HudScore, &[("points", referee.score().into())]),
             };
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
@@ -214,6 +217,13 @@ impl Play {
         Some((food_chain::summary(time, chain.size(cell), sisters), [reserve, FULL_RESERVE]))
     }
 
+    /// The task of a slide, in the language of the player.
+    fn task<'a>(&self, attempt: &'a Attempt) -> &'a str {
+        let Paused::Slide(index) = self.played else { return &attempt.slide().task };
+        let own = SLIDES.get(index).and_then(|slide| words::of_slide(slide.name, "task"));
+        own.unwrap_or(&attempt.slide().task)
+    }
+
     fn advice(&self, hints: &Hints, key: Option<&str>, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
         if self.round.is_replay() {
@@ -222,14 +232,15 @@ impl Play {
             self.chain_advice(has_buttons)
         } else if let Some(attempt) = self.round.attempt() {
             let what = held_to_crawl(has_buttons);
-            (time < TASK_TIME).then(|| format!("{} Hold {what} to crawl.", attempt.slide().task))
+            let task = self.task(attempt);
+            (time < TASK_TIME).then(|| words::text_with(Key::HintTask, &[("task", task.into()), ("what", what.into())]))
         } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
-            Some(format!("Hold {key} to digest what you have taken in"))
+            Some(words::text_with(Key::HintDigest, &[("key", key.into())]))
         } else if time < ADVICE_TIME && matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together)) {
-            Some("Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.".to_owned())
+            Some(words::text(Key::HintTwoPlayers).to_owned())
         } else if time < ADVICE_TIME {
             let what = held_to_crawl(has_buttons);
-            Some(format!("Hold {what} to crawl. Push your front against food."))
+            Some(words::text_with(Key::HintCrawl, &[("what", what.into())]))
         } else {
             None
         }
@@ -238,7 +249,7 @@ impl Play {
 
 /// What the player holds to crawl.
 fn held_to_crawl(has_buttons: bool) -> &'static str {
-    if has_buttons { "a finger on the picture" } else { "the left mouse button" }
+    if has_buttons { words::text(Key::HintFinger) } else { words::text(Key::HintMouse) }
 }
 
 impl Screen for Play {
@@ -287,12 +298,19 @@ impl Screen for Play {
         }
         let hints = Hints::of(view, self.round.player());
         let covered = platform::covered_height();
-        let label = || if covered > 0.0 { "Digest".to_owned() } else { context.settings.keys.label(Action::Consume) };
+        let label = || {
+            if covered > 0.0 {
+                words::text(Key::HintDigestButton).to_owned()
+            } else {
+                context.settings.keys.label(Action::Consume)
+            }
+        };
         let key = context.settings.hold_to_digest.then(label);
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
         let lesson = context.lessons.pass(&hints, context.time);
-        let advice = self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(str::to_owned));
+        let advice =
+            self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(|lesson| words::text(lesson).to_owned()));
         let pen = &mut context.pen;
         let mut taken = marks::MarkLayout::default();
         for (k, id) in self.round.players().enumerate() {

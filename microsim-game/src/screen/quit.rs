@@ -5,6 +5,7 @@ use super::page::MenuPage;
 use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::ui::menu::{MenuChoice, MenuItem};
+use crate::words::Key;
 
 #[derive(Debug)]
 pub(super) struct Quit {
@@ -13,7 +14,7 @@ pub(super) struct Quit {
 
 impl Quit {
     pub(super) fn new() -> Self {
-        Self { page: MenuPage::new("Quit?", ["Stay", "Quit"].map(MenuItem::new).into()) }
+        Self { page: MenuPage::new(Key::QuitHeading, [Key::QuitStay, Key::TitleQuit].map(MenuItem::new).into()) }
     }
 }
 

@@ -8,20 +8,22 @@ use crate::input::{Input, Move};
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
 /// The list of high scores of the game.
 #[derive(Debug)]
 pub(super) struct ScoreList {
-    heading: String,
+    /// Name of the game, and its time, s.
+    game: [String; 2],
     scores: Vec<Score>,
 }
 
 impl ScoreList {
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
-        let heading = format!("High scores: {}, {time:.0} s", context.game.source);
-        Self { heading, scores: context.scores.of(&game, time).cloned().collect() }
+        let named = [context.game.source.to_string(), words::number(time, 0)];
+        Self { game: named, scores: context.scores.of(&game, time).cloned().collect() }
     }
 }
 
@@ -33,14 +35,15 @@ impl Screen for ScoreList {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_heading(pen, &self.heading);
+        let args = [("game", (&self.game[0]).into()), ("time", (&self.game[1]).into())];
+        draw_heading(pen, &words::text_with(Key::ScoresHeading, &args));
         let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
         if self.scores.is_empty() {
-            pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, "None yet. Play!");
+            pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));
         }
         draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.9 * screen.y, &self.scores, None);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
-        pen.write(at, TextSize::Small, Align::Centre, HALO, "Enter or a click: back");
+        pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresLeave));
     }
 
     fn name(&self) -> String {
@@ -54,7 +57,7 @@ pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, sc
     let line = pen.line(TextSize::Body);
     let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
     let room = ((bottom - top) / line) as usize;
-    let heads = ["", "points", "small", "cells"];
+    let heads = ["", words::text(Key::ScoresPoints), words::text(Key::ScoresSmall), words::text(Key::ScoresCells)];
     if !scores.is_empty() {
         for (x, head) in columns.into_iter().zip(heads) {
             pen.write(Vec2::new(x, top), TextSize::Small, Align::Right, HALO, head);

@@ -6,46 +6,53 @@ use super::{Next, Overlay, Screen};
 use crate::input::{Input, Move};
 use crate::sound::Cue;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{self, Key};
 
 #[derive(Debug)]
 pub(super) struct SettingsMenu {
     page: MenuPage,
 }
 
-const SIGHT: usize = 0;
-const EFFORT: usize = 1;
-const TEXT: usize = 2;
-const MOTION: usize = 3;
-const DIGESTION: usize = 4;
-const CRAWL: usize = 5;
-const PACE: usize = 6;
-const SOUND: usize = 7;
-const ARROWS: usize = 8;
-const FULL_SCREEN: usize = 9;
-const KEYS: usize = 10;
+const LANGUAGE: usize = 0;
+const SIGHT: usize = 1;
+const EFFORT: usize = 2;
+const TEXT: usize = 3;
+const MOTION: usize = 4;
+const DIGESTION: usize = 5;
+const CRAWL: usize = 6;
+const PACE: usize = 7;
+const SOUND: usize = 8;
+const ARROWS: usize = 9;
+const FULL_SCREEN: usize = 10;
+const KEYS: usize = 11;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
-        Self { page: MenuPage::new("Settings", items(context)) }
+        Self { page: MenuPage::new(Key::Settings, items(context)) }
     }
 }
 
 fn items(context: &AppContext) -> Vec<MenuItem> {
     let settings = &context.settings;
     vec![
-        MenuItem::with("Optics", context.sight().name()),
-        MenuItem::with("Quality", context.effort().name()),
-        MenuItem::with("Text size", format!("{:.0} %", 100.0 * settings.text_factor())),
-        MenuItem::switch("Reduced motion", settings.reduced_motion),
-        MenuItem::switch("Hold to digest", settings.hold_to_digest),
-        MenuItem::switch("Click to crawl", settings.click_to_crawl),
-        MenuItem::with("Speed of rounds", format!("{:.0} %", 100.0 * settings.pace())),
-        MenuItem::with("Sound", format!("{:.0} %", 100.0 * settings.loudness())),
-        MenuItem::switch("Classic arrows", settings.classic_arrows),
-        MenuItem::switch("Full screen", settings.full_screen),
-        MenuItem::new("Keys"),
-        MenuItem::new("Back"),
+        MenuItem::with(Key::SettingsLanguage, context.language().name),
+        MenuItem::with(Key::SettingsOptics, context.sight().title()),
+        MenuItem::with(Key::SettingsQuality, context.effort().title()),
+        MenuItem::with(Key::SettingsTextSize, percent(settings.text_factor())),
+        MenuItem::switch(Key::SettingsMotion, settings.reduced_motion),
+        MenuItem::switch(Key::SettingsDigestion, settings.hold_to_digest),
+        MenuItem::switch(Key::SettingsCrawl, settings.click_to_crawl),
+        MenuItem::with(Key::SettingsPace, percent(settings.pace())),
+        MenuItem::with(Key::SettingsSound, percent(settings.loudness())),
+        MenuItem::switch(Key::SettingsArrows, settings.classic_arrows),
+        MenuItem::switch(Key::SettingsFullScreen, settings.full_screen),
+        MenuItem::new(Key::SettingsKeys),
+        MenuItem::new(Key::Back),
     ]
+}
+
+fn percent(share: f32) -> String {
+    words::text_with(Key::Percent, &[("number", (&words::number(100.0 * share, 0)).into())])
 }
 
 impl Screen for SettingsMenu {
@@ -58,6 +65,8 @@ impl Screen for SettingsMenu {
         let Some(choice) = self.page.update(input, &context.pen) else { return Next::Stay };
         let settings = &mut context.settings;
         match choice {
+            MenuChoice::Pick(LANGUAGE) => context.change_language(false),
+            MenuChoice::Less(LANGUAGE) => context.change_language(true),
             MenuChoice::Pick(SIGHT) => context.change_sight(false),
             MenuChoice::Less(SIGHT) => context.change_sight(true),
             MenuChoice::Pick(EFFORT) => context.change_effort(false),

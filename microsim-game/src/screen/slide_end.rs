@@ -1,18 +1,19 @@
 //! The end of a slide: stars, the fact that it shows, and what comes next.
 
 use super::context::AppContext;
-use super::end_menu::{EndChoice, EndMenu};
+use super::end_menu::{EndChoice, EndMenu, doubted};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
 use crate::rules::attempt::Attempt;
 use crate::rules::round::RoundResult;
-use crate::slides::SLIDES;
+use crate::slides::{self, SLIDES};
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::{Align, Pen};
 use crate::ui::stars::draw_stars;
+use crate::words::{self, Key};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
@@ -24,7 +25,7 @@ type Line = (Vec2, TextSize, Color, String);
 /// How a part of the text is written, and what it says.
 type Paragraph = (TextSize, Color, String);
 /// An item of the menu, and where it leads.
-type Item = (&'static str, fn(Paused) -> Next);
+type Item = (Key, fn(Paused) -> Next);
 
 #[derive(Debug)]
 pub(super) struct SlideEnd {
@@ -103,30 +104,38 @@ fn slide_of(played: Paused) -> Option<usize> {
 fn items(played: Paused, is_won: bool) -> Vec<Item> {
     let mut items: Vec<Item> = Vec::new();
     if is_won && slide_of(played).is_some_and(|index| index + 1 < SLIDES.len()) {
-        items.push(("Next slide", |played| Next::Show(MainScreen::Slide(slide_of(played).unwrap_or_default() + 1))));
+        items.push((Key::SlideEndNext, |played| {
+            Next::Show(MainScreen::Slide(slide_of(played).unwrap_or_default() + 1))
+        }));
     }
     if played != Paused::Replay {
-        items.push(("Again", Paused::restart));
+        items.push((Key::SlideEndAgain, Paused::restart));
     }
-    items.push(("Watch it again", |_| Next::Show(MainScreen::Replay)));
-    items.push(("Slides", |played| Next::Open(Overlay::Slides(slide_of(played).unwrap_or_default()))));
-    items.push(("Title", |_| Next::Show(MainScreen::Title)));
+    items.push((Key::EndWatch, |_| Next::Show(MainScreen::Replay)));
+    items.push((Key::TitleSlides, |played| Next::Open(Overlay::Slides(slide_of(played).unwrap_or_default()))));
+    items.push((Key::Title, |_| Next::Show(MainScreen::Title)));
     items
 }
 
 fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
-    let slide = attempt.slide();
-    let doubt = if is_mismatch { ", not as it was played" } else { "" };
+    let slide = slides::told(attempt.slide());
+    let heading = |text| (TextSize::Large, HALO, doubted(text, is_mismatch));
     let Some(time) = attempt.time() else {
-        let left = format!("{} {}", slide.task, attempt.summary());
-        return vec![(TextSize::Large, HALO, format!("Time is up{doubt}")), (TextSize::Body, HALO, left)];
+        let done = attempt.summary();
+        let left = [("task", (&slide.task).into()), ("done", (&done).into())];
+        let left = (TextSize::Body, HALO, words::text_with(Key::SlideEndLeft, &left));
+        return vec![heading(words::text(Key::SlideEndLate).to_owned()), left];
     };
-    let mut told = vec![(TextSize::Large, HALO, format!("Done in {time:.1} s{doubt}"))];
+    let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&words::number(time, 1)).into())]))];
     let next = slide.stars.iter().rev().find(|longest| time > **longest);
     if let Some(longest) = next {
-        told.push((TextSize::Body, HALO, format!("One more star within {longest:.0} s")));
+        told.push((
+            TextSize::Body,
+            HALO,
+            words::text_with(Key::SlideEndMore, &[("time", (&words::number(*longest, 0)).into())]),
+        ));
     } else if is_best {
-        told.push((TextSize::Body, READY, "The best so far!".to_owned()));
+        told.push((TextSize::Body, READY, words::text(Key::EndBest).to_owned()));
     }
     told.push((TextSize::Body, READY, slide.fact.clone()));
     told.push((TextSize::Small, fade(HALO, 0.85), slide.source.clone()));

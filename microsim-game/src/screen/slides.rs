@@ -6,6 +6,7 @@ use super::{MainScreen, Next, Screen};
 use crate::input::{Input, Move};
 use crate::slides::SLIDES;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
+use crate::words::{self, Key};
 
 #[derive(Debug)]
 pub(super) struct SlideList {
@@ -16,16 +17,21 @@ pub(super) struct SlideList {
 impl SlideList {
     /// The list, with the focus on one slide.
     pub(super) fn new(focus: usize, context: &AppContext) -> Self {
-        let slides = SLIDES.iter().filter_map(|builtin| Some((builtin.name, builtin.read()?)));
+        let slides = SLIDES.iter().filter_map(|builtin| Some((builtin.name, builtin.told()?)));
         let (items, notes) = slides
             .map(|(name, slide)| {
                 let best = context.best_times.of(name);
-                let found = |time| format!("Best: {time:.1} s. {} ({})", slide.fact, slide.source);
+                let found = |time| {
+                    let time = words::number(time, 1);
+                    let args =
+                        [("time", (&time).into()), ("fact", (&slide.fact).into()), ("source", (&slide.source).into())];
+                    words::text_with(Key::SlidesBest, &args)
+                };
                 let note = best.map_or_else(|| slide.task.clone(), found);
                 (MenuItem::rated(slide.title.clone(), context.best_times.stars(name, &slide)), note)
             })
             .unzip();
-        let mut page = MenuPage::new("Slides", items);
+        let mut page = MenuPage::new(Key::TitleSlides, items);
         page.menu.set_focus(focus);
         Self { page, notes }
     }

@@ -11,6 +11,7 @@ use crate::ui::font::{TITLE, TextSize};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, title_lines};
 use crate::ui::pen::Align;
 use crate::viewer::{Viewer, first_view};
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
 /// Height of the picture behind the menu, units.
@@ -24,7 +25,7 @@ const SCENE_TIME: f64 = 90.0;
 pub(super) struct Title {
     backdrop: Option<Backdrop>,
     menu: Menu,
-    targets: Vec<(&'static str, Target)>,
+    targets: Vec<(Key, Target)>,
 }
 
 #[derive(Debug)]
@@ -38,21 +39,21 @@ struct Backdrop {
 type Target = fn() -> Next;
 
 /// What the menu may offer.
-const ITEMS: [(&str, Target); 10] = [
-    ("Play", || Next::Show(MainScreen::Round)),
-    ("Slides", || Next::Open(Overlay::Slides(0))),
-    ("Food chain", || Next::Open(Overlay::FoodChain)),
-    ("Two players", || Next::Open(Overlay::TwoPlayers)),
-    ("Over the network", || Next::Open(Overlay::Join)),
-    ("Simulation", || Next::Open(Overlay::Pick)),
+const ITEMS: [(Key, Target); 10] = [
+    (Key::TitlePlay, || Next::Show(MainScreen::Round)),
+    (Key::TitleSlides, || Next::Open(Overlay::Slides(0))),
+    (Key::TitleFoodChain, || Next::Open(Overlay::FoodChain)),
+    (Key::TitleTwoPlayers, || Next::Open(Overlay::TwoPlayers)),
+    (Key::TitleNetwork, || Next::Open(Overlay::Join)),
+    (Key::TitleSimulation, || Next::Open(Overlay::Pick)),
     (WATCH, || Next::Show(MainScreen::Replay)),
-    ("High scores", || Next::Open(Overlay::Scores)),
-    ("Settings", || Next::Open(Overlay::Settings)),
+    (Key::TitleScores, || Next::Open(Overlay::Scores)),
+    (Key::Settings, || Next::Open(Overlay::Settings)),
     (QUIT, || Next::Open(Overlay::Quit)),
 ];
 /// Offered only if a game was played, and where the program can end of itself.
-const WATCH: &str = "Watch the last game";
-const QUIT: &str = "Quit";
+const WATCH: Key = Key::TitleWatch;
+const QUIT: Key = Key::TitleQuit;
 
 impl Title {
     /// The title, with its backdrop at the beginning.
@@ -64,7 +65,7 @@ impl Title {
 }
 
 /// What the menu offers now.
-fn offered(has_played: bool, can_quit: bool) -> Vec<(&'static str, Target)> {
+fn offered(has_played: bool, can_quit: bool) -> Vec<(Key, Target)> {
     let is_offered = |label| (label != WATCH || has_played) && (label != QUIT || can_quit);
     ITEMS.into_iter().filter(|&(label, _)| is_offered(label)).collect()
 }
@@ -133,12 +134,12 @@ impl Screen for Title {
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
         if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
-            pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), "a cell under the microscope");
+            pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), words::text(Key::TitleMotto));
         }
         self.menu.draw(pen, &layout);
-        let version = concat!("version ", env!("CARGO_PKG_VERSION"));
+        let version = words::text_with(Key::TitleVersion, &[("version", env!("CARGO_PKG_VERSION").into())]);
         let corner = screen - 0.8 * pen.line(TextSize::Small);
-        pen.label(corner, TextSize::Small, Align::Right, HALO, version);
+        pen.label(corner, TextSize::Small, Align::Right, HALO, &version);
     }
 
     fn menu(&self) -> Option<&Menu> {

@@ -6,9 +6,7 @@ use super::{MainScreen, Next, Screen};
 use crate::input::Input;
 use crate::rules::two_players::TwoPlayers;
 use crate::ui::menu::{Menu, MenuItem};
-
-const ABOUT: &str = "Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys \
-                     or a gamepad.";
+use crate::words::{self, Key};
 
 #[derive(Debug)]
 pub(super) struct TwoPlayersMenu {
@@ -18,8 +16,8 @@ pub(super) struct TwoPlayersMenu {
 impl TwoPlayersMenu {
     pub(super) fn new() -> Self {
         let ways = TwoPlayers::ALL.map(TwoPlayers::label);
-        let items = ways.into_iter().chain(["Back"]).map(MenuItem::new).collect();
-        Self { page: MenuPage::new("Two players", items) }
+        let items = ways.into_iter().chain([Key::Back]).map(MenuItem::new).collect();
+        Self { page: MenuPage::new(Key::TitleTwoPlayers, items) }
     }
 }
 
@@ -34,7 +32,7 @@ impl Screen for TwoPlayersMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        self.page.draw_note(&mut context.pen, ABOUT);
+        self.page.draw_note(&mut context.pen, words::text(Key::TwoAbout));
     }
 
     fn name(&self) -> String {

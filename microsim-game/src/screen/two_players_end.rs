@@ -1,7 +1,7 @@
 //! The end of a round of two cells: who was better, or what both earned.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, rank};
+use super::end_menu::{EndMenu, doubted, rank};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -12,6 +12,7 @@ use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::Align;
+use crate::words::Key;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
@@ -31,7 +32,6 @@ impl TwoPlayersEnd {
     pub(super) fn new(result: RoundResult, way: TwoPlayers, played: Paused, context: &mut AppContext) -> Self {
         let scores = &result.scores;
         let points = scores.iter().sum();
-        let doubt = if result.is_mismatch { ", not as it was played" } else { "" };
         // A replay does not know how they played.
         let told = if played == Paused::Replay { TwoPlayers::Versus.summary(scores) } else { way.verdict(scores, &[]) };
         let place = result.record.and_then(|record| {
@@ -42,8 +42,8 @@ impl TwoPlayersEnd {
             context.keep_game(record, kept);
             place
         });
-        let menu = EndMenu::new(&["Play again", "Watch it again", "Title"]);
-        Self { heading: format!("{told}{doubt}"), place, points, way, menu }
+        let menu = EndMenu::new(&[Key::EndAgain, Key::EndWatch, Key::Title]);
+        Self { heading: doubted(told, result.is_mismatch), place, points, way, menu }
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::input::keys::Keys;
 use crate::input::{Action, Input};
 use crate::scenery::Effort;
+use crate::words::Language;
 use serde::{Deserialize, Serialize};
 
 /// File that they are kept in.
@@ -34,6 +35,8 @@ pub struct Settings {
     pub classic_arrows: bool,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
     pub sight: String,
+    /// Tag of the language, see [`Language`]; empty for that of the system.
+    pub language: String,
     /// How much of the machine pictures may take.
     pub effort: Effort,
     /// Whether the window fills the screen.
@@ -53,6 +56,7 @@ impl Default for Settings {
             sound: 3,
             classic_arrows: false,
             sight: String::new(),
+            language: String::new(),
             effort: Effort::default(),
             full_screen: false,
             keys: Keys::default(),
@@ -76,6 +80,7 @@ impl Settings {
             sound,
             classic_arrows,
             sight,
+            language,
             effort,
             full_screen,
             keys,
@@ -89,6 +94,7 @@ impl Settings {
             sound: newer(self.sound, sound, others.sound),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
             sight: newer(self.sight, sight, others.sight),
+            language: newer(self.language, language, others.language),
             effort: newer(self.effort, effort, others.effort),
             full_screen: newer(self.full_screen, full_screen, others.full_screen),
             keys: newer(self.keys, keys, others.keys),
@@ -129,6 +135,12 @@ impl Settings {
     pub fn change_sound(&mut self, is_louder: bool) {
         let by = if is_louder { 1 } else { SOUND_STEPS };
         self.sound = (self.sound.min(SOUND_STEPS) + by) % (SOUND_STEPS + 1);
+    }
+
+    /// Goes back to the system's language if this one is not known, and returns it then.
+    pub fn refuse_language(&mut self) -> Option<String> {
+        let is_known = self.language.is_empty() || Language::named(&self.language).is_some();
+        (!is_known).then(|| std::mem::take(&mut self.language))
     }
 
     /// The next size of text, or the one before.
@@ -191,6 +203,14 @@ mod tests {
         let own = Settings { sight: "dic".to_owned(), text_size: 0, ..Settings::default() };
         let both = own.over(&earlier, others.clone());
         assert_eq!(both, Settings { sight: "dic".to_owned(), text_size: 0, ..others });
+    }
+
+    #[test]
+    fn only_known_languages_are_accepted() {
+        let settings = |language: &str| Settings { language: language.to_owned(), ..Settings::default() };
+        let mut unknown = settings("tlh");
+        assert_eq!((unknown.refuse_language().as_deref(), unknown.language.as_str()), (Some("tlh"), ""));
+        assert_eq!(["", "en", "cs"].map(|known| settings(known).refuse_language()), [None, None, None]);
     }
 
     #[test]

@@ -5,13 +5,14 @@ use super::pen::{Align, Pen};
 use super::stars::{draw_stars, stars_width};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
+use crate::words::{self, Key, Label};
 use microsim_core::glam::Vec2;
 
 /// One line of a menu.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MenuItem {
     /// What it says.
-    pub label: String,
+    pub label: Label,
     /// What it is set to, changed with left and right.
     pub value: Option<String>,
     /// Stars that were got for it.
@@ -21,26 +22,26 @@ pub struct MenuItem {
 impl MenuItem {
     /// Something to choose.
     #[must_use]
-    pub fn new(label: impl Into<String>) -> Self {
+    pub fn new(label: impl Into<Label>) -> Self {
         Self { label: label.into(), value: None, stars: None }
     }
 
     /// Something to set.
     #[must_use]
-    pub fn with(label: impl Into<String>, value: impl Into<String>) -> Self {
+    pub fn with(label: impl Into<Label>, value: impl Into<String>) -> Self {
         Self { value: Some(value.into()), ..Self::new(label) }
     }
 
     /// Something to choose for which there are stars.
     #[must_use]
-    pub fn rated(label: impl Into<String>, stars: u32) -> Self {
+    pub fn rated(label: impl Into<Label>, stars: u32) -> Self {
         Self { stars: Some(stars), ..Self::new(label) }
     }
 
     /// Something that is on or off.
     #[must_use]
-    pub fn switch(label: impl Into<String>, is_on: bool) -> Self {
-        Self::with(label, if is_on { "on" } else { "off" })
+    pub fn switch(label: impl Into<Label>, is_on: bool) -> Self {
+        Self::with(label, words::text(if is_on { Key::MenuOn } else { Key::MenuOff }))
     }
 }
 
@@ -169,8 +170,11 @@ impl Menu {
     pub fn lines(&self) -> String {
         let line = |item: &MenuItem| {
             let value = item.value.iter().map(|value| format!(": {value}"));
-            let stars = item.stars.iter().map(|stars| format!(", {stars} stars"));
-            value.chain(stars).fold(format!("\n{}", item.label), |line, part| line + &part)
+            let stars = item
+                .stars
+                .iter()
+                .map(|&stars| format!(", {}", words::text_with(Key::MenuStars, &[("stars", stars.into())])));
+            value.chain(stars).fold(format!("\n{}", item.label.text()), |line, part| line + &part)
         };
         self.items.iter().fold(self.focus.to_string(), |lines, item| lines + &line(item))
     }
@@ -247,7 +251,7 @@ impl Menu {
         let inset = 0.4 * layout.item.y.min(ROW * pen.line(layout.size));
         // The item in focus is marked by shape as well.
         let mark = if has_focus { "> " } else { "  " };
-        let label = format!("{mark}{}", item.label);
+        let label = format!("{mark}{}", item.label.text());
         pen.write(Vec2::new(low.x + inset, middle), layout.size, Align::Left, ink, &label);
         if let Some(stars) = item.stars {
             let radius = 0.24 * layout.item.y;

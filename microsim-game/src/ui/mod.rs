@@ -2,7 +2,7 @@
 
 pub mod font;
 mod glyphs;
-mod letters;
+pub(crate) mod letters;
 pub mod menu;
 pub mod pen;
 pub mod stars;

@@ -36,6 +36,22 @@ pub const CAN_QUIT: bool = true;
 /// Whether menus are shown by more than their drawing.
 pub const SHOWS_MENUS: bool = false;
 
+/// The locale that messages are wanted in; empty if the system does not say.
+#[must_use]
+pub fn locale() -> String {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set).unwrap_or_default()
+}
+
+/// None: all texts are in the program.
+#[must_use]
+pub fn words(_: &str) -> Option<Vec<u8>> {
+    None
+}
+
+/// Nothing: there is no page around the window.
+pub fn show_language(_: &str) {}
+
 /// The command line; the first word is the program's name. What is said about it goes to where it was written.
 pub fn arguments() -> impl Iterator<Item = OsString> {
     #[cfg(windows)]

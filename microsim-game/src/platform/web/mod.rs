@@ -28,6 +28,23 @@ pub fn arguments() -> impl Iterator<Item = OsString> {
     lines("arguments").into_iter().map(OsString::from)
 }
 
+/// The language that the browser prefers.
+#[must_use]
+pub fn locale() -> String {
+    lines("locale").concat()
+}
+
+/// The texts of a language, once the page has fetched them.
+#[must_use]
+pub fn words(code: &str) -> Option<Vec<u8>> {
+    host::ask("words", code)
+}
+
+/// Says in which language the page is.
+pub fn show_language(code: &str) {
+    host::tell("language", code, &[]);
+}
+
 /// Shows what the address asks for.
 pub fn answer(text: &str) {
     fail(text);

@@ -1,6 +1,7 @@
 //! Changes of the player's body: at each doubling of its size one of three. They are kept as the cell's user data, so that
 //! daughters and replays have them.
 
+use crate::words::Key;
 use microsim_core::{Error, OrganismId, OrganismView, PhagocytosisParams, World};
 
 /// Bit of the user data that marks the cells of the player's line.
@@ -33,14 +34,14 @@ impl Change {
 
     /// What players call it, and what it does.
     #[must_use]
-    pub fn words(self) -> [&'static str; 2] {
+    pub fn words(self) -> [Key; 2] {
         match self {
-            Self::Speed => ["Quick body", "You crawl 15 % faster."],
-            Self::StickyFront => ["Sticky front", "Food goes in after 40 % of the time, also beside your front."],
-            Self::Stomach => ["Second stomach", "You digest in 75 % of the time and grow a tenth more by it."],
-            Self::Thrift => ["Thrifty body", "You need a tenth less to live on."],
-            Self::Coat => ["Thick coat", "Amoebae meet you as if half as large again; bites take half."],
-            Self::WideMouth => ["Wide mouth", "Prey may be a third larger, and you bite amoebae your size."],
+            Self::Speed => [Key::ChangeSpeed, Key::ChangeSpeedAbout],
+            Self::StickyFront => [Key::ChangeStickyFront, Key::ChangeStickyFrontAbout],
+            Self::Stomach => [Key::ChangeStomach, Key::ChangeStomachAbout],
+            Self::Thrift => [Key::ChangeThrift, Key::ChangeThriftAbout],
+            Self::Coat => [Key::ChangeCoat, Key::ChangeCoatAbout],
+            Self::WideMouth => [Key::ChangeWideMouth, Key::ChangeWideMouthAbout],
         }
     }
 

@@ -1,0 +1,162 @@
+//! Makes the tables that the program reads of the catalogues, which are in the syntax of Project Fluent.
+
+use fluent_syntax::ast::{Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Texts by the name of their message.
+type Catalogue = BTreeMap<String, Text>;
+
+/// A text as the table has it, and the variables that it names.
+#[derive(Default)]
+struct Text {
+    table: String,
+    variables: BTreeSet<String>,
+}
+
+/// The language that has all messages, and stands in every program.
+const FIRST: &str = "en";
+/// Messages that only other languages have: the texts of slides, which are English in the slides' own files.
+const OF_SLIDES: &str = "slide-";
+
+/// Writes `words.rs`, the names of all messages and the tables in the program, and a table of each language.
+pub(crate) fn compile(out: &Path) {
+    println!("cargo::rerun-if-changed=words");
+    let english = catalogue(FIRST);
+    let is_page = std::env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "wasm32");
+    let mut code = keys(&english);
+    code += "fn builtin(code: &str) -> Option<&'static str> {\nmatch code {\n";
+    for language in languages() {
+        let own = catalogue(&language);
+        check(&english, &own).unwrap_or_else(|problem| panic!("words/{language}.ftl: {problem}"));
+        std::fs::write(out.join(format!("{language}.words")), table(&english, &own)).expect("a table is written");
+        // A page fetches the others when they are asked for.
+        if language == FIRST || !is_page {
+            let _ = writeln!(
+                code,
+                "\"{language}\" => Some(include_str!(concat!(env!(\"OUT_DIR\"), \"/{language}.words\"))),"
+            );
+        }
+    }
+    code += "_ => None,\n}\n}\n";
+    std::fs::write(out.join("words.rs"), code).expect("the names are written");
+}
+
+/// Names of all files in the folder of texts.
+fn languages() -> Vec<String> {
+    let entries = std::fs::read_dir("words").expect("the folder of texts is there").flatten();
+    let mut names: Vec<String> =
+        entries.filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".ftl")?.to_owned())).collect();
+    names.sort();
+    names
+}
+
+fn catalogue(language: &str) -> Catalogue {
+    let path = format!("words/{language}.ftl");
+    let source = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    read(&source).unwrap_or_else(|problem| panic!("{path}: {problem}"))
+}
+
+fn read(source: &str) -> Result<Catalogue, String> {
+    let resource = fluent_syntax::parser::parse(source).map_err(|(_, errors)| format!("{errors:?}"))?;
+    let mut catalogue = Catalogue::new();
+    for entry in resource.body {
+        let Entry::Message(message) = entry else { continue };
+        let (name, value) = (message.id.name, message.value.ok_or("a message without a text")?);
+        let mut text = Text::default();
+        add(&value, &mut text).map_err(|problem| format!("{name}: {problem}"))?;
+        if catalogue.insert(name.to_owned(), text).is_some() {
+            return Err(format!("{name} is there twice"));
+        }
+    }
+    Ok(catalogue)
+}
+
+/// Adds a pattern: letters, `\x01` variable `\x02`, and `\x03` variable `\x02` variants `\x05`. A variant is its category, `\x02`,
+/// its pattern and `\x04`; the last one has no category, and is for all others.
+fn add(pattern: &Pattern<&str>, text: &mut Text) -> Result<(), String> {
+    for element in &pattern.elements {
+        match element {
+            PatternElement::TextElement { value } => text.table.push_str(value),
+            PatternElement::Placeable { expression: Expression::Inline(inline) } => {
+                let name = variable(inline)?;
+                text.variables.insert(name.to_owned());
+                let _ = write!(text.table, "\x01{name}\x02");
+            }
+            PatternElement::Placeable { expression: Expression::Select { selector, variants } } => {
+                let name = variable(selector)?;
+                text.variables.insert(name.to_owned());
+                let _ = write!(text.table, "\x03{name}\x02");
+                add_variants(variants, text)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn add_variants(variants: &[Variant<&str>], text: &mut Text) -> Result<(), String> {
+    let (usual, others): (Vec<_>, Vec<_>) = variants.iter().partition(|variant| variant.default);
+    for variant in others.into_iter().chain(usual) {
+        let (VariantKey::Identifier { name } | VariantKey::NumberLiteral { value: name }) = variant.key;
+        let _ = write!(text.table, "{}\x02", if variant.default { "" } else { name });
+        if variant
+            .value
+            .elements
+            .iter()
+            .any(|element| matches!(element, PatternElement::Placeable { expression: Expression::Select { .. } }))
+        {
+            return Err("a choice within a choice".to_owned());
+        }
+        add(&variant.value, text)?;
+        text.table.push('\x04');
+    }
+    text.table.push('\x05');
+    Ok(())
+}
+
+fn variable<'a>(expression: &InlineExpression<&'a str>) -> Result<&'a str, String> {
+    match expression {
+        InlineExpression::VariableReference { id } => Ok(id.name),
+        other => Err(format!("not a variable: {other:?}")),
+    }
+}
+
+/// Whether a language has the messages of the first one, with the same variables.
+fn check(english: &Catalogue, catalogue: &Catalogue) -> Result<(), String> {
+    for (name, text) in english {
+        let own = catalogue.get(name).ok_or(format!("{name} is missing"))?;
+        if own.variables != text.variables {
+            return Err(format!("{name} has the variables {:?}, not {:?}", own.variables, text.variables));
+        }
+    }
+    let unknown = catalogue.keys().find(|name| !english.contains_key(*name) && !name.starts_with(OF_SLIDES));
+    unknown.map_or(Ok(()), |name| Err(format!("{name} is unknown")))
+}
+
+/// All texts in the order of the names, then those of slides with their names.
+fn table(english: &Catalogue, catalogue: &Catalogue) -> String {
+    let known = english.keys().map(|name| catalogue[name].table.clone());
+    let own = catalogue.iter().filter(|(name, _)| !english.contains_key(*name));
+    let of_slides = own.map(|(name, text)| format!("{}\x02{}", &name[OF_SLIDES.len()..], text.table));
+    known.chain(of_slides).collect::<Vec<_>>().join("\0")
+}
+
+/// The names as an enumeration.
+fn keys(english: &Catalogue) -> String {
+    let camel = |name: &String| name.split('-').map(|word| word[..1].to_uppercase() + &word[1..]).collect::<String>();
+    let names: Vec<String> = english.keys().map(camel).collect();
+    let mut code =
+        String::from("/// Names of all messages.\n#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum Key {\n");
+    for (name, key) in english.keys().zip(&names) {
+        let _ = writeln!(code, "/// `{name}`\n{key},");
+    }
+    let all: Vec<String> = english.keys().zip(&names).map(|(name, key)| format!("(\"{name}\", Key::{key})")).collect();
+    let _ = write!(
+        code,
+        "}}\n/// How many there are.\nconst COUNT: usize = {count};\n#[cfg(test)]\nconst ALL: [(&str, Key); {count}] = [{all}];\n",
+        count = english.len(),
+        all = all.join(", "),
+    );
+    code
+}

@@ -1,0 +1,250 @@
+# Texty hry v češtině.
+
+## Nabídky
+
+menu-on = zapnuto
+menu-off = vypnuto
+menu-stars = { $stars ->
+    [one] { $stars } hvězda
+    [few] { $stars } hvězdy
+    [many] { $stars } hvězdy
+   *[other] { $stars } hvězd
+}
+back = Zpět
+title = Úvod
+settings = Nastavení
+percent = { $number } %
+
+## Úvod
+
+title-motto = buňka pod mikroskopem
+title-version = verze { $version }
+title-play = Hrát
+title-slides = Preparáty
+title-food-chain = Potravní řetězec
+title-two-players = Dva hráči
+title-network = Po síti
+title-simulation = Simulace
+title-watch = Přehrát poslední hru
+title-scores = Nejlepší výsledky
+title-quit = Ukončit
+quit-heading = Ukončit hru?
+quit-stay = Zůstat
+
+## Nastavení
+
+settings-language = Jazyk
+settings-optics = Optika
+settings-quality = Kvalita
+settings-text-size = Velikost písma
+settings-motion = Méně pohybu
+settings-digestion = Trávit podržením
+settings-crawl = Lézt kliknutím
+settings-pace = Rychlost kol
+settings-sound = Zvuk
+settings-arrows = Původní šipky
+settings-full-screen = Celá obrazovka
+settings-keys = Klávesy
+settings-unknown-language = V nastavení je neznámý jazyk: { $language }.
+effort-automatic = automatická
+effort-high = vysoká
+effort-medium = střední
+effort-low = nízká
+
+## Klávesy
+
+keys-press = stiskni klávesu
+keys-usual = Obvyklé klávesy
+keys-refused = Tuto klávesu nelze použít. Escape ponechá původní.
+action-consume = Trávit (držet)
+action-zoom-in = Přiblížit
+action-zoom-out = Oddálit
+action-divide = Rozdělit se (řetězec)
+action-pause = Pauza
+action-step = Jeden krok
+action-slower = Pomaleji
+action-faster = Rychleji
+action-restart = Znovu od začátku
+action-optics = Další optika
+action-debug-view = Ladicí pohled
+action-plots = Grafy
+action-panel = Panel
+action-undo = Vzít zpět (simulace)
+action-screenshot = Snímek
+action-full-screen = Celá obrazovka
+
+## Pauza
+
+pause-heading = Pauza
+pause-go-on = Pokračovat
+pause-restart = Od začátku
+pause-photo = Fotografie
+
+## Během kola
+
+hud-score = Body { $points }
+hud-places = Místa { $done }/{ $all }
+hud-digested = Stráveno { $done }/{ $all }
+hud-lived = Život { $time } s  velikost { $size }
+hud-second-life = druhý život: { $sisters }
+hud-bitten = Někdo tě okusuje: uteč!
+hud-full = plno
+hud-replay = Záznam
+hud-replay-differs = Záznam, jiný než odehraná hra
+hint-finger = prst na obraze
+hint-mouse = levé tlačítko myši
+hint-digest-button = Trávit
+hint-digest = Co je uvnitř, strávíš podržením: { $key }
+hint-task = { $task } Drž { $what } a lez.
+hint-crawl = Drž { $what } a lez. Tlač se čelem na potravu.
+hint-two-players = Hráč 1: drž levé tlačítko myši a lez. Hráč 2: šipky nebo gamepad.
+hint-chain-crawl = Drž { $what }, lez a tlač se čelem na potravu.
+hint-chain-clock = Hodiny ukazují, jak dlouho ti potrava vystačí: bez další zahyneš hladem.
+hint-chain-rivals = Soupeři jdou po tvém pachu. Kroužek: můžeš ho sníst. Výstražná značka: sní tebe.
+hint-chain-giant = Po tvém pachu jde obr. Mezerami neprojde.
+hint-chain-divide = { $key }: buňka se rozdělí a sestra je druhý život.
+hint-chain-button = Tlačítko
+lesson-ready = Zelená šipka: na pohlcení této buňky už máš dost velké tělo.
+lesson-too-large = Proužek nad buňkou ukazuje, kolik z potřebné velikosti máš. Po drobné potravě vyrosteš.
+lesson-no-room = Nápis "plno": uvnitř je místo jen pro jednu takovou buňku. Nejdřív ji stráv.
+
+## Konce
+
+end-again = Hrát znovu
+end-watch = Přehrát záznam
+end-points = { $points ->
+    [one] { $points } bod
+    [few] { $points } body
+    [many] { $points } bodu
+   *[other] { $points } bodů
+}
+end-doubt = , jinak než při hře
+end-best = Zatím nejlepší výsledek!
+end-rank = Zatím { $place }. místo
+kind-agar = agar
+kind-cocci = koky
+kind-rods = tyčinky
+kind-rigid-cells = tuhé buňky
+missed-undigested = { $count ->
+    [one] Jedno sousto uvnitř nebylo stráveno: počítá se jen to, co je strávené.
+    [few] { $count } sousta uvnitř nebyla strávena: počítá se jen to, co je strávené.
+    [many] { $count } sousta uvnitř nebylo stráveno: počítá se jen to, co je strávené.
+   *[other] { $count } soust uvnitř nebylo stráveno: počítá se jen to, co je strávené.
+}
+missed-all = Nic nebylo pohlceno: lez čelem proti potravě a zůstaň na ní.
+missed-rigid = Žádná tuhá buňka: pohlť některou pod zelenou šipkou.
+missed-rigid-most = Žádná tuhá buňka, a ty se počítají nejvíc. Vyrosti na drobné potravě a pak pohlť některou pod zelenou šipkou.
+goal-better = Další cíl: víc než { $points }
+goal-first = Další cíl: první body
+goal-own-best = Další cíl: překonat svých nejlepších { $points }
+
+## Nejlepší výsledky
+
+scores-heading = Nejlepší výsledky: { $game }, { $time } s
+scores-none = Zatím žádné. Zahraj si!
+scores-leave = Enter nebo kliknutí: zpět
+scores-points = body
+scores-small = drobné
+scores-cells = buňky
+
+## Preparáty
+
+slides-best = Nejlepší čas: { $time } s. { $fact } ({ $source })
+slide-end-next = Další preparát
+slide-end-again = Znovu
+slide-end-late = Čas vypršel
+slide-end-done = Hotovo za { $time } s
+slide-end-more = O hvězdu víc do { $time } s
+slide-end-left = { $task } { $done }
+
+## Potravní řetězec
+
+chain-about = Bez potravy buňka zahyne hladem a větší améby ji okusují: uteč jim mezerami, které jsou pro obry příliš úzké. Při každém zdvojnásobení velikosti si zvolíš změnu těla.
+chain-best = { $about } Tvůj nejlepší čas: { $time } s.
+chain-today = Dnešní voda
+chain-other = Jiná voda
+chain-same = Stejná voda
+chain-water = Voda { $seed }.
+chain-lived = Tvůj rod žil { $time } s
+chain-starved = Zahynul hladem. Améba, která nenajde potravu, se zakulatí do cysty nebo uhyne; tato ji hledala až do konce.
+chain-eaten = Větší améba ho snědla, sousto po soustu. Entamoeba histolytica tak zabíjí živé buňky: trogocytóza (Ralston a další, 2014, Nature 508).
+change-heading = Velikost je dvojnásobná: vyber si
+change-speed = Rychlé tělo
+change-speed-about = Lezeš o 15 % rychleji.
+change-sticky-front = Lepkavé čelo
+change-sticky-front-about = Potrava vstoupí za 40 % času, a to i vedle čela.
+change-stomach = Druhý žaludek
+change-stomach-about = Trávíš za 75 % času a vyrosteš při tom o desetinu víc.
+change-thrift = Úsporné tělo
+change-thrift-about = K životu potřebuješ o desetinu méně.
+change-coat = Silný obal
+change-coat-about = Pro měňavky jsi o polovinu větší; kousnutí uberou polovinu.
+change-wide-mouth = Široká ústa
+change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš měňavky své velikosti.
+
+## Dva hráči
+
+two-about = Dvě buňky sdílejí jeden preparát po 90 sekund. Hráč 1 řídí myší, hráč 2 šipkami nebo gamepadem.
+two-versus = Proti sobě
+two-together = Společně
+two-bot = Proti programu
+
+## Cesta do místnosti
+
+join-how = Napiš kód místnosti: 4 až 12 písmen a číslic. Enter vstoupí, Escape se vrátí.
+join-who = Dva až čtyři hráči se stejným kódem jsou ve stejné místnosti.
+
+## Simulace
+
+pick-file = soubor
+
+## Preparáty: názvy, úkoly a zajímavosti
+
+slide-first-steps-title = První kroky
+slide-first-steps-task = Dolez na tři označená místa.
+slide-first-steps-fact = Lezoucí buňka tlačí své čelo vpřed růstem aktinových vláken pod membránou a vzadu je zase rozebírá.
+slide-first-meal-title = První jídlo
+slide-first-meal-task = Stráv šest kousků agaru: tlač se na ně čelem.
+slide-first-meal-fact = V roce 1882 pozoroval Ilja Mečnikov, jak se buňky průhledné larvy hvězdice shromáždily kolem trnu. Pochopil, že některé buňky chrání tělo tím, že pojídají, co do něj vnikne.
+slide-narrow-gap-title = Úzká mezera
+slide-narrow-gap-task = Protáhni se oběma mezerami k označenému místu.
+slide-narrow-gap-fact = Jádro je nejtužší částí lezoucí buňky. Kde je otvor menší než asi desetina jeho průřezu, buňka neprojde.
+slide-maze-title = Bludiště
+slide-maze-task = Najdi cestu bludištěm k označenému místu.
+slide-maze-fact = Hlenka Physarum najde nejkratší cestu bludištěm: nejdřív ho celé vyplní, pak se stáhne ze slepých uliček a delších cest.
+slide-scent-title = Pach
+slide-scent-task = Najdi a stráv tři koky, které nejsou vidět: zabarvení je jejich pach.
+slide-scent-fact = Neutrofil najde bakterie podle peptidů, které z nich unikají: pozná, že je jich na jedné straně těla o procento víc než na druhé.
+slide-shy-prey-title = Plachá kořist
+slide-shy-prey-task = Chyť a stráv čtyři bacily. Utíkají: zažeň je do kouta.
+slide-shy-prey-fact = Escherichia coli plave asi sekundu rovně, desetinu sekundy se převaluje do nového směru a plave dál. Vede-li cesta k lepšímu místu, plave rovně déle.
+slide-thrombus-title = Trombus
+slide-thrombus-task = Protlač se krevními destičkami, které pruží zpět, k označenému místu.
+slide-thrombus-fact = Krevní destičky nemají jádro. Každá je kouskem megakaryocytu, obří buňky kostní dřeně, která jich do krve uvolní tisíce.
+slide-big-game-title = Velká kořist
+slide-big-game-task = Vyrosti na agaru a pak stráv dvě tuhé buňky.
+slide-big-game-fact = Amoeba proteus pojídá nálevníky celé: obklopí každého pohárkem cytoplazmy a stráví ho v potravní vakuole.
+slide-red-cells-title = V davu
+slide-red-cells-task = Protlač se červenými krvinkami ke koku a stráv ho.
+slide-red-cells-fact = Lidská červená krvinka je v průměru 7,8 mikrometru široká, na okraji 2,6 a uprostřed 0,8 mikrometru silná.
+slide-two-shapes-title = Tyčinky a kuličky
+slide-two-shapes-task = Stráv čtyři tyčinky. Kulaté koky tě jen zasytí.
+slide-two-shapes-fact = Světelný mikroskop běžně neukáže nic jemnějšího než asi polovinu vlnové délky, čtvrtinu mikrometru. Mnohé bakterie jsou jen několikrát větší.
+slide-flood-title = Záplava
+slide-flood-task = Probroď se vodou k oběma označeným místům.
+slide-flood-fact = Bakterie, která přestane plavat, dojede setrvačností méně než na šířku atomu: pro tak malé tvory je tření vším a setrvačnost ničím.
+slide-little-animals-title = Malá zvířátka
+slide-little-animals-task = Stráv čtyři koky, dvě tyčinky a nálevníka a pak se vrať domů ke značce.
+slide-little-animals-fact = Antoni van Leeuwenhoek viděl bakterie jako první, v roce 1676, jedinou čočkou menší než hrášek.
+
+## Způsoby pozorování
+
+sight-bright-field = světlé pole
+sight-classic = klasická
+sight-dark-field = temné pole
+sight-dic = DIC
+sight-drawn = kresba
+sight-fluorescence = fluorescence
+sight-negative-phase-contrast = negativní fáz. kontrast
+sight-phase-contrast = fázový kontrast
+sight-stained = barvení

@@ -1,0 +1,205 @@
+# Texts of the game. Comments begin with a hash; `{ $name }` is a value; a plural is chosen by its category.
+
+## Menus
+
+menu-on = on
+menu-off = off
+menu-stars = { $stars ->
+    [one] { $stars } star
+   *[other] { $stars } stars
+}
+back = Back
+title = Title
+settings = Settings
+percent = { $number } %
+
+## Title
+
+title-motto = a cell under the microscope
+title-version = version { $version }
+title-play = Play
+title-slides = Slides
+title-food-chain = Food chain
+title-two-players = Two players
+title-network = Over the network
+title-simulation = Simulation
+title-watch = Watch the last game
+title-scores = High scores
+title-quit = Quit
+quit-heading = Quit?
+quit-stay = Stay
+
+## Settings
+
+settings-language = Language
+settings-optics = Optics
+settings-quality = Quality
+settings-text-size = Text size
+settings-motion = Reduced motion
+settings-digestion = Hold to digest
+settings-crawl = Click to crawl
+settings-pace = Speed of rounds
+settings-sound = Sound
+settings-arrows = Classic arrows
+settings-full-screen = Full screen
+settings-keys = Keys
+settings-unknown-language = The settings have an unknown language, { $language }.
+effort-automatic = automatic
+effort-high = high
+effort-medium = medium
+effort-low = low
+
+## Keys
+
+keys-press = press a key
+keys-usual = Usual keys
+keys-refused = This key cannot be used. Escape leaves it as it was.
+action-consume = Digest (hold)
+action-zoom-in = Zoom in
+action-zoom-out = Zoom out
+action-divide = Divide (food chain)
+action-pause = Pause
+action-step = Single step
+action-slower = Slower
+action-faster = Faster
+action-restart = Restart
+action-optics = Next optics
+action-debug-view = Debug view
+action-plots = Plots
+action-panel = Panel
+action-undo = Undo (simulation)
+action-screenshot = Picture
+action-full-screen = Full screen
+
+## Pause
+
+pause-heading = Paused
+pause-go-on = Go on
+pause-restart = Restart
+pause-photo = Photo
+
+## During a round
+
+hud-score = Score { $points }
+hud-places = Places { $done }/{ $all }
+hud-digested = Digested { $done }/{ $all }
+hud-lived = Lived { $time } s  size { $size }
+hud-second-life = second life: { $sisters }
+hud-bitten = Bitten: get away!
+hud-full = full
+hud-replay = Replay
+hud-replay-differs = Replay, not as it was played
+hint-finger = a finger on the picture
+hint-mouse = the left mouse button
+hint-digest-button = Digest
+hint-digest = Hold { $key } to digest what you have taken in
+hint-task = { $task } Hold { $what } to crawl.
+hint-crawl = Hold { $what } to crawl. Push your front against food.
+hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.
+hint-chain-crawl = Hold { $what } to crawl, and push your front against food.
+hint-chain-clock = The clock shows how long your food lasts: without more you starve.
+hint-chain-rivals = Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.
+hint-chain-giant = A giant follows your scent. It does not fit through the gaps.
+hint-chain-divide = { $key } divides your cell: the sister is a second life.
+hint-chain-button = The button
+lesson-ready = A green arrow: you are large enough to take this cell in.
+lesson-too-large = The bar over a cell says how much of the needed size you have. Small food makes you grow.
+lesson-no-room = "full": only one such cell has room inside. Digest it first.
+
+## Ends
+
+end-again = Play again
+end-watch = Watch it again
+end-points = { $points ->
+    [one] { $points } point
+   *[other] { $points } points
+}
+end-doubt = , not as it was played
+end-best = The best so far!
+end-rank = Number { $place } so far
+kind-agar = agar
+kind-cocci = cocci
+kind-rods = rods
+kind-rigid-cells = rigid cells
+missed-undigested = { $count ->
+    [one] One thing inside was not digested: only what is digested counts.
+   *[other] { $count } things inside were not digested: only what is digested counts.
+}
+missed-all = Nothing was taken in: crawl with your front against food, and stay on it.
+missed-rigid = No rigid cell: take one under a green arrow.
+missed-rigid-most = No rigid cell: they count most. Grow on small food, then take one under a green arrow.
+goal-better = Next: more than { $points }
+goal-first = Next: the first points
+goal-own-best = Next: more than your best, { $points }
+
+## High scores
+
+scores-heading = High scores: { $game }, { $time } s
+scores-none = None yet. Play!
+scores-leave = Enter or a click: back
+scores-points = points
+scores-small = small
+scores-cells = cells
+
+## Slides
+
+slides-best = Best: { $time } s. { $fact } ({ $source })
+slide-end-next = Next slide
+slide-end-again = Again
+slide-end-late = Time is up
+slide-end-done = Done in { $time } s
+slide-end-more = One more star within { $time } s
+slide-end-left = { $task } { $done }
+
+## Food chain
+
+chain-about = Your cell starves unless it eats, and larger amoebae gnaw at it: flee through the gaps, which are too narrow for giants. Each time that you double you choose a change of your body.
+chain-best = { $about } Your best: { $time } s.
+chain-today = Today's water
+chain-other = Other water
+chain-same = Same water
+chain-water = Water { $seed }.
+chain-lived = Your line lived { $time } s
+chain-starved = It starved. An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the end.
+chain-eaten = A larger amoeba ate it, bite by bite. Entamoeba histolytica kills living cells like this: trogocytosis (Ralston and others, 2014, Nature 508).
+change-heading = You have doubled: choose
+change-speed = Quick body
+change-speed-about = You crawl 15 % faster.
+change-sticky-front = Sticky front
+change-sticky-front-about = Food goes in after 40 % of the time, also beside your front.
+change-stomach = Second stomach
+change-stomach-about = You digest in 75 % of the time and grow a tenth more by it.
+change-thrift = Thrifty body
+change-thrift-about = You need a tenth less to live on.
+change-coat = Thick coat
+change-coat-about = Amoebae meet you as if half as large again; bites take half.
+change-wide-mouth = Wide mouth
+change-wide-mouth-about = Prey may be a third larger, and you bite amoebae your size.
+
+## Two players
+
+two-about = Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys or a gamepad.
+two-versus = Against each other
+two-together = Together
+two-bot = Against the program
+
+## The way into a room
+
+join-how = Type the code of a room: 4 to 12 letters and digits. Enter goes there, Escape back.
+join-who = Two to four who type the same code are in the same room.
+
+## Simulations
+
+pick-file = a file
+
+## Ways of looking
+
+sight-bright-field = bright-field
+sight-classic = classic
+sight-dark-field = dark-field
+sight-dic = dic
+sight-drawn = drawn
+sight-fluorescence = fluorescence
+sight-negative-phase-contrast = negative-phase-contrast
+sight-phase-contrast = phase-contrast
+sight-stained = stained
