@@ -178,9 +178,9 @@ change-stomach-about = Trávíš za 75 % času a vyrosteš při tom o desetinu v
 change-thrift = Úsporné tělo
 change-thrift-about = K životu potřebuješ o desetinu méně.
 change-coat = Silný obal
-change-coat-about = Pro měňavky jsi o polovinu větší; kousnutí uberou polovinu.
+change-coat-about = Pro améby jsi o polovinu větší; kousnutí uberou polovinu.
 change-wide-mouth = Široká ústa
-change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš měňavky své velikosti.
+change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš i améby své velikosti.
 
 ## Dva hráči
 

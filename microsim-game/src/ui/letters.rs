@@ -3,7 +3,10 @@
 /// Czech letters beyond Latin-1.
 const CZECH: &str = "ČčĎďĚěŇňŘřŠšŤťŮůŽž";
 
-/// Those of Basic Latin and Latin-1 that are seen, the space, and those of the other languages.
+/// Signs beyond Basic Latin that texts have.
+const SIGNS: &str = "§«°±²³µ·»";
+
+/// Those of Basic Latin that are seen, the space, signs, the letters of Latin-1, and those of the other languages.
 pub(crate) fn letters() -> impl Iterator<Item = char> {
-    (' '..='~').chain('\u{a1}'..='\u{ff}').chain(CZECH.chars())
+    (' '..='~').chain(SIGNS.chars()).chain('À'..='ÿ').chain(CZECH.chars())
 }
