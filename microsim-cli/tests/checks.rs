@@ -88,6 +88,6 @@ fn an_invalid_state_exits_with_1_and_is_described() {
     let output = run(&[&["run", "demo", "--steps", "240", "--validate"][..], &absurd].concat());
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    let flaw = ": amoeboid_cell 0 (generation 0): a ring of 62 nodes crosses itself";
+    let flaw = ": amoeboid_cell 0 (generation 0): a ring of 41 nodes crosses itself";
     assert!(said.contains("demo with seed 12: after step 2") && said.contains(flaw), "{said}");
 }

@@ -15,7 +15,7 @@ use parry2d::shape::SharedShape;
 
 /// A world with meals in every phase, a furrow, orders, all controllers, an exchange, free places and every kind of event.
 pub(super) fn world() -> World {
-    let mut world = World::new(WorldConfig { substeps: 4, ..WorldConfig::default() }).unwrap();
+    let mut world = World::new(WorldConfig { substeps: 6, ..WorldConfig::default() }).unwrap();
     let chemical = world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 10.0, ..ChemicalSpec::default() }).unwrap();
     let [sensor, platform] = obstacles(&mut world);
     world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(0.0) })).unwrap();

@@ -13,7 +13,7 @@ use proptest::prelude::*;
 /// A small world with all kinds of organisms and obstacles, after some steps.
 fn menagerie() -> World {
     let mut world =
-        World::new(WorldConfig { size: Vec2::new(80.0, 50.0), substeps: 4, ..WorldConfig::default() }).unwrap();
+        World::new(WorldConfig { size: Vec2::new(80.0, 50.0), substeps: 6, ..WorldConfig::default() }).unwrap();
     let corners = vec![Vec2::ZERO, Vec2::new(3.0, 0.0), Vec2::new(0.0, 3.0)];
     for (k, shape) in shapes(corners).into_iter().enumerate() {
         let pose = Pose::new(Vec2::new(6.0 + 8.0 * k as f32, 3.0), 0.3);
