@@ -200,6 +200,25 @@ async function menus() {
     await page.context().close();
 }
 
+/** The page is in the browser's language, offline too, or in that of the address. */
+async function languages() {
+    const page = await profile({ locale: "cs-CZ" });
+    await open(page, "?optics=drawn");
+    const title = (text) => page.getByRole("button", { name: text, exact: true }).waitFor({ timeout: 10_000 });
+    await title("Hrát");
+    check("languages: Czech in a Czech browser", (await page.evaluate(() => document.documentElement.lang)) === "cs");
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.context().setOffline(true);
+    await open(page, "?optics=drawn");
+    await title("Potravní řetězec");
+    check("languages: without a network too", true);
+    await page.context().setOffline(false);
+    await open(page, "?optics=drawn&language=en");
+    await title("Food chain");
+    check("languages: English if the address says so", (await page.evaluate(() => document.documentElement.lang)) === "en");
+    await page.context().close();
+}
+
 /** A browser may take the graphics away, and give them back with nothing in them. */
 async function loss() {
     for (const optics of ["drawn", "phase-contrast"]) {
@@ -361,7 +380,7 @@ async function mistakes() {
     complaints.length = before;
 }
 
-for (const part of [title, menus, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, gamepads, offline, mistakes]) {
+for (const part of [title, menus, languages, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, gamepads, offline, mistakes]) {
     if (wanted.length > 0 && !wanted.includes(part.name)) continue;
     try {
         await part();
