@@ -16,15 +16,6 @@ use microsim_core::{
 const STEPPINGS: [(f32, u32); 5] =
     [(1.0 / 30.0, 8), (1.0 / 60.0, 4), (1.0 / 60.0, 8), (1.0 / 60.0, 16), (1.0 / 120.0, 8)];
 
-/// Radius of the membrane of a cell at rest, around so many particles of cytoplasm: a node and a tenth of a spacing more
-/// than that of their area.
-fn rest_radius(cytoplasm: usize) -> f32 {
-    let AmoeboidCellSpec { node_radius, cytoplasm_spacing, .. } = AmoeboidCellSpec::default();
-    let spacing = node_radius * cytoplasm_spacing;
-    let area = cytoplasm as f32 * spacing * spacing * 0.75f32.sqrt();
-    (area / std::f32::consts::PI).sqrt() + node_radius + 0.1 * spacing
-}
-
 /// A cell of random size among platelets, divided and fused again.
 fn divide_and_fuse(seed: u64) {
     let what = format!("seed {seed}");
@@ -50,11 +41,9 @@ fn divide_and_fuse(seed: u64) {
         let ring = outline(&world, id);
         let held = world.view().organism(id).unwrap();
         assert!(held.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&ring, p.position)));
-        // Between nodes in proportion to the root of the content, which it has as a goal, and to its resting circle.
-        let kept = count(&world, id, Role::Cytoplasm);
-        let least = nodes as f32 * (kept as f32 / fluid as f32).sqrt() - 1.0;
-        let most = nodes as f32 * rest_radius(kept) / rest_radius(fluid) + 1.0;
-        assert!((least..=most).contains(&(ring.len() as f32)), "{what}: {} of {nodes}", ring.len());
+        // Two circles of half the area: each has about 0.71 times the nodes of the whole.
+        let share = (count(&world, id, Role::Cytoplasm) as f32 / fluid as f32).sqrt();
+        assert!((ring.len() as f32 - share * nodes as f32).abs() <= 1.0, "{what}: {} of {nodes}", ring.len());
     }
 
     let left = fuse(&mut world, cell, daughter, &what);
