@@ -38,6 +38,17 @@ impl Dispatch {
     }
 }
 
+/// A value for each lane of a kernel. (`std::array::from_fn` is not always inlined, and what is not inlined is not compiled for
+/// the instructions that are wanted.)
+#[inline(always)]
+pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
+    let mut lanes = [0.0; L];
+    for (l, lane) in lanes.iter_mut().enumerate() {
+        *lane = value(l);
+    }
+    lanes
+}
+
 impl Default for Dispatch {
     fn default() -> Self {
         Self::new(InstructionSet::default())

@@ -2,6 +2,7 @@
 
 use super::aabb::{Aabb, LaneBoxes};
 use super::uniform_grid::UniformGrid;
+use crate::instruction_set::each;
 use crate::particle::{CollisionGroups, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
@@ -50,11 +51,12 @@ impl<'a> DiscColumns<'a> {
         let lanes = first..first + LANES;
         let sum = |a: &[f32], b: &[f32]| {
             let (a, b) = (&a[lanes.clone()], &b[lanes.clone()]);
-            std::array::from_fn::<f32, LANES, _>(|l| a[l] + b[l])
+            each::<LANES>(|l| a[l] + b[l])
         };
         let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes.clone()]);
-        let swept = std::array::from_fn(|l| radius[l] + displacement);
-        let is_there = std::array::from_fn(|l| groups[l].memberships != 0);
+        let swept = each(|l| radius[l] + displacement);
+        let mut is_there = [false; LANES];
+        is_there.iter_mut().zip(groups).for_each(|(is_there, groups)| *is_there = groups.memberships != 0);
         boxes.add(sum(self.origin_x, self.x), sum(self.origin_y, self.y), swept, is_there);
     }
 }

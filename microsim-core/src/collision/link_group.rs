@@ -2,7 +2,7 @@
 
 use super::aabb::Aabb;
 use super::disc_grid::Disc;
-use crate::instruction_set::Dispatch;
+use crate::instruction_set::{self, Dispatch};
 use crate::particle::LANES;
 use glam::Vec2;
 
@@ -92,11 +92,7 @@ impl LinkGroup {
 /// A value for each link.
 #[inline(always)]
 fn each(value: impl Fn(usize) -> f32) -> Lanes {
-    let mut lanes = [0.0; LANES];
-    for (l, lane) in lanes.iter_mut().enumerate() {
-        *lane = value(l);
-    }
-    lanes
+    instruction_set::each(value)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Blocks: eight instances of one template side by side in the particle store, solved in lanes.
 
 use super::constraint::{self, Constraint};
-use super::lanes::{LANES, Span, each, load};
+use super::lanes::{LANES, Span, load};
 use super::muscle::{Muscle, runs};
+use crate::instruction_set::each;
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! The two ends of a substep: where particles would go, and what velocity their corrected positions amount to.
 
-use super::lanes::{LANES, each, load, store};
+use super::lanes::{LANES, load, store};
 use super::ratio_limit;
-use crate::instruction_set::Dispatch;
+use crate::instruction_set::{Dispatch, each};
 use crate::parallel::{self, CHUNK};
 use crate::particle::{Columns, GRID, Particles};
 use glam::Vec2;

@@ -8,6 +8,7 @@
 //!
 //! The number of lanes is fixed in `particle/block_range.rs` and never taken from the CPU: results do not depend on it.
 
+use crate::instruction_set::each;
 use crate::particle::Columns;
 pub(crate) use crate::particle::LANES;
 
@@ -37,17 +38,6 @@ impl<const L: usize> Span<L> {
 pub(crate) fn load<const L: usize>(column: &[f32], at: usize) -> [f32; L] {
     let mut lanes = [0.0; L];
     lanes.copy_from_slice(&column[at..at + L]);
-    lanes
-}
-
-/// A value for each lane. (`std::array::from_fn` is not always inlined, and what is not inlined is not compiled for the
-/// instructions of [`crate::instruction_set`].)
-#[inline(always)]
-pub(crate) fn each<const L: usize>(value: impl Fn(usize) -> f32) -> [f32; L] {
-    let mut lanes = [0.0; L];
-    for (l, lane) in lanes.iter_mut().enumerate() {
-        *lane = value(l);
-    }
     lanes
 }
 

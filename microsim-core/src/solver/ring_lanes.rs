@@ -9,8 +9,8 @@
 //! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed.
 
 use super::constraint::MeasuredRing;
-use super::lanes::{LANES, Pair, Span, add, each, load, ratio};
-use crate::instruction_set::Dispatch;
+use super::lanes::{LANES, Pair, Span, add, load, ratio};
+use crate::instruction_set::{Dispatch, each};
 use crate::particle::{Columns, Particles};
 
 /// Strides of bending.

@@ -1,7 +1,8 @@
 //! Where a disc is with respect to the links of a ring, eight neighbouring links at a time.
 
-use super::lanes::{LANES, each, load, ratio};
+use super::lanes::{LANES, load, ratio};
 use crate::collision::ring::{FoundLink, Link, Side};
+use crate::instruction_set::each;
 use crate::particle::Particles;
 use glam::Vec2;
 

@@ -5,8 +5,9 @@
 
 use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_ring};
 use crate::error::{Error, in_range};
+use crate::instruction_set::each;
 use crate::particle::Columns;
-use crate::solver::lanes::{Span, each, load, ratio, store};
+use crate::solver::lanes::{Span, load, ratio, store};
 use serde::{Deserialize, Serialize};
 
 /// A ring of nodes around a given area.

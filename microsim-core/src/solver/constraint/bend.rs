@@ -8,8 +8,9 @@
 use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::unit_vector;
+use crate::instruction_set::each;
 use crate::particle::Columns;
-use crate::solver::lanes::{Span, add, each, load, ratio};
+use crate::solver::lanes::{Span, add, load, ratio};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 

@@ -12,8 +12,9 @@
 
 use super::{Constrain, Constraint, Distance, PULL};
 use crate::error::Error;
+use crate::instruction_set::each;
 use crate::particle::Columns;
-use crate::solver::lanes::{Pair, Span, each, ratio};
+use crate::solver::lanes::{Pair, Span, ratio};
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance, like [`Distance`], whose oscillations lose energy by `damping` alone: for pendulums and

@@ -5,8 +5,9 @@
 
 use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
 use crate::error::{Error, in_range};
+use crate::instruction_set::each;
 use crate::particle::Columns;
-use crate::solver::lanes::{Pair, Span, each, ratio};
+use crate::solver::lanes::{Pair, Span, ratio};
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at least so far apart.

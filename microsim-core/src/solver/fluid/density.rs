@@ -3,7 +3,8 @@
 //! Lengths are in units of the support `H`: `q = |x_i - x_j|`, `W = (1 - q)^3`, `|grad W| = 3 (1 - q)^2`.
 
 use super::neighbours::{Group, Lanes, Neighbour, Walls, distance, positive};
-use crate::solver::lanes::{LANES, each};
+use crate::instruction_set::each;
+use crate::solver::lanes::LANES;
 
 /// Kernel radius in units of the rest spacing.
 pub(super) const SUPPORT: f32 = 2.0;

@@ -3,7 +3,8 @@
 //! are not over-relaxed: where velocities follow from positions, that makes energy. Lengths are in units of the spacing.
 
 use super::neighbours::{Group, Lanes, Neighbour, distance, positive};
-use crate::solver::lanes::{LANES, each};
+use crate::instruction_set::each;
+use crate::solver::lanes::LANES;
 
 /// Keeps a slip of 0 from having no direction.
 const LEAST_SLIP: f32 = 1e-12;

@@ -11,8 +11,9 @@
 //! candidates that are not neighbours. Cells are as high as the support radius and [`COLUMN_WIDTH`] wide.
 
 use crate::collision::uniform_grid::UniformGrid;
+use crate::instruction_set::each;
 use crate::particle::Particles;
-use crate::solver::lanes::{LANES, each};
+use crate::solver::lanes::LANES;
 use glam::Vec2;
 use std::ops::Range;
 
