@@ -259,15 +259,17 @@ function hasFloatTargets() {
     return extension && address.get("floats") !== "no" ? encode("") : null;
 }
 
-/** Texts by language, fetched when the game first asks; null on the way. */
+/** Time after which texts that did not come are asked for again, ms. */
+const RETRY = 5000;
+/** Texts by language, fetched when the game asks; null on the way. */
 const languages = new Map();
 
 function wordsOf(code) {
     if (!languages.has(code)) {
         languages.set(code, null);
         fetch(`${code}.words`)
-            .then(async (answer) => answer.ok && languages.set(code, new Uint8Array(await answer.arrayBuffer())))
-            .catch(() => {}); // The texts stay as they are.
+            .then(async (answer) => (answer.ok ? languages.set(code, new Uint8Array(await answer.arrayBuffer())) : Promise.reject()))
+            .catch(() => setTimeout(() => languages.delete(code), RETRY)); // Until then the texts stay as they are.
     }
     return languages.get(code);
 }

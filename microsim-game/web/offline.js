@@ -3,7 +3,7 @@
 const CACHE = "microsim-@VERSION@";
 // Of the two programs the one that this browser runs; pages of before did not say.
 const PROGRAM = location.search.slice(1) || "game.wasm";
-const FILES = ["./", "start.js", "host.js", "mesh.js", "link.js", "restore.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png", "cs.words"];
+const FILES = ["./", "start.js", "host.js", "mesh.js", "link.js", "restore.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png", "@WORDS@"];
 
 addEventListener("install", (event) => {
     skipWaiting();

@@ -164,6 +164,8 @@ chain-best = { $about } Tvůj nejlepší čas: { $time } s.
 chain-today = Dnešní voda
 chain-other = Jiná voda
 chain-same = Stejná voda
+chain-command = Znovu totéž: { $command }
+chain-link = Odkaz na ni je v nabídce u pravého okraje.
 chain-water = Voda { $seed }.
 chain-lived = Tvůj rod žil { $time } s
 chain-starved = Zahynul hladem. Améba, která nenajde potravu, se zakulatí do cysty nebo uhyne; tato ji hledala až do konce.
@@ -188,6 +190,30 @@ two-about = Dvě buňky sdílejí jeden preparát po 90 sekund. Hráč 1 řídí
 two-versus = Proti sobě
 two-together = Společně
 two-bot = Proti programu
+two-sum = Společně { $points }
+two-bot-sum = Ty: { $own }   Program: { $program }
+two-player = Hráč { $number }
+two-wins = Vítěz: { $name }, { $best } ku { $others }
+two-you-win = Vyhráváš, { $best } ku { $others }
+two-bot-wins = Vyhrává program, { $best } ku { $others }
+two-together-end = { $points ->
+    [one] Společně { $points } bod
+    [few] Společně { $points } body
+    [many] Společně { $points } bodu
+   *[other] Společně { $points } bodů
+}
+two-draw = { $points ->
+    [one] Remíza, každý má { $points } bod
+    [few] Remíza, každý má { $points } body
+    [many] Remíza, každý má { $points } bodu
+   *[other] Remíza, každý má { $points } bodů
+}
+two-draw-best = { $points ->
+    [one] Remíza nejlepších, každý má { $points } bod
+    [few] Remíza nejlepších, každý má { $points } body
+    [many] Remíza nejlepších, každý má { $points } bodu
+   *[other] Remíza nejlepších, každý má { $points } bodů
+}
 
 ## Cesta do místnosti
 

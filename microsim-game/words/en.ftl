@@ -158,6 +158,8 @@ chain-best = { $about } Your best: { $time } s.
 chain-today = Today's water
 chain-other = Other water
 chain-same = Same water
+chain-command = The same again: { $command }
+chain-link = The menu at the right edge has a link to it.
 chain-water = Water { $seed }.
 chain-lived = Your line lived { $time } s
 chain-starved = It starved. An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the end.
@@ -182,6 +184,24 @@ two-about = Two cells share one slide for 90 seconds. Player 1 steers by mouse, 
 two-versus = Against each other
 two-together = Together
 two-bot = Against the program
+two-sum = Together { $points }
+two-bot-sum = You: { $own }   Program: { $program }
+two-player = Player { $number }
+two-wins = { $name } wins, { $best } to { $others }
+two-you-win = You win, { $best } to { $others }
+two-bot-wins = The program wins, { $best } to { $others }
+two-together-end = { $points ->
+    [one] { $points } point together
+   *[other] { $points } points together
+}
+two-draw = { $points ->
+    [one] A draw, { $points } point each
+   *[other] A draw, { $points } points each
+}
+two-draw-best = { $points ->
+    [one] A draw of the best, { $points } point each
+   *[other] A draw of the best, { $points } points each
+}
 
 ## The way into a room
 

@@ -1,7 +1,7 @@
 //! Two under glass: two cells on one slide, which is data, `games/two-under-glass.toml`. Both are scored for themselves.
 
 use super::bot::{Bot, Policy};
-use crate::words::Key;
+use crate::words::{Key, text_with};
 
 /// Name of its scenario.
 pub const NAME: &str = "two-under-glass";
@@ -46,8 +46,10 @@ impl TwoPlayers {
     #[must_use]
     pub fn summary(self, scores: &[u32]) -> String {
         match (self, scores) {
-            (Self::Together, _) => format!("Together {}", scores.iter().sum::<u32>()),
-            (Self::Bot, [own, program, ..]) => format!("You: {own}   Program: {program}"),
+            (Self::Together, _) => text_with(Key::TwoSum, &[("points", scores.iter().sum::<u32>().into())]),
+            (Self::Bot, [own, program, ..]) => {
+                text_with(Key::TwoBotSum, &[("own", (*own).into()), ("program", (*program).into())])
+            }
             _ => (1..).zip(scores).map(|(k, points)| format!("{k}: {points}")).collect::<Vec<_>>().join("   "),
         }
     }
@@ -56,23 +58,25 @@ impl TwoPlayers {
     #[must_use]
     pub fn verdict(self, scores: &[u32], names: &[String]) -> String {
         if self == Self::Together {
-            return format!("{} points together", scores.iter().sum::<u32>());
+            return text_with(Key::TwoTogetherEnd, &[("points", scores.iter().sum::<u32>().into())]);
         }
         let best = scores.iter().copied().max().unwrap_or_default();
         let mut winners = (1..).zip(scores).filter(|(_, points)| **points == best).map(|(k, _)| k);
         match (winners.next(), winners.next()) {
             (Some(winner), None) => {
                 let others = (1..).zip(scores).filter(|(k, _)| *k != winner).map(|(_, points)| points.to_string());
-                let others: Vec<String> = others.collect();
-                let name = match (self, winner) {
-                    (Self::Bot, 1) => "You win".to_owned(),
-                    (Self::Bot, _) => "The program wins".to_owned(),
-                    _ => format!("{} wins", names.get(winner - 1).unwrap_or(&format!("Player {winner}"))),
+                let others = others.collect::<Vec<String>>().join(", ");
+                let number = || text_with(Key::TwoPlayer, &[("number", (winner as u32).into())]);
+                let name = names.get(winner - 1).cloned().unwrap_or_else(number);
+                let key = match (self, winner) {
+                    (Self::Bot, 1) => Key::TwoYouWin,
+                    (Self::Bot, _) => Key::TwoBotWins,
+                    _ => Key::TwoWins,
                 };
-                format!("{name}, {best} to {}", others.join(", "))
+                text_with(key, &[("name", (&name).into()), ("best", best.into()), ("others", (&others).into())])
             }
-            _ if scores.iter().all(|&points| points == best) => format!("A draw, {best} points each"),
-            _ => format!("A draw of the best, {best} points each"),
+            _ if scores.iter().all(|&points| points == best) => text_with(Key::TwoDraw, &[("points", best.into())]),
+            _ => text_with(Key::TwoDrawBest, &[("points", best.into())]),
         }
     }
 }

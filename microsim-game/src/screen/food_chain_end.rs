@@ -51,7 +51,11 @@ impl FoodChainEnd {
         let told = life.fate.map(|fate| if fate == Fate::Starved { Key::ChainStarved } else { Key::ChainEaten });
         lines.extend(told.map(|told| (TextSize::Body, HALO, words::text(told).to_owned())));
         let water = words::text_with(Key::ChainWater, &[("seed", (&life.seed.to_string()).into())]);
-        let share = format!("{water} {}", platform::way_to_play(NAME, life.seed));
+        let again = platform::offer_again(NAME, life.seed).map_or_else(
+            || words::text(Key::ChainLink).to_owned(),
+            |command| words::text_with(Key::ChainCommand, &[("command", (&command).into())]),
+        );
+        let share = format!("{water} {again}");
         lines.push((TextSize::Small, fade(HALO, 0.85), share));
         Self { life, played, lines, menu: EndMenu::new(&[Key::ChainSame, Key::ChainOther, Key::EndWatch, Key::Title]) }
     }

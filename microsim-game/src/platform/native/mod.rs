@@ -133,10 +133,10 @@ pub fn screen_buttons() -> ScreenButtons {
 /// Nothing: there are no buttons on the screen to show or hide.
 pub fn show_buttons(_: bool, _: &[&str]) {}
 
-/// How a scene is played again with the same seed: by this command.
+/// The command that plays a scene again with the same seed.
 #[must_use]
-pub fn way_to_play(scene: &str, seed: u64) -> String {
-    format!("The same again: microsim-game {scene} --play --seed {seed}")
+pub fn offer_again(scene: &str, seed: u64) -> Option<String> {
+    Some(format!("microsim-game {scene} --play --seed {seed}"))
 }
 
 /// Nothing: menus are drawn only.

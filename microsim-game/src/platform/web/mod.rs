@@ -105,11 +105,11 @@ pub fn show_buttons(are_wanted: bool, named: &[&str]) {
     host::tell(order, &named.join(" "), &[]);
 }
 
-/// How a scene is played again with the same seed: the page's menu then has a link to it.
+/// No command plays a scene again with the same seed: from now on the page's menu has a link to it.
 #[must_use]
-pub fn way_to_play(scene: &str, seed: u64) -> String {
+pub fn offer_again(scene: &str, seed: u64) -> Option<String> {
     host::tell("offer", &format!("scenario={scene}&play&seed={seed}"), &[]);
-    "The menu at the right edge has a link to it.".to_owned()
+    None
 }
 
 /// Puts the menu that is drawn into the page too, where screen readers find it: the screen's name, empty for a scene, and the
