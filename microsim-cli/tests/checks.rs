@@ -81,13 +81,13 @@ fn a_valid_state_exits_with_0() {
     assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
 }
 
-/// With one substep a membrane does not hold under an absurd load, see `WorldConfig::substeps`.
+/// With two substeps and a speed limit this high a membrane does not hold under an absurd load, see `WorldConfig`.
 #[test]
 fn an_invalid_state_exits_with_1_and_is_described() {
-    let absurd = ["--set", "step.substeps=1", "--set", "world.gravity=[0,-1000]"];
-    let output = run(&[&["run", "demo", "--steps", "240", "--validate"][..], &absurd].concat());
+    let absurd = ["step.substeps=2", "world.gravity=[0,-1000]", "world.max_speed=1000"].map(|change| ["--set", change]);
+    let output = run(&[&["run", "hunt", "--steps", "240", "--validate"][..], absurd.as_flattened()].concat());
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    let flaw = ": amoeboid_cell 0 (generation 0): a ring of 41 nodes crosses itself";
-    assert!(said.contains("demo with seed 12: after step 2") && said.contains(flaw), "{said}");
+    let flaw = ": amoeboid_cell 0 (generation 0): particle 143: it has leaked out of its membrane";
+    assert!(said.contains("hunt with seed 5: after step 29") && said.contains(flaw), "{said}");
 }

@@ -10,8 +10,10 @@ const UNPROTECTED: f32 = 15.0;
 /// Shortest substep, s: in shorter ones the corrections of a membrane that changes exceed the speed limit, and discs get through
 /// it.
 const SHORTEST_SUBSTEP: f32 = 0.0002;
-/// Longest substep, s: in longer ones the lips of a cup and what they push move so far that discs get through the membrane.
+/// Longest substep, s.
 const LONGEST_SUBSTEP: f32 = 0.017;
+/// The same with a membrane, s: in longer ones prey that goes in stretches links beyond their limit.
+const LONGEST_SUBSTEP_OF_MEMBRANES: f32 = 0.0085;
 
 /// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
 const SLEEP_SPEED: f32 = 0.02;
@@ -71,8 +73,8 @@ pub struct WorldConfig {
     pub size: Vec2,
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
-    /// Substeps per step, 1 to 64, each 0.0002 to 0.017 s long. More are stiffer and cost proportionally; below 6 jams stretch
-    /// visibly, and with 1 a membrane under an absurd load may leak.
+    /// Substeps per step, 1 to 64, each 0.0002 to 0.017 s long, with amoeboid cells at most 0.0085 s. More are stiffer and cost
+    /// proportionally; below 6 jams stretch visibly, and with 2 a membrane under an absurd load may leak.
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
@@ -131,12 +133,7 @@ impl WorldConfig {
         in_range("size.y", self.size.y, 1.0, Self::MAX_SIZE)?;
         in_range("dt", self.dt, 0.001, 0.1)?;
         count_in_range("substeps", self.substeps, 1, 64)?;
-        let [least, most] = [(self.dt / LONGEST_SUBSTEP).ceil() as u32, ((self.dt / SHORTEST_SUBSTEP) as u32).min(64)];
-        if !(least..=most).contains(&self.substeps) {
-            let range = format!("substeps of {SHORTEST_SUBSTEP} to {LONGEST_SUBSTEP} s");
-            let accepted = format!("{least} to {most} of a step of {} s: {range}", self.dt);
-            return Err(out_of_range("substeps", f64::from(self.substeps), accepted));
-        }
+        self.check_substeps(LONGEST_SUBSTEP, "")?;
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
         in_range("damping", self.damping, 0.0, 100.0)?;
@@ -162,6 +159,24 @@ impl WorldConfig {
         let low = Vec2::new(beyond(left, self.size.x), beyond(bottom, self.size.y));
         let high = Vec2::new(beyond(right, self.size.x), beyond(top, self.size.y));
         [-low, self.size + high]
+    }
+
+    /// Checks that substeps are short enough for cells with membranes.
+    pub(crate) fn check_membranes(&self) -> Result<(), Error> {
+        self.check_substeps(LONGEST_SUBSTEP_OF_MEMBRANES, ", with amoeboid cells")
+    }
+
+    fn check_substeps(&self, longest: f32, whose: &str) -> Result<(), Error> {
+        let [least, most] = [(self.dt / longest).ceil() as u32, ((self.dt / SHORTEST_SUBSTEP) as u32).min(64)];
+        let accepted = || {
+            let range = format!("substeps of {SHORTEST_SUBSTEP} to {longest} s");
+            out_of_range(
+                "substeps",
+                f64::from(self.substeps),
+                format!("{least} to {most} of a step of {} s{whose}: {range}", self.dt),
+            )
+        };
+        (least..=most).contains(&self.substeps).then_some(()).ok_or_else(accepted)
     }
 
     /// Time of one substep, s.

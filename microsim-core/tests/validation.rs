@@ -10,7 +10,7 @@ use experiments::crawl::{self, Figures};
 use experiments::scene::Stepping;
 use experiments::{ALL, angle_of_repose, cell_area, free_fall, granular_energy, refinement, restitution};
 use microsim_core::glam::Vec2;
-use microsim_core::{Crawl, WorldConfig};
+use microsim_core::{AmoeboidCellSpec, Crawl, Placement, PlateletSpec, World, WorldConfig};
 
 /// Steps and substeps in which results are to be the same.
 const STEPPINGS: [Stepping; 4] = [
@@ -92,6 +92,21 @@ fn substeps_that_are_too_short_or_too_long_are_refused_with_field_and_range() {
             let names_range = |message: &str| message.contains(" 1 to ") || message.contains("0.0002 to 0.017 s");
             assert!(refused.is_none_or(|(field, message)| field == "substeps" && names_range(&message)));
         }
+    }
+}
+
+#[test]
+fn substeps_that_are_too_long_for_a_membrane_refuse_cells_and_nothing_else() {
+    for (dt, substeps, is_accepted) in
+        [(1.0 / 60.0, 1, false), (1.0 / 60.0, 2, true), (1.0 / 30.0, 3, false), (0.0085, 1, true)]
+    {
+        let mut world = World::new(WorldConfig { dt, substeps, ..WorldConfig::default() }).unwrap();
+        world.spawn(&PlateletSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0));
+        assert_eq!(cell.is_ok(), is_accepted, "{substeps} of {dt} s");
+        let Err(refusal) = cell else { continue };
+        assert_eq!(refusal.field(), "substeps");
+        assert!(refusal.to_string().contains("0.0002 to 0.0085 s"), "{refusal}");
     }
 }
 

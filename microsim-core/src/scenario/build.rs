@@ -155,6 +155,7 @@ fn refuse_spawn(context: &ReadContext<'_>, group: &Group, error: &Error) {
         field @ ("scale" | "controller") => format!("{}.{field}", group.path),
         at if is_given && at.starts_with("at") => format!("{}.{at}", group.path),
         field if is_of_controller(field) => format!("{}.controller", group.path),
+        "substeps" => "step.substeps".to_owned(),
         _ => group.count_path(context),
     };
     let what = if is_of_controller(error.field()) { format!(", {}:", error.field()) } else { String::new() };

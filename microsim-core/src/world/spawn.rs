@@ -29,7 +29,7 @@ impl World {
     ///
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
-    /// what is already there, or when the world would hold too many particles. Nothing is changed then.
+    /// what is already there, when substeps are too long for its membrane, or when the world would hold too many particles. Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
         let id = with_default_float_environment(spawn)?;
@@ -82,6 +82,9 @@ impl World {
     /// Puts what a blueprint says into the world.
     pub(super) fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
         placement.validate()?;
+        if blueprint.has_membrane {
+            self.config.check_membranes()?;
+        }
         let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
         check_fluid(&blueprint, &placement)?;

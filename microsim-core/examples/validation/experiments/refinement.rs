@@ -28,6 +28,12 @@ pub(crate) fn table(seeds: u64) -> Vec<String> {
 
 fn row(stepping: Stepping, seeds: u64) -> Result<String, Error> {
     let fall = free_fall::fall(stepping)?[0] / 10.0 - 1.0;
+    let cells = cells(stepping, seeds).unwrap_or_else(|refusal| format!("refused: {refusal} | | |"));
+    Ok(format!("{:+.3} % | {cells}", 100.0 * fall))
+}
+
+/// The columns that are about amoeboid cells.
+fn cells(stepping: Stepping, seeds: u64) -> Result<String, Error> {
     let Rest { way, area: [low, high] } = rest(stepping, 20.0)?;
     let (driven_way, driven_area) = driven(stepping)?;
     let percent = |share: f32| format!("{:+.1} %", 100.0 * share);
@@ -36,7 +42,6 @@ fn row(stepping: Stepping, seeds: u64) -> Result<String, Error> {
         ends.join(", ")
     };
     Ok([
-        format!("{:+.3} %", 100.0 * fall),
         format!("{way:.3}, {} to {}", percent(low), percent(high)),
         format!("{driven_way:.1}, {}", percent(driven_area)),
         absorb("absorb-agar"),
