@@ -188,6 +188,24 @@ try {
     await Promise.all([meshed("BACK", one, 1), meshed("AGAIN", two, 0)]);
     console.log("ok: who comes back has a new channel");
 
+    // As "duplicate tab" does: a page of the same browser with the same key.
+    const context = await browser.newContext();
+    const tab = async (key) => {
+        const page = await context.newPage();
+        await page.addInitScript((key) => (sessionStorage.roomKey ??= key), key);
+        await page.goto(address.href);
+        await page.waitForTimeout(500);
+        return page;
+    };
+    const keys = (pages) => Promise.all(pages.map((page) => page.evaluate(() => sessionStorage.roomKey)));
+    const tabs = [await tab("a"), await tab("a"), await tab("b")];
+    assert.deepEqual(await keys(tabs), ["a", undefined, "b"]);
+    await tabs[0].reload();
+    await tabs[0].waitForTimeout(500);
+    assert.deepEqual(await keys(tabs), ["a", undefined, "b"]);
+    await context.close();
+    console.log("ok: a tab that is duplicated gets a key of its own, and one that is loaded again keeps its key");
+
     // A page that offers, and one that answers.
     for (const room of ["OFFERS", "ANSWERS"]) {
         const page = await open();

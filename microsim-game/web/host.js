@@ -230,6 +230,27 @@ function send(number, frame) {
     if (!mesh?.send(frame)) submit(socket, frame);
 }
 
+/** Time for other tabs to answer, ms. */
+const ANSWER = 1000;
+
+/** A tab that is duplicated duplicates its key: the new one asks the others whether they have it, and then makes one of its own. */
+function keepOwnKey() {
+    const tabs = new BroadcastChannel("microsim");
+    let asked = sessionStorage.roomKey;
+    tabs.onmessage = ({ data: { key, isAsked } }) => {
+        if (key !== sessionStorage.roomKey) return;
+        if (isAsked) tabs.postMessage({ key });
+        else if (asked) delete sessionStorage.roomKey;
+    };
+    if (asked) tabs.postMessage({ key: asked, isAsked: true });
+    setTimeout(() => (asked = undefined), ANSWER);
+}
+try {
+    keepOwnKey();
+} catch {
+    // Storage is forbidden, and each room gets a new key.
+}
+
 /** A key that nobody can guess; a page that is loaded again in its tab has the same. */
 function roomKey() {
     const bytes = crypto.getRandomValues(new Uint8Array(16));

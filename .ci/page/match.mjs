@@ -1,0 +1,183 @@
+// A whole match in headless Chromium by data channels, against the real server: a page, another one as of a phone, and a bot outside
+// of the browser. One page is silent for 5 s, the phone is loaded again, and a third page comes late and watches.
+//
+//   node match.mjs SERVER PAGE BOT FOLDER     SERVER: microsim with the feature `serve`; PAGE: the built folder
+//                                                    BOT: the game's example room_bot with the feature `webrtc`
+//                                                    FOLDER: where pictures and records are kept
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { once } from "node:events";
+import fs from "node:fs";
+import { createInterface } from "node:readline";
+import { chromium } from "playwright-core";
+
+const [program, folder, bot, pictures] = process.argv.slice(2);
+const CODE = "MATCH";
+/** Time from a link to a moving cell that a machine with other work may take, ms; alone it is a tenth of it. */
+const LONGEST_START = 30_000;
+const LAPTOP = { viewport: { width: 640, height: 360 } };
+const PHONE = { viewport: { width: 740, height: 360 }, deviceScaleFactor: 1, hasTouch: true, isMobile: true };
+
+fs.mkdirSync(pictures, { recursive: true });
+const server = spawn(program, ["--quiet", "serve", "--port", "0", "--listen", "127.0.0.1", "--page", folder]);
+const [line] = await once(server.stdout, "data");
+const address = new URL("/", String(line).trim());
+const browser = await chromium.launch({
+    executablePath: "/usr/bin/chromium",
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
+        "--disable-background-timer-throttling", "--disable-renderer-backgrounding", "--disable-backgrounding-occluded-windows"],
+});
+
+/** Times frames, counts what is sent and what comes by either way, without signals, and lets the page be cut off. */
+function watch() {
+    globalThis.seen = { frames: [], socket: [0, 0], channel: [0, 0], bytes: [0, 0], isCut: false };
+    const held = [];
+    for (const [way, { prototype }] of Object.entries({ socket: WebSocket, channel: RTCDataChannel })) {
+        const { send } = prototype;
+        const { set } = Object.getOwnPropertyDescriptor(prototype, "onmessage");
+        const note = (end, bytes) => {
+            if (way === "socket" && (bytes[0] === 255 || bytes[1] === 255)) return;
+            seen[way][end] += 1;
+            seen.bytes[end] += bytes.length;
+        };
+        // Packets are lost while a connection is late.
+        const pass = (act) => (!seen.isCut ? act() : way === "socket" ? held.push(act) : undefined);
+        prototype.send = function (bytes) {
+            note(0, bytes);
+            pass(() => this.readyState === 1 || this.readyState === "open" ? send.call(this, bytes) : undefined);
+        };
+        Object.defineProperty(prototype, "onmessage", {
+            set(take) {
+                set.call(this, (event) => {
+                    note(1, new Uint8Array(event.data));
+                    pass(() => take(event));
+                });
+            },
+        });
+    }
+    globalThis.cut = (time) => {
+        seen.isCut = true;
+        setTimeout(() => {
+            seen.isCut = false;
+            for (const act of held.splice(0)) act();
+        }, time);
+    };
+    const { requestAnimationFrame } = globalThis;
+    globalThis.requestAnimationFrame = (frame) => requestAnimationFrame((time) => {
+        const began = performance.now();
+        frame(time);
+        seen.frames.push(performance.now() - began);
+    });
+}
+
+async function open(name, options) {
+    const page = await (await browser.newContext(options)).newPage();
+    page.on("pageerror", (error) => assert.fail(error));
+    await page.addInitScript(watch);
+    await page.goto(`${address.href}?room=${CODE}&name=${name}&optics=drawn`);
+    return page;
+}
+
+/** Waits until a page shows the lobby with so many members. */
+const lobby = (page, members) => page.waitForFunction(
+    (members) => {
+        const items = document.querySelectorAll("#items button");
+        return items[0]?.textContent.startsWith("Ready") && items.length === 3 + members;
+    }, members, { timeout: 60_000, polling: 20 });
+/** Picks "Ready" in the list that screen readers see. */
+const ready = (page) => page.evaluate(() => document.querySelector("#items button").click());
+const picture = (page, name) => page.screenshot({ path: `${pictures}/${name}.png` });
+const record = (page) => page.evaluate(() => localStorage.getItem("microsim/last-game.replay"));
+
+/** Middle, 99th of a hundred and longest of some times. */
+function spread(times) {
+    const sorted = times.toSorted((a, b) => a - b);
+    return [0.5, 0.99, 1].map((share) => sorted[Math.floor((sorted.length - 1) * share)].toFixed(1)).join("/");
+}
+
+function start(name, matches) {
+    const found = { lines: [], process: spawn(bot, [address.host, CODE, name, String(matches), `${pictures}/bot.replay`], { stdio: ["ignore", "pipe", "inherit"] }) };
+    createInterface({ input: found.process.stdout }).on("line", (line) => found.lines.push(line));
+    found.line = async (pattern, time) => {
+        const end = Date.now() + time;
+        for (;;) {
+            const match = found.lines.map((line) => pattern.exec(line)).find((match) => match);
+            if (match) return match;
+            assert.ok(Date.now() < end && found.process.exitCode === null, `no ${pattern} in ${found.lines}`);
+            await new Promise((resolve) => setTimeout(resolve, 50));
+        }
+    };
+    return found;
+}
+
+/** Waits until a page shows the match. */
+const inMatch = (page) => page.waitForFunction(
+    () => !document.querySelector("#items button")?.textContent.startsWith("Ready"), null, { timeout: 60_000, polling: 20 });
+/** Waits until a page shows the lobby again, with what the match came to. */
+const isOver = (page) => page.waitForFunction(
+    () => document.querySelector("#items button")?.textContent.startsWith("Ready"), null, { timeout: 300_000, polling: 100 });
+
+let program_of_bot;
+try {
+    const robot = start("Bot", 1);
+    program_of_bot = robot.process;
+    const phone = await open("Phone", PHONE);
+    await lobby(phone, 2);
+
+    // From the link to a cell that moves, without the time in which nothing is pressed.
+    const began = Date.now();
+    const laptop = await open("Ada", LAPTOP);
+    await lobby(laptop, 3);
+    const shown = Date.now();
+    await picture(laptop, "lobby");
+    await ready(phone);
+    const pressed = Date.now();
+    await ready(laptop);
+    await inMatch(laptop);
+    await laptop.keyboard.down("ArrowRight");
+    const [, moved] = await robot.line(/^player 2 moves at (\d+)/, 60_000);
+    const [opening, beginning] = [shown - began, Number(moved) - pressed];
+    console.log(`ok: from the link to a moving cell ${opening + beginning} ms: ${opening} to the lobby, ${beginning} from there`);
+    assert.ok(opening + beginning < LONGEST_START);
+
+    await laptop.keyboard.up("ArrowRight");
+    await laptop.waitForTimeout(5000);
+    await Promise.all([picture(laptop, "match-laptop"), picture(phone, "match-phone")]);
+    await laptop.evaluate(() => cut(5000));
+    await laptop.waitForTimeout(6000);
+
+    await phone.reload();
+    await lobby(phone, 3);
+    await ready(phone);
+    await inMatch(phone);
+    await phone.waitForTimeout(2000);
+    await picture(phone, "match-back");
+    console.log("ok: a page is cut off for 5 s, and another one is loaded again and comes back");
+
+    const late = await open("Late", LAPTOP);
+    await lobby(late, 4);
+    await ready(late);
+    await inMatch(late);
+    await late.waitForTimeout(2000);
+    await picture(late, "match-late");
+    console.log("ok: who comes late watches");
+
+    const pages = { laptop, phone, late };
+    await Promise.all(Object.values(pages).map(isOver));
+    for (const [name, page] of Object.entries(pages)) await picture(page, `end-${name}`);
+    const [line, digest] = await robot.line(/^match 1 digest (\w+) .* desync None .*/, 60_000);
+    const ofBot = fs.readFileSync(`${pictures}/bot.replay`).toString("base64");
+    console.log(`    ${line}`);
+    for (const [name, page] of Object.entries(pages)) {
+        const { frames, socket, channel, bytes } = await page.evaluate(() => seen);
+        console.log(`    ${name}: ${frames.length} frames of ${spread(frames)} ms; messages up/down: relay ${socket.join("/")}, channels ${channel.join("/")}; bytes ${bytes.join("/")}`);
+        assert.equal(await record(page), ofBot, name);
+    }
+    const { stdout } = spawnSync(program, ["--quiet", "replay", `${pictures}/bot.replay`, "--json"], { encoding: "utf8" });
+    assert.equal(JSON.parse(stdout).digest, digest);
+    console.log("ok: all have the same record, which leads to the world that the bot has");
+} finally {
+    program_of_bot?.kill("SIGKILL");
+    await browser.close();
+    server.kill("SIGKILL");
+}
