@@ -253,7 +253,7 @@ room-code = Kód má 4 až 12 písmen a číslic.
 ## Zápas po síti
 
 match-player = hráč { $number }, { $colour }
-match-you-are = Jsi { $player }. Drž tlačítko myši nebo prst a lez.
+match-you-are = Jsi { $player }. Drž tlačítko myši nebo prst na obraze a lez.
 match-watch = Díváš se.
 match-waiting = Čeká se na ostatní ...
 match-cut = Spojení je přerušeno. Obnovuje se ...
