@@ -207,6 +207,8 @@ async function languages() {
     const title = (text) => page.getByRole("button", { name: text, exact: true }).waitFor({ timeout: 10_000 });
     await title("Hrát");
     check("languages: Czech in a Czech browser", (await page.evaluate(() => document.documentElement.lang)) === "cs");
+    const own = () => page.evaluate(() => [document.getElementById("open").textContent, document.querySelector("summary").ariaLabel]);
+    check("languages: the page's own texts too", (await own()).join() === "Otevřít soubor,Soubory, odkazy a soukromí");
     await page.evaluate(() => navigator.serviceWorker.ready);
     await page.context().setOffline(true);
     await open(page, "?optics=drawn");
@@ -216,6 +218,7 @@ async function languages() {
     await open(page, "?optics=drawn&language=en");
     await title("Food chain");
     check("languages: English if the address says so", (await page.evaluate(() => document.documentElement.lang)) === "en");
+    check("languages: so are the page's own texts", (await own()).join() === "Open a file,Files, links and privacy");
     await page.context().close();
 }
 

@@ -12,7 +12,7 @@ use crate::shot::Shot;
 use crate::timings::Timings;
 use crate::ui::menu::Menu;
 use crate::viewer::Pace;
-use crate::words::Language;
+use crate::words::{self, Key};
 use macroquad::window::{clear_background, next_frame, screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use microsim_core::glam::Vec2;
 use std::path::{Path, PathBuf};
@@ -79,9 +79,6 @@ impl App {
         context.pen.fit(view_size(&options), context.settings.text_factor());
         context.pace.is_exact = options.is_exact();
         context.asked = options.asked;
-        if !options.is_exact() {
-            context.system_language = Language::for_locale(&platform::locale());
-        }
         context.choose_language();
         let screens = Stack::new(first, &mut context);
         let (device, shot, timings) = (Device::new(), Shot::default(), Timings::default());
@@ -232,8 +229,10 @@ impl App {
             // The message about a bad file stays.
             _ if !are_good => {}
             [] => {}
-            [(source, _)] => self.context.tell(format!("{source} is in the list of simulations now.")),
-            more => self.context.tell(format!("{} files are in the list of simulations now.", more.len())),
+            [(source, _)] => {
+                self.context.tell(words::text_with(Key::FileAdded, &[("file", (&source.to_string()).into())]));
+            }
+            more => self.context.tell(words::text_with(Key::FilesAdded, &[("count", (more.len() as u32).into())])),
         }
         shown
     }
@@ -242,15 +241,15 @@ impl App {
     fn show(&mut self, is_last: bool) -> Result<(), String> {
         if let Some(path) = self.options.screenshot.clone().filter(|_| is_last) {
             let taken = self.take(&path, self.options.size);
-            return taken.map_err(|error| format!("cannot write {}: {error}", path.display()));
+            return taken.map_err(|error| words::of_file(Key::FileUnwritable, &path, &error));
         }
         if std::mem::take(&mut self.context.wants_picture) {
             let path = free_path(&format!("microsim-{}", self.screens.name()));
             let size = if self.options.is_exact() { self.options.size } else { physical_size() };
             let taken = self.take(&path, size);
             self.context.tell(match taken {
-                Ok(()) => format!("wrote {}", path.display()),
-                Err(error) => format!("cannot write {}: {error}", path.display()),
+                Ok(()) => words::text_with(Key::FileWritten, &[("file", (&path.display().to_string()).into())]),
+                Err(error) => words::of_file(Key::FileUnwritable, &path, &error),
             });
         } else if self.options.screenshot.is_none() {
             // Frames before a planned picture are not shown.

@@ -51,11 +51,12 @@ use rules::game::GameChoice;
 use rules::round::Round;
 use scene_source::SceneSource;
 use screen::MainScreen;
-use screen::context::{AppContext, Asked, Party};
+use screen::context::{AppContext, Asked, Party, choose_first_language};
 use stage::Stage;
 use std::path::Path;
 use std::process::ExitCode;
 use store::files::PlayerFolder;
+use words::Language;
 
 /// Exit code when there is no display, or a file cannot be written.
 const NO_DISPLAY: u8 = 1;
@@ -147,10 +148,14 @@ impl Start {
             _ => "microsim".to_owned(),
         };
         window::open(&title, options.size, async move || {
+            let locale = if options.is_exact() { String::new() } else { platform::locale() };
+            let system = Language::for_locale(&locale);
+            choose_first_language(&options.asked, &folder, system);
             if !options.is_exact() {
                 waiting::show().await;
             }
             let mut context = AppContext::new(folder, game, files);
+            context.system_language = system;
             context.party = party;
             context.last_game = record.or(context.last_game);
             App::new(first, context, options).run().await
@@ -168,7 +173,7 @@ fn take_seed(args: &mut Args) -> Result<(), String> {
 }
 
 fn read_replay(path: &Path) -> Result<Vec<u8>, String> {
-    let bytes = platform::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let bytes = platform::read(path).map_err(|error| words::of_file(words::Key::FileUnreadable, path, &error))?;
     let round = Replay::read(&bytes).map_err(|error| error.to_string()).and_then(|replay| Round::again(&replay));
     round.map(|_| bytes).map_err(|problem| format!("{}: {problem}", path.display()))
 }

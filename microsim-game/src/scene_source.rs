@@ -1,6 +1,7 @@
 //! Where the scenario of a scene comes from.
 
 use crate::rules::{food_chain, two_players};
+use crate::words::{self, Key};
 use crate::{platform, slides};
 use microsim_core::scenario;
 use std::path::PathBuf;
@@ -35,8 +36,8 @@ impl SceneSource {
         match self {
             Self::File(path) => {
                 let text = platform::read(path).map(String::from_utf8);
-                let text = text.and_then(|text| text.map_err(|_| io::Error::other("it is no text in UTF-8")));
-                text.map_err(|error| format!("cannot read {}: {error}", path.display()))
+                let text = text.and_then(|text| text.map_err(|_| io::Error::other(words::text(Key::FileNotText))));
+                text.map_err(|error| words::of_file(Key::FileUnreadable, path, &error))
             }
             Self::Builtin(name) => builtin_text(name).map(str::to_owned).ok_or_else(|| {
                 let names: Vec<&str> = scenario::builtins().iter().map(|builtin| builtin.name).collect();

@@ -149,11 +149,11 @@ pub struct Scenery {
 }
 
 /// What automatic effort goes through while frames are slow.
-const QUALITY_STEPS: [(&str, Option<RenderQuality>); 4] = [
-    ("high", Some(RenderQuality::High)),
-    ("medium", Some(RenderQuality::Medium)),
-    ("low", Some(RenderQuality::Low)),
-    ("that of the drawn view", None),
+const QUALITY_STEPS: [(Key, Option<RenderQuality>); 4] = [
+    (Key::EffortHigh, Some(RenderQuality::High)),
+    (Key::EffortMedium, Some(RenderQuality::Medium)),
+    (Key::EffortLow, Some(RenderQuality::Low)),
+    (Key::QualityDrawn, None),
 ];
 
 impl Scenery {
@@ -178,7 +178,7 @@ impl Scenery {
         let is_lower = std::mem::replace(&mut self.step, lower) != lower;
         let is_seen = effort == Effort::Automatic && sight != Sight::Drawn && self.renderer.is_some();
         (is_lower && is_seen)
-            .then(|| format!("Pictures are slow. Quality is {} now; see the settings.", QUALITY_STEPS[lower].0))
+            .then(|| words::text_with(Key::QualityLowered, &[("quality", words::text(QUALITY_STEPS[lower].0).into())]))
     }
 
     /// Puts automatic effort back to the best quality.

@@ -44,7 +44,7 @@ impl BuiltinSlide {
     pub fn told(&self) -> Option<Slide> {
         let mut slide = self.read()?;
         for (part, text) in [("title", &mut slide.title), ("task", &mut slide.task), ("fact", &mut slide.fact)] {
-            if let Some(own) = words::of_slide(self.name, part) {
+            if let Some(own) = words::of_scene(self.name, part) {
                 own.clone_into(text);
             }
         }

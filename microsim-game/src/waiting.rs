@@ -3,6 +3,7 @@
 use crate::draw::palette::{HALO, INK};
 use crate::ui::font::{TITLE, TextSize};
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use macroquad::window::{clear_background, next_frame, screen_height, screen_width};
 use microsim_core::glam::Vec2;
 
@@ -15,7 +16,7 @@ pub(crate) async fn show() {
     let middle = Vec2::new(0.5, 0.45) * screen;
     pen.write(middle, TextSize::Huge, Align::Centre, HALO, TITLE);
     let below = middle + Vec2::new(0.0, pen.line(TextSize::Huge));
-    pen.write(below, TextSize::Body, Align::Centre, HALO, "The microscope is being set up ...");
+    pen.write(below, TextSize::Body, Align::Centre, HALO, words::text(Key::Waiting));
     pen.flush();
     next_frame().await;
 }

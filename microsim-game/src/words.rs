@@ -2,6 +2,8 @@
 //! makes tables of them.
 
 use std::cell::Cell;
+use std::io;
+use std::path::Path;
 use std::sync::OnceLock;
 
 include!(concat!(env!("OUT_DIR"), "/words.rs"));
@@ -192,19 +194,31 @@ pub fn text_with(key: Key, args: &[(&str, Arg<'_>)]) -> String {
     fill(pattern(current(), key), args, current())
 }
 
+/// What is wrong with a file.
+#[must_use]
+pub fn of_file(key: Key, path: &Path, error: &io::Error) -> String {
+    text_with(key, &[("file", (&path.display().to_string()).into()), ("error", (&error.to_string()).into())])
+}
+
 /// A number with so many decimals.
 #[must_use]
 pub fn number(value: f32, decimals: usize) -> String {
     format!("{value:.decimals$}").replace('.', current().decimal)
 }
 
-/// What another language than English says of a slide: its title, task or fact.
+/// A number with as many decimals as it has.
 #[must_use]
-pub fn of_slide(slide: &str, part: &str) -> Option<&'static str> {
+pub fn shortest(value: f32) -> String {
+    value.to_string().replace('.', current().decimal)
+}
+
+/// What another language than English says of a slide, its title, task or fact, or about a simulation.
+#[must_use]
+pub fn of_scene(scene: &str, part: &str) -> Option<&'static str> {
     let texts = current().texts(|| None)?.get(COUNT..)?;
     let of = |text: &&'static str| {
         let (name, told) = text.split_once('\x02')?;
-        (name.strip_prefix(slide)?.strip_prefix('-')? == part).then_some(told)
+        (name.strip_prefix(scene)?.strip_prefix('-')? == part).then_some(told)
     };
     texts.iter().find_map(of)
 }
@@ -242,5 +256,7 @@ fn variant<'a>(variants: &'a str, arg: Arg<'_>, language: &Language) -> &'a str 
     all.find(|(name, _)| name.is_empty() || fits(name)).map_or("", |(_, text)| text)
 }
 
+#[cfg(test)]
+mod layout_tests;
 #[cfg(test)]
 mod tests;

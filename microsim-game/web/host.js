@@ -30,6 +30,30 @@ let question = "";
 /** The item of the menu that was pointed at by keyboard or screen reader, and whether the page follows the game's own focus. */
 let item = null, isFollowing = false;
 
+/** Texts of the page in the language of the game, by the English ones. */
+const said = new Map();
+
+/** A text of the page in the language of the game. */
+export const say = (english) => said.get(english) ?? english;
+
+/** What the page says at first, each with what becomes of the text in another language. */
+const texts = [...document.querySelectorAll("*")].flatMap((node) => [
+    ...(node.ariaLabel ? [[node.ariaLabel, (text) => (node.ariaLabel = text)]] : []),
+    ...[...node.childNodes].filter(({ nodeType }) => nodeType === Node.TEXT_NODE).map((own) => [own.data, (text) => (own.data = text)]),
+]);
+
+/** Puts the page into the language of the game. */
+function translate(code) {
+    said.clear();
+    for (const entry of decode(languages.get(code) ?? new Uint8Array()).split("\0")) {
+        const [group, english, other] = entry.split("\x02");
+        if (group === "page-") said.set(english, other);
+    }
+    for (const [english, show] of texts) show(english.replace(english.trim(), say));
+    document.documentElement.lang = code;
+    return true;
+}
+
 /** Shows why the game cannot go on. */
 export function fail(problem) {
     console.error(problem);
@@ -177,7 +201,7 @@ function showMenu(screen, bytes) {
     const hadFocus = group.contains(document.activeElement);
     while (group.children.length > labels.length) group.lastChild.remove();
     labels.forEach((label, k) => ((group.children[k] ?? group.appendChild(newItem(k))).textContent = label));
-    group.ariaLabel = screen || "Scene";
+    group.ariaLabel = screen || say("Scene");
     group.hidden = labels.length === 0;
     if (hadFocus) {
         isFollowing = true;
@@ -320,7 +344,7 @@ const orders = {
     "fail": (_, bytes) => fail(decode(bytes)),
     "hide buttons": (which) => showButtons(false, which),
     "keep": keep,
-    "language": (code) => ((document.documentElement.lang = code), true),
+    "language": translate,
     "leave room": leaveRoom,
     "offer": (query) => ((water = query), true),
     "print": (_, bytes) => console.log(decode(bytes)),

@@ -1,6 +1,6 @@
 // Loads the game, and connects the page's own buttons with it.
 
-import { digest, fail, files, functions, give, held, isScene, kept, pressed, readAddress, water } from "./host.js";
+import { digest, fail, files, functions, give, held, isScene, kept, pressed, readAddress, say, water } from "./host.js";
 import { linkTo, linked } from "./link.js";
 import { restorable } from "./restore.js";
 
@@ -73,7 +73,7 @@ function survive() {
     canvasElement.addEventListener("webglcontextlost", (event) => {
         event.preventDefault();
         animation = () => {};
-        waiting = setTimeout(() => fail("The graphics were taken away, as after sleep."), PATIENCE);
+        waiting = setTimeout(() => fail(say("The graphics were taken away, as after sleep.")), PATIENCE);
     });
     canvasElement.addEventListener("webglcontextrestored", () => {
         clearTimeout(waiting);
@@ -104,7 +104,7 @@ function connectFiles() {
 async function copyLink(link) {
     const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
     if (!isCopied) history.replaceState(null, "", link);
-    element("told").textContent = isCopied ? "The link is copied." : "The link is in the address bar.";
+    element("told").textContent = say(isCopied ? "The link is copied." : "The link is in the address bar.");
 }
 
 function connectLinks() {

@@ -17,8 +17,10 @@ struct Text {
 
 /// The language that has all messages, and stands in every program.
 const FIRST: &str = "en";
-/// Messages that only other languages have: the texts of slides, which are English in the slides' own files.
-const OF_SLIDES: &str = "slide-";
+/// Messages that only other languages have: the texts of slides and of simulations, which are English in their own files.
+const OF_SCENES: [&str; 2] = ["slide-", "scene-"];
+/// Messages of the page around the game, which has the English ones in its own files.
+const OF_PAGE: &str = "page-";
 
 /// Writes `words.rs`, the names of all messages and the tables in the program, and a table of each language.
 pub(crate) fn compile(out: &Path) {
@@ -130,32 +132,44 @@ fn check(english: &Catalogue, catalogue: &Catalogue) -> Result<(), String> {
             return Err(format!("{name} has the variables {:?}, not {:?}", own.variables, text.variables));
         }
     }
-    let unknown = catalogue.keys().find(|name| !english.contains_key(*name) && !name.starts_with(OF_SLIDES));
+    let is_of_scene = |name: &str| OF_SCENES.iter().any(|group| name.starts_with(group));
+    let unknown = catalogue.keys().find(|name| !english.contains_key(*name) && !is_of_scene(name));
     unknown.map_or(Ok(()), |name| Err(format!("{name} is unknown")))
 }
 
-/// All texts in the order of the names, then those of slides with their names.
+/// Names of the messages that the program has.
+fn names(english: &Catalogue) -> impl Iterator<Item = &String> {
+    english.keys().filter(|name| !name.starts_with(OF_PAGE))
+}
+
+/// All texts in the order of the names, then those of scenes with their names, then those of the page with the English ones.
 fn table(english: &Catalogue, catalogue: &Catalogue) -> String {
-    let known = english.keys().map(|name| catalogue[name].table.clone());
+    let known = names(english).map(|name| catalogue[name].table.clone());
     let own = catalogue.iter().filter(|(name, _)| !english.contains_key(*name));
-    let of_slides = own.map(|(name, text)| format!("{}\x02{}", &name[OF_SLIDES.len()..], text.table));
-    known.chain(of_slides).collect::<Vec<_>>().join("\0")
+    let of_scenes = own.map(|(name, text)| {
+        let name = OF_SCENES.iter().find_map(|group| name.strip_prefix(group)).unwrap_or(name);
+        format!("{name}\x02{}", text.table)
+    });
+    let of_page =
+        english.iter().filter(|(name, text)| name.starts_with(OF_PAGE) && text.table != catalogue[*name].table);
+    let of_page = of_page.map(|(name, text)| format!("{OF_PAGE}\x02{}\x02{}", text.table, catalogue[name].table));
+    known.chain(of_scenes).chain(of_page).collect::<Vec<_>>().join("\0")
 }
 
 /// The names as an enumeration.
 fn keys(english: &Catalogue) -> String {
     let camel = |name: &String| name.split('-').map(|word| word[..1].to_uppercase() + &word[1..]).collect::<String>();
-    let names: Vec<String> = english.keys().map(camel).collect();
+    let keys: Vec<String> = names(english).map(camel).collect();
     let mut code =
         String::from("/// Names of all messages.\n#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum Key {\n");
-    for (name, key) in english.keys().zip(&names) {
+    for (name, key) in names(english).zip(&keys) {
         let _ = writeln!(code, "/// `{name}`\n{key},");
     }
-    let all: Vec<String> = english.keys().zip(&names).map(|(name, key)| format!("(\"{name}\", Key::{key})")).collect();
+    let all: Vec<String> = names(english).zip(&keys).map(|(name, key)| format!("(\"{name}\", Key::{key})")).collect();
     let _ = write!(
         code,
         "}}\n/// How many there are.\nconst COUNT: usize = {count};\n#[cfg(test)]\nconst ALL: [(&str, Key); {count}] = [{all}];\n",
-        count = english.len(),
+        count = keys.len(),
         all = all.join(", "),
     );
     code

@@ -136,7 +136,7 @@ missed-rigid = Žádná tuhá buňka: pohlť některou pod zelenou šipkou.
 missed-rigid-most = Žádná tuhá buňka, a ty se počítají nejvíc. Vyrosti na drobné potravě a pak pohlť některou pod zelenou šipkou.
 goal-better = Další cíl: víc než { $points }
 goal-first = Další cíl: první body
-goal-own-best = Další cíl: překonat svých nejlepších { $points }
+goal-own-best = Další cíl: překonat svůj rekord { $points }
 
 ## Nejlepší výsledky
 
@@ -154,7 +154,7 @@ slide-end-next = Další preparát
 slide-end-again = Znovu
 slide-end-late = Čas vypršel
 slide-end-done = Hotovo za { $time } s
-slide-end-more = O hvězdu víc do { $time } s
+slide-end-more = Další hvězda: do { $time } s
 slide-end-left = { $task } { $done }
 
 ## Potravní řetězec
@@ -168,13 +168,13 @@ chain-command = Znovu totéž: { $command }
 chain-link = Odkaz na ni je v nabídce u pravého okraje.
 chain-water = Voda { $seed }.
 chain-lived = Tvůj rod žil { $time } s
-chain-starved = Zahynul hladem. Améba, která nenajde potravu, se zakulatí do cysty nebo uhyne; tato ji hledala až do konce.
+chain-starved = Zahynul hladem. Améba, která nenajde potravu, se zakulatí a vytvoří cystu, nebo uhyne; tahle ji hledala až do konce.
 chain-eaten = Větší améba ho snědla, sousto po soustu. Entamoeba histolytica tak zabíjí živé buňky: trogocytóza (Ralston a další, 2014, Nature 508).
 change-heading = Velikost je dvojnásobná: vyber si
 change-speed = Rychlé tělo
 change-speed-about = Lezeš o 15 % rychleji.
 change-sticky-front = Lepkavé čelo
-change-sticky-front-about = Potrava vstoupí za 40 % času, a to i vedle čela.
+change-sticky-front-about = Potrava se dostane dovnitř za 40 % času, i vedle čela.
 change-stomach = Druhý žaludek
 change-stomach-about = Trávíš za 75 % času a vyrosteš při tom o desetinu víc.
 change-thrift = Úsporné tělo
@@ -220,9 +220,165 @@ two-draw-best = { $points ->
 join-how = Napiš kód místnosti: 4 až 12 písmen a číslic. Enter vstoupí, Escape se vrátí.
 join-who = Dva až čtyři hráči se stejným kódem jsou ve stejné místnosti.
 
+## Hráči
+
+colour-blue = modrá
+colour-orange = oranžová
+colour-green = zelená
+colour-purple = fialová
+
+## Místnost
+
+room-heading = Místnost
+room-ready = Připraveno
+room-play = Hra
+room-leave = Odejít
+room-seat = { $number } { $name }, { $colour }: { $note }
+room-own-name = { $name } (ty)
+room-coming = přichází
+room-other-version = jiná verze
+room-plays = hraje
+room-is-ready = připraveno
+room-not-ready = ještě ne
+room-again = { $news } Kdo je připraven, hraje znovu.
+room-match-on = Kód { $code }. Zápas už běží: kdo je připraven, dostane buňku bez hráče, nebo se dívá.
+room-waits = Kód { $code }. Zápas začne, až tu budou dva až čtyři hráči a všichni budou připraveni.
+room-entering = Kód { $code }. Spojuje se se serverem ...
+room-cut = Spojení se serverem je přerušeno.
+room-unreachable = Nelze se spojit s počítačem { $host }: { $error }
+room-none = { $host } nemá místnosti: { $error }
+room-strange = Server odpovídá jinak než server místností.
+room-code = Kód má 4 až 12 písmen a číslic.
+
+## Zápas po síti
+
+match-player = hráč { $number }, { $colour }
+match-you-are = Jsi { $player }. Drž tlačítko myši nebo prst na obraze a lez.
+match-watch = Díváš se.
+match-waiting = Čeká se na ostatní ...
+match-cut = Spojení je přerušeno. Obnovuje se ...
+match-leave = Ještě jednou Escape: odejít ze zápasu
+match-net = { $ping } ms, ztráty { $loss } %, návraty { $back }, snímků nejvýš { $frames }
+match-end = { $verdict }. Tvoje buňka: { $player }.
+match-watched = { $verdict }. Tentokrát jsi jen divák.
+match-over = Zápas skončil.
+match-silent = Někdo neodpovídá, takže je to remíza.
+match-differs = Světy hráčů se před krokem { $step } rozešly, takže je to remíza.
+match-kept = { $record } a { $world } jsou vedle nastavení.
+match-nobody = V zápase nikdo nepokračuje.
+
 ## Simulace
 
 pick-file = soubor
+scene-absorb-agar = První jídlo
+scene-absorb-agar-about = buňka mezi krevními destičkami najde agar a pohltí ho
+scene-absorb-rigid = Velké sousto
+scene-absorb-rigid-about = buňka mezi krevními destičkami dostihne tuhou buňku a pohltí ji
+scene-crawl = Buňka leze
+scene-crawl-about = čtyři typy améb lezou panožkami po volném poli
+scene-crowd = Mnoho buněk
+scene-crowd-about = améboidní buňky bloudí a strkají se, v libovolném počtu
+scene-dam-break = Protržená hráz
+scene-dam-break-about = sloupec kapaliny se sesype vlastní tíhou
+scene-demo = Od všeho trochu
+scene-demo-about = lovící buňky mezi krevními destičkami: všechno najednou, na hraní (bakalářská práce, obr. 3.12)
+scene-divide = Buňka se dělí
+scene-divide-about = buňka se mezi krevními destičkami rozdělí; poloviny se rozlezou, vrátí se a splynou
+scene-empty = Prázdný prostor
+scene-empty-about = prázdný prostor, se kterým lze začít
+scene-game = Hra
+scene-game-about = 90 sekund na jídlo: nejdřív agar, pak trepky, větší a větší (bakalářská práce, 3.3.2)
+scene-grow = Buňka roste
+scene-grow-about = buňka pojídá agar, tráví ho a roste
+scene-hunt = Neutrofil loví
+scene-hunt-about = neutrofil loví koky mezi červenými krvinkami: film z padesátých let
+scene-leak-stress = Zátěžový test: úniky
+scene-leak-stress-about = rostoucí buňka sebou hází mezi krevními destičkami a nic z ní nesmí uniknout
+scene-platelets = Krevní destičky
+scene-platelets-about = sonda projíždí hustým polem krevních destiček, v libovolném počtu (bakalářská práce, tabulka 4.1)
+scene-pond = Tůň
+scene-pond-about = trepky a améba ve skutečné velikosti
+scene-ram-stress = Zátěžový test: srážky
+scene-ram-stress-about = tuhé buňky a sondy narážejí do buňky ze všech stran; dovnitř se dostanou jen pohlcením
+scene-squeeze = Úzkou mezerou
+scene-squeeze-about = buňka se protáhne mezerou o polovině svého průměru
+tool-steer = Řídit
+tool-drag = Táhnout
+tool-push = Odstrkovat
+tool-spawn = Vložit
+tool-remove = Odebrat
+tool-follow = Sledovat
+tool-look = Rozhlížet se
+panel-undo = Vzít zpět
+panel-speed = Rychlost
+panel-scenarios = Simulace
+panel-menu = Nabídka
+spawn-coccus = kok
+spawn-bacillus = bacil
+spawn-rigid-cell = tuhá buňka
+spawn-amoeboid = améba
+spawn-platelet = destička
+spawn-red-cell = krvinka
+spawn-probe = sonda
+spawn-fluid = kapalina
+sandbox-paused = POZASTAVENO
+sandbox-bodies = { $count ->
+    [one] { $count } těleso
+    [few] { $count } tělesa
+    [many] { $count } tělesa
+   *[other] { $count } těles
+}
+sandbox-particles = { $count ->
+    [one] { $count } částice
+    [few] { $count } částice
+    [many] { $count } částice
+   *[other] { $count } částic
+}
+sandbox-step = krok { $time } ms
+sandbox-area = plocha { $area } µm²
+sandbox-top = max. { $value }
+sandbox-legend =
+    kruh: částice
+    tenká: vzdálenost, lano
+    tlustá: kotva, membrána, kloub
+    čtverec: čelo  proužek: zadní část
+    tečka: vlevo  kroužek: vpravo
+    odstín: chemická látka
+    jantarová: dotyk
+sandbox-stopped = Čas stojí: nejdřív ho pusť dál.
+sandbox-no-undo = Není co vzít zpět.
+sandbox-nobody = Není koho řídit: nejdřív někoho sleduj.
+sandbox-immobile = Sledovaný organismus neumí lézt.
+sandbox-nothing = Tady nic není.
+sandbox-whole = Vidíš celý prostor: nejdřív přibliž.
+sandbox-free = Teď nikoho nesleduješ.
+sandbox-overlap = Tady není místo: { $what }
+sandbox-outside = Za stěnami: { $what }
+sandbox-crowded = Víc se sem nevejde.
+
+## Fotografie, soubory a hlášení
+
+photo-how = Tažení nebo šipky: posun. Kolečko, { $out } nebo { $in }: přiblížení. { $optics }: optika. { $picture }: uložit snímek. Escape: zpět.
+waiting = Mikroskop se chystá ...
+quality-lowered = Obraz se kreslí pomalu. Kvalita je teď { $quality }; viz nastavení.
+quality-drawn = jako u kresby
+file-written = Uloženo: { $file }
+file-unwritable = Nelze zapsat { $file }: { $error }
+file-unreadable = Nelze přečíst { $file }: { $error }
+file-not-text = není to text v UTF-8
+file-senseless = Soubor { $file } nedává smysl: { $problem }
+file-put-aside = { $told }; odložen jako { $aside }
+file-added = { $file } je teď v seznamu simulací.
+files-added = { $count ->
+    [one] { $count } soubor je teď v seznamu simulací.
+    [few] { $count } soubory jsou teď v seznamu simulací.
+    [many] { $count } souboru je teď v seznamu simulací.
+   *[other] { $count } souborů je teď v seznamu simulací.
+}
+last-game-none = Zatím není odehraná žádná hra.
+last-game-broken = Poslední hra: { $problem }
+last-game-unkept = Hru nelze uložit: { $error }
+settings-unkept = Nastavení nelze uložit: { $error }
 
 ## Preparáty: názvy, úkoly a zajímavosti
 
@@ -239,7 +395,7 @@ slide-maze-title = Bludiště
 slide-maze-task = Najdi cestu bludištěm k označenému místu.
 slide-maze-fact = Hlenka Physarum najde nejkratší cestu bludištěm: nejdřív ho celé vyplní, pak se stáhne ze slepých uliček a delších cest.
 slide-scent-title = Pach
-slide-scent-task = Najdi a stráv tři koky, které nejsou vidět: zabarvení je jejich pach.
+slide-scent-task = Najdi a stráv tři koky, které nejsou vidět: zabarvení ukazuje jejich pach.
 slide-scent-fact = Neutrofil najde bakterie podle peptidů, které z nich unikají: pozná, že je jich na jedné straně těla o procento víc než na druhé.
 slide-shy-prey-title = Plachá kořist
 slide-shy-prey-task = Chyť a stráv čtyři bacily. Utíkají: zažeň je do kouta.
@@ -252,13 +408,13 @@ slide-big-game-task = Vyrosti na agaru a pak stráv dvě tuhé buňky.
 slide-big-game-fact = Amoeba proteus pojídá nálevníky celé: obklopí každého pohárkem cytoplazmy a stráví ho v potravní vakuole.
 slide-red-cells-title = V davu
 slide-red-cells-task = Protlač se červenými krvinkami ke koku a stráv ho.
-slide-red-cells-fact = Lidská červená krvinka je v průměru 7,8 mikrometru široká, na okraji 2,6 a uprostřed 0,8 mikrometru silná.
+slide-red-cells-fact = Lidská červená krvinka je průměrně 7,8 mikrometru široká, na okraji 2,6 a uprostřed 0,8 mikrometru silná.
 slide-two-shapes-title = Tyčinky a kuličky
 slide-two-shapes-task = Stráv čtyři tyčinky. Kulaté koky tě jen zasytí.
 slide-two-shapes-fact = Světelný mikroskop běžně neukáže nic jemnějšího než asi polovinu vlnové délky, čtvrtinu mikrometru. Mnohé bakterie jsou jen několikrát větší.
 slide-flood-title = Záplava
 slide-flood-task = Probroď se vodou k oběma označeným místům.
-slide-flood-fact = Bakterie, která přestane plavat, dojede setrvačností méně než na šířku atomu: pro tak malé tvory je tření vším a setrvačnost ničím.
+slide-flood-fact = Bakterie, která přestane plavat, se setrvačností posune o méně než šířku atomu: pro tak malé tvory je tření vším a setrvačnost ničím.
 slide-little-animals-title = Malá zvířátka
 slide-little-animals-task = Stráv čtyři koky, dvě tyčinky a nálevníka a pak se vrať domů ke značce.
 slide-little-animals-fact = Antoni van Leeuwenhoek viděl bakterie jako první, v roce 1676, jedinou čočkou menší než hrášek.
@@ -274,3 +430,28 @@ sight-fluorescence = fluorescence
 sight-negative-phase-contrast = negativní fáz. kontrast
 sight-phase-contrast = fázový kontrast
 sight-stained = barvení
+
+## Stránka kolem hry
+
+page-title = microsim - buňka pod mikroskopem
+page-heading = microsim: buňka pod mikroskopem
+page-canvas = Hra. Nabídkami se prochází šipkami, klávesami Enter a Escape.
+page-loading = Načítá se
+page-stopped = Hra se zastavila
+page-reload = Spustit znovu
+page-menu = Nabídka
+page-zoom-out = Oddálit
+page-zoom-in = Přiblížit
+page-divide = Rozdělit
+page-digest = Trávit
+page-more = Soubory, odkazy a soukromí
+page-open = Otevřít soubor
+page-share = Kopírovat odkaz na poslední hru
+page-share-water = Kopírovat odkaz na poslední vodu
+page-share-scenario = Kopírovat odkaz na scénář
+page-privacy = Nic se neodesílá: nastavení, výsledky a hry zůstávají v tomto prohlížeči.
+page-licences = Licence
+page-copied = Odkaz je zkopírován.
+page-in-address = Odkaz je v adresním řádku.
+page-scene = Scéna
+page-no-graphics = Prohlížeč odebral hře grafiku, jako po uspání počítače.

@@ -208,9 +208,143 @@ two-draw-best = { $points ->
 join-how = Type the code of a room: 4 to 12 letters and digits. Enter goes there, Escape back.
 join-who = Two to four who type the same code are in the same room.
 
+## Players
+
+colour-blue = blue
+colour-orange = orange
+colour-green = green
+colour-purple = purple
+
+## The room
+
+room-heading = The room
+room-ready = Ready
+room-play = Play
+room-leave = Leave
+room-seat = { $number } { $name }, { $colour }: { $note }
+room-own-name = { $name } (you)
+room-coming = is coming
+room-other-version = another version
+room-plays = plays
+room-is-ready = ready
+room-not-ready = not ready
+room-again = { $news } Whoever is ready plays again.
+room-match-on = Code { $code }. A match is on: whoever is ready takes a cell without a player, or watches.
+room-waits = Code { $code }. The match begins when two to four are here and all are ready.
+room-entering = Code { $code }. On the way to the server ...
+room-cut = the connection to the server is cut
+room-unreachable = cannot reach { $host }: { $error }
+room-none = { $host } has no rooms: { $error }
+room-strange = the server says what no server of rooms says
+room-code = a code has 4 to 12 letters and digits
+
+## A match over a network
+
+match-player = player { $number }, { $colour }
+match-you-are = You are { $player }. Hold the mouse button or a finger to crawl.
+match-watch = You watch.
+match-waiting = Waiting for the others ...
+match-cut = The connection is cut. Coming back ...
+match-leave = Escape again: leave the match
+match-net = { $ping } ms, { $loss } % lost, back { $back }, frames at most { $frames }
+match-end = { $verdict }. You were { $player }.
+match-watched = { $verdict }. You watched.
+match-over = The match is over.
+match-silent = Somebody does not answer, so it is a draw.
+match-differs = The worlds of the players differ before step { $step }, so it is a draw.
+match-kept = { $record } and { $world } are beside the settings.
+match-nobody = nobody goes on with the match
+
 ## Simulations
 
 pick-file = a file
+scene-absorb-agar = A first meal
+scene-absorb-rigid = A large meal
+scene-crawl = A cell crawls
+scene-crowd = Many cells
+scene-dam-break = A dam breaks
+scene-demo = A bit of everything
+scene-divide = A cell divides
+scene-empty = An empty room
+scene-game = The game
+scene-grow = A cell grows
+scene-hunt = A neutrophil hunts
+scene-leak-stress = Stress test: leaks
+scene-platelets = A field of platelets
+scene-pond = A pond
+scene-ram-stress = Stress test: collisions
+scene-squeeze = Through a narrow gap
+tool-steer = Steer
+tool-drag = Drag
+tool-push = Push away
+tool-spawn = Put in
+tool-remove = Remove
+tool-follow = Follow
+tool-look = Look around
+panel-undo = Undo
+panel-speed = Speed
+panel-scenarios = Scenarios
+panel-menu = Menu
+spawn-coccus = coccus
+spawn-bacillus = bacillus
+spawn-rigid-cell = rigid cell
+spawn-amoeboid = amoeboid
+spawn-platelet = platelet
+spawn-red-cell = red cell
+spawn-probe = probe
+spawn-fluid = fluid
+sandbox-paused = PAUSED
+sandbox-bodies = { $count ->
+    [one] { $count } body
+   *[other] { $count } bodies
+}
+sandbox-particles = { $count ->
+    [one] { $count } particle
+   *[other] { $count } particles
+}
+sandbox-step = step { $time } ms
+sandbox-area = area { $area } µm²
+sandbox-top = top { $value }
+sandbox-legend =
+    circle: particle
+    thin: distance, rope
+    bold: anchor, membrane, joint
+    square: front  bar: rear
+    dot: left  ring: right
+    tint: chemical
+    amber: contact
+sandbox-stopped = Time stands still: let it go on first.
+sandbox-no-undo = There is nothing to undo.
+sandbox-nobody = There is nobody to steer: follow somebody first.
+sandbox-immobile = Whoever is followed cannot crawl.
+sandbox-nothing = There is nothing here.
+sandbox-whole = All of the room is in view: look closer first.
+sandbox-free = Nobody is followed now.
+sandbox-overlap = No room here: { $what }
+sandbox-outside = Outside the walls: { $what }
+sandbox-crowded = The room is full.
+
+## Photos, files and messages
+
+photo-how = Drag or arrow keys: move. Wheel, { $out } or { $in }: zoom. { $optics }: optics. { $picture }: save a picture. Escape: back.
+waiting = The microscope is being set up ...
+quality-lowered = Pictures are slow. Quality is { $quality } now; see the settings.
+quality-drawn = that of the drawn view
+file-written = wrote { $file }
+file-unwritable = cannot write { $file }: { $error }
+file-unreadable = cannot read { $file }: { $error }
+file-not-text = it is no text in UTF-8
+file-senseless = { $file } makes no sense: { $problem }
+file-put-aside = { $told }; kept as { $aside }
+file-added = { $file } is in the list of simulations now.
+files-added = { $count ->
+    [one] { $count } file is in the list of simulations now.
+   *[other] { $count } files are in the list of simulations now.
+}
+last-game-none = No game has been played yet.
+last-game-broken = the last game: { $problem }
+last-game-unkept = cannot keep the game: { $error }
+settings-unkept = cannot keep the settings: { $error }
 
 ## Ways of looking
 
@@ -223,3 +357,28 @@ sight-fluorescence = fluorescence
 sight-negative-phase-contrast = negative-phase-contrast
 sight-phase-contrast = phase-contrast
 sight-stained = stained
+
+## The page around the game: what its own files say, for other languages
+
+page-title = microsim - a cell under the microscope
+page-heading = microsim: a cell under the microscope
+page-canvas = The game. Arrow keys, Enter and Escape move through its menus.
+page-loading = Loading
+page-stopped = The game has stopped
+page-reload = Start again
+page-menu = Menu
+page-zoom-out = Zoom out
+page-zoom-in = Zoom in
+page-divide = Divide
+page-digest = Digest
+page-more = Files, links and privacy
+page-open = Open a file
+page-share = Copy a link to the last game
+page-share-water = Copy a link to the last water
+page-share-scenario = Copy a link to the scenario
+page-privacy = Nothing is sent: settings, scores and games stay in this browser.
+page-licences = Licences
+page-copied = The link is copied.
+page-in-address = The link is in the address bar.
+page-scene = Scene
+page-no-graphics = The graphics were taken away, as after sleep.

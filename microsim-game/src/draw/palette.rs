@@ -1,5 +1,6 @@
 //! Colours of what lies above the scene, and how they mix. The scene's own are the core's, by role.
 
+use crate::words::Key;
 use macroquad::color::Color;
 use microsim_core::drawing::shape::Colour;
 use microsim_core::{Rng, drawing};
@@ -12,11 +13,11 @@ pub(crate) const INK: Color = rgb(0.16, 0.20, 0.17);
 pub(crate) const READY: Color = rgb(0.36, 0.92, 0.42);
 /// Cells of players, by number: sky blue, orange, bluish green and reddish purple, which the colour-blind tell apart (Okabe and Ito,
 /// "Color universal design", 2008).
-pub(crate) const PLAYERS: [(&str, Color); 4] = [
-    ("blue", rgb(0.34, 0.71, 0.91)),
-    ("orange", rgb(0.90, 0.62, 0.0)),
-    ("green", rgb(0.0, 0.62, 0.45)),
-    ("purple", rgb(0.80, 0.47, 0.65)),
+pub(crate) const PLAYERS: [(Key, Color); 4] = [
+    (Key::ColourBlue, rgb(0.34, 0.71, 0.91)),
+    (Key::ColourOrange, rgb(0.90, 0.62, 0.0)),
+    (Key::ColourGreen, rgb(0.0, 0.62, 0.45)),
+    (Key::ColourPurple, rgb(0.80, 0.47, 0.65)),
 ];
 pub(crate) const WAIT: Color = rgb(0.62, 0.72, 0.86);
 pub(crate) const ALERT: Color = rgb(1.0, 0.72, 0.25);

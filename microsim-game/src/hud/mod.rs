@@ -46,7 +46,12 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
     if !status.note.is_empty() {
-        pen.label(Vec2::new(0.5 * screen.x, middle), TextSize::Body, Align::Centre, HALO, status.note);
+        let beside = pen.width(size, status.score).max(pen.width(TextSize::Large, &clock(left))) + line;
+        let width = pen.width(TextSize::Body, status.note);
+        // Below the score, where it would cover it.
+        let y = if width + 2.0 * beside > screen.x { middle + line } else { middle };
+        let size = if width > 0.96 * screen.x { TextSize::Small } else { TextSize::Body };
+        pen.label(Vec2::new(0.5 * screen.x, y), size, Align::Centre, HALO, status.note);
     }
 }
 

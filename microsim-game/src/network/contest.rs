@@ -6,6 +6,7 @@ use super::session::Session;
 use super::told::Told;
 use super::transport::{Member, Transport};
 use crate::rules::two_players::TwoPlayers;
+use crate::words::{self, Key};
 use microsim_core::Intent;
 
 /// Time for which a cell is kept for who was cut, ms.
@@ -40,7 +41,7 @@ impl Match {
 
     fn of(start: Start, session: Session, called: u32) -> Self {
         let seats = start.seats.len();
-        let names = start.seats.iter().map(|member| format!("Player {}", member + 1)).collect();
+        let names = start.seats.iter().map(|&member| numbered(member)).collect();
         Self { start, session, names, heard: vec![false; seats], left: vec![None; seats], called }
     }
 
@@ -143,6 +144,11 @@ impl Match {
     pub fn own(&self) -> Option<usize> {
         self.session.own()
     }
+}
+
+/// What somebody without a name is called.
+pub(super) fn numbered(member: Member) -> String {
+    words::text_with(Key::TwoPlayer, &[("number", (u32::from(member) + 1).into())])
 }
 
 pub(super) fn way(together: bool) -> TwoPlayers {

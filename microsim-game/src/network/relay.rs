@@ -1,6 +1,7 @@
 //! Frames to and from the server of rooms. The page docs/network.md has the format.
 
 use super::transport::{LONGEST_MESSAGE, Member, Notice};
+use crate::words::{self, Key};
 
 /// First byte of what the server itself says.
 pub(crate) const NOTICE: u8 = 0xff;
@@ -17,7 +18,10 @@ pub(crate) const MEMBERS: u8 = 4;
 /// Longest reason that is shown, characters.
 const LONGEST_REASON: usize = 200;
 /// Why a connection ends of which the server says nothing.
-pub const CUT: &str = "the connection to the server is cut";
+#[must_use]
+pub fn cut() -> Notice {
+    Notice::Closed(words::text(Key::RoomCut).to_owned())
+}
 
 /// A message as the server takes it; none if it is too long or would be taken for a signal.
 #[must_use]
@@ -44,7 +48,7 @@ pub fn notice(frame: &[u8]) -> Option<Notice> {
         [NOTICE, JOINED, member] => known(*member).map(Notice::Joined),
         [NOTICE, LEFT, member] => known(*member).map(Notice::Left),
         [NOTICE, BACK, member] => known(*member).map(Notice::Back),
-        [NOTICE, REFUSED] => Some(Notice::Closed(CUT.to_owned())),
+        [NOTICE, REFUSED] => Some(cut()),
         [NOTICE, REFUSED, reason @ ..] => {
             let reason = String::from_utf8_lossy(reason);
             Some(Notice::Closed(reason.chars().filter(|c| !c.is_control()).take(LONGEST_REASON).collect()))
@@ -62,7 +66,7 @@ pub fn notice(frame: &[u8]) -> Option<Notice> {
 /// When it is none.
 pub fn check_code(code: &str) -> Result<String, String> {
     let is_code = (4..=12).contains(&code.len()) && code.bytes().all(|byte| byte.is_ascii_alphanumeric());
-    is_code.then(|| code.to_ascii_uppercase()).ok_or_else(|| "a code has 4 to 12 letters and digits".to_owned())
+    is_code.then(|| code.to_ascii_uppercase()).ok_or_else(|| words::text(Key::RoomCode).to_owned())
 }
 
 /// The end of a room's address, for who has this key.
@@ -82,7 +86,7 @@ mod tests {
         assert_eq!(notice(&[0xff, 2, 0]), Some(Notice::Left(0)));
         assert_eq!(notice(&[0xff, 5, 1]), Some(Notice::Back(1)));
         assert_eq!(notice(b"\xff\x03full\x1b[2J"), Some(Notice::Closed("full[2J".into())));
-        assert_eq!(notice(&[0xff, 3]), Some(Notice::Closed(CUT.into())));
+        assert_eq!(notice(&[0xff, 3]), Some(cut()));
         assert_eq!(notice(&[1, 7, 8]), Some(Notice::Message { from: 1, bytes: vec![7, 8] }));
         assert_eq!(notice(&frame(3, b"eat").unwrap()), Some(Notice::Message { from: 3, bytes: b"eat".to_vec() }));
     }

@@ -1,10 +1,11 @@
 //! A room: who is there, under which names, who is ready, and the match that they start.
 
-use super::contest::{Match, way};
+use super::contest::{Match, numbered, way};
 use super::message::{Hello, Message, Program, Start, clean, clean_text, write};
 use super::transport::{Member, Notice, Transport};
 use crate::rules::round::MOST_PLAYERS;
 use crate::rules::two_players::TwoPlayers;
+use crate::words::Key;
 use microsim_core::Intent;
 
 /// Time between two messages of who is there, and between two calls to start, ms.
@@ -28,7 +29,7 @@ pub struct Seat {
     /// Whether it is this player.
     pub is_own: bool,
     /// What is to be said of it.
-    pub note: &'static str,
+    pub note: Key,
 }
 
 /// A room that this player is in.
@@ -320,7 +321,7 @@ impl Room {
 
     fn name_of(&self, member: Member) -> String {
         let name = self.hello_of(member).map_or("", |hello| &hello.name);
-        if name.is_empty() { format!("Player {}", member + 1) } else { name.to_owned() }
+        if name.is_empty() { numbered(member) } else { name.to_owned() }
     }
 
     /// All members, in order.
@@ -329,11 +330,11 @@ impl Room {
         let seat = |member: Member| {
             let is_own = Some(member) == self.own;
             let note = match self.hello_of(member) {
-                None => "is coming",
-                Some(hello) if hello.program != self.hello.program => "has another version",
-                Some(hello) if hello.is_playing => "plays",
-                Some(hello) if hello.is_ready => "ready",
-                Some(_) => "not ready",
+                None => Key::RoomComing,
+                Some(hello) if hello.program != self.hello.program => Key::RoomOtherVersion,
+                Some(hello) if hello.is_playing => Key::RoomPlays,
+                Some(hello) if hello.is_ready => Key::RoomIsReady,
+                Some(_) => Key::RoomNotReady,
             };
             Seat { name: self.name_of(member), is_own, note }
         };

@@ -198,7 +198,7 @@ fn programs_that_differ_do_not_play() {
     players.iter_mut().for_each(|player| player.room.set_ready(true));
     run(&mut players, 0..5);
     assert!(players.iter().all(|player| player.current.is_none()));
-    assert_eq!(players[0].room.seats()[1].note, "has another version");
+    assert_eq!(players[0].room.seats()[1].note, Key::RoomOtherVersion);
 }
 
 #[test]

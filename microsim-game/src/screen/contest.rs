@@ -10,6 +10,7 @@ use crate::input::{Action, Input, Move};
 use crate::network::contest::Match;
 use crate::platform;
 use crate::viewer::{Viewer, first_view};
+use crate::words::{self, Key};
 use microsim_core::Intent;
 use std::time::Duration;
 
@@ -89,12 +90,12 @@ impl Contest {
             let kept = [RECORD, WORLD].into_iter().zip(parts);
             let kept = kept.filter_map(|(name, bytes)| Some(context.store.write(name, &bytes?)));
             let are_kept = kept.filter(Result::is_ok).count() == 2;
-            let files =
-                if are_kept { format!(" {RECORD} and {WORLD} are beside the settings.") } else { String::new() };
-            return Some(format!("The worlds of the players differ before step {step}, so it is a draw.{files}"));
+            let told = words::text_with(Key::MatchDiffers, &[("step", (&step.to_string()).into())]);
+            let files = || words::text_with(Key::MatchKept, &[("record", RECORD.into()), ("world", WORLD.into())]);
+            return Some(if are_kept { format!("{told} {}", files()) } else { told });
         }
         if self.waiting >= LONGEST_WAIT && !round.is_over() {
-            return Some("Somebody does not answer, so it is a draw.".to_owned());
+            return Some(words::text(Key::MatchSilent).to_owned());
         }
         let last_word = session.frames_over() + self.waiting;
         if !session.is_over() && (!round.is_over() || last_word < LAST_WORD) {
@@ -103,15 +104,19 @@ impl Contest {
         if let Some(record) = round.record() {
             context.keep_game(record, Ok(()));
         }
-        let own = self.game.own().map_or_else(|| "You watched".to_owned(), |own| format!("You were {}", player(own)));
-        Some(format!("{}. {own}.", self.game.way().verdict(&round.scores(), self.game.names())))
+        let verdict = self.game.way().verdict(&round.scores(), self.game.names());
+        let verdict = ("verdict", (&verdict).into());
+        Some(match self.game.own() {
+            Some(own) => words::text_with(Key::MatchEnd, &[verdict, ("player", (&player(own)).into())]),
+            None => words::text_with(Key::MatchWatched, &[verdict]),
+        })
     }
 
     /// The connection is cut: goes into the room again, for a while.
     fn come_back(&mut self, since: f32, context: &mut AppContext) -> Next {
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         if context.time - since > RETURN_TIME {
-            let reason = room.closed().unwrap_or("nobody goes on with the match").to_owned();
+            let reason = room.closed().unwrap_or(words::text(Key::MatchNobody)).to_owned();
             context.room = None;
             context.tell(reason);
             return Next::Show(MainScreen::Title);
@@ -124,23 +129,25 @@ impl Contest {
         }
         if room.is_idle() {
             room.finish();
-            return Next::Show(MainScreen::Lobby(Some("The match is over.".to_owned())));
+            return Next::Show(MainScreen::Lobby(Some(words::text(Key::MatchOver).to_owned())));
         }
         Next::Stay
     }
 
     fn advice(&self, context: &AppContext) -> Option<String> {
-        let time = self.game.session().round().world().time();
-        if context.time < self.leaves_until {
-            Some("Escape again: leave the match".to_owned())
+        let key = if context.time < self.leaves_until {
+            Key::MatchLeave
         } else if self.cut_since.is_some() {
-            Some("The connection is cut. Coming back ...".to_owned())
+            Key::MatchCut
         } else if self.waiting > PATIENCE {
-            Some("Waiting for the others ...".to_owned())
+            Key::MatchWaiting
         } else {
-            let Some(own) = self.game.own() else { return Some("You watch.".to_owned()) };
-            let text = || format!("You are {}. Hold the mouse button or a finger to crawl.", player(own));
-            (time < ADVICE_TIME).then(text)
+            Key::MatchWatch
+        };
+        let time = self.game.session().round().world().time();
+        match self.game.own() {
+            Some(own) if key == Key::MatchWatch => (time < ADVICE_TIME).then(|| player_advice(own)),
+            _ => Some(words::text(key).to_owned()),
         }
     }
 
@@ -148,14 +155,12 @@ impl Contest {
     fn net(&self) -> String {
         let session = self.game.session();
         let (ping, loss) = session.way();
-        let ping = ping.map_or_else(|| "-".to_owned(), |ping| ping.to_string());
+        let (ping, loss) =
+            (ping.map_or_else(|| "-".to_owned(), |ping| ping.to_string()), words::number(100.0 * loss, 0));
         let tally = session.tally();
-        format!(
-            "{ping} ms, {:.0} % lost, back {} times, {} frames at most",
-            100.0 * loss,
-            tally.rollbacks,
-            tally.deepest
-        )
+        let counts = [("back", tally.rollbacks.into()), ("frames", tally.deepest.into())];
+        let way = [("ping", (&ping).into()), ("loss", (&loss).into())];
+        words::text_with(Key::MatchNet, &[way, counts].concat())
     }
 }
 
@@ -186,7 +191,7 @@ impl Screen for Contest {
             return self.come_back(since, context);
         }
         self.run(input, context);
-        let over = is_alone.then(|| "The match is over.".to_owned());
+        let over = is_alone.then(|| words::text(Key::MatchOver).to_owned());
         let Some(news) = self.outcome(context).or(over) else { return Next::Stay };
         if let Some(room) = &mut context.room {
             room.finish();
@@ -240,5 +245,11 @@ impl Screen for Contest {
 
 /// A player, for people.
 fn player(own: usize) -> String {
-    format!("player {}, {}", own + 1, PLAYERS[own % PLAYERS.len()].0)
+    let colour = words::text(PLAYERS[own % PLAYERS.len()].0);
+    words::text_with(Key::MatchPlayer, &[("number", (own as u32 + 1).into()), ("colour", colour.into())])
+}
+
+/// What a player is told at the beginning.
+fn player_advice(own: usize) -> String {
+    words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())])
 }

@@ -47,6 +47,20 @@ pub struct Asked {
     pub language: Option<&'static Language>,
 }
 
+/// Chooses the language of what is read before the settings are there.
+pub(crate) fn choose_first_language(asked: &Asked, store: &PlayerFolder, system: &'static Language) {
+    let kept = store.read(kept::FILE).and_then(|bytes| toml::from_slice::<Settings>(&bytes).ok());
+    let kept = kept.and_then(|settings| Language::named(&settings.language));
+    show_language(asked.language.or(kept).unwrap_or(system));
+}
+
+/// Takes over a language, once its texts are there.
+fn show_language(language: &'static Language) {
+    if words::choose(language, || platform::words(language.code)) {
+        platform::show_language(language.code);
+    }
+}
+
 /// What a photo shows of a scene: at first what is seen of it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PhotoView(Option<Camera>);
@@ -186,10 +200,14 @@ impl AppContext {
         self.message = Some((text, self.time + time));
     }
 
+    fn tell_error(&mut self, key: Key, error: &io::Error) {
+        self.tell(words::text_with(key, &[("error", (&error.to_string()).into())]));
+    }
+
     /// Keeps a round that was played to its end, to be watched again. `kept` says whether what it earned was kept.
     pub(super) fn keep_game(&mut self, record: Vec<u8>, kept: io::Result<()>) {
         if let Err(error) = kept.and(self.store.write(LAST_GAME, &record)) {
-            self.tell(format!("cannot keep the game: {error}"));
+            self.tell_error(Key::LastGameUnkept, &error);
         }
         self.last_game = Some(record);
     }
@@ -209,7 +227,7 @@ impl AppContext {
         }
         self.kept_settings = self.settings.clone();
         if let Err(error) = self.store.save(kept::FILE, &self.settings) {
-            self.tell(format!("cannot keep the settings: {error}"));
+            self.tell_error(Key::SettingsUnkept, &error);
         }
     }
 
@@ -240,10 +258,7 @@ impl AppContext {
 
     /// Takes over the language that is wanted, once its texts are there.
     pub(crate) fn choose_language(&mut self) {
-        let language = self.language();
-        if words::choose(language, || platform::words(language.code)) {
-            platform::show_language(language.code);
-        }
+        show_language(self.language());
     }
 
     /// Draws a scene as the player wants to see it. Returns what of it is seen, which is another part where a photo is prepared.

@@ -58,9 +58,10 @@ impl Screen for Join {
         let (middle, line) = (0.5 * pen.screen(), pen.line(TextSize::Body));
         pen.write(middle, TextSize::Large, Align::Centre, READY, &format!("{}_", self.code));
         let told = [words::text(Key::JoinHow), words::text(Key::JoinWho)];
-        for (k, text) in told.into_iter().enumerate() {
+        let told = told.into_iter().flat_map(|text| pen.wrap(TextSize::Small, text, 0.94 * pen.screen().x));
+        for (k, text) in told.collect::<Vec<_>>().into_iter().enumerate() {
             let at = middle + Vec2::new(0.0, (2.0 + k as f32) * line);
-            pen.write(at, TextSize::Small, Align::Centre, HALO, text);
+            pen.write(at, TextSize::Small, Align::Centre, HALO, &text);
         }
     }
 

@@ -5,11 +5,11 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
 use crate::draw::palette::PLAYERS;
 use crate::input::{Input, Move};
-use crate::network::room::Room;
+use crate::network::room::{Room, Seat};
 use crate::platform;
 use crate::rules::two_players::TwoPlayers;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
-use crate::words;
+use crate::words::{self, Key};
 
 /// Items before those who are there.
 const READY: usize = 0;
@@ -41,20 +41,19 @@ pub(super) fn clock() -> u32 {
 
 impl Lobby {
     pub(super) fn new(news: Option<String>) -> Self {
-        Self { page: MenuPage::new("The room", Vec::new()), news }
+        Self { page: MenuPage::new(Key::RoomHeading, Vec::new()), news }
     }
 
     fn show(&mut self, room: &Room) {
+        let how = words::text(room.way().label());
         let way = if room.leads() {
-            MenuItem::with("Play", words::text(room.way().label()))
+            MenuItem::with(Key::RoomPlay, how)
         } else {
-            MenuItem::new(format!("Play: {}", words::text(room.way().label())))
+            MenuItem::new(format!("{}: {how}", words::text(Key::RoomPlay)))
         };
-        let seats = (1..).zip(PLAYERS).zip(room.seats()).map(|((number, (colour, _)), seat)| {
-            let own = if seat.is_own { " (you)" } else { "" };
-            MenuItem::new(format!("{number} {}{own}, {colour}: {}", seat.name, seat.note))
-        });
-        let items = [MenuItem::switch("Ready", room.is_ready()), way, MenuItem::new("Leave")];
+        let seats = (1..).zip(PLAYERS).zip(room.seats());
+        let seats = seats.map(|((number, (colour, _)), seat)| MenuItem::new(seat_label(number, colour, seat)));
+        let items = [MenuItem::switch(Key::RoomReady, room.is_ready()), way, MenuItem::new(Key::RoomLeave)];
         self.page.menu.items = items.into_iter().chain(seats).collect();
         self.page.menu.set_focus(self.page.menu.focus());
     }
@@ -92,16 +91,12 @@ impl Screen for Lobby {
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
         let Some(room) = &context.room else { return };
-        let code = room.code();
+        let of_code = |key| words::text_with(key, &[("code", room.code().into())]);
         let note = match &self.news {
-            Some(news) => format!("{news} Whoever is ready plays again."),
-            None if room.is_entered() && room.has_match() => {
-                format!("Code {code}. A match is on: whoever is ready takes a cell without a player, or watches.")
-            }
-            None if room.is_entered() => {
-                format!("Code {code}. The match begins when two to four are here and all are ready.")
-            }
-            None => format!("Code {code}. On the way to the server ..."),
+            Some(news) => words::text_with(Key::RoomAgain, &[("news", news.into())]),
+            None if room.is_entered() && room.has_match() => of_code(Key::RoomMatchOn),
+            None if room.is_entered() => of_code(Key::RoomWaits),
+            None => of_code(Key::RoomEntering),
         };
         self.page.draw_note(&mut context.pen, &note);
     }
@@ -113,4 +108,13 @@ impl Screen for Lobby {
     fn name(&self) -> String {
         "lobby".to_owned()
     }
+}
+
+/// Who is there, in which colour, and what is to be said of it.
+fn seat_label(number: u32, colour: Key, seat: Seat) -> String {
+    let own = || words::text_with(Key::RoomOwnName, &[("name", (&seat.name).into())]);
+    let name = if seat.is_own { own() } else { seat.name.clone() };
+    let said = [("colour", words::text(colour)), ("note", words::text(seat.note)), ("name", name.as_str())];
+    let said = said.map(|(variable, text)| (variable, text.into()));
+    words::text_with(Key::RoomSeat, &[&said[..], &[("number", number.into())]].concat())
 }

@@ -7,6 +7,7 @@ use crate::input::{Action, Input, Move};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::zoom_factor;
+use crate::words::{self, Arg, Key};
 use microsim_core::glam::Vec2;
 
 /// Width of the scale bar, at most, share of the picture's.
@@ -24,13 +25,10 @@ impl Photo {
     pub(super) fn new(context: &mut AppContext) -> Self {
         context.photo = Some(PhotoView::default());
         let label = |action| context.settings.keys.label(action);
-        context.tell(format!(
-            "Drag or arrow keys: move. Wheel, {} or {}: zoom. {}: optics. {}: save a picture. Escape: back.",
-            label(Action::ZoomOut),
-            label(Action::ZoomIn),
-            label(Action::Optics),
-            label(Action::Screenshot)
-        ));
+        let keys = [Action::ZoomOut, Action::ZoomIn, Action::Optics, Action::Screenshot].map(label);
+        let [out, into, optics, picture] = keys.each_ref().map(Arg::from);
+        let named = [("out", out), ("in", into), ("optics", optics), ("picture", picture)];
+        context.tell(words::text_with(Key::PhotoHow, &named));
         Self { grip: None }
     }
 }
@@ -84,7 +82,7 @@ fn draw_scale(pen: &mut Pen, scale: f32) {
     pen.canvas().rectangle(left, right + thick, HALO);
     // A unit is a micrometre.
     let middle = 0.5 * (left + right) - Vec2::new(0.0, 0.6 * line);
-    pen.label(middle, TextSize::Small, Align::Centre, HALO, &format!("{length} \u{b5}m"));
+    pen.label(middle, TextSize::Small, Align::Centre, HALO, &format!("{} µm", words::shortest(length)));
 }
 
 /// The longest one of 1, 2, 5, 10, 20, ... that is no longer than this.

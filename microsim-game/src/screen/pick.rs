@@ -6,30 +6,30 @@ use super::{Next, Screen};
 use crate::input::{Input, Move};
 use crate::scene_source::SceneSource;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
-use crate::words::{self, Key};
+use crate::words::{self, Key, Label};
 use microsim_core::glam::Vec2;
-use microsim_core::scenario;
+use microsim_core::scenario::{self, Builtin};
 
 /// Edge around a picture, drawing units.
 const EDGE: f32 = 2.0;
 /// Names of built-in scenarios for people.
-const TITLES: &[(&str, &str)] = &[
-    ("absorb-agar", "A first meal"),
-    ("absorb-rigid", "A large meal"),
-    ("crawl", "A cell crawls"),
-    ("crowd", "Many cells"),
-    ("dam-break", "A dam breaks"),
-    ("demo", "A bit of everything"),
-    ("divide", "A cell divides"),
-    ("empty", "An empty room"),
-    ("game", "The game"),
-    ("grow", "A cell grows"),
-    ("hunt", "A neutrophil hunts"),
-    ("leak-stress", "Stress test: leaks"),
-    ("platelets", "A field of platelets"),
-    ("pond", "A pond"),
-    ("ram-stress", "Stress test: collisions"),
-    ("squeeze", "Through a narrow gap"),
+const TITLES: &[(&str, Key)] = &[
+    ("absorb-agar", Key::SceneAbsorbAgar),
+    ("absorb-rigid", Key::SceneAbsorbRigid),
+    ("crawl", Key::SceneCrawl),
+    ("crowd", Key::SceneCrowd),
+    ("dam-break", Key::SceneDamBreak),
+    ("demo", Key::SceneDemo),
+    ("divide", Key::SceneDivide),
+    ("empty", Key::SceneEmpty),
+    ("game", Key::SceneGame),
+    ("grow", Key::SceneGrow),
+    ("hunt", Key::SceneHunt),
+    ("leak-stress", Key::SceneLeakStress),
+    ("platelets", Key::ScenePlatelets),
+    ("pond", Key::ScenePond),
+    ("ram-stress", Key::SceneRamStress),
+    ("squeeze", Key::SceneSqueeze),
 ];
 
 #[derive(Debug)]
@@ -42,8 +42,9 @@ impl Pick {
     /// The files that the player has named or dropped, and the built-in scenarios.
     pub(super) fn new(context: &AppContext) -> Self {
         let files = context.files.iter().map(|file| (file.clone(), words::text(Key::PickFile)));
+        let about = |found: &Builtin| words::of_scene(found.name, "about").unwrap_or(found.summary);
         let builtins =
-            scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), found.summary));
+            scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), about(found)));
         let sources: Vec<_> = files.chain(builtins).collect();
         let items = sources.iter().map(|(source, _)| MenuItem::new(title(source))).collect();
         Self { page: MenuPage::new(Key::TitleSimulation, items).tall(), sources }
@@ -51,10 +52,10 @@ impl Pick {
 }
 
 /// What a scenario is called for people; a file by its name.
-fn title(source: &SceneSource) -> String {
+fn title(source: &SceneSource) -> Label {
     let name = source.to_string();
     let known = TITLES.iter().find(|(known, _)| matches!(source, SceneSource::Builtin(_)) && *known == name);
-    known.map_or(name, |(_, title)| (*title).to_owned())
+    known.map_or_else(|| name.into(), |(_, title)| (*title).into())
 }
 
 impl Screen for Pick {
@@ -97,9 +98,9 @@ mod tests {
     fn every_built_in_scenario_has_a_name_for_people() {
         for found in scenario::builtins() {
             let name = title(&SceneSource::Builtin(found.name.to_owned()));
-            assert!(name != found.name && name.starts_with(char::is_uppercase), "{name}");
+            assert!(matches!(name, Label::Key(_)) && name.text().starts_with(char::is_uppercase), "{name:?}");
         }
         assert_eq!(TITLES.len(), scenario::builtins().len());
-        assert_eq!(title(&SceneSource::File("a/crawl.toml".into())), "crawl.toml");
+        assert_eq!(title(&SceneSource::File("a/crawl.toml".into())), "crawl.toml".into());
     }
 }

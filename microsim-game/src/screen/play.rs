@@ -96,8 +96,9 @@ impl Play {
     /// # Errors
     /// When there is none, or it cannot be read.
     pub(super) fn replay(context: &AppContext) -> Result<Self, String> {
-        let record = context.last_game.as_ref().ok_or("No game has been played yet.")?;
-        let replay = Replay::read(record).map_err(|error| format!("the last game: {error}"))?;
+        let record = context.last_game.as_ref().ok_or_else(|| words::text(Key::LastGameNone))?;
+        let replay = Replay::read(record)
+            .map_err(|error| words::text_with(Key::LastGameBroken, &[("problem", (&error.to_string()).into())]))?;
         Ok(Self::new(Round::again(&replay)?, Paused::Replay, context))
     }
 
@@ -220,7 +221,7 @@ impl Play {
     /// The task of a slide, in the language of the player.
     fn task<'a>(&self, attempt: &'a Attempt) -> &'a str {
         let Paused::Slide(index) = self.played else { return &attempt.slide().task };
-        let own = SLIDES.get(index).and_then(|slide| words::of_slide(slide.name, "task"));
+        let own = SLIDES.get(index).and_then(|slide| words::of_scene(slide.name, "task"));
         own.unwrap_or(&attempt.slide().task)
     }
 

@@ -1,6 +1,7 @@
 //! What is kept by name, as text that people can read. Damaged values are put aside, never overwritten.
 
 use crate::platform::Storage;
+use crate::words::{self, Key};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io;
@@ -38,8 +39,12 @@ impl PlayerFolder {
         match bytes.and_then(|bytes| parse(&bytes)) {
             Ok(value) => (value, None),
             Err(problem) => {
-                let kept = put_aside(storage, name).map_or(String::new(), |aside| format!("; kept as {aside}"));
-                (T::default(), Some(format!("{name} makes no sense: {problem}{kept}")))
+                let told =
+                    words::text_with(Key::FileSenseless, &[("file", name.into()), ("problem", (&problem).into())]);
+                let with = |aside: String| {
+                    words::text_with(Key::FilePutAside, &[("told", (&told).into()), ("aside", (&aside).into())])
+                };
+                (T::default(), Some(put_aside(storage, name).map_or_else(|_| told.clone(), with)))
             }
         }
     }

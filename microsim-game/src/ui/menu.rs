@@ -252,7 +252,9 @@ impl Menu {
         // The item in focus is marked by shape as well.
         let mark = if has_focus { "> " } else { "  " };
         let label = format!("{mark}{}", item.label.text());
-        pen.write(Vec2::new(low.x + inset, middle), layout.size, Align::Left, ink, &label);
+        let width = pen.width(layout.size, &label) + 2.0 * inset;
+        let size = if width > layout.item.x { TextSize::Small } else { layout.size };
+        pen.write(Vec2::new(low.x + inset, middle), size, Align::Left, ink, &label);
         if let Some(stars) = item.stars {
             let radius = 0.24 * layout.item.y;
             draw_stars(pen, Vec2::new(high.x - inset - 0.5 * stars_width(radius), middle), radius, stars, ink);

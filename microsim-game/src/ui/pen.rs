@@ -155,7 +155,7 @@ impl Default for Pen {
 }
 
 /// Text in lines that fit; a word that does not has a line of its own.
-fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+pub(crate) fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.lines() {
         let mut line = String::new();

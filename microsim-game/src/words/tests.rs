@@ -1,11 +1,7 @@
 use super::*;
-use crate::input::Action;
-use crate::scenery::{Effort, Sight};
-use crate::ui::font::TextSize;
-use crate::ui::menu::MenuLayout;
-use crate::ui::pen::Pen;
+use crate::slides::SLIDES;
 use fluent_bundle::{FluentArgs, FluentBundle, FluentResource};
-use microsim_core::glam::Vec2;
+use microsim_core::scenario::builtins;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -84,14 +80,49 @@ fn every_letter_can_be_written() {
 }
 
 #[test]
-fn every_slide_is_told_in_every_other_language() {
+fn every_slide_and_simulation_is_told_in_every_other_language() {
+    let of_slides = SLIDES.iter().flat_map(|slide| ["title", "task", "fact"].map(|part| (slide.name, part)));
+    let of_simulations = builtins().iter().map(|found| (found.name, "about"));
+    let expected: Vec<_> = of_slides.chain(of_simulations).collect();
     for language in &LANGUAGES[1..] {
         choose(language, || None);
-        let expected =
-            crate::slides::SLIDES.iter().flat_map(|slide| ["title", "task", "fact"].map(|part| (slide.name, part)));
-        let known = expected.filter(|(name, part)| of_slide(name, part).is_some()).count();
-        assert_eq!(known, 3 * crate::slides::SLIDES.len());
-        assert_eq!(language.texts(|| None).unwrap().len(), COUNT + known, "texts of slides that are not there");
+        let missing: Vec<_> = expected.iter().filter(|(name, part)| of_scene(name, part).is_none()).collect();
+        assert!(missing.is_empty(), "{}: {missing:?}", language.code);
+        let others = language.texts(|| None).unwrap()[COUNT..].iter().filter(|text| !text.starts_with("page-\x02"));
+        assert_eq!(others.count(), expected.len(), "{}: texts of scenes that are not there", language.code);
+    }
+}
+
+/// The English texts of the page that are in the catalogue.
+fn of_page() -> BTreeSet<String> {
+    let catalogue = source(&LANGUAGES[0]);
+    let told = catalogue.lines().filter(|line| line.starts_with("page-"));
+    told.map(|line| line.split_once(" = ").unwrap().1.to_owned()).collect()
+}
+
+/// What stands between two marks.
+fn between<'a>(text: &'a str, before: &str, after: &str) -> BTreeSet<&'a str> {
+    text.split(before).skip(1).filter_map(|rest| Some(rest.split(after).next()?.trim())).collect()
+}
+
+#[test]
+fn all_that_the_page_says_is_in_the_catalogue_and_nothing_else() {
+    let page = include_str!("../../web/index.html");
+    let scripts = [include_str!("../../web/start.js"), include_str!("../../web/host.js")].concat();
+    let without_scripts = page.split("<noscript>").map(|part| part.split("</noscript>").last().unwrap());
+    let seen = without_scripts.collect::<String>();
+    let mut said = between(&seen, ">", "<");
+    said.extend(between(&seen, "aria-label=\"", "\""));
+    let answers = between(&scripts, "say(", ")");
+    said.extend(answers.iter().flat_map(|answer| answer.split('"').skip(1).step_by(2)));
+    let name = crate::ui::font::TITLE;
+    said.retain(|text| text.contains(char::is_alphabetic) && !text.contains('&') && *text != name);
+    let known = of_page();
+    assert_eq!(said, known.iter().map(String::as_str).collect());
+    for language in &LANGUAGES[1..] {
+        let texts = language.texts(|| None).unwrap();
+        let told = texts.iter().filter_map(|text| Some(text.strip_prefix("page-\x02")?.split_once('\x02')?.0));
+        assert_eq!(told.collect::<BTreeSet<_>>(), said, "{}", language.code);
     }
 }
 
@@ -111,66 +142,4 @@ fn a_table_of_another_version_is_refused_and_one_that_comes_late_is_taken() {
     assert_eq!(current().code, "en");
     choose(other, || Some(vec![0; COUNT]));
     assert_eq!(current().code, "xx");
-}
-
-/// Widths in a small window with the largest text.
-fn small_window() -> (Pen, impl Fn(TextSize, &str) -> f32) {
-    Pen::measured(Vec2::new(640.0, 360.0), 1.5)
-}
-
-#[test]
-fn settings_and_keys_fit_their_menu_in_a_small_window() {
-    let (pen, measure) = small_window();
-    let (layout, line) = (MenuLayout::middle(&pen, 0.3), pen.line(TextSize::Body));
-    let room = layout.item.x - 0.8 * layout.item.y.min(1.55 * line);
-    let efforts = || Effort::ALL.map(Effort::title).to_vec();
-    for language in &LANGUAGES {
-        choose(language, || None);
-        let switch = || vec![text(Key::MenuOn), text(Key::MenuOff)];
-        let mut items = vec![
-            (Key::SettingsLanguage, LANGUAGES.iter().map(|language| language.name).collect()),
-            (Key::SettingsOptics, Sight::all().map(Sight::title).collect()),
-            (Key::SettingsQuality, efforts()),
-            (Key::SettingsTextSize, vec!["150 %"]),
-            (Key::SettingsPace, vec!["100 %"]),
-            (Key::SettingsSound, vec!["100 %"]),
-        ];
-        let switches = [Key::SettingsMotion, Key::SettingsDigestion, Key::SettingsCrawl, Key::SettingsArrows];
-        items.extend(switches.into_iter().chain([Key::SettingsFullScreen]).map(|key| (key, switch())));
-        items.extend(Action::ALL.map(|action| (action.label(), vec![text(Key::KeysPress)])));
-        for (label, values) in items {
-            for value in values {
-                let line = format!("> {}  {value} >", text(label));
-                assert!(measure(TextSize::Body, &line) <= room, "{}: {line}", language.code);
-            }
-        }
-    }
-}
-
-#[test]
-fn menus_and_headings_fit_a_small_window() {
-    let (pen, measure) = small_window();
-    let title = MenuLayout::title(&pen).item.x;
-    let middle = MenuLayout::middle(&pen, 0.3).item.x;
-    for language in &LANGUAGES {
-        choose(language, || None);
-        for (name, key) in ALL {
-            let room = match name.split_once('-').map_or(name, |(group, _)| group) {
-                "title" if !["title", "title-motto", "title-version"].contains(&name) => title,
-                "quit" | "pause" | "back" | "settings" => middle,
-                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other"].contains(&name) => {
-                    middle
-                }
-                _ => continue,
-            };
-            if name == "settings-unknown-language" {
-                continue;
-            }
-            let width = measure(TextSize::Body, &format!("> {}", text(key))) + 0.8 * pen.line(TextSize::Body);
-            assert!(width <= room, "{name}, {}: {width} of {room}", language.code);
-        }
-        for key in [Key::ChangeHeading, Key::QuitHeading, Key::TitleNetwork, Key::HudBitten, Key::HudReplayDiffers] {
-            assert!(measure(TextSize::Body, text(key)) <= 0.96 * pen.screen().x, "{}", text(key));
-        }
-    }
 }

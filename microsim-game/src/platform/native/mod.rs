@@ -40,7 +40,18 @@ pub const SHOWS_MENUS: bool = false;
 #[must_use]
 pub fn locale() -> String {
     let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
-    ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set).unwrap_or_default()
+    ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set).or_else(system_locale).unwrap_or_default()
+}
+
+/// The user's locale where the system itself knows it.
+#[cfg(any(windows, target_os = "macos"))]
+fn system_locale() -> Option<String> {
+    sys_locale::get_locale()
+}
+
+#[cfg(not(any(windows, target_os = "macos")))]
+fn system_locale() -> Option<String> {
+    None
 }
 
 /// None: all texts are in the program.

@@ -1,8 +1,9 @@
 //! A room of a server, by WebSocket.
 
 use super::mesh::Mesh;
-use crate::network::relay::{self, CUT};
+use crate::network::relay;
 use crate::network::transport::{LONGEST_MESSAGE, Member, Notice, Transport};
+use crate::words::{self, Key};
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 use std::io::{self, ErrorKind};
@@ -61,15 +62,30 @@ fn host(server: &str) -> Result<String, String> {
     Ok(if has_port { host.to_owned() } else { format!("{host}:{PORT}") })
 }
 
-fn connect(host: &str, way: &str) -> Result<WebSocket<TcpStream>, String> {
-    let unreachable = |error: io::Error| format!("cannot reach {host}: {error}");
+/// Why there is no connection. The language is that of another thread, which puts it into words.
+#[derive(Debug)]
+struct Failure {
+    key: Key,
+    host: String,
+    error: String,
+}
+
+impl Failure {
+    fn told(&self) -> String {
+        words::text_with(self.key, &[("host", (&self.host).into()), ("error", (&self.error).into())])
+    }
+}
+
+fn connect(host: &str, way: &str) -> Result<WebSocket<TcpStream>, Failure> {
+    let failure = |key, error: String| Failure { key, host: host.to_owned(), error };
+    let unreachable = |error: io::Error| failure(Key::RoomUnreachable, error.to_string());
     let stream = reach(host).map_err(unreachable)?;
     let config = WebSocketConfig::default()
         .max_message_size(Some(LONGEST_MESSAGE + 1))
         .max_frame_size(Some(LONGEST_MESSAGE + 1))
         .max_write_buffer_size(LONGEST_QUEUE);
     let connected = client::client_with_config(format!("ws://{host}/room/{way}"), stream, Some(config));
-    let (socket, _) = connected.map_err(|error| format!("{host} has no rooms: {error}"))?;
+    let (socket, _) = connected.map_err(|error| failure(Key::RoomNone, error.to_string()))?;
     socket.get_ref().set_nonblocking(true).map_err(unreachable)?;
     Ok(socket)
 }
@@ -98,7 +114,7 @@ struct Room {
 
 #[derive(Debug)]
 enum State {
-    Connecting(Receiver<Result<WebSocket<TcpStream>, String>>),
+    Connecting(Receiver<Result<WebSocket<TcpStream>, Failure>>),
     Open(Box<WebSocket<TcpStream>>),
     Closed,
 }
@@ -112,15 +128,15 @@ impl Room {
                     self.mesh = socket.get_ref().local_addr().ok().and_then(|own| Mesh::new(own.ip()));
                     self.state = State::Open(Box::new(socket));
                 }
-                Ok(Err(problem)) => return Some(Some(Notice::Closed(problem))),
+                Ok(Err(failure)) => return Some(Some(Notice::Closed(failure.told()))),
                 Err(TryRecvError::Empty) => {}
-                Err(TryRecvError::Disconnected) => return Some(Some(Notice::Closed(CUT.to_owned()))),
+                Err(TryRecvError::Disconnected) => return Some(Some(relay::cut())),
             }
         }
         let State::Open(socket) = &mut self.state else { return None };
         let notice = match socket.read() {
             Ok(Message::Binary(frame)) => {
-                let other = || Notice::Closed("the server says what no server of rooms says".to_owned());
+                let other = || Notice::Closed(words::text(Key::RoomStrange).to_owned());
                 if let Some(signal) = self.mesh.as_mut().and_then(|mesh| mesh.take(&frame)) {
                     // As with messages below.
                     let _ = socket.send(Message::binary(signal));
@@ -133,7 +149,7 @@ impl Room {
                 let _ = socket.flush();
                 return None;
             }
-            _ => Some(Notice::Closed(CUT.to_owned())),
+            _ => Some(relay::cut()),
         };
         Some(notice)
     }

@@ -40,7 +40,7 @@ impl Transport for Room {
             if relay::is_of_channels(&frame) {
                 continue;
             }
-            let notice = relay::notice(&frame).unwrap_or_else(|| Notice::Closed(relay::CUT.to_owned()));
+            let notice = relay::notice(&frame).unwrap_or_else(relay::cut);
             self.is_open = !matches!(notice, Notice::Closed(_));
             notices.push(notice);
         }

@@ -6,6 +6,7 @@ use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
 use crate::hud::tint;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 use microsim_core::{Bond, Constraint, MembraneRegion, OrganismView, View};
@@ -78,19 +79,11 @@ fn draw_regions(canvas: &mut Canvas, camera: &Camera, organism: OrganismView<'_>
 /// What the strokes mean.
 fn draw_legend(pen: &mut Pen) {
     let line = pen.line(TextSize::Small);
-    let entries = [
-        "circle: particle",
-        "thin: distance, rope",
-        "bold: anchor, membrane, joint",
-        "square: front  bar: rear",
-        "dot: left  ring: right",
-        "tint: chemical",
-        "amber: contact",
-    ];
-    let widest = entries.iter().map(|entry| pen.width(TextSize::Small, entry)).fold(0.0, f32::max);
+    let legend = words::text(Key::SandboxLegend);
+    let widest = legend.lines().map(|entry| pen.width(TextSize::Small, entry)).fold(0.0, f32::max);
     let low = Vec2::new(pen.screen().x - widest - 1.3 * line, 1.6 * line);
-    pen.panel(low, low + Vec2::new(widest + 0.8 * line, 1.2 * line * entries.len() as f32));
-    for (k, entry) in entries.into_iter().enumerate() {
+    pen.panel(low, low + Vec2::new(widest + 0.8 * line, 1.2 * line * legend.lines().count() as f32));
+    for (k, entry) in legend.lines().enumerate() {
         let at = low + line * Vec2::new(0.4, 0.6 + 1.2 * k as f32);
         pen.write(at, TextSize::Small, Align::Left, HALO, entry);
     }

@@ -17,14 +17,13 @@ use crate::ui::font::TextSize;
 use crate::ui::menu::Menu;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::{FIRST_HEIGHT, Viewer, first_view};
+use crate::words::{self, Key};
 use microsim_core::geometry::signed_area;
 use microsim_core::glam::Vec2;
 use plots::Plots;
 use tools::Tools;
 use undo::Undo;
 
-/// Why tools that take time do nothing.
-const STOPPED: &str = "Time stands still: let it go on first.";
 /// How fast time can pass.
 const SPEEDS: [f32; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
 const USUAL_SPEED: usize = 3;
@@ -77,7 +76,7 @@ impl Sandbox {
     /// The scene of before the last tool's act.
     fn undo(&mut self, context: &mut AppContext) {
         let Some(before) = self.undo.take() else {
-            context.tell("There is nothing to undo.");
+            context.tell(words::text(Key::SandboxNoUndo));
             return;
         };
         self.viewer = Viewer::new(before.world(), self.viewer.camera.clone());
@@ -92,7 +91,7 @@ impl Sandbox {
         let digests = context.settings.digests(input);
         let told = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests);
         let stands = begins && self.is_paused && self.tools.tool.needs_time();
-        match (told.or(stands.then(|| STOPPED.to_owned())), before) {
+        match (told.or(stands.then(|| words::text(Key::SandboxStopped).to_owned())), before) {
             (Some(problem), _) => context.tell(problem),
             (None, Some(before)) => self.undo.keep(before),
             (None, None) => {}
@@ -144,24 +143,34 @@ impl Sandbox {
     }
 
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
-        let (world, census) = (self.stage.world(), self.stage.census());
-        let mut parts = vec![self.stage.name().to_owned(), format!("{:.2} s", world.time())];
+        let (time, census) = (self.stage.world().time() as f32, self.stage.census());
+        let mut parts = vec![self.stage.name().to_owned(), format!("{} s", words::number(time, 2))];
         if self.is_paused {
-            parts.push("PAUSED".to_owned());
+            parts.push(words::text(Key::SandboxPaused).to_owned());
         }
         if SPEEDS[self.speed] != 1.0 {
-            parts.push(format!("{} x", SPEEDS[self.speed]));
+            parts.push(speed_label(self.speed));
         }
-        parts.push(format!("{} bodies", census.bodies));
-        parts.push(format!("{} particles", census.particles));
+        let counts = [(Key::SandboxBodies, census.bodies), (Key::SandboxParticles, census.particles)];
+        parts.extend(counts.map(|(key, count)| words::text_with(key, &[("count", (count as u32).into())])));
         if !is_exact {
-            parts.push(format!("step {:.2} ms", self.viewer.step_ms()));
+            parts.push(step_label(self.viewer.step_ms()));
         }
         let line = pen.line(TextSize::Small);
         let width = pen.screen().x - 0.8 * line;
         let text = fitting(&parts, |text| pen.width(TextSize::Small, text) <= width);
         pen.label(Vec2::new(0.4 * line, 0.8 * line), TextSize::Small, Align::Left, HALO, &text);
     }
+}
+
+/// How fast time passes.
+fn speed_label(speed: usize) -> String {
+    format!("{} x", words::shortest(SPEEDS[speed]))
+}
+
+/// How long a step took.
+fn step_label(time: f32) -> String {
+    words::text_with(Key::SandboxStep, &[("time", (&words::number(time, 2)).into())])
 }
 
 /// As many parts of a line as fit, the first one in any case.

@@ -3,10 +3,11 @@
 use super::super::context::AppContext;
 use super::super::{Next, Overlay, Paused};
 use super::tools::Tool;
-use super::{SPEEDS, Sandbox};
+use super::{SPEEDS, Sandbox, speed_label};
 use crate::ui::font::TextSize;
 use crate::ui::menu::{MenuChoice, MenuItem, MenuLayout};
 use crate::ui::pen::Pen;
+use crate::words::{self, Key};
 
 const UNDO: usize = Tool::ALL.len();
 const PAUSE: usize = UNDO + 1;
@@ -26,19 +27,20 @@ pub(super) fn place(pen: &Pen) -> MenuLayout {
 pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
     let tool = |(tool, label)| {
         let mark = if tool == sandbox.tools.tool { "* " } else { "" };
-        let label = format!("{mark}{label}");
-        if tool == Tool::Spawn { MenuItem::with(label, sandbox.tools.spawn_name()) } else { MenuItem::new(label) }
+        let label = format!("{mark}{}", words::text(label));
+        let spawn = (tool == Tool::Spawn).then(|| words::text(sandbox.tools.spawn_name()).to_owned());
+        MenuItem { value: spawn, ..MenuItem::new(label) }
     };
     let others = [
-        MenuItem::new("Undo"),
-        MenuItem::new(if sandbox.is_paused { "Go on" } else { "Pause" }),
-        MenuItem::new("Single step"),
-        MenuItem::with("Speed", format!("{} x", SPEEDS[sandbox.speed])),
-        MenuItem::switch("Debug view", sandbox.shows.anatomy),
-        MenuItem::switch("Plots", sandbox.shows.plots),
-        MenuItem::new("Restart"),
-        MenuItem::new("Scenarios"),
-        MenuItem::new("Menu"),
+        MenuItem::new(Key::PanelUndo),
+        MenuItem::new(if sandbox.is_paused { Key::PauseGoOn } else { Key::ActionPause }),
+        MenuItem::new(Key::ActionStep),
+        MenuItem::with(Key::PanelSpeed, speed_label(sandbox.speed)),
+        MenuItem::switch(Key::ActionDebugView, sandbox.shows.anatomy),
+        MenuItem::switch(Key::ActionPlots, sandbox.shows.plots),
+        MenuItem::new(Key::PauseRestart),
+        MenuItem::new(Key::PanelScenarios),
+        MenuItem::new(Key::PanelMenu),
     ];
     Tool::ALL.map(tool).into_iter().chain(others).collect()
 }

@@ -3,6 +3,7 @@
 use crate::draw::palette::{ALERT, HALO, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 use std::collections::VecDeque;
@@ -32,10 +33,10 @@ impl Plots {
         let line = pen.line(TextSize::Small);
         let size = Vec2::new(13.0, 4.0) * line;
         let corner = pen.screen() - size - 0.5 * line;
-        draw_curve(pen, corner, size, &self.step_ms, "step", "ms", ALERT);
+        draw_curve(pen, corner, size, &self.step_ms, (Key::SandboxStep, "time"), ALERT);
         let above = corner - Vec2::new(0.0, size.y + 0.4 * line);
         // Square micrometres: a unit is one.
-        draw_curve(pen, above, size, &self.area, "area", "\u{b5}m\u{b2}", READY);
+        draw_curve(pen, above, size, &self.area, (Key::SandboxArea, "area"), READY);
     }
 }
 
@@ -46,7 +47,7 @@ fn push(values: &mut VecDeque<f32>, value: f32) {
     values.push_back(value);
 }
 
-fn draw_curve(pen: &mut Pen, low: Vec2, size: Vec2, values: &VecDeque<f32>, name: &str, unit: &str, colour: Color) {
+fn draw_curve(pen: &mut Pen, low: Vec2, size: Vec2, values: &VecDeque<f32>, name: (Key, &str), colour: Color) {
     let Some(last) = values.back() else { return };
     let line = pen.line(TextSize::Small);
     pen.panel(low, low + size);
@@ -61,9 +62,14 @@ fn draw_curve(pen: &mut Pen, low: Vec2, size: Vec2, values: &VecDeque<f32>, name
         canvas.segment(at(k - 1, values[k - 1]), at(k, values[k]), 1.6, colour);
     }
     let heading = low + Vec2::new(0.3 * line, 0.6 * line);
-    pen.write(heading, TextSize::Small, Align::Left, HALO, &format!("{name} {last:.1} {unit}"));
+    pen.write(heading, TextSize::Small, Align::Left, HALO, &told(name, *last));
     let end = low + Vec2::new(size.x - 0.3 * line, 0.6 * line);
-    pen.write(end, TextSize::Small, Align::Right, fade(HALO, 0.7), &format!("top {:.1}", top / 1.1));
+    pen.write(end, TextSize::Small, Align::Right, fade(HALO, 0.7), &told((Key::SandboxTop, "value"), top / 1.1));
+}
+
+/// A text with a value in the place of its variable.
+fn told((key, variable): (Key, &str), value: f32) -> String {
+    words::text_with(key, &[(variable, (&words::number(value, 1)).into())])
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::input::Input;
 use crate::stage::Stage;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Error, ErrorKind, FluidBlockSpec, Intent,
@@ -24,12 +25,6 @@ const DRAG_SHARE: f32 = 0.8;
 const PUSH_RADIUS: f32 = 9.0;
 const PUSH: f32 = 1.6;
 
-/// Why tools do nothing.
-const NOBODY: &str = "There is nobody to steer: follow somebody first.";
-const IMMOBILE: &str = "Whoever is followed cannot crawl.";
-const NOTHING: &str = "There is nothing here.";
-const WHOLE: &str = "All of the room is in view: look closer first.";
-
 /// What the mouse does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Tool {
@@ -45,14 +40,14 @@ pub(super) enum Tool {
 
 impl Tool {
     /// All of them, with their labels in the panel.
-    pub(super) const ALL: [(Self, &str); 7] = [
-        (Self::Steer, "Steer"),
-        (Self::Drag, "Drag"),
-        (Self::Push, "Push away"),
-        (Self::Spawn, "Put in"),
-        (Self::Remove, "Remove"),
-        (Self::Follow, "Follow"),
-        (Self::Look, "Look around"),
+    pub(super) const ALL: [(Self, Key); 7] = [
+        (Self::Steer, Key::ToolSteer),
+        (Self::Drag, Key::ToolDrag),
+        (Self::Push, Key::ToolPush),
+        (Self::Spawn, Key::ToolSpawn),
+        (Self::Remove, Key::ToolRemove),
+        (Self::Follow, Key::ToolFollow),
+        (Self::Look, Key::ToolLook),
     ];
 }
 
@@ -72,16 +67,16 @@ impl Tool {
 type Make = fn() -> OrganismSpec;
 
 /// What can be put into the room.
-const SPAWNS: [(&str, Make); 9] = [
-    ("agar", || AgarSpec::default().into()),
-    ("coccus", || CoccusSpec::default().into()),
-    ("bacillus", || BacillusSpec::default().into()),
-    ("rigid cell", || RigidCellSpec::default().into()),
-    ("amoeboid", || AmoeboidCellSpec::default().into()),
-    ("platelet", || PlateletSpec::default().into()),
-    ("red cell", || RedCellSpec::default().into()),
-    ("probe", || ProbeSpec::default().into()),
-    ("fluid", || FluidBlockSpec::default().into()),
+const SPAWNS: [(Key, Make); 9] = [
+    (Key::KindAgar, || AgarSpec::default().into()),
+    (Key::SpawnCoccus, || CoccusSpec::default().into()),
+    (Key::SpawnBacillus, || BacillusSpec::default().into()),
+    (Key::SpawnRigidCell, || RigidCellSpec::default().into()),
+    (Key::SpawnAmoeboid, || AmoeboidCellSpec::default().into()),
+    (Key::SpawnPlatelet, || PlateletSpec::default().into()),
+    (Key::SpawnRedCell, || RedCellSpec::default().into()),
+    (Key::SpawnProbe, || ProbeSpec::default().into()),
+    (Key::SpawnFluid, || FluidBlockSpec::default().into()),
 ];
 
 /// The tool in hand.
@@ -99,7 +94,7 @@ pub(super) struct Tools {
 
 impl Tools {
     /// What would be put into the room.
-    pub(super) fn spawn_name(&self) -> &'static str {
+    pub(super) fn spawn_name(&self) -> Key {
         SPAWNS[self.spawn].0
     }
 
@@ -130,18 +125,19 @@ impl Tools {
             return None;
         }
         let found = nearest(stage.world(), at, REACH / camera.scale());
+        let told = |key| Some(words::text(key).to_owned());
         match (self.tool, found) {
             (Tool::Spawn, _) => return self.put_in(stage, at).err(),
-            (Tool::Steer, _) if stage.player().is_none() => return Some(NOBODY.to_owned()),
-            (Tool::Steer, _) if !can_crawl(stage) => return Some(IMMOBILE.to_owned()),
-            (Tool::Look, _) if camera.shows_all() => return Some(WHOLE.to_owned()),
+            (Tool::Steer, _) if stage.player().is_none() => return told(Key::SandboxNobody),
+            (Tool::Steer, _) if !can_crawl(stage) => return told(Key::SandboxImmobile),
+            (Tool::Look, _) if camera.shows_all() => return told(Key::SandboxWhole),
             (Tool::Push, _) if stage.world().organisms_in_circle(at, PUSH_RADIUS).next().is_none() => {
-                return Some(NOTHING.to_owned());
+                return told(Key::SandboxNothing);
             }
-            (Tool::Remove | Tool::Drag, None) => return Some(NOTHING.to_owned()),
+            (Tool::Remove | Tool::Drag, None) => return told(Key::SandboxNothing),
             (Tool::Follow, None) => {
                 stage.set_player(None);
-                return Some("Nobody is followed now.".to_owned());
+                return told(Key::SandboxFree);
             }
             (Tool::Remove, Some(id)) => return stage.world_mut().remove(id).err().map(|error| error.to_string()),
             (Tool::Follow, _) => stage.set_player(found),
@@ -218,20 +214,22 @@ fn can_crawl(stage: &Stage) -> bool {
 }
 
 /// Why something is not put in, for people.
-fn refusal(name: &str, error: &Error) -> String {
+fn refusal(name: Key, error: &Error) -> String {
+    let name = words::text(name);
+    let told = |key| words::text_with(key, &[("what", name.into())]);
     match error.kind() {
-        ErrorKind::Overlap { .. } => format!("No room here: {name}"),
-        ErrorKind::OutsideWorld { .. } => format!("Outside the walls: {name}"),
-        ErrorKind::TooMany { .. } => "The room is full.".to_owned(),
+        ErrorKind::Overlap { .. } => told(Key::SandboxOverlap),
+        ErrorKind::OutsideWorld { .. } => told(Key::SandboxOutside),
+        ErrorKind::TooMany { .. } => words::text(Key::SandboxCrowded).to_owned(),
         _ => format!("{name}: {error}"),
     }
 }
 
 /// How something moves that was put in: animals wander, things lie still.
-fn controller(name: &str) -> Controller {
+fn controller(name: Key) -> Controller {
     match name {
-        "rigid cell" | "amoeboid" => Controller::wander([1.0, 5.0], 0.2),
-        "coccus" | "bacillus" => Controller::wander([0.05, 0.3], 0.0),
+        Key::SpawnRigidCell | Key::SpawnAmoeboid => Controller::wander([1.0, 5.0], 0.2),
+        Key::SpawnCoccus | Key::SpawnBacillus => Controller::wander([0.05, 0.3], 0.0),
         _ => Controller::Still,
     }
 }
@@ -281,7 +279,7 @@ mod tests {
             let tools = Tools { tool: Tool::Spawn, spawn, ..Tools::default() };
             let at = Vec2::new(60.0, 45.0);
             tools.put_in(&mut stage, at).unwrap();
-            let id = nearest(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{}", tools.spawn_name()));
+            let id = nearest(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{:?}", tools.spawn_name()));
             let hand = Vec2::new(90.0, 45.0);
             for _ in 0..90 {
                 drag(stage.world_mut(), id, hand);
@@ -290,11 +288,11 @@ mod tests {
             let moved = stage.world().centroid(id).unwrap().x - 60.0;
             // A platelet's rope lets it go so far only, and cytoplasm at rest does not like to move.
             let least = match tools.spawn_name() {
-                "platelet" => 0.3,
-                "amoeboid" => 3.0,
+                Key::SpawnPlatelet => 0.3,
+                Key::SpawnAmoeboid => 3.0,
                 _ => 12.0,
             };
-            assert!(moved > least, "{} {moved}", tools.spawn_name());
+            assert!(moved > least, "{:?} {moved}", tools.spawn_name());
             stage.world_mut().remove(id).unwrap();
             assert_eq!(stage.world().organisms().count(), 0);
         }
@@ -315,7 +313,7 @@ mod tests {
         let agar = stage.world_mut().spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
         stage.set_player(Some(agar));
         let told = Tools::default().use_on(&mut stage, &camera, &click, false, false);
-        assert_eq!(told.as_deref(), Some(IMMOBILE));
+        assert_eq!(told.as_deref(), Some(words::text(Key::SandboxImmobile)));
         let mut near = Camera::around(0.5 * size, 30.0, size, Vec2::new(640.0, 360.0));
         let mut tools = Tools { tool: Tool::Look, ..Tools::default() };
         assert_eq!(tools.use_on(&mut stage, &near, &click, false, false), None, "there is more to see");
