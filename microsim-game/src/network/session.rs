@@ -179,8 +179,12 @@ impl Session {
         self.tracks.iter_mut().for_each(|track| track.digest = None);
     }
 
+    /// Has the frames from this one on taken again; one of which no round is kept, as only a false packet asks for, makes a draw.
     fn note_wrong(&mut self, frame: Option<u32>) {
         let frame = frame.filter(|&frame| frame < self.frame);
+        let is_kept = |frame: &u32| self.frame <= frame.saturating_add(self.pacing.kept());
+        self.desync = self.desync.or(frame.filter(|frame| !is_kept(frame)));
+        let frame = frame.filter(is_kept);
         self.wrong_from = self.wrong_from.into_iter().chain(frame).min();
     }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::network::message::round_of;
+use microsim_core::glam::Vec2;
 
 /// A match of three, as one of them takes part.
 fn session(own: usize) -> Session {
@@ -92,3 +93,29 @@ fn packets_to_one_who_watched_are_counted_on_when_it_plays_and_after_a_silence()
 
 /// Longer than one who watches may be silent, ms.
 const SILENT: u32 = 6000;
+
+#[test]
+fn frames_of_which_no_round_is_kept_are_not_taken_again() {
+    let mut session = session(2);
+    session.leave(1);
+    session.receive(0, &packet(vec![(1, 2)], Vec::new()), 0);
+    for frame in 0..100 {
+        session.receive(
+            0,
+            &packet(vec![(1, 2)], vec![Run { player: 0, first: 2 + frame, told: vec![Told::default()] }]),
+            0,
+        );
+        assert!(session.advance(Told::default()));
+    }
+    // The first player says that the bot's cell has been somebody's for long, and that one steers otherwise.
+    let told = Packet::read(&packet(vec![(1, 2)], Vec::new()), 3).unwrap();
+    let takeovers = vec![Takeover { player: 1, member: 3, end: 2, since: 3 }];
+    session.receive(0, &Packet { number: 2, ends: Vec::new(), takeovers, ..told.clone() }.write(), 0);
+    let goal = Intent::toward(Vec2::new(9.0, 9.0)).unwrap();
+    let size = session.round().world().config().size;
+    let runs = vec![Run { player: 1, first: 3, told: vec![Told::new(goal, size); 9] }];
+    session.receive(1, &Packet { number: 1, ends: Vec::new(), runs, ..told }.write(), 0);
+    session.advance(Told::default());
+    assert!(session.desync().is_some());
+    assert!(session.tally().repeated <= Pacing::USUAL.kept(), "{}", session.tally().repeated);
+}
