@@ -217,7 +217,7 @@ pub mod contacts {
     pub use crate::event::{Event, Refusal};
 }
 
-/// Queries: rays, shape casts, nearest points, overlaps.
+/// Queries: rays, casts of discs, nearest points, overlaps.
 pub mod queries {
     pub use crate::world::query::{NearestPoint, Queries, QueryFilter, RayHit};
 }

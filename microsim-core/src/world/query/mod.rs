@@ -1,5 +1,5 @@
-//! Queries: organisms at a point, in a circle, in a box; and [`Queries`], for which the world is sorted once after each change: rays, shape casts,
-//! nearest points and overlaps with organisms, obstacles and walls.
+//! Queries: organisms at a point, in a circle, in a box; and [`Queries`], for which the world is sorted once after each change: rays, casts
+//! of discs, nearest points and overlaps with organisms, obstacles and walls.
 
 mod filter;
 mod index;
