@@ -29,7 +29,8 @@ impl World {
     ///
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
-    /// what is already there, when substeps are too long for its membrane, or when the world would hold too many particles. Nothing is changed then.
+    /// what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
+    /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
         let id = with_default_float_environment(spawn)?;

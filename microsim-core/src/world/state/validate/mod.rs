@@ -38,7 +38,11 @@ impl World {
     /// # Errors
     /// The first violation: a bug of this library, or of the file that the world was read from.
     pub fn validate(&self) -> Result<(), Violation> {
-        self.config.validate().map_err(|error| Subject::default().violation(error.to_string()))?;
+        let refused = |error: crate::Error| Subject::default().violation(error.to_string());
+        self.config.validate().map_err(refused)?;
+        if self.organisms.with_membrane().next().is_some() {
+            self.config.check_membranes().map_err(refused)?;
+        }
         store::check_columns(&self.particles)?;
         structure::check(self)?;
         numbers::check(self)?;

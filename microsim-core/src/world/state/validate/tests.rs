@@ -39,6 +39,7 @@ fn finds(damage: impl Fn(&mut World), words: &str) {
 #[test]
 fn damage_to_the_store_is_found() {
     finds(|w| w.config.dt = f32::NAN, "`dt` is NaN");
+    finds(|w| w.config.substeps = 1, "with amoeboid cells: substeps of");
     finds(|w| w.particles.x.truncate(3), "column");
     finds(|w| w.particles.x[0] = f32::NAN, "amoeboid_cell 0 (generation 0): particle 0: x is NaN");
     finds(|w| w.particles.vy[3] = f32::INFINITY, "velocity y is inf");
