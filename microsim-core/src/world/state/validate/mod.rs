@@ -8,6 +8,7 @@ mod relations;
 mod store;
 pub(super) mod structure;
 
+use crate::error::Error;
 use crate::id::OrganismId;
 use crate::kind::Kind;
 use crate::world::World;
@@ -38,7 +39,7 @@ impl World {
     /// # Errors
     /// The first violation: a bug of this library, or of the file that the world was read from.
     pub fn validate(&self) -> Result<(), Violation> {
-        let refused = |error: crate::Error| Subject::default().violation(error.to_string());
+        let refused = |error: Error| Subject::default().violation(error.to_string());
         self.config.validate().map_err(refused)?;
         if self.organisms.with_membrane().next().is_some() {
             self.config.check_membranes().map_err(refused)?;
