@@ -26,7 +26,7 @@ fn rollback(criterion: &mut Criterion) {
     group.bench_function("save and step", |bencher| bencher.iter_custom(|steps| time_of_saved_steps(&world, steps)));
 }
 
-/// A ray, and the nearest point, in a world that is sorted for queries already, and after a change, which sorts it anew.
+/// A ray, and the nearest point, in a world that is sorted for queries already, and after a change, which sorts it again.
 fn queries(criterion: &mut Criterion) {
     for count in [300, 833] {
         let mut world = platelets(count);

@@ -1,7 +1,7 @@
 // The page's side of rooms in headless Chromium, against the real server and under the page's own security policy. The program
 // is not needed: its place is taken by the memory that it would have.
 //
-//   node rooms.mjs SERVER WEB FOLDER ECHO     SERVER: microsim with the feature `serve`; WEB: microsim-game/web; FOLDER: is made anew
+//   node rooms.mjs SERVER WEB FOLDER ECHO     SERVER: microsim with the feature `serve`; WEB: microsim-game/web; FOLDER: is emptied
 //                                             ECHO: the game's example room_echo with the feature `webrtc`
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";

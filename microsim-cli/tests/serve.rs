@@ -7,7 +7,7 @@ mod common;
 mod serve;
 
 use common::{microsim, refused};
-use serve::{Guest, PATIENCE, Server};
+use serve::{Guest, Server, TIMEOUT};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -171,7 +171,7 @@ fn a_slow_reader_is_dropped() {
             Ok(Message::Binary(frame)) => break frame,
             _ => std::thread::sleep(Duration::from_millis(1)),
         }
-        assert!(begin.elapsed() < 2 * PATIENCE, "nobody is dropped");
+        assert!(begin.elapsed() < 2 * TIMEOUT, "nobody is dropped");
     };
     assert_eq!(&dropped[..], [0xff, 2, 1]);
     drop(slow);

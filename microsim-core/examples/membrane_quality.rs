@@ -19,7 +19,7 @@ const SIZES: [usize; 4] = [200, 500, 1000, 5000];
 /// Drive of the cells, units/s.
 const SPEED: f32 = 6.0;
 /// Longest time for a squeeze, s.
-const PATIENCE: f64 = 60.0;
+const TIMEOUT: f64 = 60.0;
 
 fn main() -> Result<(), Error> {
     let asked: Result<Vec<usize>, _> = std::env::args().skip(1).map(|argument| argument.parse()).collect();
@@ -100,7 +100,7 @@ fn squeeze(spec: &AmoeboidCellSpec) -> Result<Option<(MembraneQuality, f32)>, Er
     let mut inputs = Inputs::new();
     inputs.set(cell, Intent::toward(Vec2::new(1e4, middle.y))?);
     let (mut stretch, mut is_through) = (0.0f32, false);
-    while !is_through && world.time() < PATIENCE {
+    while !is_through && world.time() < TIMEOUT {
         world.step(&inputs);
         stretch = stretch.max(quality(&world, cell).edge_stretch);
         is_through = world.view().organism(cell).is_some_and(|view| view.outline().all(|node| node.x > middle.x));

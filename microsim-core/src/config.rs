@@ -88,7 +88,7 @@ pub struct WorldConfig {
     /// Seed of every random number in the world.
     pub seed: u64,
     /// Whether membranes are protected from leaking: contacts with links that know their side, strain limit, displacement
-    /// clamp, ray-cast net. Without it they are the seed's chain of discs, which leaks; for comparison only.
+    /// clamp, ray-cast net. Without it they are the thesis' chain of discs, which leaks; for comparison only.
     pub protects_membranes: bool,
     /// Whether bodies that lie still are left out of the step until something that moves comes near. Membranes and fluid never
     /// are. Without it, everything costs its full share in every step.
@@ -152,7 +152,7 @@ impl WorldConfig {
 
     /// Lower left and upper right corner of where particles may be: within a room's size of the room, and beyond an open side as
     /// far as the largest body that is still partly in the room.
-    pub(crate) fn reach(&self) -> [Vec2; 2] {
+    pub(crate) fn particle_bounds(&self) -> [Vec2; 2] {
         let Sides { bottom, top, left, right } = self.sides;
         let beyond =
             |side: Side, size: f32| if side == Side::Open && size < LARGEST_BODY { LARGEST_BODY } else { size };

@@ -53,7 +53,7 @@ mod inputs;
 mod instruction_set;
 mod joint;
 mod kind;
-#[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "only the microscope reads it"))]
+#[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "only the microscope reads the rest"))]
 mod look;
 #[cfg(feature = "microscope")]
 pub mod microscope;
@@ -224,6 +224,7 @@ pub mod queries {
 
 /// Reading a world for pictures.
 pub mod views {
+    pub use crate::look::drawn::{Colour, DrawnLook, Form, Tint};
     pub use crate::world::view::anatomy::Bond;
     pub use crate::world::view::moment::Moment;
     pub use crate::world::view::{OrganismView, ParticleView, View};

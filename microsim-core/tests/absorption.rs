@@ -1,4 +1,4 @@
-//! Phagocytosis over many seeds: prey in every direction, among platelets (seed, 3.1.3).
+//! Phagocytosis over many seeds: prey in every direction, among platelets (thesis, 3.1.3).
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

@@ -1,4 +1,4 @@
-//! Amoeboid cells (seed, 3.1.2): movement, growth and containment of the cytoplasm.
+//! Amoeboid cells (thesis, 3.1.2): movement, growth and containment of the cytoplasm.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

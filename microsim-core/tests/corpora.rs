@@ -1,6 +1,6 @@
 //! The corpora of the fuzz targets (folder `fuzz`), replayed: what once was found stays mended.
 //!
-//! `cargo test -p microsim-core --features scenario,snapshot --test corpora -- --ignored` writes the seeds anew.
+//! `cargo test -p microsim-core --features scenario,snapshot --test corpora -- --ignored` writes the seeds.
 #![cfg(all(feature = "scenario", feature = "snapshot"))]
 
 #[path = "common/sequence/mod.rs"]

@@ -1,4 +1,4 @@
-//! Platelets, agar and walls (seed, 3.1.4 and 3.3.1). The structure's tests are beside `platelet.rs` and `agar.rs`.
+//! Platelets, agar and walls (thesis, 3.1.4 and 3.3.1). The structure's tests are beside `platelet.rs` and `agar.rs`.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

@@ -1,6 +1,6 @@
 //! Golden digests: every built-in scenario ends in the state that is written down, on every platform and in every build.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features scenario --test golden` writes them anew; a changed digest is
+//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features scenario --test golden` writes them; a changed digest is
 //! explained in CHANGELOG.md.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 #![cfg(feature = "scenario")]
@@ -47,7 +47,7 @@ fn built_in_scenarios_end_in_their_golden_digests() {
             std::fs::write(&file, &now).unwrap();
         }
         let golden = std::fs::read_to_string(&file).unwrap_or_default();
-        assert_eq!(now, golden, "{} differs: if that is meant, write it anew with UPDATE_GOLDEN=1", file.display());
+        assert_eq!(now, golden, "{} differs: if that is meant, write it with UPDATE_GOLDEN=1", file.display());
     }
 }
 

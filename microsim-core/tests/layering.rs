@@ -40,7 +40,7 @@ const LAYERS: &[(&str, &str)] = &[
     (
         "world",
         "arena behavior capability chemical collider collision config error event float_environment fnv force_field \
-        geometry id inputs instruction_set joint kind organism parallel particle rng shared solver supply template value_walk",
+        geometry id inputs instruction_set joint kind look organism parallel particle rng shared solver supply template value_walk",
     ),
     // The step takes the world apart and hands each phase what it needs.
     ("step", "behavior capability float_environment inputs organism parallel particle solver world"),

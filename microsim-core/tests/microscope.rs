@@ -1,6 +1,6 @@
 //! Pictures: golden ones of each mode, and that no world and no field makes the renderer fail.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features microscope --test microscope` writes the golden pictures anew:
+//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --features microscope --test microscope` writes the golden pictures:
 //! 32 x 18 pixels, as text in the PPM format, which picture viewers show.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 #![cfg(feature = "microscope")]
@@ -90,8 +90,7 @@ fn each_mode_shows_its_golden_picture() {
         assert_eq!(golden.len(), now.len(), "{}", file.display());
         let apart: Vec<f32> = golden.iter().zip(&now).map(|(a, b)| (a - b).abs()).collect();
         let (most, mean) = (apart.iter().copied().fold(0.0, f32::max), apart.iter().sum::<f32>() / apart.len() as f32);
-        let differs =
-            format!("{}: {most:.1} at most, {mean:.2} on average; UPDATE_GOLDEN=1 writes it anew", optics.name());
+        let differs = format!("{}: {most:.1} at most, {mean:.2} on average; UPDATE_GOLDEN=1 writes it", optics.name());
         assert!(most <= TOLERANCE && mean <= MEAN_TOLERANCE, "{differs}");
     }
 }

@@ -1,4 +1,4 @@
-//! Phagocytosis, digestion and growth (seed, 3.1.3 and 3.3.1) in whole worlds.
+//! Phagocytosis, digestion and growth (thesis, 3.1.3 and 3.3.1) in whole worlds.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

@@ -1,6 +1,6 @@
 //! The names of all public items, so that none comes, goes or changes unnoticed.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --test public_api` writes them anew; a name that is gone is a breaking change and has a
+//! `UPDATE_GOLDEN=1 cargo test -p microsim-core --test public_api` writes them; a name that is gone is a breaking change and has a
 //! line in the changelog. That what is `pub` can be reached from outside is held by the lint `unreachable_pub`.
 
 #[allow(dead_code, reason = "the tests of layers use all of it")]

@@ -1,4 +1,4 @@
-//! Rigid cells (seed, 3.1.1): shape, nucleus and movement. The structure's tests are in `organism/rigid_cell`.
+//! Rigid cells (thesis, 3.1.1): shape, nucleus and movement. The structure's tests are in `organism/rigid_cell`.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;

@@ -19,7 +19,7 @@ const LAST_WORD: Duration = Duration::from_secs(2);
 /// Time between two looks at what has come.
 const PAUSE: Duration = Duration::from_millis(2);
 /// Longest time without a frame in a match.
-const PATIENCE: Duration = Duration::from_secs(30);
+const TIMEOUT: Duration = Duration::from_secs(30);
 
 fn main() -> Result<(), String> {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -64,7 +64,7 @@ fn play(room: &mut Room, number: u64, clock: Instant) -> Result<(String, Vec<u8>
         }
         if session.is_over() {
             over.get_or_insert(now);
-        } else if now > taken + PATIENCE {
+        } else if now > taken + TIMEOUT {
             return Err(format!("nothing happens after {}", line(game, number, now)));
         }
         while due <= now {

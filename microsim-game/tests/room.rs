@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Longest time that anything takes here.
-const PATIENCE: Duration = Duration::from_secs(30);
+const TIMEOUT: Duration = Duration::from_secs(30);
 /// Longest time that a match takes, of which all players share a processor here.
 const LONGEST_MATCH: Duration = Duration::from_secs(600);
 const COUNT: u32 = 10_000;
@@ -55,7 +55,7 @@ fn next(room: &mut Box<dyn Transport>) -> Vec<Notice> {
         if !notices.is_empty() {
             return notices;
         }
-        assert!(begin.elapsed() < PATIENCE, "nothing happens");
+        assert!(begin.elapsed() < TIMEOUT, "nothing happens");
         std::thread::yield_now();
     }
 }
@@ -77,7 +77,7 @@ fn messages_arrive_in_order() {
     let (mut sent, mut from_one, mut from_two) = (0, 0, 0);
     let begin = Instant::now();
     while from_one < COUNT || from_two < COUNT {
-        assert!(begin.elapsed() < PATIENCE, "{from_one} and {from_two} of {COUNT}");
+        assert!(begin.elapsed() < TIMEOUT, "{from_one} and {from_two} of {COUNT}");
         // The server reads a thousand a second of each; what is sent too fast waits, and is lost in the end.
         let due = (begin.elapsed().as_secs_f64() * 1000.0) as u32 + 1000;
         while sent < due.min(COUNT) {

@@ -19,7 +19,7 @@ const SILENCE = 1500;
 const decode = (bytes) => new TextDecoder().decode(bytes);
 const CHANNEL = { negotiated: true, id: 0, ordered: false, maxRetransmits: 0 };
 
-/** One way to another member; one that fails is not made again before that member comes anew. */
+/** One way to another member; one that fails is not made again before that member comes again. */
 class Way {
     #connection;
     #channel;

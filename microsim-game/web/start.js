@@ -11,7 +11,7 @@ const canvasElement = element("glcanvas");
 const WIDE = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 17, 11]);
 const isWide = globalThis.WebAssembly?.validate(WIDE) && new URLSearchParams(location.search).get("simd") !== "no";
 /** How long to wait for the graphics to come back, ms. */
-const PATIENCE = 5000;
+const TIMEOUT = 5000;
 const PROGRAM = isWide ? "game-simd.wasm" : "game.wasm";
 
 /** A response whose reading moves the progress bar. */
@@ -73,7 +73,7 @@ function survive() {
     canvasElement.addEventListener("webglcontextlost", (event) => {
         event.preventDefault();
         animation = () => {};
-        waiting = setTimeout(() => fail(say("The graphics were taken away, as after sleep.")), PATIENCE);
+        waiting = setTimeout(() => fail(say("The graphics were taken away, as after sleep.")), TIMEOUT);
     });
     canvasElement.addEventListener("webglcontextrestored", () => {
         clearTimeout(waiting);

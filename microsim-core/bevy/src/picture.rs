@@ -1,4 +1,4 @@
-//! A world as one mesh of coloured triangles, made anew for each frame from what `microsim_core::drawing` says.
+//! A world as one mesh of coloured triangles, made for each frame from what `microsim_core::drawing` says.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::color::{Alpha, ColorToComponents, LinearRgba};

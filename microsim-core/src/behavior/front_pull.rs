@@ -1,4 +1,4 @@
-//! Movement of a rigid cell (seed, 3.1.1): the front body is given a velocity towards the goal and pulls the cell after
+//! Movement of a rigid cell (thesis, 3.1.1): the front body is given a velocity towards the goal and pulls the cell after
 //! it, which also turns it. If the goal is nearer to the opposite body, that one becomes the front. A cell that backs up is
 //! pulled by its rear, away from the goal.
 

@@ -17,9 +17,9 @@ use serde::{Deserialize, Serialize};
 pub(crate) enum Locomotion {
     /// It does not.
     None,
-    /// Its front body pulls it (seed, 3.1.1). `front` is a position in the outline.
+    /// Its front body pulls it (thesis, 3.1.1). `front` is a position in the outline.
     FrontPull { front: u32 },
-    /// Its membrane's front and rear drive it (seed, 3.1.2). `front_centre` is a position in the outline, while it moves.
+    /// Its membrane's front and rear drive it (thesis, 3.1.2). `front_centre` is a position in the outline, while it moves.
     Crawl { front_centre: Option<u32> },
     /// Somebody pulls all of it with finite force.
     Tow { max_acceleration: f32 },

@@ -22,7 +22,7 @@ pub(crate) struct ObstaclePath {
     from: Pose,
     to: Pose,
     /// Longest way of a point of it in the step, units.
-    reach: f32,
+    margin: f32,
     /// Share of the way in a substep.
     rate: f32,
     /// Share of the way done when the substep began, and at its end.
@@ -44,7 +44,7 @@ impl ObstaclePath {
             stops: obstacle.motion == super::obstacle::ObstacleMotion::Stop,
             from,
             to,
-            reach: whole * share,
+            margin: whole * share,
             rate: share / substeps as f32,
             start: 0.0,
             end: 0.0,
@@ -54,7 +54,7 @@ impl ObstaclePath {
 
     /// Box around all places that the obstacle can get to in the step, if it has not moved yet.
     pub(crate) fn aabb(&self, obstacle: &Obstacle) -> Aabb {
-        obstacle.shape.compute_aabb(&self.from).loosened(self.reach)
+        obstacle.shape.compute_aabb(&self.from).loosened(self.margin)
     }
 
     /// Where the obstacle is at the end of the substep.

@@ -54,7 +54,7 @@ pub(crate) enum Containment {
 
 /// A side of a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub(crate) enum RingSide {
     Inside,
     Outside,
     /// The one where it is.
@@ -62,13 +62,13 @@ pub(crate) enum Side {
 }
 
 /// On which side of a ring an owner's particles stay. `containments` is indexed by owner; the others are free.
-fn side_of(owner: u32, ring: Ring<'_>, containments: &[Containment]) -> Side {
+fn side_of(owner: u32, ring: Ring<'_>, containments: &[Containment]) -> RingSide {
     let is_inside = ring.holds.map_or(owner == ring.owner, |held| owner == held);
     match containments.get(owner as usize) {
-        _ if is_inside => Side::Inside,
-        Some(&Containment::Inside(holder)) if holder == ring.owner && ring.holds.is_none() => Side::Inside,
-        Some(&Containment::Passing(holder)) if holder == ring.owner => Side::Either,
-        _ => Side::Outside,
+        _ if is_inside => RingSide::Inside,
+        Some(&Containment::Inside(holder)) if holder == ring.owner && ring.holds.is_none() => RingSide::Inside,
+        Some(&Containment::Passing(holder)) if holder == ring.owner => RingSide::Either,
+        _ => RingSide::Outside,
     }
 }
 
@@ -79,7 +79,7 @@ pub(crate) struct RingContact {
     /// Place of the ring among those that were searched.
     pub ring: usize,
     /// Where it has to stay.
-    pub side: Side,
+    pub side: RingSide,
     pub radius_sum: f32,
     pub friction: f32,
     /// The nearer node of the link that it touched last in any substep since it was found.
@@ -273,7 +273,7 @@ mod tests {
         let contact = |(particle, ring)| RingContact {
             particle,
             ring,
-            side: Side::Either,
+            side: RingSide::Either,
             radius_sum: 1.0,
             friction: 0.0,
             touched: None,
@@ -293,12 +293,15 @@ mod tests {
         let side = |owner, holds| side_of(owner, of(holds), &containments);
         assert_eq!(
             [0, 1, 2, 4].map(|owner| side(owner, None)),
-            [Side::Inside, Side::Inside, Side::Outside, Side::Outside]
+            [RingSide::Inside, RingSide::Inside, RingSide::Outside, RingSide::Outside]
         );
-        assert_eq!([0, 1, 2].map(|owner| side(owner, Some(1))), [Side::Outside, Side::Inside, Side::Outside]);
+        assert_eq!(
+            [0, 1, 2].map(|owner| side(owner, Some(1))),
+            [RingSide::Outside, RingSide::Inside, RingSide::Outside]
+        );
         let passing = [Containment::Free, Containment::Passing(0), Containment::Passing(9)];
         let sides = [1, 2].map(|owner| side_of(owner, of(None), &passing));
-        assert_eq!(sides, [Side::Either, Side::Outside]);
+        assert_eq!(sides, [RingSide::Either, RingSide::Outside]);
         let links = [0, 1, 2].map(|k| of(None).link(k)).map(|Link { a, b }| (a, b));
         assert_eq!(links, [(10, 11), (11, 12), (12, 10)]);
     }

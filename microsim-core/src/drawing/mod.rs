@@ -9,7 +9,7 @@ mod organism;
 pub mod palette;
 pub mod shape;
 
-use crate::{Kind, View};
+use crate::View;
 use glam::Vec2;
 use palette::{PAGE, ROOM, ROOM_EDGE, WALL};
 use shape::{DrawnPart, Geometry, Item, Paint, Stroke};
@@ -47,7 +47,7 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
     let [low, high] = window;
     let is_seen = |(from, to): (Vec2, Vec2)| from.cmple(high).all() && to.cmpge(low).all();
     let mut organisms: Vec<_> = view.organisms().filter(|organism| is_seen(organism.bounds())).collect();
-    organisms.sort_by_key(|organism| height(organism.kind()));
+    organisms.sort_by_cached_key(|organism| organism.drawn_look().layer);
     let size = view.world().config().size;
     let mut items = Vec::new();
     for layer in layers {
@@ -66,19 +66,6 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
     }
     items.retain(|item| item.geometry.is_finite());
     items
-}
-
-/// What lies lower is drawn first. Amoeboid cells lie above what they may have taken in: they are translucent.
-fn height(kind: Kind) -> u8 {
-    match kind {
-        Kind::FluidBlock => 0,
-        Kind::Platelet | Kind::RedCell => 1,
-        Kind::Agar => 2,
-        Kind::RigidCell => 4,
-        Kind::AmoeboidCell => 5,
-        Kind::Probe => 6,
-        _ => 3,
-    }
 }
 
 fn room(size: Vec2) -> Item {

@@ -1,33 +1,30 @@
-//! Organisms as shapes, one function per kind.
+//! Organisms as shapes, one function per form.
 
-use super::palette::{
-    AGAR, AMOEBOID, COCCUS, CUSTOM, FLUID, GROWN, HALO, PLATELET, PROBE, QUARANTINED, RED, RIGID, Tint,
-};
+use super::palette::{GROWN, HALO, QUARANTINED};
 use super::shape::{DrawnPart, Geometry, Item, Paint, Stroke};
-use crate::{Kind, MembraneRegion, OrganismView, ParticleView, Role};
+use crate::{Form, MembraneRegion, OrganismView, ParticleView, Role, Tint};
 use glam::Vec2;
 
 /// Adds an organism, the lowest item first.
 pub(super) fn draw(view: OrganismView<'_>, items: &mut Vec<Item>) {
-    let tint = |own| if view.is_quarantined() { QUARANTINED } else { own };
+    let look = view.drawn_look();
+    let tint = if view.is_quarantined() { QUARANTINED } else { look.tint };
     let first = items.len();
-    match view.kind() {
-        Kind::AmoeboidCell => amoeboid_cell(view, tint(AMOEBOID), items),
-        Kind::RigidCell => rigid_cell(view, tint(RIGID), items),
-        Kind::Platelet => platelet(view, tint(PLATELET), items),
-        Kind::Agar => beads(view, tint(AGAR), items),
-        Kind::Probe => probe(view, tint(PROBE), items),
-        Kind::FluidBlock => fluid(view, tint(FLUID), items),
-        Kind::RedCell => rigid_cell(view, tint(RED), items),
-        Kind::Coccus | Kind::Bacillus => beads(view, tint(COCCUS), items),
-        _ => custom(view, tint(CUSTOM), items),
+    match look.form {
+        Form::Amoeboid => amoeboid_cell(view, tint, items),
+        Form::Ciliate | Form::RedCell => dense_cell(view, tint, items),
+        Form::Platelet => platelet(view, tint, items),
+        Form::Beads => beads(view, tint, items),
+        Form::Metal => metal(view, tint, items),
+        Form::Drops => drops(view, tint, items),
+        Form::Plain => plain(view, tint, items),
     }
     items[first..].iter_mut().for_each(|item| item.owner = Some(view.id()));
 }
 
 /// The bright seam around a cell.
 pub(super) fn halo(view: OrganismView<'_>) -> Option<Item> {
-    let is_thick = matches!(view.kind(), Kind::AmoeboidCell | Kind::RigidCell | Kind::Platelet | Kind::RedCell);
+    let is_thick = matches!(view.drawn_look().form, Form::Amoeboid | Form::Ciliate | Form::RedCell | Form::Platelet);
     let seam = || Stroke { colour: HALO, width: line_width(view) * 3.5 };
     is_thick.then(|| Item {
         owner: Some(view.id()),
@@ -81,7 +78,7 @@ fn leading_edge(view: OrganismView<'_>, surface: &[Vec2]) -> Vec<Vec2> {
 }
 
 /// A body with a cortex, a nucleus and a small cap at its front.
-fn rigid_cell(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
+fn dense_cell(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
     let surface = view.surface();
     let thickness = line_width(view);
     items.push(body(&surface, tint, [0.75, 0.9]));
@@ -98,8 +95,8 @@ fn rigid_cell(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
 /// A faint crescent behind the front.
 fn cap(view: OrganismView<'_>, tint: Tint, surface: &[Vec2]) -> Option<Item> {
     let (front, count) = (view.front_index()?, surface.len());
-    let reach = (count / 8).max(1);
-    let around = (front + count - reach..=front + count + reach).map(|k| surface[k % count]);
+    let half = (count / 8).max(1);
+    let around = (front + count - half..=front + count + half).map(|k| surface[k % count]);
     Some(Item::filled(DrawnPart::Cap, Geometry::Curve(around.collect()), Paint::Flat(tint.detail.faded(0.32))))
 }
 
@@ -119,7 +116,7 @@ fn beads(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
 }
 
 /// A disc of metal: a ring and a hub.
-fn probe(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
+fn metal(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
     items.push(rims(view, tint));
     items.extend(view.particles().map(|p| disc(p.position, p.radius * 0.94, tint)));
     items.extend(view.particles().map(|p| {
@@ -130,14 +127,14 @@ fn probe(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
 }
 
 /// Drops that run into one another.
-fn fluid(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
-    let drops = |scale: f32| Geometry::Discs(view.particles().map(|p| (p.position, p.radius * scale)).collect());
-    items.push(Item::filled(DrawnPart::Fluid, drops(1.15), Paint::Flat(tint.inner.faded(0.55))));
-    items.push(Item::filled(DrawnPart::Spot, drops(0.6), Paint::Flat(tint.detail.faded(0.45))));
+fn drops(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
+    let discs = |scale: f32| Geometry::Discs(view.particles().map(|p| (p.position, p.radius * scale)).collect());
+    items.push(Item::filled(DrawnPart::Fluid, discs(1.15), Paint::Flat(tint.inner.faded(0.55))));
+    items.push(Item::filled(DrawnPart::Spot, discs(0.6), Paint::Flat(tint.detail.faded(0.45))));
 }
 
-/// A body of no known kind: its outline, if any, and its discs.
-fn custom(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
+/// A body that the library does not know: its outline, if any, and its discs.
+fn plain(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
     let surface = view.surface();
     if surface.len() > 2 {
         items.push(body(&surface, tint, [0.3, 0.45]));

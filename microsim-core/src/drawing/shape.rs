@@ -1,35 +1,8 @@
 //! What drawings are made of.
 
+pub use crate::Colour;
 use crate::OrganismId;
 use glam::Vec2;
-
-/// A colour that covers what is below it by `alpha`, 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour {
-    /// Red, sRGB.
-    pub red: u8,
-    /// Green, sRGB.
-    pub green: u8,
-    /// Blue, sRGB.
-    pub blue: u8,
-    /// Share of what is below that it covers.
-    pub alpha: f32,
-}
-
-impl Colour {
-    /// From `0xRRGGBB`, opaque.
-    #[must_use]
-    pub const fn hex(rgb: u32) -> Self {
-        let [_, red, green, blue] = rgb.to_be_bytes();
-        Self { red, green, blue, alpha: 1.0 }
-    }
-
-    /// The same, covering less.
-    #[must_use]
-    pub const fn faded(self, alpha: f32) -> Self {
-        Self { alpha, ..self }
-    }
-}
 
 /// How an area is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -46,15 +46,15 @@ impl Coverage {
 
     /// Covers a disc.
     pub(crate) fn cover_disc(&mut self, centre: Vec2, radius: f32) {
-        let reach = Vec2::splat(radius);
-        self.cover(centre - reach, centre + reach, |p| (p - centre).length_squared() <= radius * radius);
+        let extent = Vec2::splat(radius);
+        self.cover(centre - extent, centre + extent, |p| (p - centre).length_squared() <= radius * radius);
     }
 
     /// Covers a segment with round ends.
     pub(crate) fn cover_capsule(&mut self, a: Vec2, b: Vec2, radius: f32) {
-        let reach = Vec2::splat(radius);
+        let extent = Vec2::splat(radius);
         let (low, high) = (Vec2::select(a.cmplt(b), a, b), Vec2::select(a.cmplt(b), b, a));
-        self.cover(low - reach, high + reach, |p| {
+        self.cover(low - extent, high + extent, |p| {
             (p - nearest_on_segment(a, b, p)).length_squared() <= radius * radius
         });
     }

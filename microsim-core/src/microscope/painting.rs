@@ -1,4 +1,4 @@
-//! The seed's own way to draw (3.2): meshes with textures that stretch with the body, particles blurred into a fluid, and
+//! The way of the thesis to draw (3.2): meshes with textures that stretch with the body, particles blurred into a fluid, and
 //! things that drift in the background. No light is involved.
 //!
 //! - Soft bodies: vertices are the ring's bodies pushed outwards by their radius, the kernel is the hub of the triangles,
@@ -15,7 +15,8 @@ use super::recipe::{DrawList, Program, QUAD};
 use super::specimen::chamber::obstacle_map;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
-use crate::kind::Kind;
+use crate::look::{ImageLook, PaintedLook};
+use crate::organism::look;
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView, View};
 use glam::{Vec2, Vec3};
@@ -66,7 +67,7 @@ impl Painting {
         let mut painting = Self { room, obstacles: world.solid_obstacles().cloned().collect(), primitives: Vec::new() };
         painting.background(world.config().seed as u32, view.time() as f32);
         let mut organisms: Vec<OrganismView<'_>> = view.organisms().collect();
-        organisms.sort_by_key(|organism| matches!(organism.kind(), Kind::AmoeboidCell));
+        organisms.sort_by_cached_key(|organism| is_filled_chain(*organism));
         for organism in organisms {
             painting.organism(organism);
         }
@@ -86,13 +87,14 @@ impl Painting {
 
     fn organism(&mut self, organism: OrganismView<'_>) {
         let seed = scramble(organism.id().index());
-        let (body, rim, mottle) = colours(organism.kind(), seed);
-        let skin = Skin { body, rim, mottle, seed };
+        let shade = 0.92 + 0.16 * HashRng::new(seed).unit();
+        let PaintedLook { body, rim, mottle } = look(organism.kind()).painted;
+        let skin = Skin { body: body * shade, rim: rim * shade, mottle, seed };
         let surface = organism.surface();
         if surface.len() < 3 {
-            let disc = |at, radius| Primitive::Disc { at, radius, colour: body, alpha: 0.95, softness: 0.15 };
+            let disc = |at, radius| Primitive::Disc { at, radius, colour: skin.body, alpha: 0.95, softness: 0.15 };
             self.primitives.extend(organism.particles().map(|particle| disc(particle.position, particle.radius)));
-        } else if organism.kind() == Kind::AmoeboidCell {
+        } else if is_filled_chain(organism) {
             self.filled_chain(organism, &surface, skin);
         } else {
             self.soft_body(organism, &surface, skin);
@@ -226,6 +228,10 @@ impl Skin {
     }
 }
 
+fn is_filled_chain(organism: OrganismView<'_>) -> bool {
+    matches!(look(organism.kind()).image, ImageLook::Amoeboid(_))
+}
+
 /// A blurred particle; colours and sizes differ, and what growth has added is yellow.
 fn cytoplasm(particle: &ParticleView, skin: &Skin) -> Primitive {
     let mut rng = HashRng::new(particle.index);
@@ -233,21 +239,6 @@ fn cytoplasm(particle: &ParticleView, skin: &Skin) -> Primitive {
     let colour = if particle.role == Role::GrownCytoplasm { mix_colours(own, GROWN, 0.6) } else { own };
     let radius = particle.radius * rng.range([1.6, 2.2]);
     Primitive::Disc { at: particle.position, radius, colour, alpha: 0.55, softness: 1.0 }
-}
-
-/// Body, rim and mottling of a kind.
-fn colours(kind: Kind, seed: u32) -> (Vec3, Vec3, f32) {
-    let shade = 0.92 + 0.16 * HashRng::new(seed).unit();
-    let (body, rim, mottle) = match kind {
-        Kind::AmoeboidCell => (Vec3::new(0.70, 0.82, 0.56), Vec3::new(0.38, 0.55, 0.34), 0.0),
-        Kind::RigidCell => (Vec3::new(0.80, 0.72, 0.44), Vec3::new(0.45, 0.36, 0.18), 0.22),
-        Kind::Platelet => (Vec3::new(0.82, 0.66, 0.70), Vec3::new(0.58, 0.38, 0.46), 0.12),
-        Kind::RedCell => (Vec3::new(0.85, 0.50, 0.46), Vec3::new(0.66, 0.24, 0.24), 0.06),
-        Kind::Coccus | Kind::Bacillus => (Vec3::new(0.36, 0.30, 0.48), Vec3::new(0.2, 0.2, 0.3), 0.0),
-        Kind::Agar => (Vec3::new(0.86, 0.60, 0.30), Vec3::new(0.6, 0.4, 0.2), 0.0),
-        _ => (Vec3::new(0.55, 0.62, 0.70), Vec3::new(0.3, 0.35, 0.42), 0.05),
-    };
-    (body * shade, rim * shade, mottle)
 }
 
 fn mix_colours(a: Vec3, b: Vec3, share: f32) -> Vec3 {

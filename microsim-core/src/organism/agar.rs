@@ -1,13 +1,15 @@
-//! Agar (seed, 3.1.4): one small disc.
+//! Agar (thesis, 3.1.4): one small disc.
 
 use super::blueprint::Blueprint;
 use super::spec::{Spec, SpecTable};
 use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, OutlineLook, Profile, RoundLook, Texture};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, Matter, OutlineLook, PaintedLook, Profile, RoundLook, Texture};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A small disc to be eaten.
@@ -43,14 +45,18 @@ impl Spec for AgarSpec {
 
     /// A soft bead of gel, hardly denser than water.
     fn look(&self) -> Look {
-        Look::Round(&RoundLook {
-            profile: Profile::Dome(0.8),
-            matter: Matter { phase: 0.45, haemoglobin: 0.0, cytoplasm: 0.35, nucleus: 0.0 },
-            variation: 0.3,
-            texture: Texture { amount: 0.2, size: 0.35 },
-            outline: const { OutlineLook::uneven(0.10) },
-            ..RoundLook::PLAIN
-        })
+        Look {
+            image: ImageLook::Round(&RoundLook {
+                profile: Profile::Dome(0.8),
+                matter: Matter { phase: 0.45, haemoglobin: 0.0, cytoplasm: 0.35, nucleus: 0.0 },
+                variation: 0.3,
+                texture: Texture { amount: 0.2, size: 0.35 },
+                outline: const { OutlineLook::uneven(0.10) },
+                ..RoundLook::PLAIN
+            }),
+            drawn: DrawnLook { form: Form::Beads, tint: Tint::hex([0xF4CE86, 0xDFA44A, 0xA8732A, 0xFFF3D8]), layer: 2 },
+            painted: PaintedLook { body: Vec3::new(0.86, 0.6, 0.3), rim: Vec3::new(0.6, 0.4, 0.2), mottle: 0.0 },
+        }
     }
 }
 

@@ -5,12 +5,14 @@
 //! ```
 
 use super::blueprint::Blueprint;
+use super::coccus::{PAINTED, TINT};
 use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
-use crate::look::{Look, Matter};
+use crate::look::drawn::{DrawnLook, Form};
+use crate::look::{ImageLook, Look, Matter};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Template};
@@ -66,7 +68,11 @@ impl Spec for BacillusSpec {
 
     /// A dense rod.
     fn look(&self) -> Look {
-        Look::Rod(&Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.9 })
+        Look {
+            image: ImageLook::Rod(&Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.9 }),
+            drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },
+            painted: PAINTED,
+        }
     }
 }
 

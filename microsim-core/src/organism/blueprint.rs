@@ -25,7 +25,7 @@ pub(crate) struct Blueprint {
     pub locomotion: Locomotion,
     /// Speed when it moves, units/s.
     pub speed: f32,
-    /// Area when spawned, square units (seed, 3.3.1: of the initial ellipse).
+    /// Area when spawned, square units (thesis, 3.3.1: of the initial ellipse).
     pub area: f32,
     pub engulfer: Option<PhagocytosisParams>,
     pub prey: Option<PreyClass>,

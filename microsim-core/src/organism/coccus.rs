@@ -6,13 +6,20 @@ use crate::capability::Locomotion;
 use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, RoundLook};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, Matter, PaintedLook, RoundLook};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Largest acceleration of what jostles it, units/s2: it is light, so a push stops it at once.
 const JOSTLE: f32 = 50.0;
+
+/// Colours of bacteria in drawings, and painted.
+pub(super) const TINT: Tint = Tint::hex([0x8B7FA8, 0x5E5280, 0x3E3459, 0xD8D2E6]);
+pub(super) const PAINTED: PaintedLook =
+    PaintedLook { body: Vec3::new(0.36, 0.30, 0.48), rim: Vec3::new(0.2, 0.2, 0.3), mottle: 0.0 };
 
 /// A small round bacterium.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,11 +65,15 @@ impl Spec for CoccusSpec {
 
     /// A small dense ball.
     fn look(&self) -> Look {
-        Look::Round(&RoundLook {
-            matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
-            variation: 0.1,
-            ..RoundLook::PLAIN
-        })
+        Look {
+            image: ImageLook::Round(&RoundLook {
+                matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
+                variation: 0.1,
+                ..RoundLook::PLAIN
+            }),
+            drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },
+            painted: PAINTED,
+        }
     }
 }
 

@@ -4,11 +4,12 @@ use super::blueprint::{Blueprint, FluidPlan};
 use super::spec::{Spec, SpecTable};
 use crate::error::{Error, out_of_range};
 use crate::kind::Kind;
-use crate::look::{Look, Matter};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, Matter, PaintedLook};
 use crate::solver::fluid::FluidParams;
 use crate::spec_field::FieldValue::Vector;
 use crate::spec_field::{FieldVisitor, check, required};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// A rectangle of fluid.
@@ -79,7 +80,11 @@ impl Spec for FluidBlockSpec {
 
     /// A little denser than the medium; each particle is a soft drop that runs into its neighbours.
     fn look(&self) -> Look {
-        Look::Drops(&Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.4, nucleus: 0.0 })
+        Look {
+            image: ImageLook::Drops(&Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.4, nucleus: 0.0 }),
+            drawn: DrawnLook { form: Form::Drops, tint: Tint::hex([0x9CCBE3, 0x6CAFD1, 0x4A91B6, 0x4A91B6]), layer: 0 },
+            painted: PaintedLook { body: Vec3::new(0.55, 0.62, 0.7), rim: Vec3::new(0.3, 0.35, 0.42), mottle: 0.05 },
+        }
     }
 
     fn scale(&mut self, scale: f32) -> bool {

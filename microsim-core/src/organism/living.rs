@@ -48,7 +48,7 @@ pub(crate) struct Organism {
     pub speed: f32,
     pub controller: Controller,
     pub rng: Rng,
-    /// Area that it had when it was spawned, square units; changes only by scaling (seed, 3.3.1).
+    /// Area that it had when it was spawned, square units; changes only by scaling (thesis, 3.3.1).
     pub spawn_area: f32,
     /// Its size relative to its template when it was spawned.
     pub spawn_scale: f32,

@@ -74,8 +74,7 @@ macro_rules! organisms {
             }
         }
 
-        /// How organisms of a kind look under the microscope.
-        #[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "nothing else asks"))]
+        /// How organisms of a kind look.
         pub(crate) fn look(kind: Kind) -> Look {
             match kind {
                 $(Kind::$kind => <$spec>::default().look(),)*

@@ -1,4 +1,4 @@
-//! Platelet (seed, 3.1.4): a soft obstacle that returns to its place.
+//! Platelet (thesis, 3.1.4): a soft obstacle that returns to its place.
 //!
 //! ```text
 //!      o o o          o  satellites: one rigid ring, a spring to the nucleus each
@@ -13,13 +13,16 @@ use super::spec::{Spec, SpecTable};
 use crate::error::Error;
 use crate::geometry::ring::{ellipse, touching_ring};
 use crate::kind::Kind;
-use crate::look::{Inclusion, Look, Matter, OutlineLook, Profile, RoundLook, SpotShape, Texture};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{
+    ImageLook, Inclusion, Look, Matter, OutlineLook, PaintedLook, Profile, RoundLook, SpotShape, Texture,
+};
 use crate::particle::CollisionGroups;
 use crate::solver::constraint::{Anchor, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Share of a satellite's radius that stays free between ring and interlayer.
@@ -33,7 +36,7 @@ const FOLD_LIMIT: f32 = 1.6;
 pub struct PlateletSpec {
     /// Outer radius, units, 0.2 to 100.
     pub radius: f32,
-    /// Satellites in the ring, 8 to 64. With nucleus and interlayer, 18 to 28 give the seed's 20 to 30 bodies.
+    /// Satellites in the ring, 8 to 64. With nucleus and interlayer, 18 to 28 give the thesis' 20 to 30 bodies.
     pub satellites: u32,
     /// Mass of the nucleus and of the interlayer, each, in satellites, 1 to 1000.
     pub core_mass: f32,
@@ -102,28 +105,36 @@ impl Spec for PlateletSpec {
 
     /// A thin irregular plate with granules in the middle, which take basic dyes.
     fn look(&self) -> Look {
-        Look::Round(&RoundLook {
-            profile: Profile::Dome(0.3),
-            matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.50, nucleus: 0.16 },
-            variation: 0.15,
-            texture: Texture { amount: 0.25, size: 0.4 },
-            outline: OutlineLook {
-                size: 0.05,
-                waves: [0.10, 0.07],
-                decay: 2.2,
-                spread: 0.6,
-                spikes: [0, 3],
-                ..OutlineLook::EVEN
+        Look {
+            image: ImageLook::Round(&RoundLook {
+                profile: Profile::Dome(0.3),
+                matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.50, nucleus: 0.16 },
+                variation: 0.15,
+                texture: Texture { amount: 0.25, size: 0.4 },
+                outline: OutlineLook {
+                    size: 0.05,
+                    waves: [0.10, 0.07],
+                    decay: 2.2,
+                    spread: 0.6,
+                    spikes: [0, 3],
+                    ..OutlineLook::EVEN
+                },
+                inclusions: &[Inclusion {
+                    count: [6, 16],
+                    radius: [0.07, 0.26],
+                    place: [0.0, 0.55],
+                    matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
+                    shape: SpotShape::Bump,
+                }],
+                ..RoundLook::PLAIN
+            }),
+            drawn: DrawnLook {
+                form: Form::Platelet,
+                tint: Tint::hex([0xF3D3CD, 0xDE9F98, 0xA65E5C, 0x9C4F52]),
+                layer: 1,
             },
-            inclusions: &[Inclusion {
-                count: [6, 16],
-                radius: [0.07, 0.26],
-                place: [0.0, 0.55],
-                matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
-                shape: SpotShape::Bump,
-            }],
-            ..RoundLook::PLAIN
-        })
+            painted: PaintedLook { body: Vec3::new(0.82, 0.66, 0.7), rim: Vec3::new(0.58, 0.38, 0.46), mottle: 0.12 },
+        }
     }
 }
 

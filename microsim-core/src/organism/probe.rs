@@ -5,9 +5,11 @@ use super::spec::{Spec, SpecTable};
 use crate::capability::Locomotion;
 use crate::error::Error;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, RoundLook};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, Matter, PaintedLook, RoundLook};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A heavy disc that is driven.
@@ -59,6 +61,10 @@ impl Spec for ProbeSpec {
 
     /// The round tip of a glass needle, much denser than anything alive.
     fn look(&self) -> Look {
-        Look::Round(&RoundLook { matter: Matter { phase: 5.0, ..Matter::NONE }, ..RoundLook::PLAIN })
+        Look {
+            image: ImageLook::Round(&RoundLook { matter: Matter { phase: 5.0, ..Matter::NONE }, ..RoundLook::PLAIN }),
+            drawn: DrawnLook { form: Form::Metal, tint: Tint::hex([0x8D98A3, 0x56626E, 0x323B44, 0xC6CED6]), layer: 6 },
+            painted: PaintedLook { body: Vec3::new(0.55, 0.62, 0.7), rim: Vec3::new(0.3, 0.35, 0.42), mottle: 0.05 },
+        }
     }
 }

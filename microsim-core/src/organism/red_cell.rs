@@ -17,13 +17,14 @@ use crate::error::Error;
 use crate::geometry::ring::{ellipse, touching_ring};
 use crate::geometry::signed_area;
 use crate::kind::Kind;
-use crate::look::{Look, Matter, OutlineLook, Profile, RoundLook, Texture, WAVE};
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, Matter, OutlineLook, PaintedLook, Profile, RoundLook, Texture, WAVE};
 use crate::particle::Material;
 use crate::solver::constraint::{Area, Distance, MinDistance};
 use crate::spec_field::FieldValue::{Count, Number};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Satellites that a chord skips, and the share of its rest length that it never goes below: no fold in the ring.
@@ -102,23 +103,31 @@ impl Spec for RedCellSpec {
 
     /// A biconcave disc full of haemoglobin.
     fn look(&self) -> Look {
-        Look::Round(&RoundLook {
-            profile: Profile::Biconcave { c0: [0.81, 1.75], c2: 7.83, c4: 4.39 },
-            matter: Matter { phase: 0.033 * WAVE * 2.56, haemoglobin: 1.0, cytoplasm: 0.0, nucleus: 0.0 },
-            variation: 0.12,
-            texture: Texture { amount: 0.05, size: 0.9 },
-            outline: OutlineLook {
-                size: 0.08,
-                waves: [0.055, 0.021],
-                decay: 2.0,
-                spread: 0.7,
-                ovals: 0.10,
-                tails: 0.04,
-                bites: 0.07,
-                spikes: [0, 0],
+        Look {
+            image: ImageLook::Round(&RoundLook {
+                profile: Profile::Biconcave { c0: [0.81, 1.75], c2: 7.83, c4: 4.39 },
+                matter: Matter { phase: 0.033 * WAVE * 2.56, haemoglobin: 1.0, cytoplasm: 0.0, nucleus: 0.0 },
+                variation: 0.12,
+                texture: Texture { amount: 0.05, size: 0.9 },
+                outline: OutlineLook {
+                    size: 0.08,
+                    waves: [0.055, 0.021],
+                    decay: 2.0,
+                    spread: 0.7,
+                    ovals: 0.10,
+                    tails: 0.04,
+                    bites: 0.07,
+                    spikes: [0, 0],
+                },
+                ..RoundLook::PLAIN
+            }),
+            drawn: DrawnLook {
+                form: Form::RedCell,
+                tint: Tint::hex([0xEBB3AC, 0xD07A73, 0x94413F, 0x94413F]),
+                layer: 1,
             },
-            ..RoundLook::PLAIN
-        })
+            painted: PaintedLook { body: Vec3::new(0.85, 0.5, 0.46), rim: Vec3::new(0.66, 0.24, 0.24), mottle: 0.06 },
+        }
     }
 }
 

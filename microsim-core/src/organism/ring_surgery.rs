@@ -75,7 +75,7 @@ impl Swap {
     }
 }
 
-/// Gives an organism another outline: nodes are linked anew and keep their activity, and its front stays a place in it.
+/// Gives an organism another outline: nodes are linked again and keep their activity, and its front stays a place in it.
 pub(crate) fn set_outline(organism: &mut Organism, outline: Vec<u32>, p: &mut Particles) {
     p.link_ring(&outline);
     let is_in_it = |k: &u32| (*k as usize) < outline.len();

@@ -30,8 +30,7 @@ pub(crate) trait Spec {
     /// The particles, constraints and capabilities that it amounts to. Every field is checked.
     fn blueprint(&self) -> Result<Blueprint, Error>;
 
-    /// How it looks under the microscope.
-    #[cfg_attr(not(feature = "microscope"), allow(dead_code, reason = "nothing else asks"))]
+    /// How it looks.
     fn look(&self) -> Look;
 
     /// Scales its fields, where a larger one has more particles rather than larger ones; `false` where it has not.
@@ -84,7 +83,7 @@ impl OrganismSpec {
     }
 
     /// The same in another size, and the scale that is left for [`super::Placement::scale`]. Where fluid is part of it, the
-    /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (seed, 3.1.2).
+    /// spec itself is scaled: a larger cell has more nodes and more cytoplasm, not larger ones (thesis, 3.1.2).
     #[must_use]
     pub fn scaled(&self, scale: f32) -> (Self, f32) {
         let mut scaled = self.clone();

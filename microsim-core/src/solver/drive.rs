@@ -18,7 +18,7 @@ pub(crate) struct Drive {
     pub particle: u32,
     /// Wanted velocity, units/s.
     pub velocity: Vec2,
-    /// Largest acceleration towards it, units/s2; infinite sets it at once, as the seed does.
+    /// Largest acceleration towards it, units/s2; infinite sets it at once, as the thesis does.
     pub max_acceleration: f32,
 }
 

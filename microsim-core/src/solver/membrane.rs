@@ -4,7 +4,7 @@
 //! one does): a perimeter that contracts towards that of a circle around the content, a one-sided area limit, and
 //! bending towards the circle's curvature. Once per step [`Membrane::relax`] finds the targets; per substep [`project`]
 //! applies them, see [`ring_lanes`], and [`Membrane::limit_strain`], last in the substep, keeps every link below
-//! [`STRAIN_LIMIT`] (seed, 4.2.2: "a distance joint that will respect a maximum length limit").
+//! [`STRAIN_LIMIT`] (thesis, 4.2.2: "a distance joint that will respect a maximum length limit").
 
 use super::constraint::Rope;
 use super::ring_lanes::{self, RingTarget, STRIDES};

@@ -1,7 +1,7 @@
 //! Where a disc is with respect to the links of a ring, eight neighbouring links at a time.
 
 use super::lanes::{LANES, load, ratio};
-use crate::collision::ring::{FoundLink, Link, Side};
+use crate::collision::ring::{FoundLink, Link, RingSide};
 use crate::instruction_set::each;
 use crate::particle::Particles;
 use glam::Vec2;
@@ -38,22 +38,22 @@ impl Relation {
 
     /// Whether this is the wrong side for a disc that has to stay on `side`.
     #[inline(always)]
-    pub(super) fn is_wrong(&self, side: Side) -> bool {
+    pub(super) fn is_wrong(&self, side: RingSide) -> bool {
         match side {
-            Side::Inside => self.signed_height() < 0.0,
-            Side::Outside => self.signed_height() > 0.0,
-            Side::Either => false,
+            RingSide::Inside => self.signed_height() < 0.0,
+            RingSide::Outside => self.signed_height() > 0.0,
+            RingSide::Either => false,
         }
     }
 
     /// Unit vector across the link, to that side.
     #[inline(always)]
-    pub(super) fn to_side(self, side: Side) -> Vec2 {
+    pub(super) fn to_side(self, side: RingSide) -> Vec2 {
         let length = self.squared.sqrt();
         if length > 1e-6 {
             let away = self.away / length;
             if self.is_wrong(side) { -away } else { away }
-        } else if side == Side::Inside {
+        } else if side == RingSide::Inside {
             self.inwards()
         } else {
             -self.inwards()

@@ -3,7 +3,7 @@
 use super::contact::shift;
 use super::ring_contact::STANDOFF;
 use super::ring_relation::Relation;
-use crate::collision::ring::{Ring, RingContact, RingContacts, Side};
+use crate::collision::ring::{Ring, RingContact, RingContacts, RingSide};
 use crate::geometry::polygon::contains_point;
 use crate::particle::Particles;
 use glam::Vec2;
@@ -35,9 +35,9 @@ pub(crate) fn catch_strays(
 fn is_across(contact: &RingContact, outline: &[Vec2], p: &Particles) -> bool {
     let is_inside = contains_point(outline, p.position(contact.particle as usize));
     match contact.side {
-        Side::Inside => !is_inside,
-        Side::Outside => is_inside,
-        Side::Either => false,
+        RingSide::Inside => !is_inside,
+        RingSide::Outside => is_inside,
+        RingSide::Either => false,
     }
 }
 

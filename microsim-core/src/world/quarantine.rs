@@ -26,7 +26,7 @@ impl World {
 
     /// Whether all particles are valid: the same check as for each organism, but column by column.
     fn all_are_valid(&self) -> bool {
-        let (p, [low, high]) = (&self.particles, self.config.reach());
+        let (p, [low, high]) = (&self.particles, self.config.particle_bounds());
         let chunks = (0..p.len()).step_by(CHUNK).map(|first| first..p.len().min(first + CHUNK));
         let are_valid = |at: Range<usize>| {
             self.dispatch.run(
@@ -54,7 +54,7 @@ impl World {
     /// Freezes all organisms with an invalid particle or a flat membrane and returns them.
     fn freeze_invalid(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_valid = |i: u32| is_valid(particles, i as usize, config.reach());
+        let is_valid = |i: u32| is_valid(particles, i as usize, config.particle_bounds());
         let is_flat = |organism: &Organism| config.protects_membranes && is_flat(organism, particles, &mut Vec::new());
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         let is_lost = |organism: &Organism| {

@@ -82,22 +82,11 @@ impl World {
 
     /// Puts what a blueprint says into the world.
     pub(super) fn spawn_blueprint(&mut self, blueprint: Blueprint, placement: Placement) -> Result<OrganismId, Error> {
-        placement.validate()?;
-        if blueprint.has_membrane {
-            self.config.check_membranes()?;
-        }
-        let has_outline = blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty());
-        self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline)?;
-        check_fluid(&blueprint, &placement)?;
-        let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
-        let limit = u64::from(self.config.max_particles);
-        if asked > limit {
-            return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
-        }
+        self.check_spawn(&blueprint, &placement)?;
         let scale = blueprint.scale * placement.scale;
         let id = self.organisms.next_id();
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
-        self.check_place(&planned, if has_outline { TOUCHING } else { placement.overlap })?;
+        self.check_place(&planned, if has_outline(&blueprint) { TOUCHING } else { placement.overlap })?;
         self.note_place(id.index, bounds_of(discs(&planned)));
 
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
@@ -113,18 +102,18 @@ impl World {
             }
         };
         let (fluid, fluid_particles) = self.add_fluid(blueprint.fluid, fluid_plan);
-        let locomotion = blueprint.locomotion.begun(Rng::new(self.config.seed, id.crawl_stream()), outline.len());
+        let seed = self.config.seed;
         let organism = Organism {
             kind: blueprint.kind,
             body,
             slots,
+            locomotion: blueprint.locomotion.begun(Rng::new(seed, id.crawl_stream()), outline.len()),
             outline,
             fluid,
             fluid_particles,
-            locomotion,
             speed: blueprint.speed,
             controller: placement.controller,
-            rng: Rng::new(self.config.seed, id.stream()),
+            rng: Rng::new(seed, id.stream()),
             spawn_area: blueprint.area * placement.scale * placement.scale,
             spawn_scale: scale,
             full_scale: 1.0,
@@ -142,6 +131,22 @@ impl World {
             user_data: [0; 2],
         };
         Ok(self.organisms.insert(organism))
+    }
+
+    /// Checks all of a blueprint and its placement but for what is there already.
+    fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
+        placement.validate()?;
+        if blueprint.has_membrane {
+            self.config.check_membranes()?;
+        }
+        self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
+        check_fluid(blueprint, placement)?;
+        let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
+        let limit = u64::from(self.config.max_particles);
+        if asked > limit {
+            return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
+        }
+        Ok(())
     }
 
     /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share.
@@ -193,8 +198,8 @@ impl World {
             let near = bounds.loosened(p.radius[i]);
             near.contains_local_point(p.position(i))
                 && discs.iter().any(|disc| {
-                    let reach = (disc.radius + p.radius[i]) * (1.0 - share);
-                    disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < reach * reach
+                    let least = (disc.radius + p.radius[i]) * (1.0 - share);
+                    disc.groups.meets(p.groups[i]) && (disc.position() - p.position(i)).length_squared() < least * least
                 })
         })
     }
@@ -327,6 +332,10 @@ fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
 /// Places and radii of planned particles.
 fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
     planned.iter().map(|disc| (disc.position(), disc.radius))
+}
+
+fn has_outline(blueprint: &Blueprint) -> bool {
+    blueprint.template.as_ref().is_some_and(|template| !template.outline().is_empty())
 }
 
 /// Checks that what is fluid has the size of its spec and meets everybody.

@@ -1,4 +1,4 @@
-//! What lies before and behind the scene (seed, 3.2.3): drifting things out of focus, the film's grain, a vignette.
+//! What lies before and behind the scene (thesis, 3.2.3): drifting things out of focus, the film's grain, a vignette.
 
 use super::atlas::{GUARD, SIDE, Tile};
 use super::canvas::Canvas;

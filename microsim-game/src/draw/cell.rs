@@ -1,4 +1,4 @@
-//! Textures, cilia and granules: the parts of cells that are more than plain areas (seed, 3.2.1 and 3.2.2).
+//! Textures, cilia and granules: the parts of cells that are more than plain areas (thesis, 3.2.1 and 3.2.2).
 
 use super::atlas::Tile;
 use super::canvas::Canvas;
@@ -10,7 +10,7 @@ use macroquad::color::Color;
 use microsim_core::drawing::shape::{Item, Paint};
 use microsim_core::geometry::triangulate;
 use microsim_core::glam::Vec2;
-use microsim_core::{Kind, OrganismView};
+use microsim_core::{Form, OrganismView};
 use std::f32::consts::TAU;
 
 /// Radius of a sprite of cytoplasm or fluid in radii of its disc: sprites overlap into one body.
@@ -27,7 +27,7 @@ const BEAT: f64 = 9.0;
 /// The body of a cell: a textured fan from the nucleus over the surface, or a plain area where there is no texture.
 pub(super) fn paint_body(canvas: &mut Canvas, frame: &SceneFrame<'_>, item: &Item, points: &[Vec2]) {
     let owner = item.owner.and_then(|id| frame.view.organism(id));
-    let textured = owner.and_then(|cell| Some((cell, tile(cell.kind())?)));
+    let textured = owner.and_then(|cell| Some((cell, tile(cell.drawn_look().form)?)));
     let Some((cell, tile)) = textured else {
         return canvas.fill(points, &triangulate(points), area(item));
     };
@@ -36,17 +36,17 @@ pub(super) fn paint_body(canvas: &mut Canvas, frame: &SceneFrame<'_>, item: &Ite
         paint_hairs(canvas, frame, points);
     }
     canvas.fan(centre, points, tile, tinted(item, cell));
-    if cell.kind() == Kind::RedCell {
+    if cell.drawn_look().form == Form::RedCell {
         // It is thinner in its middle.
         canvas.sprite(centre, 0.62 * (points[0] - centre).length(), Tile::Soft, fade(HALO, 0.38));
     }
 }
 
-/// The inside of a kind of cell.
-fn tile(kind: Kind) -> Option<Tile> {
-    match kind {
-        Kind::RigidCell => Some(Tile::Cell),
-        Kind::Platelet | Kind::RedCell => Some(Tile::Platelet),
+/// The inside of a cell.
+fn tile(form: Form) -> Option<Tile> {
+    match form {
+        Form::Ciliate => Some(Tile::Cell),
+        Form::Platelet | Form::RedCell => Some(Tile::Platelet),
         _ => None,
     }
 }

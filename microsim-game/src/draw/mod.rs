@@ -68,7 +68,7 @@ mod tests {
     use super::palette::scene;
     use super::*;
     use crate::camera::Camera;
-    use microsim_core::drawing::palette::{AMOEBOID, GROWN};
+    use microsim_core::drawing::palette::GROWN;
     use microsim_core::{
         AmoeboidCellSpec, OrganismId, OrganismSpec, Placement, RigidCellSpec, Role, World, WorldConfig,
     };
@@ -122,9 +122,9 @@ mod tests {
     fn t54_t55_amoeboid_cells_are_a_filled_outline_with_a_soft_spot_for_each_particle() {
         let (world, id) = world_with(AmoeboidCellSpec::default());
         let (canvas, cell) = (drawn(&world), world.view().organism(id).unwrap());
-        assert_eq!(canvas.count(scene(AMOEBOID.outer.faded(0.62))), cell.outline().len());
+        assert_eq!(canvas.count(scene(cell.drawn_look().tint.outer.faded(0.62))), cell.outline().len());
         let particles = cell.particles().filter(|particle| particle.role == Role::Cytoplasm).count();
-        assert_eq!(canvas.count(scene(AMOEBOID.detail.faded(0.2))), 4 * particles);
+        assert_eq!(canvas.count(scene(cell.drawn_look().tint.detail.faded(0.2))), 4 * particles);
     }
 
     #[test]
@@ -160,8 +160,8 @@ mod tests {
         let canvas = drawn(&world);
         assert!(of(Role::GrownCytoplasm) > 0);
         assert_eq!(canvas.count(scene(GROWN.faded(0.2))), 4 * of(Role::GrownCytoplasm));
-        assert_eq!(canvas.count(scene(AMOEBOID.detail.faded(0.2))), 4 * of(Role::Cytoplasm));
-        let [new, old] = [scene(GROWN), scene(AMOEBOID.detail)];
+        assert_eq!(canvas.count(scene(cell.drawn_look().tint.detail.faded(0.2))), 4 * of(Role::Cytoplasm));
+        let [new, old] = [scene(GROWN), scene(cell.drawn_look().tint.detail)];
         let apart = [new.r - old.r, new.g - old.g, new.b - old.b].map(f32::abs);
         assert!(apart.iter().sum::<f32>() > 0.2, "{apart:?}");
     }

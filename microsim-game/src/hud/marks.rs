@@ -22,7 +22,7 @@ pub struct Style<'a> {
     pub camera: &'a Camera,
     /// Time for what moves, s; `None` if nothing may move that does not have to.
     pub time: Option<f32>,
-    /// The green arrow also where there is no room, as in the seed (T75).
+    /// The green arrow also where there is no room, as in the thesis (T75).
     pub is_classic: bool,
     /// What is written on the key that digests, if the player has to hold one.
     pub key: Option<&'a str>,
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(arrows(Readiness::Ready, outside, false), arrow, "at the edge of the picture");
         assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
-        assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the seed");
+        assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the thesis");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What the game draws above the scene: score, time, and marks at what matters (seed, 3.3.2). No mark tells anything by its
+//! What the game draws above the scene: score, time, and marks at what matters (thesis, 3.3.2). No mark tells anything by its
 //! colour alone.
 
 pub mod food_chain;

@@ -2,11 +2,12 @@
 
 use super::marks::{Style, draw_at_edge};
 use crate::draw::palette::{HALO, INK, READY, fade};
+use crate::rules::prey;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
+use microsim_core::View;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
-use microsim_core::{Kind, View};
 
 /// Draws a frame around each place, a thick one that is filled until the player was there; an arrow at the edge of the picture
 /// points to such a place outside.
@@ -32,8 +33,7 @@ pub fn draw_places<'a>(pen: &mut Pen, style: &Style<'_>, goals: impl Iterator<It
 /// Draws a thin ring around everything small that can be digested.
 pub fn draw_food(pen: &mut Pen, style: &Style<'_>, view: View<'_>) {
     let unit = pen.line(TextSize::Body);
-    let is_food = |kind| matches!(kind, Kind::Agar | Kind::Coccus | Kind::Bacillus);
-    for food in view.organisms().filter(|organism| is_food(organism.kind()) && organism.held_by().is_none()) {
+    for food in view.organisms().filter(|organism| prey::is_small(*organism) && organism.held_by().is_none()) {
         let (low, high) = food.bounds();
         let radius = 0.5 * (high - low).max_element() * style.camera.scale() + 0.35 * unit;
         let at = style.camera.to_screen(food.centroid());

@@ -110,7 +110,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn t73_the_seeds_keys_are_the_usual_ones_and_no_key_has_two_meanings() {
+    fn t73_the_thesis_keys_are_the_usual_ones_and_no_key_has_two_meanings() {
         let keys = Keys::default();
         assert_eq!(keys.of(Action::Consume), KeyCode::Q);
         assert_eq!((keys.of(Action::ZoomOut), keys.of(Action::ZoomIn)), (KeyCode::A, KeyCode::D));

@@ -1,8 +1,8 @@
 //! What the player is told at the end of a round: what was missed, and the next goal.
 
+use super::prey;
 use super::round::RoundResult;
 use crate::words::{self, Key};
-use microsim_core::Kind;
 
 /// What was missed in a round, if anything.
 #[must_use]
@@ -11,7 +11,7 @@ pub fn missed(result: &RoundResult) -> Option<String> {
         let of_kind: Vec<u32> = result
             .kinds
             .iter()
-            .filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid)
+            .filter(|(kind, _)| prey::is_rigid(*kind) == is_rigid)
             .map(|(_, entry)| entry.count)
             .collect();
         (!of_kind.is_empty()).then(|| of_kind.iter().sum())
@@ -40,6 +40,7 @@ pub fn next_goal(points: u32, better: Option<u32>) -> String {
 mod tests {
     use super::*;
     use crate::rules::referee::KindScore;
+    use microsim_core::Kind;
 
     fn result(undigested: u32, small: u32, rigid: u32) -> RoundResult {
         let entry = |count| KindScore { count, points: 10 * count };

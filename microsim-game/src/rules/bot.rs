@@ -1,8 +1,9 @@
 //! Bots: programs that play, to tune the game and to test its rules.
 
 use super::hint::{Readiness, readiness};
+use super::prey;
 use microsim_core::glam::Vec2;
-use microsim_core::{Intent, Kind, MealPhase, OrganismId, OrganismView, Rng, World};
+use microsim_core::{Intent, MealPhase, OrganismId, OrganismView, PreyClass, Rng, World};
 
 /// How a bot plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,13 +103,13 @@ impl Bot {
 
     /// What it is worth to go for something; `None` if it cannot be taken in.
     fn worth(&self, world: &World, me: OrganismView<'_>, at: Vec2, prey: OrganismView<'_>) -> Option<f32> {
-        let worth = match prey.kind() {
+        let worth = match prey.prey_class()? {
             _ if prey.held_by().is_some() => return None,
-            Kind::Agar | Kind::Coccus | Kind::Bacillus => 1.0,
-            Kind::RigidCell if self.policy != Policy::AgarOnly => {
+            PreyClass::Simple | PreyClass::Bacterium => 1.0,
+            PreyClass::Soft if self.policy != Policy::AgarOnly => {
                 (readiness(me, prey)? == Readiness::Ready).then_some(RIGID_WORTH)?
             }
-            _ => return None,
+            PreyClass::Soft => return None,
         };
         Some(worth / (5.0 + (world.centroid(prey.id())? - at).length()))
     }
@@ -118,6 +119,6 @@ impl Bot {
 fn is_time_to_digest(world: &World, me: OrganismView<'_>) -> bool {
     let inside: Vec<_> = me.meals().filter(|(_, phase)| phase.is_inside()).collect();
     let has_begun = inside.iter().any(|(_, phase)| matches!(phase, MealPhase::Digesting(_)));
-    let holds_rigid = inside.iter().any(|(prey, _)| world.kind(*prey) == Some(Kind::RigidCell));
+    let holds_rigid = inside.iter().any(|(prey, _)| world.view().organism(*prey).is_some_and(prey::is_soft));
     has_begun || holds_rigid || inside.len() >= FULL
 }

@@ -7,7 +7,7 @@ use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::round::Round;
 use microsim_core::glam::Vec2;
-use microsim_core::{Intent, Kind, OrganismView, Rng};
+use microsim_core::{Intent, OrganismView, PreyClass, Rng};
 
 /// How a bot plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ const INTERVAL: u64 = 10;
 /// Distance from the rim of a threat within which a survivor flees, and takes no food, units.
 const DANGER: f32 = 13.0;
 /// Time between two goals of the random bot, steps.
-const PATIENCE: u64 = 120;
+const RANDOM_INTERVAL: u64 = 120;
 /// How long a trial of a change plays on, s, and how many trials there are of each.
 const TRIAL: f64 = 20.0;
 const TRIALS: u64 = 2;
@@ -109,7 +109,7 @@ impl ChainBot {
     }
 
     fn decide(&mut self, round: &Round) {
-        let interval = if self.skill == Skill::Random { PATIENCE } else { INTERVAL };
+        let interval = if self.skill == Skill::Random { RANDOM_INTERVAL } else { INTERVAL };
         if !(round.world().step_index() + self.phase).is_multiple_of(interval) {
             return;
         }
@@ -162,17 +162,11 @@ impl ChainBot {
         let free = view.organisms().filter(|prey| prey.held_by().is_none());
         let mut found: Vec<(Vec2, f32)> = free
             .filter_map(|prey| {
-                let worth = match prey.kind() {
-                    Kind::Agar => 3.0,
-                    Kind::Coccus => {
-                        if is_greedy {
-                            1.2
-                        } else {
-                            3.0
-                        }
-                    }
-                    Kind::RigidCell if is_greedy && readiness(cell, prey) == Some(Readiness::Ready) => 9.0,
-                    _ => return None,
+                let worth = match prey.prey_class()? {
+                    PreyClass::Bacterium if is_greedy => 1.2,
+                    PreyClass::Simple | PreyClass::Bacterium => 3.0,
+                    PreyClass::Soft if is_greedy && readiness(cell, prey) == Some(Readiness::Ready) => 9.0,
+                    PreyClass::Soft => return None,
                 };
                 Some((prey.centroid(), worth))
             })

@@ -1,4 +1,4 @@
-//! The rules of the game (seed, 3.3.2), over the core's worlds and events alone: no window, no clock, no drawing.
+//! The rules of the game (thesis, 3.3.2), over the core's worlds and events alone: no window, no clock, no drawing.
 //!
 //! ```text
 //!   mouse or bot --> Intent --> Round: world, record --> events --> Referee: score, time, gains; Attempt: goals, stars
@@ -16,6 +16,7 @@ pub mod game;
 pub mod hint;
 pub mod lesson;
 pub mod path;
+pub mod prey;
 pub mod referee;
 pub mod round;
 pub mod slide_bot;

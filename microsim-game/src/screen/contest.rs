@@ -19,7 +19,7 @@ const ADVICE_TIME: f64 = 7.0;
 /// Time within which Escape leaves when it is pressed again, s.
 const LEAVING_TIME: f32 = 3.0;
 /// Frames without a new one after which the player is told that others are waited for.
-const PATIENCE: u32 = 15;
+const WAITING_FRAMES: u32 = 15;
 /// Frames after the end for which a last word of the others is waited for.
 const LAST_WORD: u32 = 60;
 /// The same after which a match with somebody who does not answer is a draw.
@@ -139,7 +139,7 @@ impl Contest {
             Key::MatchLeave
         } else if self.cut_since.is_some() {
             Key::MatchCut
-        } else if self.waiting > PATIENCE {
+        } else if self.waiting > WAITING_FRAMES {
             Key::MatchWaiting
         } else {
             Key::MatchWatch

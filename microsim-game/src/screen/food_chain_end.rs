@@ -9,6 +9,7 @@ use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
 use crate::platform;
 use crate::rules::food_chain::{Fate, NAME};
+use crate::rules::prey;
 use crate::rules::round::{Life, RoundResult};
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
@@ -16,7 +17,6 @@ use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::Align;
 use crate::words::{self, Key};
 use macroquad::color::Color;
-use microsim_core::Kind;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the menu.
@@ -34,7 +34,7 @@ impl FoodChainEnd {
     /// The end of one that was played, which is kept among the best, or replayed.
     pub(super) fn new(result: RoundResult, life: Life, played: Paused, context: &mut AppContext) -> Self {
         let count = |is_rigid: bool| {
-            let of_sort = result.kinds.iter().filter(|(kind, _)| (*kind == Kind::RigidCell) == is_rigid);
+            let of_sort = result.kinds.iter().filter(|(kind, _)| prey::is_rigid(*kind) == is_rigid);
             of_sort.map(|(_, entry)| entry.count).sum()
         };
         let points = life.time as u32;

@@ -23,7 +23,7 @@ pub struct Settings {
     pub text_size: usize,
     /// Nothing floats, pulses or drifts that does not have to.
     pub reduced_motion: bool,
-    /// Food is digested only while a key is held, as in the seed; otherwise as soon as it is inside.
+    /// Food is digested only while a key is held, as in the thesis; otherwise as soon as it is inside.
     pub hold_to_digest: bool,
     /// A click starts and stops the crawl, in place of a button that is held.
     pub click_to_crawl: bool,
@@ -31,7 +31,7 @@ pub struct Settings {
     pub pace: usize,
     /// Which of the steps from silence to the full loudness.
     pub sound: usize,
-    /// Green arrows over cells that cannot be taken in while there is no room, as in the seed.
+    /// Green arrows over cells that cannot be taken in while there is no room, as in the thesis.
     pub classic_arrows: bool,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
     pub sight: String,

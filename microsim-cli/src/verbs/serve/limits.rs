@@ -31,7 +31,7 @@ pub(super) const SILENCE: Duration = Duration::from_secs(60);
 /// Time between two questions whether a member is there.
 pub(super) const PING: Duration = Duration::from_secs(20);
 /// Longest time in which a member takes what is sent to him.
-pub(super) const PATIENCE: Duration = Duration::from_secs(10);
+pub(super) const SEND_TIMEOUT: Duration = Duration::from_secs(10);
 /// Time for which the place of a member is kept whose connection was cut.
 pub(super) const RETURN: Duration = Duration::from_secs(30);
 /// Most characters of the key by which a member gets it back.

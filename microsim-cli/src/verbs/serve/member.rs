@@ -2,7 +2,7 @@
 
 use super::code::Code;
 use super::frame;
-use super::limits::{Allowance, FAREWELL, LONGEST_MESSAGE, PATIENCE, PING, RETURN, SILENCE};
+use super::limits::{Allowance, FAREWELL, LONGEST_MESSAGE, PING, RETURN, SEND_TIMEOUT, SILENCE};
 use super::queue::{Receiver, Sender, queue};
 use super::rooms::{Place, Refusal, Rooms};
 use futures_util::{SinkExt, StreamExt};
@@ -121,7 +121,7 @@ async fn converse<S: AsyncRead + AsyncWrite + Unpin>(
             _ = pings.tick() => Some(Message::Ping(Bytes::new())),
         };
         let Some(frame) = frame else { return Some(Refusal::TooSlow.reason()) };
-        match time::timeout(PATIENCE, send(socket, frame, &mut inbox)).await {
+        match time::timeout(SEND_TIMEOUT, send(socket, frame, &mut inbox)).await {
             Ok(Ok(())) => {}
             Ok(Err(_)) => return None,
             Err(_) => return Some(Refusal::TooSlow.reason()),

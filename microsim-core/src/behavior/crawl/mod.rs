@@ -1,4 +1,4 @@
-//! Crawling of an amoeboid cell (seed, 3.1.2): in every step the membrane is divided into front, rear and two wings. The front
+//! Crawling of an amoeboid cell (thesis, 3.1.2): in every step the membrane is divided into front, rear and two wings. The front
 //! is driven towards the goal, the rear a little more slowly towards the centroid, so that it becomes a tail; the wings
 //! follow. Cytoplasm that lags behind is accelerated too: in a large cell the membrane alone would leave it behind.
 //!

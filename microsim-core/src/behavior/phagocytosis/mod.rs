@@ -8,7 +8,7 @@ use crate::organism::table::Organisms;
 use crate::particle::Particles;
 use crate::solver::drive::Drive;
 
-/// Draws prey that is being taken in towards the centroid of who takes it in (seed, 3.1.3).
+/// Draws prey that is being taken in towards the centroid of who takes it in (thesis, 3.1.3).
 pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives: &mut Vec<Drive>) {
     for (_, organism) in organisms.with_membrane() {
         let Some(engulfer) = &organism.engulfer else { continue };

@@ -76,7 +76,7 @@ pub enum Controller {
 }
 
 impl Controller {
-    /// The seed's random movement (3.3.1): after a time drawn from `interval` (s, 0.05 to 600) a new goal anywhere in the
+    /// The thesis' random movement (3.3.1): after a time drawn from `interval` (s, 0.05 to 600) a new goal anywhere in the
     /// room, or with probability `rest` (0 to 1) a rest.
     #[must_use]
     pub fn wander(interval: [f32; 2], rest: f32) -> Self {
@@ -89,7 +89,7 @@ impl Controller {
         Self::Patrol(Patrol::new(through, repeats))
     }
 
-    /// Movement to and fro without rest that decides anew every `interval` s (0.01 to 600), with probability `reversal` (0 to
+    /// Movement to and fro without rest that decides again every `interval` s (0.01 to 600), with probability `reversal` (0 to
     /// 1) for the opposite direction, else for a random one. Hard on membranes.
     #[must_use]
     pub fn thrash(interval: f32, reversal: f32) -> Self {

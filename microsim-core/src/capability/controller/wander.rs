@@ -1,4 +1,4 @@
-//! The seed's trivial random movement (3.3.1): now and then a new goal anywhere in the room, or a rest.
+//! The thesis' trivial random movement (3.3.1): now and then a new goal anywhere in the room, or a rest.
 
 use super::senses::{Senses, Steering};
 use crate::error::{Error, in_range};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// How an amoeboid cell crawls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Crawl {
-    /// Front and rear of the membrane drive it and the wings follow, round as it is (seed, 3.1.2).
+    /// Front and rear of the membrane drive it and the wings follow, round as it is (thesis, 3.1.2).
     #[default]
     FrontAndRear,
     /// By pseudopods, as [`PseudopodParams::KERATOCYTE`] has them.

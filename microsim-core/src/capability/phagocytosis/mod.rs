@@ -1,4 +1,4 @@
-//! Phagocytosis (seed, 3.1.3): how an engulfer takes prey in, as an explicit state machine over capabilities.
+//! Phagocytosis (thesis, 3.1.3): how an engulfer takes prey in, as an explicit state machine over capabilities.
 //!
 //! ```text
 //!             conditions hold            hold time over             all of it inside

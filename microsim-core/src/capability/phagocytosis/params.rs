@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 /// membrane nodes use a gate whatever is asked, and so do all in substeps longer than 1/360 s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
-    /// The membrane next to the prey ignores it until it is inside, as in the seed.
+    /// The membrane next to the prey ignores it until it is inside, as in the thesis.
     Gate,
     /// The membrane folds around the prey and the lips of the fold meet, as in real cells. The arc around the prey is cut off
     /// and encloses it inside the cell: the phagosome.
     Cup,
 }
 
-/// Parameters of phagocytosis that the seed leaves open.
+/// Parameters of phagocytosis that the thesis leaves open.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhagocytosisParams {
     /// How prey gets through the membrane.

@@ -1,9 +1,9 @@
-//! The seed's look, painted rather than lit: see [`crate::microscope::painting`].
+//! The look of the thesis, painted rather than lit: see [`crate::microscope::painting`].
 
 use super::mode::{Mode, Optics, Shader};
 
 impl Optics {
-    /// The illustrated look of the seed (3.2): textured meshes, blurred particles, drifting things in the background.
+    /// The illustrated look of the thesis (3.2): textured meshes, blurred particles, drifting things in the background.
     pub const CLASSIC: Self = Self(&MODE);
 }
 

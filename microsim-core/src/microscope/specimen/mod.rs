@@ -17,8 +17,7 @@ use super::matter::{Matter, MatterRaster};
 use super::noise::scramble;
 use super::raster::PixelGrid;
 use super::recipe::DrawList;
-use crate::kind::Kind;
-use crate::look::{Look, SpotShape};
+use crate::look::{ImageLook, SpotShape};
 use crate::organism::look;
 use crate::template::Role;
 use crate::world::view::{OrganismView, View};
@@ -72,14 +71,14 @@ impl Specimen {
         let id = organism.id();
         let seed = scramble(self.background.seed ^ scramble(id.index() ^ (id.generation() << 16)));
         let time = self.background.time;
-        match look(organism.kind()) {
-            Look::Round(look) => {
+        match look(organism.kind()).image {
+            ImageLook::Round(look) => {
                 let Some(body) = RoundBody::of(organism, look, seed) else { return };
                 self.spots.extend(body.spots(time));
                 self.threads.extend(body.threads(time));
                 self.round.push(body);
             }
-            Look::Amoeboid(look_of) => {
+            ImageLook::Amoeboid(look_of) => {
                 let node = organism.particles().find(|particle| particle.role == Role::Membrane);
                 let look = look_of(node.map_or(0.0, |node| node.radius));
                 let Some(mut body) = AmoeboidBody::of(organism, look, seed, time) else { return };
@@ -89,8 +88,8 @@ impl Specimen {
                 self.spots.extend(phagosomes(&body, organism, view));
                 self.amoeboid.push(body);
             }
-            Look::Rod(matter) => self.spots.extend(rod(organism, *matter)),
-            Look::Drops(matter) => self.spots.extend(drops(organism, *matter)),
+            ImageLook::Rod(matter) => self.spots.extend(rod(organism, *matter)),
+            ImageLook::Drops(matter) => self.spots.extend(drops(organism, *matter)),
         }
     }
 
@@ -132,8 +131,8 @@ fn may_be_on(grid: &PixelGrid, organism: OrganismView<'_>) -> bool {
 /// Walls around the prey that a cell holds.
 fn phagosomes(body: &AmoeboidBody, organism: OrganismView<'_>, view: View<'_>) -> Vec<Spot> {
     let prey = organism.meals().filter_map(|(prey, _)| view.organism(prey));
-    let small = prey.filter(|prey| matches!(prey.kind(), Kind::Agar | Kind::Coccus));
-    let discs = small.filter_map(|prey| prey.particles().next());
+    // A single disc each.
+    let discs = prey.filter_map(|prey| prey.particles().next().filter(|_| prey.particles().nth(1).is_none()));
     discs.filter_map(|disc| body.phagosome(disc.position, disc.radius)).collect()
 }
 

@@ -370,7 +370,7 @@ fn make_slipper(polar: &mut PolarOutline, facing: Vec2, axes: Vec2, amount: f32)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::look::Look;
+    use crate::look::ImageLook;
     use crate::{Placement, PlateletSpec, World, WorldConfig};
 
     #[test]
@@ -378,7 +378,9 @@ mod tests {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let id = world.spawn(&PlateletSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
         let platelet = world.view().organism(id).unwrap();
-        let Look::Round(look) = crate::organism::look(platelet.kind()) else { panic!("platelets are round") };
+        let ImageLook::Round(look) = crate::organism::look(platelet.kind()).image else {
+            panic!("platelets are round")
+        };
         let radii = |seed: u32| {
             let body = RoundBody::of(platelet, look, seed).unwrap();
             (0..32).map(|k| body.polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()

@@ -1,4 +1,4 @@
-//! Amoeboid cell (seed, 3.1.2): a filled chain.
+//! Amoeboid cell (thesis, 3.1.2): a filled chain.
 //!
 //! ```text
 //!     o-o-o-o        membrane: a closed chain of equal discs that touch, evenly on an ellipse
@@ -21,13 +21,14 @@ use crate::error::{Error, out_of_range};
 use crate::geometry::polygon::{perimeter, signed_area};
 use crate::geometry::ring::{GOLDEN_ANGLE, ellipse, unit_vector};
 use crate::kind::Kind;
-use crate::look::Look;
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, PaintedLook};
 use crate::particle::Material;
 use crate::solver::fluid::{FluidParams, rest_area, settle};
 use crate::spec_field::FieldValue::{Number, Table, Vector, Word};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Most nodes of a membrane.
@@ -48,7 +49,7 @@ pub struct AmoeboidCellSpec {
     /// Corners of its outline when spawned, around it in either direction, units from its place, within ±500; none for the ellipse
     /// of `radii`. The membrane's nodes lie on it. It is as long as its membrane from then on, and rounds up as cells do.
     pub outline: Vec<Vec2>,
-    /// Radius of a membrane node, units, 0.1 to 10. The seed's 0.78 for cells of any size.
+    /// Radius of a membrane node, units, 0.1 to 10. The thesis' 0.78 for cells of any size.
     pub node_radius: f32,
     /// Rest spacing of the cytoplasm in node radii, 1.2 to 3: particles are wider than half a gap (T17) and narrower than
     /// would keep the cell from deforming.
@@ -153,7 +154,17 @@ impl Spec for AmoeboidCellSpec {
     }
 
     fn look(&self) -> Look {
-        Look::Amoeboid(|node_radius| if node_radius > AMOEBA_NODE { &amoeba::LOOK } else { &neutrophil::LOOK })
+        Look {
+            image: ImageLook::Amoeboid(
+                |node_radius| if node_radius > AMOEBA_NODE { &amoeba::LOOK } else { &neutrophil::LOOK },
+            ),
+            drawn: DrawnLook {
+                form: Form::Amoeboid,
+                tint: Tint::hex([0xC9D3EA, 0x9FB0D8, 0x4C5F96, 0x53669F]),
+                layer: 5,
+            },
+            painted: PaintedLook { body: Vec3::new(0.7, 0.82, 0.56), rim: Vec3::new(0.38, 0.55, 0.34), mottle: 0.0 },
+        }
     }
 
     fn scale(&mut self, scale: f32) -> bool {

@@ -1,4 +1,4 @@
-//! Rigid cell (seed, 3.1.1): a soft body in one or two layers that keeps its shape, like a paramecium.
+//! Rigid cell (thesis, 3.1.1): a soft body in one or two layers that keeps its shape, like a paramecium.
 //!
 //! ```text
 //!      o---o---o        outer ring: rigid links, evenly spaced on an ellipse; one of its bodies is the front
@@ -17,15 +17,16 @@ use crate::capability::phagocytosis::PreyClass;
 use crate::error::{Error, in_range};
 use crate::geometry::ring::ellipse;
 use crate::kind::Kind;
-use crate::look::Look;
+use crate::look::drawn::{DrawnLook, Form, Tint};
+use crate::look::{ImageLook, Look, PaintedLook};
 use crate::solver::constraint::MinDistance;
 use crate::spec_field::FieldValue::{Count, Number, Vector};
 use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template, TemplateBuilder};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Nucleus mass over the mass of all satellites (the seed: "most of the mass").
+/// Nucleus mass over the mass of all satellites (thesis: "most of the mass").
 const NUCLEUS_SHARE: f32 = 1.5;
 /// Distance of the two layers, in satellite radii.
 const LAYER_DISTANCE: f32 = 2.4;
@@ -109,7 +110,15 @@ impl Spec for RigidCellSpec {
     }
 
     fn look(&self) -> Look {
-        Look::Round(&paramecium::LOOK)
+        Look {
+            image: ImageLook::Round(&paramecium::LOOK),
+            drawn: DrawnLook {
+                form: Form::Ciliate,
+                tint: Tint::hex([0xDDE5B8, 0xB4C27C, 0x66763A, 0x59692F]),
+                layer: 4,
+            },
+            painted: PaintedLook { body: Vec3::new(0.8, 0.72, 0.44), rim: Vec3::new(0.45, 0.36, 0.18), mottle: 0.22 },
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::kind::Kind;
 use crate::scenario::reader::Fields;
 use crate::scenario::sections::group::{self, Group};
 
-/// Time that a game lasts if the file does not say, s (seed, 3.3.2).
+/// Time that a game lasts if the file does not say, s (thesis, 3.3.2).
 const TIME: f32 = 90.0;
 /// What can be taken in, and so can earn points.
 pub(super) const PREY: [(&str, Kind); 4] =

@@ -1,4 +1,4 @@
-//! Anchor constraint: a rope from a node to a static point that tends to contract (seed, 3.1.4).
+//! Anchor constraint: a rope from a node to a static point that tends to contract (thesis, 3.1.4).
 //!
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.

@@ -1,7 +1,7 @@
 //! Rope constraint: two nodes never get farther apart than a maximum length.
 //!
 //! `C = |x_b - x_a| - l_max <= 0`, projected rigidly when violated (Macklin et al. 2014, section 4: inequality
-//! constraints are projected only while `C > 0`). The seed's rope joint.
+//! constraints are projected only while `C > 0`). The thesis' rope joint.
 
 use super::{Constrain, Constraint, LIMIT, MAX_LENGTH, check_nodes};
 use crate::error::{Error, in_range};

@@ -14,15 +14,15 @@ use glam::Vec2;
 pub struct Census {
     /// Organisms.
     pub organisms: usize,
-    /// Dynamic discs that are not fluid: the "dynamic bodies" of the seed's Table 4.1.
+    /// Dynamic discs that are not fluid: the "dynamic bodies" of the thesis' Table 4.1.
     pub bodies: usize,
     /// All live particles: discs, fluid and static points.
     pub particles: usize,
     /// Constraints, without contacts and fluid density.
     pub constraints: usize,
-    /// Cytoplasm particles outside their own membrane (ray cast, seed 3.1.3).
+    /// Cytoplasm particles outside their own membrane (ray cast, thesis, 3.1.3).
     pub leaks: usize,
-    /// Prey whose centre is inside an engulfer that has not taken it in (seed, 4.2.2), or outside one that has.
+    /// Prey whose centre is inside an engulfer that has not taken it in (thesis, 4.2.2), or outside one that has.
     pub improper_absorptions: usize,
     /// How often a disc was found on the wrong side of the link of a membrane nearest to it, since the world was made.
     pub wrong_side: u64,

@@ -1,4 +1,4 @@
-//! Growth of an amoeboid cell (seed, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
+//! Growth of an amoeboid cell (thesis, 3.1.2): new nodes in the membrane, new cytoplasm at the centroid.
 
 use crate::error::{Error, ErrorKind, out_of_range};
 use crate::float_environment::with_default_float_environment;

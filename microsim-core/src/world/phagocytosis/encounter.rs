@@ -86,7 +86,7 @@ impl World {
         Some(Encounter { prey: id, class: prey.class, contacts, heading, size_ratio: area / organism.full_area() })
     }
 
-    /// Sum of the areas of the cytoplasm particles (seed, 3.3.1).
+    /// Sum of the areas of the cytoplasm particles (thesis, 3.3.1).
     pub(in crate::world) fn engulfer_area(&self, organism: &Organism) -> f32 {
         let radius = |&i: &u32| self.particles.radius[i as usize];
         organism.fluid_particles.iter().map(radius).map(|r| PI * r * r).sum()

@@ -46,10 +46,10 @@ impl World {
         for i in self.discs_of(prey).collect::<Vec<_>>() {
             let at = self.particles.position(i);
             let (edge, outwards) = nearest_edge(outline, at);
-            let reach = self.particles.radius[i] + clearance;
-            let is_there = contains_point(outline, at) == inside && (at - edge).length() >= reach;
+            let distance = self.particles.radius[i] + clearance;
+            let is_there = contains_point(outline, at) == inside && (at - edge).length() >= distance;
             if !is_there {
-                let by = edge + outwards * if inside { -reach } else { reach } - at;
+                let by = edge + outwards * if inside { -distance } else { distance } - at;
                 shift(&mut self.particles, i, by);
                 self.particles.prev_x[i] += by.x;
                 self.particles.prev_y[i] += by.y;

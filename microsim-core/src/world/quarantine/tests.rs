@@ -27,7 +27,7 @@ const POISONS: [(&str, Poison, bool); 11] = [
     ("radius negative", |p, i| p.radius[i] = -1.0, false),
 ];
 
-/// Looked at where a step ends, also what the next one would set anew or push back.
+/// Looked at where a step ends, also what the next one would set again or push back.
 const AT_THE_END: [Poison; 7] = [
     |p, i| p.vx[i] = f32::NAN,
     |p, i| p.x[i] -= 400.0,
@@ -184,7 +184,7 @@ fn engulfers_and_prey_in_every_phase_of_a_meal() {
                 }
                 assert!(is_there(&world), "{way:?}: {:?}", phase(&world, cell));
                 for victim in [cell, prey] {
-                    // Radii are found anew while prey is scaled.
+                    // Radii are computed again while prey is scaled.
                     for poison in POISONS.into_iter().filter(|(_, _, is_written)| *is_written) {
                         let what = format!("{way:?}, {:?}, {victim:?}", phase(&world, cell));
                         break_and_step(&mut world.clone(), victim, 3, poison, &what);

@@ -11,7 +11,8 @@ use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, P
 use crate::chemical::Chemical;
 use crate::id::{ChemicalId, OrganismId};
 use crate::kind::Kind;
-use crate::organism::Organism;
+use crate::look::drawn::DrawnLook;
+use crate::organism::{Organism, look};
 use crate::template::Role;
 use crate::world::World;
 use glam::Vec2;
@@ -149,7 +150,7 @@ impl<'a> OrganismView<'a> {
         })
     }
 
-    /// Its outline pushed out by the discs' radius, square to the line between its neighbours (the seed's 3.2.1 pushes away
+    /// Its outline pushed out by the discs' radius, square to the line between its neighbours (the thesis' 3.2.1 pushes away
     /// from the centre, which a concave outline does not allow): nothing that touches leaves a gap in the picture.
     #[must_use]
     pub fn surface(self) -> Vec<Vec2> {
@@ -167,6 +168,12 @@ impl<'a> OrganismView<'a> {
     pub fn user_data(self) -> u128 {
         let [low, high] = self.organism.user_data;
         u128::from(high) << 64 | u128::from(low)
+    }
+
+    /// How it is drawn: form, colours and place among others.
+    #[must_use]
+    pub fn drawn_look(self) -> DrawnLook {
+        look(self.kind()).drawn
     }
 
     /// Size of its body relative to its size when spawned, see [`World::set_scale`].
@@ -198,17 +205,17 @@ impl<'a> OrganismView<'a> {
         self.organism.engulfer.as_ref().map(|engulfer| &engulfer.params)
     }
 
-    /// Area of its cytoplasm, square units: the sum of its particles' areas (seed, 3.3.1), which decides with
+    /// Area of its cytoplasm, square units: the sum of its particles' areas (thesis, 3.3.1), which decides with
     /// [`PhagocytosisParams::size_ratio`] how large prey may be.
     #[must_use]
     pub fn cytoplasm_area(self) -> f32 {
         self.view.world.engulfer_area(self.organism)
     }
 
-    /// Whether it is soft prey: one at a time, and only of the right size.
+    /// What it is as prey; `None` for what is not taken in.
     #[must_use]
-    pub fn is_soft_prey(self) -> bool {
-        self.organism.prey.is_some_and(|prey| prey.class == PreyClass::Soft)
+    pub fn prey_class(self) -> Option<PreyClass> {
+        self.organism.prey.map(|prey| prey.class)
     }
 
     /// Whether the one place for soft prey is taken, or about to be.

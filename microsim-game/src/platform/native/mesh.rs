@@ -133,7 +133,7 @@ mod tests {
     use std::thread;
     use std::time::Duration;
 
-    const PATIENCE: Duration = Duration::from_secs(20);
+    const TIMEOUT: Duration = Duration::from_secs(20);
 
     fn pair() -> (Mesh, Mesh) {
         let own = Ipv4Addr::LOCALHOST.into();
@@ -153,7 +153,7 @@ mod tests {
         assert_eq!(one.take(&carried(1, &answer)), None);
         let begin = Instant::now();
         while !(one.send(1, b"?") && two.send(0, b"?")) {
-            assert!(begin.elapsed() < PATIENCE, "no channel opens");
+            assert!(begin.elapsed() < TIMEOUT, "no channel opens");
             one.poll();
             two.poll();
             thread::sleep(Duration::from_millis(1));
@@ -171,7 +171,7 @@ mod tests {
             if let Some(notice) = found {
                 return notice;
             }
-            assert!(begin.elapsed() < PATIENCE, "nothing comes");
+            assert!(begin.elapsed() < TIMEOUT, "nothing comes");
             thread::sleep(Duration::from_millis(1));
         }
     }
@@ -194,7 +194,7 @@ mod tests {
         let begin = Instant::now();
         let mut come = 0;
         while one.ways[1].is_some() {
-            assert!(begin.elapsed() < PATIENCE, "{come} have come");
+            assert!(begin.elapsed() < TIMEOUT, "{come} have come");
             for _ in 0..100 {
                 two.send(0, b"!");
             }

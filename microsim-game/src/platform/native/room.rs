@@ -17,7 +17,7 @@ use tungstenite::{Error, Message, WebSocket, client};
 /// Port of a server unless another is named.
 const PORT: u16 = 8080;
 /// Longest time for each step of a connection.
-const PATIENCE: Duration = Duration::from_secs(10);
+const TIMEOUT: Duration = Duration::from_secs(10);
 /// Most messages that are taken at once, so that no server holds a frame.
 const MOST: usize = 512;
 /// Bytes that wait to be sent; what is more is lost.
@@ -93,11 +93,11 @@ fn connect(host: &str, way: &str) -> Result<WebSocket<TcpStream>, Failure> {
 fn reach(host: &str) -> io::Result<TcpStream> {
     let mut failed = ErrorKind::NotFound.into();
     for address in host.to_socket_addrs()? {
-        match TcpStream::connect_timeout(&address, PATIENCE) {
+        match TcpStream::connect_timeout(&address, TIMEOUT) {
             Ok(stream) => {
                 stream.set_nodelay(true)?;
-                stream.set_read_timeout(Some(PATIENCE))?;
-                stream.set_write_timeout(Some(PATIENCE))?;
+                stream.set_read_timeout(Some(TIMEOUT))?;
+                stream.set_write_timeout(Some(TIMEOUT))?;
                 return Ok(stream);
             }
             Err(error) => failed = error,
@@ -216,7 +216,7 @@ mod tests {
         let mut room = open_room(&address, "K7M2QX", "").unwrap();
         let begin = Instant::now();
         let mut notices = Vec::new();
-        while notices.is_empty() && begin.elapsed() < PATIENCE {
+        while notices.is_empty() && begin.elapsed() < TIMEOUT {
             notices = room.poll();
             thread::sleep(Duration::from_millis(1));
         }

@@ -52,7 +52,7 @@ fn check_within_walls(world: &World, i: usize, disc: Subject) -> Check {
     let (p, size) = (&world.particles, world.config.size);
     let is_held = world.config.protects_membranes && p.inv_mass[i] > 0.0 && p.groups[i].meets(CollisionGroups::ALL);
     let Sides { bottom, top, left, right } = world.config.sides;
-    let [farthest_low, farthest_high] = world.config.reach();
+    let [farthest_low, farthest_high] = world.config.particle_bounds();
     let (near_low, near_high) =
         (Vec2::splat(-BEYOND_WALLS * p.radius[i]), size + Vec2::splat(BEYOND_WALLS * p.radius[i]));
     let or = |side: Side, near: f32, far: f32| if is_held && side == Side::Wall { near } else { far };

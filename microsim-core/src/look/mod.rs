@@ -1,14 +1,38 @@
-//! How organisms look under the microscope: the words in which each organism's file says it, as data. What the data mean
-//! is the business of the microscope's specimen.
+//! How organisms look: the words in which each organism's file says it, as data. What the data mean is the business of the
+//! microscope's specimen, of drawings, and of the painted view.
 
+pub(crate) mod drawn;
+
+use drawn::{DrawnLook, Form, Tint};
+use glam::Vec3;
 use std::ops::{AddAssign, Mul};
 
 /// Refraction: radians of delay per micrometre of something whose index exceeds the medium's by 1, at 0.55 micrometres.
 pub(crate) const WAVE: f32 = std::f32::consts::TAU / 0.55;
 
+/// How an organism looks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// Under the microscope.
+    pub image: ImageLook,
+    /// In drawings.
+    pub drawn: DrawnLook,
+    /// In the painted view of the thesis (3.2).
+    pub painted: PaintedLook,
+}
+
+/// Colours of a painted body, each channel 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PaintedLook {
+    pub body: Vec3,
+    pub rim: Vec3,
+    /// Strength of the mottling.
+    pub mottle: f32,
+}
+
 /// The way in which an organism is imaged.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Look {
+pub(crate) enum ImageLook {
     /// A body that can be described from its centre outwards.
     Round(&'static RoundLook),
     /// A cell of any shape that crawls, by the radius of its membrane's nodes, micrometres.
@@ -21,7 +45,15 @@ pub(crate) enum Look {
 
 impl Look {
     /// A plain cell: for bodies that the library does not know.
-    pub(crate) const PLAIN: Self = Self::Round(&RoundLook {
+    pub(crate) const PLAIN: Self = Self {
+        image: ImageLook::PLAIN,
+        drawn: DrawnLook { form: Form::Plain, tint: Tint::hex([0xD9C9E6, 0xB094CB, 0x70538F, 0x70538F]), layer: 3 },
+        painted: PaintedLook { body: Vec3::new(0.55, 0.62, 0.70), rim: Vec3::new(0.3, 0.35, 0.42), mottle: 0.05 },
+    };
+}
+
+impl ImageLook {
+    const PLAIN: Self = Self::Round(&RoundLook {
         matter: Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.8, nucleus: 0.0 },
         variation: 0.1,
         texture: Texture { amount: 0.08, size: 0.5 },

@@ -1,0 +1,21 @@
+//! Sorts of prey: small things, and soft cells of which there is room for one only.
+
+use microsim_core::{Kind, OrganismView, PreyClass};
+
+/// Whether it is taken in by any cell that touches it.
+#[must_use]
+pub fn is_small(prey: OrganismView<'_>) -> bool {
+    matches!(prey.prey_class(), Some(PreyClass::Simple | PreyClass::Bacterium))
+}
+
+/// Whether it is taken in one at a time, and only by a cell that is large enough.
+#[must_use]
+pub fn is_soft(prey: OrganismView<'_>) -> bool {
+    prey.prey_class() == Some(PreyClass::Soft)
+}
+
+/// Whether a score of this kind counts as one of rigid cells.
+#[must_use]
+pub fn is_rigid(kind: Kind) -> bool {
+    kind == Kind::RigidCell
+}
