@@ -1,34 +1,8 @@
-//! Deterministic position-based physics for deforming single-celled organisms.
+#![doc = include_str!("../README.md")]
 //!
-//! A [`World`] holds organisms made of discs that constraints hold together. Each [`World::step`] runs the same list of
-//! phases (see [`Phase`]): what organisms want becomes velocities, pairs that may touch are found once, and then small
-//! substeps predict positions, correct them (fluid, constraints, contacts, walls) and turn the corrections back into
-//! velocities.
-//!
-//! ```
-//! use microsim_core::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, World, WorldConfig, glam::Vec2};
-//!
-//! let mut world = World::new(WorldConfig { size: Vec2::new(100.0, 60.0), ..WorldConfig::default() })?;
-//! let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 30.0))?;
-//! world.spawn(&AgarSpec { radius: 1.0, ..AgarSpec::default() }.into(), Placement::at(70.0, 30.0))?;
-//!
-//! let start = world.centroid(cell).unwrap();
-//! let mut inputs = Inputs::new();
-//! inputs.set(cell, Intent::toward(Vec2::new(70.0, 30.0))?);
-//! for _ in 0..120 {
-//!     world.step(&inputs);
-//! }
-//! assert!(world.centroid(cell).unwrap().x > start.x + 3.0);
-//! assert_eq!(world.census().leaks, 0);
-//! # Ok::<(), microsim_core::Error>(())
-//! ```
-//!
-//! The library does no input or output, reads no clock, prints nothing and has no threads of its own (feature `parallel`
-//! uses rayon's current pool) and no global state. Stepping
-//! cannot fail; everything handed in is checked when it is handed in. Equal configuration, seed and inputs give equal
-//! bits on every platform ([`World::digest`]).
-//!
-//! Types are in modules by theme; [`prelude`] has what most programs need, and each can be had from the root of the crate too.
+//! A [`World`] holds organisms made of discs that constraints hold together. Each [`World::step`] runs the same list of phases
+//! (see [`Phase`]): what organisms want becomes velocities, pairs that may touch are found once, and then small substeps predict
+//! positions, correct them (fluid, constraints, contacts, walls) and turn the corrections back into velocities.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact"))]
 
@@ -132,7 +106,7 @@ pub mod simulation {
 
 /// The library's organisms: specs, and what they can do.
 pub mod organisms {
-    pub use crate::behavior::crawl::MembraneRegion;
+    pub use crate::behavior::crawl::front_and_rear::MembraneRegion;
     pub use crate::capability::crawl::PseudopodParams;
     pub use crate::capability::crawl::presets::Crawl;
     pub use crate::capability::division::DivisionParams;
@@ -237,8 +211,3 @@ pub mod measures {
     pub use crate::world::measure::membrane_quality::{CrawlQuality, MembraneQuality};
     pub use crate::world::measure::quality::Quality;
 }
-
-/// The README's examples, compiled and run with the tests.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -67,7 +67,7 @@ fn t17_cytoplasm_stays_at_rest_density() {
 }
 
 #[test]
-fn t18_regions_are_assigned_anew_on_every_step() {
+fn t18_regions_are_assigned_again_in_every_step() {
     let (mut world, cell) = a_cell();
     let regions = |world: &World| world.view().organism(cell).unwrap().membrane_regions();
     assert_eq!(regions(&world), None, "no regions without a goal");

@@ -1,4 +1,4 @@
-//! The command line.
+//! The command line. `lexopt` reads it, because a page downloads this program and `clap` is larger.
 
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Sight};

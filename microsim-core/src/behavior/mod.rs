@@ -86,7 +86,7 @@ fn move_towards(
             }
         }
         Locomotion::Crawl { .. } => {
-            let front_centre = goal.and_then(|goal| crawl::drive(organism, goal, particles, drives));
+            let front_centre = goal.and_then(|goal| crawl::front_and_rear::drive(organism, goal, particles, drives));
             organism.locomotion = Locomotion::Crawl { front_centre };
         }
         Locomotion::Protrude(_) => crawl::pseudopods::protrude(organism, particles, dt, drives),

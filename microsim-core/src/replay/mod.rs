@@ -36,15 +36,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod changes;
 mod chunk;
+mod encoding;
 mod player;
 mod recorder;
 
 use crate::scenario::Origin;
 use crate::world::change::WorldChange;
-use changes::{Change, Decoder};
 use chunk::{ChunkError, ChunkReader};
+use encoding::{Change, Decoder};
 pub use player::{Mismatch, Player};
 pub use recorder::Recorder;
 use serde::{Deserialize, Serialize};
@@ -158,7 +158,7 @@ impl Replay {
             match chunks.next() {
                 None => break Ending::CutOff,
                 Some(Err(ChunkError::CutOff)) => break Ending::CutOff,
-                Some(Ok((WORLD, content))) if world.is_empty() => match changes::world_changes(content) {
+                Some(Ok((WORLD, content))) if world.is_empty() => match encoding::world_changes(content) {
                     Some(read) => world = read,
                     None => break Ending::Damaged { at },
                 },

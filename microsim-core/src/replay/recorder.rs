@@ -1,7 +1,7 @@
 //! Writing a replay while a run goes on.
 
-use super::changes::Encoder;
 use super::chunk::ChunkWriter;
+use super::encoding::Encoder;
 use super::{END, HEADER, Header, STEPS, UNRECORDABLE, WORLD};
 use crate::inputs::Inputs;
 use crate::scenario::Origin;

@@ -2,7 +2,7 @@
 //!
 //! Edge `i` links ring nodes `i` and `i + 1`. Three things together make it hug its content without wrinkles (no single
 //! one does): a perimeter that contracts towards that of a circle around the content, a one-sided area limit, and
-//! bending towards the circle's curvature. Once per step [`Membrane::relax`] finds the targets; per substep [`project`]
+//! bending towards the circle's curvature. The content's pressure on it is that of the fluid's discs. Once per step [`Membrane::relax`] finds the targets; per substep [`project`]
 //! applies them, see [`ring_lanes`], and [`Membrane::limit_strain`], last in the substep, keeps every link below
 //! [`STRAIN_LIMIT`] (thesis, 4.2.2: "a distance joint that will respect a maximum length limit").
 

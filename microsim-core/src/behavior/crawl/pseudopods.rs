@@ -4,7 +4,7 @@
 //! While the cell turns round it crawls with front and rear, which answers at once; so it does while it touches prey or takes it
 //! in, since a membrane that is soft loses hold of prey.
 
-use super::beyond;
+use super::front_and_rear::{self, beyond};
 use crate::behavior::heading;
 use crate::capability::Locomotion;
 use crate::capability::crawl::{Posture, Pseudopods};
@@ -69,7 +69,7 @@ fn crawl(
     pseudopods.advance(&Posture { outwards: &outwards, direction, tempo, dt });
     pseudopods.is_stiff = organism.meals().iter().any(|meal| !meal.phase.is_inside());
     if pseudopods.is_stiff || pseudopods.is_turning(direction) {
-        return super::drive(organism, goal, particles, drives);
+        return front_and_rear::drive(organism, goal, particles, drives);
     }
     let cell =
         Cell { organism, nodes: &nodes, outwards: &outwards, centre, direction, speed: organism.present_speed().abs() };

@@ -1,6 +1,6 @@
 //! Encounters: the prey that touches the front of an engulfer in a step.
 
-use crate::behavior::crawl::{MembraneRegion, region};
+use crate::behavior::crawl::front_and_rear::{MembraneRegion, region};
 use crate::behavior::heading;
 use crate::capability::phagocytosis::Encounter;
 use crate::id::OrganismId;

@@ -4,7 +4,7 @@ pub(crate) mod anatomy;
 mod mechanics;
 pub(crate) mod moment;
 
-use crate::behavior::crawl::{MembraneRegion, region};
+use crate::behavior::crawl::front_and_rear::{MembraneRegion, region};
 use crate::capability::controller::Controller;
 use crate::capability::exchange::Exchange;
 use crate::capability::phagocytosis::{Engulfer, MealPhase, PhagocytosisParams, PreyClass};
