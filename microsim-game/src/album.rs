@@ -1,15 +1,17 @@
 //! Small pictures of scenarios, drawn of their first moments and kept.
 
+use crate::camera::Camera;
 use crate::convert;
 use crate::draw::SceneFrame;
 use crate::scene_source::SceneSource;
-use crate::scenery::Scenery;
+use crate::scenery::{Effort, Scenery, Sight};
 use crate::shot;
 use crate::stage::Stage;
 use crate::viewer::{FIRST_HEIGHT, first_view};
 use macroquad::camera::set_default_camera;
 use macroquad::color::WHITE;
 use macroquad::texture::{DrawTextureParams, RenderTarget, draw_texture_ex, render_target};
+use microsim_core::View;
 use microsim_core::glam::Vec2;
 
 /// Size of a picture, pixels.
@@ -55,10 +57,17 @@ impl Album {
 
 /// What is seen of a scene when it is opened.
 fn picture(stage: &Stage, scenery: &mut Scenery) -> RenderTarget {
-    let (target, size) = (render_target(SIZE.0, SIZE.1), Vec2::new(SIZE.0 as f32, SIZE.1 as f32));
+    let size = Vec2::new(SIZE.0 as f32, SIZE.1 as f32);
     let camera = first_view(stage.world(), stage.player(), FIRST_HEIGHT, size);
+    take(stage.world().view(), &camera, Sight::Drawn, scenery)
+}
+
+/// A picture of what a camera sees, in its size. Not while another picture is drawn.
+pub fn take(view: View<'_>, camera: &Camera, sight: Sight, scenery: &mut Scenery) -> RenderTarget {
+    let size = camera.screen();
+    let target = render_target(size.x as u32, size.y as u32);
     shot::draw_into(&target, size);
-    scenery.sketch(&SceneFrame { view: stage.world().view(), camera: &camera, time: 0.0 });
+    scenery.paint(&SceneFrame { view, camera, time: 0.0 }, sight, Effort::High);
     set_default_camera();
     target
 }

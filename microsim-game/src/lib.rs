@@ -20,6 +20,7 @@ pub mod camera;
 pub mod clock;
 pub mod convert;
 pub mod draw;
+pub mod guide;
 pub mod hud;
 pub mod input;
 pub mod microscope;

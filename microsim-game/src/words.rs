@@ -1,6 +1,8 @@
 //! What the player reads, in the language that is chosen. The texts are in `words/*.ftl`, in the syntax of Project Fluent; the build
 //! makes tables of them.
 
+pub mod articles;
+
 use std::cell::Cell;
 use std::io;
 use std::path::Path;
@@ -20,6 +22,7 @@ pub struct Language {
     /// The category of plural of a number (Unicode CLDR).
     category: fn(f64) -> &'static str,
     table: OnceLock<Vec<&'static str>>,
+    articles: OnceLock<Vec<articles::Article>>,
 }
 
 impl PartialEq for Language {
@@ -52,7 +55,7 @@ impl Language {
         decimal: &'static str,
         category: fn(f64) -> &'static str,
     ) -> Self {
-        Self { code, name, decimal, category, table: OnceLock::new() }
+        Self { code, name, decimal, category, table: OnceLock::new(), articles: OnceLock::new() }
     }
 
     /// The one of this tag.

@@ -1,6 +1,6 @@
 //! Makes the tables that the program reads of the catalogues, which are in the syntax of Project Fluent.
 
-use fluent_syntax::ast::{Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey};
+use fluent_syntax::ast::{Entry, Expression, InlineExpression, Message, Pattern, PatternElement, Variant, VariantKey};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
@@ -22,7 +22,7 @@ const OF_SCENES: [&str; 2] = ["slide-", "scene-"];
 /// Messages of the page around the game, which has the English ones in its own files.
 const OF_PAGE: &str = "page-";
 
-/// Writes `words.rs`, the names of all messages and the tables in the program, and a table of each language.
+/// Writes `words.rs`, the names of all messages and the tables in the program, and for each language a table and the field guide.
 pub(crate) fn compile(out: &Path) {
     println!("cargo::rerun-if-changed=words");
     let english = catalogue(FIRST);
@@ -42,7 +42,61 @@ pub(crate) fn compile(out: &Path) {
         }
     }
     code += "_ => None,\n}\n}\n";
+    code += &guides(out, is_page);
     std::fs::write(out.join("words.rs"), code).expect("the names are written");
+}
+
+/// Writes the field guide in each language, and returns the function that has those that are in the program: a page fetches all.
+fn guides(out: &Path, is_page: bool) -> String {
+    let mut code = String::from("fn builtin_guide(code: &str) -> Option<&'static str> {\nmatch code {\n");
+    let english = articles(FIRST);
+    for language in languages() {
+        let own = articles(&language);
+        let table: Vec<String> = english
+            .iter()
+            .map(|(name, [.., source])| {
+                let [title, text, _] =
+                    own.get(name).unwrap_or_else(|| panic!("words/guide/{language}.ftl: {name} is missing"));
+                [name.as_str(), title, text, source].join("\x02")
+            })
+            .collect();
+        assert_eq!(own.len(), english.len(), "words/guide/{language}.ftl: articles that are not in English");
+        std::fs::write(out.join(format!("guide-{language}.words")), table.join("\0")).expect("a guide is written");
+        if !is_page {
+            let path = format!("concat!(env!(\"OUT_DIR\"), \"/guide-{language}.words\")");
+            let _ = writeln!(code, "\"{language}\" => Some(include_str!({path})),");
+        }
+    }
+    code + "_ => None,\n}\n}\n"
+}
+
+/// Title, text and source of each article in a language; sources are English.
+fn articles(language: &str) -> BTreeMap<String, [String; 3]> {
+    let path = format!("words/guide/{language}.ftl");
+    let source = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let resource =
+        fluent_syntax::parser::parse(source.as_str()).unwrap_or_else(|(_, errors)| panic!("{path}: {errors:?}"));
+    let mut articles = BTreeMap::new();
+    for entry in &resource.body {
+        let Entry::Message(message) = entry else { continue };
+        let name = message.id.name;
+        let article = article(message).unwrap_or_else(|| panic!("{path}: {name} has no title or no text"));
+        articles.insert(name.to_owned(), article);
+    }
+    articles
+}
+
+fn article(message: &Message<&str>) -> Option<[String; 3]> {
+    let part = |name| message.attributes.iter().find(|part| part.id.name == name);
+    let source = part("source").map_or_else(|| Some(String::new()), |source| plain(&source.value));
+    Some([plain(message.value.as_ref()?)?, plain(&part("text")?.value)?, source?])
+}
+
+/// A text without values.
+fn plain(pattern: &Pattern<&str>) -> Option<String> {
+    let mut text = Text::default();
+    add(pattern, &mut text).ok().filter(|()| text.variables.is_empty())?;
+    Some(text.table)
 }
 
 /// Names of all files in the folder of texts.

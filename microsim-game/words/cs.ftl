@@ -26,6 +26,7 @@ title-two-players = Dva hráči
 title-network = Po síti
 title-simulation = Simulace
 title-watch = Přehrát poslední hru
+title-guide = Průvodce
 title-scores = Nejlepší výsledky
 title-quit = Ukončit
 quit-heading = Ukončit hru?
@@ -184,6 +185,13 @@ change-coat-about = Pro améby jsi o polovinu větší; kousnutí uberou polovin
 change-wide-mouth = Široká ústa
 change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš i améby své velikosti.
 
+## Průvodce
+
+guide-heading = Průvodce { $found }/{ $all }
+guide-read = Enter nebo klepnutí: číst
+guide-hidden = Ještě nenalezeno. Ptej se v simulaci "Co je to?", jez, děl se, dívej se jinak.
+guide-unkept = Co jsi našel, nelze uložit: { $error }
+
 ## Dva hráči
 
 two-about = Dvě buňky sdílejí jeden preparát po 90 sekund. Hráč 1 řídí myší, hráč 2 šipkami nebo gamepadem.
@@ -308,6 +316,7 @@ tool-push = Odstrkovat
 tool-spawn = Vložit
 tool-remove = Odebrat
 tool-follow = Sledovat
+tool-ask = Co je to?
 tool-look = Rozhlížet se
 panel-undo = Vzít zpět
 panel-speed = Rychlost

@@ -24,6 +24,7 @@ title-two-players = Two players
 title-network = Over the network
 title-simulation = Simulation
 title-watch = Watch the last game
+title-guide = Field guide
 title-scores = High scores
 title-quit = Quit
 quit-heading = Quit?
@@ -178,6 +179,13 @@ change-coat-about = Amoebae meet you as if half as large again; bites take half.
 change-wide-mouth = Wide mouth
 change-wide-mouth-about = Prey may be a third larger, and you bite amoebae your size.
 
+## Field guide
+
+guide-heading = Field guide { $found }/{ $all }
+guide-read = Enter or a click: read
+guide-hidden = Not found yet. Ask "What is this?" in a simulation, eat, divide, look in other ways.
+guide-unkept = What you found cannot be kept: { $error }
+
 ## Two players
 
 two-about = Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys or a gamepad.
@@ -280,6 +288,7 @@ tool-push = Push away
 tool-spawn = Put in
 tool-remove = Remove
 tool-follow = Follow
+tool-ask = What is this?
 tool-look = Look around
 panel-undo = Undo
 panel-speed = Speed

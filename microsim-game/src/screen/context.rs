@@ -16,11 +16,13 @@ use crate::sound::Cue;
 use crate::stage::Stage;
 use crate::store::best_times::BestTimes;
 use crate::store::files::PlayerFolder;
+use crate::store::found::FoundEntries;
 use crate::store::scores::Scores;
 use crate::store::settings::{self as kept, Settings};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::Pace;
+use crate::words::articles::{self, Article};
 use crate::words::{self, Key, LANGUAGES, Language};
 use microsim_core::View;
 use microsim_core::glam::Vec2;
@@ -112,6 +114,8 @@ pub struct AppContext {
     pub scores: Scores,
     /// Best times for the slides.
     pub best_times: BestTimes,
+    /// What the player has found of the field guide.
+    pub found: FoundEntries,
     /// How time passes in this frame.
     pub pace: Pace,
     /// Time since the program began, s.
@@ -151,6 +155,7 @@ impl AppContext {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
         let (best_times, third_problem) = BestTimes::load(&store);
+        let (found, fourth_problem) = FoundEntries::load(&store);
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
@@ -162,6 +167,7 @@ impl AppContext {
             settings,
             scores,
             best_times,
+            found,
             pace: Pace { elapsed: 0.0, is_exact: false },
             time: 0.0,
             game,
@@ -182,7 +188,10 @@ impl AppContext {
         let other_language = context.settings.refuse_language();
         let refused = |code: String| words::text_with(Key::SettingsUnknownLanguage, &[("language", (&code).into())]);
         let problems: Vec<String> =
-            [problem, other_problem, third_problem, other_language.map(refused)].into_iter().flatten().collect();
+            [problem, other_problem, third_problem, fourth_problem, other_language.map(refused)]
+                .into_iter()
+                .flatten()
+                .collect();
         if !problems.is_empty() {
             context.tell(problems.join("\n"));
         }
@@ -210,6 +219,18 @@ impl AppContext {
             self.tell_error(Key::LastGameUnkept, &error);
         }
         self.last_game = Some(record);
+    }
+
+    /// Notes an entry of the field guide as found.
+    pub(super) fn find(&mut self, name: &str) {
+        if let Err(error) = self.found.add(name, &self.store) {
+            self.tell_error(Key::GuideUnkept, &error);
+        }
+    }
+
+    /// An article of the field guide, once its text is there.
+    pub(super) fn article(&self, name: &str) -> Option<&'static Article> {
+        articles::article(name, platform::words)
     }
 
     /// Plays what was heard in this frame, unless frames are made for pictures.
@@ -282,6 +303,7 @@ impl AppContext {
         self.asked.sight = None;
         self.scenery.take_heart();
         self.save_settings();
+        self.find(sight.name());
         self.tell(sight.title());
     }
 

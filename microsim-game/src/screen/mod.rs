@@ -1,6 +1,7 @@
 //! Screens: each is a file with one type that reads input and draws. A screen says as data what comes [`Next`]; the
 //! [`stack`] builds it.
 
+mod article;
 mod choose;
 mod contest;
 pub mod context;
@@ -8,6 +9,7 @@ mod end;
 mod end_menu;
 mod food_chain;
 mod food_chain_end;
+mod guide;
 mod join;
 mod keys;
 mod lobby;
@@ -28,6 +30,7 @@ mod title;
 mod two_players;
 mod two_players_end;
 
+use crate::guide::Entry;
 use crate::input::Input;
 use crate::network::contest::Match;
 use crate::rules::food_chain::change::Change;
@@ -147,6 +150,10 @@ pub enum Overlay {
     Slides(usize),
     /// The list of simulations.
     Pick,
+    /// The field guide.
+    Guide,
+    /// An article of the field guide.
+    Article(&'static Entry),
     /// High scores.
     Scores,
     /// Settings.

@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::steer::{Hands, draw_prey, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
+use crate::guide;
 use crate::hud::{self, Status, food_chain, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
@@ -127,11 +128,12 @@ impl Play {
         }
     }
 
-    fn run(&mut self, input: &Input, context: &AppContext) {
+    fn run(&mut self, input: &Input, context: &mut AppContext) {
         self.hands.note(input, context.settings.click_to_crawl);
         let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
         let digests = context.settings.digests(input);
         let Self { round, viewer, gains, heard, hands, bot, .. } = self;
+        let mut digested = Vec::new();
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
             let mut intents = hands.intents(round, goals, digests);
@@ -141,9 +143,15 @@ impl Play {
             round.step_all(&intents);
             heard.extend(round.heard());
             gains.add(round.gains());
+            digested.extend(round.gains().map(|gain| gain.kind));
             round.world()
         });
         self.gains.pass(context.pace.elapsed);
+        let names = digested.into_iter().filter_map(|kind| Some(guide::of_kind(kind)?.name));
+        names.for_each(|name| context.find(name));
+        let events = [(Cue::Ingest, "phagocytosis"), (Cue::Digest, "phagosome"), (Cue::Divide, "division")];
+        let heard = events.into_iter().filter(|(cue, _)| self.heard.contains(cue));
+        heard.for_each(|(_, name)| context.find(name));
     }
 
     /// The camera follows the cell, and steps back as it grows. Of two cells it shows the whole slide.

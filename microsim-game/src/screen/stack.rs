@@ -1,11 +1,13 @@
 //! The screens that are open: a main screen, and overlays above it.
 
+use super::article::ArticlePage;
 use super::choose::Choose;
 use super::contest::Contest;
 use super::context::AppContext;
 use super::end::End;
 use super::food_chain::FoodChainMenu;
 use super::food_chain_end::FoodChainEnd;
+use super::guide::Guide;
 use super::join::Join;
 use super::keys::KeysMenu;
 use super::lobby::{self, Lobby};
@@ -153,6 +155,8 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
         Overlay::Quit => Box::new(Quit::new()),
         Overlay::Slides(focus) => Box::new(SlideList::new(focus, context)),
         Overlay::Pick => Box::new(Pick::new(context)),
+        Overlay::Guide => Box::new(Guide::new(context)),
+        Overlay::Article(entry) => Box::new(ArticlePage::new(entry)),
         Overlay::Scores => Box::new(ScoreList::new(context)),
         Overlay::Settings => Box::new(SettingsMenu::new(context)),
         Overlay::Keys => Box::new(KeysMenu::new(context)),

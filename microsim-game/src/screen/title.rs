@@ -39,7 +39,7 @@ struct Backdrop {
 type Target = fn() -> Next;
 
 /// What the menu may offer.
-const ITEMS: [(Key, Target); 10] = [
+const ITEMS: [(Key, Target); 11] = [
     (Key::TitlePlay, || Next::Show(MainScreen::Round)),
     (Key::TitleSlides, || Next::Open(Overlay::Slides(0))),
     (Key::TitleFoodChain, || Next::Open(Overlay::FoodChain)),
@@ -47,6 +47,7 @@ const ITEMS: [(Key, Target); 10] = [
     (Key::TitleNetwork, || Next::Open(Overlay::Join)),
     (Key::TitleSimulation, || Next::Open(Overlay::Pick)),
     (WATCH, || Next::Show(MainScreen::Replay)),
+    (Key::TitleGuide, || Next::Open(Overlay::Guide)),
     (Key::TitleScores, || Next::Open(Overlay::Scores)),
     (Key::Settings, || Next::Open(Overlay::Settings)),
     (QUIT, || Next::Open(Overlay::Quit)),

@@ -2,5 +2,6 @@
 
 pub mod best_times;
 pub mod files;
+pub mod found;
 pub mod scores;
 pub mod settings;

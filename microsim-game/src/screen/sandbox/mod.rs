@@ -203,6 +203,10 @@ impl Screen for Sandbox {
             }
         }
         self.use_tool(input, is_on_panel, context);
+        if let Some(entry) = self.tools.take_asked() {
+            context.find(entry.name);
+            return Next::Open(Overlay::Article(entry));
+        }
         self.run(context);
         let looks_around = self.tools.look_around(&mut self.viewer.camera);
         let at = self.viewer.place_of(self.stage.world(), self.stage.player()).filter(|_| !looks_around);

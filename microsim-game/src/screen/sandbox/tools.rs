@@ -3,6 +3,8 @@
 use super::ghost::Ghost;
 use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
+use crate::guide::identify::{name_at, organism_at};
+use crate::guide::{self, Entry};
 use crate::input::Input;
 use crate::stage::Stage;
 use crate::ui::font::TextSize;
@@ -15,7 +17,7 @@ use microsim_core::{
 };
 
 /// How near the cursor must be to something, pixels.
-const REACH: f32 = 12.0;
+const NEAR: f32 = 12.0;
 /// How fast dragged things close in on the cursor, 1/s, and how fast they get at most, units/s.
 const DRAG_RATE: f32 = 6.0;
 const DRAG_SPEED: f32 = 30.0;
@@ -35,18 +37,20 @@ pub(super) enum Tool {
     Spawn,
     Remove,
     Follow,
+    Ask,
     Look,
 }
 
 impl Tool {
     /// All of them, with their labels in the panel.
-    pub(super) const ALL: [(Self, Key); 7] = [
+    pub(super) const ALL: [(Self, Key); 8] = [
         (Self::Steer, Key::ToolSteer),
         (Self::Drag, Key::ToolDrag),
         (Self::Push, Key::ToolPush),
         (Self::Spawn, Key::ToolSpawn),
         (Self::Remove, Key::ToolRemove),
         (Self::Follow, Key::ToolFollow),
+        (Self::Ask, Key::ToolAsk),
         (Self::Look, Key::ToolLook),
     ];
 }
@@ -87,6 +91,8 @@ pub(super) struct Tools {
     grasped: Option<OrganismId>,
     /// Where the cursor is in the room while the button is down.
     hand: Option<Vec2>,
+    /// What was asked about.
+    asked: Option<&'static Entry>,
     /// The point of the room that follows the cursor while looking around.
     grip: Option<Vec2>,
     ghost: Ghost,
@@ -124,10 +130,12 @@ impl Tools {
         if !begins {
             return None;
         }
-        let found = nearest(stage.world(), at, REACH / camera.scale());
+        let within = NEAR / camera.scale();
+        let found = organism_at(stage.world(), at, within);
         let told = |key| Some(words::text(key).to_owned());
         match (self.tool, found) {
             (Tool::Spawn, _) => return self.put_in(stage, at).err(),
+            (Tool::Ask, _) => self.asked = guide::find(name_at(stage.world().view(), at, within)),
             (Tool::Steer, _) if stage.player().is_none() => return told(Key::SandboxNobody),
             (Tool::Steer, _) if !can_crawl(stage) => return told(Key::SandboxImmobile),
             (Tool::Look, _) if camera.shows_all() => return told(Key::SandboxWhole),
@@ -145,6 +153,11 @@ impl Tools {
             _ => {}
         }
         None
+    }
+
+    /// What was asked about since this was last called.
+    pub(super) fn take_asked(&mut self) -> Option<&'static Entry> {
+        self.asked.take()
     }
 
     /// Lets go of what is held.
@@ -234,13 +247,6 @@ fn controller(name: Key) -> Controller {
     }
 }
 
-/// What is at a point, the smallest first; else what is nearest to it within `reach`.
-fn nearest(world: &World, at: Vec2, reach: f32) -> Option<OrganismId> {
-    let area = |id: &OrganismId| world.view().organism(*id).map_or(f32::MAX, |organism| organism.spawn_area());
-    let smallest = |a: &OrganismId, b: &OrganismId| area(a).total_cmp(&area(b));
-    world.organisms_at(at).min_by(smallest).or_else(|| world.organisms_in_circle(at, reach).min_by(smallest))
-}
-
 fn drag(world: &mut World, id: OrganismId, hand: Vec2) {
     let Some(centre) = world.centroid(id) else { return };
     let wanted = ((hand - centre) * DRAG_RATE).clamp_length_max(DRAG_SPEED);
@@ -279,7 +285,7 @@ mod tests {
             let tools = Tools { tool: Tool::Spawn, spawn, ..Tools::default() };
             let at = Vec2::new(60.0, 45.0);
             tools.put_in(&mut stage, at).unwrap();
-            let id = nearest(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{:?}", tools.spawn_name()));
+            let id = organism_at(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{:?}", tools.spawn_name()));
             let hand = Vec2::new(90.0, 45.0);
             for _ in 0..90 {
                 drag(stage.world_mut(), id, hand);
@@ -307,7 +313,7 @@ mod tests {
         for (tool, _) in Tool::ALL {
             let mut tools = Tools { tool, ..Tools::default() };
             let told = tools.use_on(&mut stage, &camera, &click, false, false);
-            assert_eq!(told.is_none(), tool == Tool::Spawn, "{tool:?}: {told:?}");
+            assert_eq!(told.is_none(), matches!(tool, Tool::Spawn | Tool::Ask), "{tool:?}: {told:?}");
             stage = super::tests::stage();
         }
         let agar = stage.world_mut().spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
