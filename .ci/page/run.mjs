@@ -177,7 +177,7 @@ async function menus() {
     const items = (screen) => page.getByRole("group", { name: screen, exact: true }).getByRole("button");
     const focused = () => page.evaluate(() => document.activeElement.textContent);
     const titles = await items("title").allTextContents();
-    check("menus: those of the title are in the page", titles.join() === "Play,Slides,Food chain,Two players,Over the network,Simulation,High scores,Settings", titles.join());
+    check("menus: those of the title are in the page", titles.join() === "Play,Slides,Food chain,Two players,Over the network,Simulation,Field guide,High scores,Settings", titles.join());
     await page.keyboard.press("Tab", { delay: 100 });
     check("menus: the Tab key leads to them", (await focused()) === "Play", await focused());
     for (let k = 1; k < titles.length; k += 1) {

@@ -2,7 +2,8 @@
 
 use super::of_kind;
 use microsim_core::glam::Vec2;
-use microsim_core::{Collider, Form, MealPhase, MembraneRegion, OrganismId, OrganismView, QueryFilter, View, World};
+use microsim_core::parry2d::query::PointQuery;
+use microsim_core::{Form, MealPhase, MembraneRegion, OrganismId, OrganismView, View, World};
 
 /// Distance from a membrane's nodes within which it is meant, in their radii.
 const BESIDE: f32 = 1.6;
@@ -68,8 +69,8 @@ fn membrane_at(organism: OrganismView<'_>, at: Vec2) -> Option<&'static str> {
 /// What is between the organisms.
 fn surroundings_at(world: &World, at: Vec2) -> &'static str {
     let is_outside = at.cmplt(Vec2::ZERO).any() || at.cmpgt(world.config().size).any();
-    let found = world.queries().overlap_disc(at, 1e-3, &QueryFilter::default());
-    if is_outside || found.iter().any(|found| matches!(found, Collider::Obstacle(_))) {
+    let mut solid = world.obstacles().filter_map(|id| world.obstacle(id)).filter(|obstacle| obstacle.is_solid());
+    if is_outside || solid.any(|obstacle| obstacle.shape.contains_point(&obstacle.pose, at)) {
         return "wall";
     }
     let is_noticed = world.view().chemicals().any(|(_, chemical)| {

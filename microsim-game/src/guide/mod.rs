@@ -24,7 +24,7 @@ pub const ENTRIES: [Entry; 29] = [
     entry("nucleus", ("absorb-rigid", 0.0), Some(Kind::RigidCell)),
     entry("phagocytosis", ("absorb-agar", 2.5), Some(Kind::Agar)),
     entry("phagosome", ("absorb-agar", 6.0), Some(Kind::Agar)),
-    entry("division", ("divide", 2.5), Some(Kind::AmoeboidCell)),
+    entry("division", ("divide", 3.5), Some(Kind::AmoeboidCell)),
     entry("rigid-cell", ("pond", 0.5), Some(Kind::RigidCell)),
     entry("red-cell", ("hunt", 0.0), Some(Kind::RedCell)),
     entry("platelet", ("hunt", 0.0), Some(Kind::Platelet)),

@@ -27,7 +27,7 @@ const TEXT_TOP: f32 = 0.22;
 const PICTURE: Vec2 = Vec2::new(640.0, 360.0);
 const LEAST_HEIGHT: f32 = 0.18;
 /// What is seen from bottom to top: so many sizes of what is shown, but some units in any case.
-const AROUND: f32 = 2.2;
+const AROUND: f32 = 1.8;
 const LEAST_VIEW: f32 = 9.0;
 const WHOLE_VIEW: f32 = 40.0;
 
@@ -57,9 +57,10 @@ impl ArticlePage {
         self.picture = Some(album::take(stage.world().view(), &camera, sight, &mut context.scenery));
     }
 
-    /// Draws text from below upwards, and the picture above it where there is room.
+    /// Draws the picture, where there is room, and the text below it.
     fn draw_article(&self, pen: &mut Pen, article: &Article) {
-        let (screen, top, bottom) = (pen.screen(), TEXT_TOP * pen.screen().y, MENU_TOP * pen.screen().y);
+        let (screen, top) = (pen.screen(), TEXT_TOP * pen.screen().y);
+        let bottom = MenuLayout::middle(pen, MENU_TOP).corner.y - 0.4 * pen.line(TextSize::Small);
         let fits = |size: &TextSize| height(pen, &lines(pen, article, *size)) <= bottom - top;
         let size = [TextSize::Body, TextSize::Small].into_iter().find(fits).unwrap_or(TextSize::Small);
         let lines = lines(pen, article, size);

@@ -26,10 +26,13 @@ fn heading(context: &AppContext) -> String {
     words::text_with(Key::GuideHeading, &[("found", count(context.found.count())), ("all", count(ENTRIES.len()))])
 }
 
-/// Titles of the entries, once they are there.
+/// Titles of the entries, once they are there; those that are not found yet have a question mark.
 fn items(context: &AppContext) -> Vec<MenuItem> {
-    let title = |name| context.article(name).filter(|_| context.found.has(name)).map_or("?", |article| article.title);
-    ENTRIES.iter().map(|entry| MenuItem::new(title(entry.name))).collect()
+    let item = |name| {
+        let title = context.article(name).map_or("", |article| article.title);
+        MenuItem::new(if context.found.has(name) { title.to_owned() } else { format!("? {title}") })
+    };
+    ENTRIES.iter().map(|entry| item(entry.name)).collect()
 }
 
 impl Screen for Guide {
