@@ -2,7 +2,6 @@
 
 use super::of_kind;
 use microsim_core::glam::Vec2;
-use microsim_core::parry2d::query::PointQuery;
 use microsim_core::{Form, MealPhase, MembraneRegion, OrganismId, OrganismView, View, World};
 
 /// Distance from a membrane's nodes within which it is meant, in their radii.

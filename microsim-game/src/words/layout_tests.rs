@@ -1,6 +1,7 @@
 //! What is written fits a small window with the largest text, in all languages.
 
 use super::*;
+use crate::guide::ENTRIES;
 use crate::hud::food_chain;
 use crate::input::Action;
 use crate::rules::two_players::TwoPlayers;
@@ -261,6 +262,25 @@ fn the_lobby_fits_a_small_window() {
         for line in [Key::ScoresLeave, Key::MatchNet].map(longest) {
             let width = measure(TextSize::Small, &line);
             assert!(width <= pen.screen().x, "{}: {line}, {width}", language.code);
+        }
+    }
+}
+
+#[test]
+fn articles_of_the_field_guide_leave_room_for_their_menu() {
+    let (pen, measure) = small_window();
+    let (screen, line) = (pen.screen(), pen.line(TextSize::Small));
+    // As in `screen/article.rs`, where a picture is shown only in what is left.
+    let room = MenuLayout::middle(&pen, 0.86).corner.y - 0.4 * line - 0.22 * screen.y;
+    for language in &LANGUAGES {
+        choose(language, || None);
+        for entry in ENTRIES {
+            let article = articles::article(entry.name, |_| None).unwrap();
+            let lines = |text: &str, width: f32| wrap(text, |line| measure(TextSize::Small, line) <= width).len();
+            let widths = [34.0 * line, 34.0 * pen.line(TextSize::Body)].map(|width| width.min(0.92 * screen.x));
+            let count = lines(article.text, widths[0]) + lines(article.source, widths[1]);
+            assert!(count as f32 * line <= room, "{}, {}: {count} lines", language.code, entry.name);
+            assert!(measure(TextSize::Small, article.title) <= 0.96 * screen.x, "{}", article.title);
         }
     }
 }
