@@ -119,6 +119,49 @@ impl Trial {
         code == Some(1)
     }
 
+    fn has(&self, name: &str, file: &str) -> bool {
+        self.folder.root().join(name).join(file).exists()
+    }
+
+    /// Stops a run at up to three moments. Returns whether it has to begin again.
+    fn stop(&self, k: u64, name: &str, stops: &mut u64, length: &mut Duration) -> bool {
+        let out = self.folder.path(name);
+        let signal = if k.is_multiple_of(2) { "-KILL" } else { "-INT" };
+        let (mut first, before) = (true, *stops);
+        while *stops < before + 3 {
+            let share = 5 + (k * 7919 + *stops * 104_729) % 90;
+            let after = *length * share as u32 / 100;
+            if self.stop_after(&out, first, after, signal) {
+                *length = *length * 3 / 4;
+                if *stops > before {
+                    break;
+                }
+                let _ = fs::remove_dir_all(&out);
+                first = true;
+                continue;
+            }
+            *stops += 1;
+            // Killed before its first checkpoint it has to begin again.
+            first = !self.has(name, "checkpoint");
+            if first {
+                let _ = fs::remove_dir_all(&out);
+            }
+        }
+        first
+    }
+
+    /// Runs to the end, from the beginning or from the last checkpoint.
+    fn finish(&self, name: &str, first: bool) {
+        let out = self.folder.path(name);
+        let again = if first {
+            vec!["run", &self.scenario, "--steps", Self::STEPS, "--out", &out]
+        } else {
+            vec!["resume", &out]
+        };
+        let output = run(&again);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    }
+
     fn check(&self, name: &str) {
         let out = self.folder.root().join(name);
         let files = content(&out);
@@ -142,38 +185,11 @@ fn a_run_that_is_stopped_at_20_moments_is_resumed_to_the_same_bytes() {
     // The machine may be busier now than later: a run that ends before it is stopped shortens what is waited for.
     let (mut stops, mut length) = (0, trial.length);
     // 20 different moments, half of them killed, half interrupted; some runs are stopped several times.
-    for k in 0..20_u64 {
+    for k in 0..20 {
         let name = format!("stopped-{k}");
-        let out = trial.folder.path(&name);
-        let signal = if k % 2 == 0 { "-KILL" } else { "-INT" };
-        let (mut first, before) = (true, stops);
-        while stops < before + 3 {
-            let share = 5 + (k * 7919 + stops * 104_729) % 90;
-            let after = length * share as u32 / 100;
-            if trial.stop_after(&out, first, after, signal) {
-                length = length * 3 / 4;
-                if stops > before {
-                    break;
-                }
-                let _ = fs::remove_dir_all(&out);
-                first = true;
-                continue;
-            }
-            stops += 1;
-            // Killed before its first checkpoint it has to begin again.
-            first = !trial.folder.root().join(&name).join("checkpoint").exists();
-            if first {
-                let _ = fs::remove_dir_all(&out);
-            }
-        }
-        if !trial.folder.root().join(&name).join("run.json").exists() {
-            let again = if first {
-                vec!["run", &trial.scenario, "--steps", Trial::STEPS, "--out", &out]
-            } else {
-                vec!["resume", &out]
-            };
-            let output = run(&again);
-            assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        let first = trial.stop(k, &name, &mut stops, &mut length);
+        if !trial.has(&name, "run.json") {
+            trial.finish(&name, first);
         }
         trial.check(&name);
     }

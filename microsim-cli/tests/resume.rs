@@ -131,6 +131,23 @@ fn a_table_that_does_not_fit_its_checkpoint_is_refused_and_not_touched() {
     check_resumed(&folder, &out);
 }
 
+/// Links to these targets and a pipe are refused in the place of a file of the run, which is put back.
+fn refuse_in_place_of(name: &str, folder: &Folder, out: &str, targets: &[&str]) {
+    let (path, aside) = (Path::new(out).join(name), folder.path("aside"));
+    let is_there = fs::rename(&path, &aside).is_ok();
+    for target in targets {
+        symlink(target, &path).unwrap();
+        refused(&["resume", out], "not a regular file");
+        fs::remove_file(&path).unwrap();
+    }
+    assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+    refused(&["resume", out], "not a regular file");
+    fs::remove_file(&path).unwrap();
+    if is_there {
+        fs::rename(&aside, &path).unwrap();
+    }
+}
+
 #[test]
 fn a_folder_that_leads_elsewhere_is_refused_and_nothing_of_others_is_touched() {
     let (folder, out) = stopped("elsewhere");
@@ -142,19 +159,7 @@ fn a_folder_that_leads_elsewhere_is_refused_and_nothing_of_others_is_touched() {
     for name in
         [".lock", ".checkpoint.partial", ".measures.jsonl.partial", "run.json", "events.jsonl", ".events.jsonl.partial"]
     {
-        let (path, aside) = (Path::new(&out).join(name), folder.path("aside"));
-        let is_there = fs::rename(&path, &aside).is_ok();
-        for target in [&mine, &folder.path("dangling"), &fifo] {
-            symlink(target, &path).unwrap();
-            refused(&["resume", &out], "not a regular file");
-            fs::remove_file(&path).unwrap();
-        }
-        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
-        refused(&["resume", &out], "not a regular file");
-        fs::remove_file(&path).unwrap();
-        if is_there {
-            fs::rename(&aside, &path).unwrap();
-        }
+        refuse_in_place_of(name, &folder, &out, &[&mine, &folder.path("dangling"), &fifo]);
     }
     let frames = Path::new(&out).join("frames");
     symlink(&place, &frames).unwrap();

@@ -222,6 +222,13 @@ fn the_address_has_a_code_and_a_picture() {
     refused(&["serve", "--key", "key.pem"], "--certificate");
 }
 
+#[cfg(target_os = "linux")]
+fn resident_kb(server: &Server) -> f64 {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", server.process.id())).unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+    line.trim().trim_end_matches(" kB").parse().unwrap()
+}
+
 /// What a room takes, and how much the server carries with the guests of this one thread beside it.
 #[cfg(target_os = "linux")]
 #[test]
@@ -229,16 +236,11 @@ fn the_address_has_a_code_and_a_picture() {
 fn load() {
     const TIME: Duration = Duration::from_secs(10);
     let server = Server::start(&[]);
-    let memory = || {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", server.process.id())).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
-        line.trim().trim_end_matches(" kB").parse::<f64>().unwrap()
-    };
-    let empty = memory();
+    let empty = resident_kb(&server);
     let mut rooms: Vec<Vec<Guest>> =
         (0..200).map(|k| (0..4).map(|_| server.enter(&format!("ROOM{k}"))).collect()).collect();
     std::thread::sleep(Duration::from_secs(1));
-    println!("{:.1} MB without rooms, {:.0} kB a room of four", empty / 1e3, (memory() - empty) / 200.0);
+    println!("{:.1} MB without rooms, {:.0} kB a room of four", empty / 1e3, (resident_kb(&server) - empty) / 200.0);
     // Numbers are given in the order of arrival, which may not be that of the vector.
     let mut numbers = Vec::new();
     for guest in rooms.iter_mut().flatten() {

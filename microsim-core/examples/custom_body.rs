@@ -15,7 +15,8 @@
 
 use microsim_core::geometry::signed_area;
 use microsim_core::{
-    Area, Error, Inputs, Material, Node, OrganismId, Placement, Role, Template, World, WorldConfig, glam::Vec2,
+    Area, Error, Inputs, Material, Node, OrganismId, Placement, Role, Template, TemplateBuilder, World, WorldConfig,
+    glam::Vec2,
 };
 
 /// Nodes along a side.
@@ -54,18 +55,8 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// The recipe: nodes row by row, links, outline, area.
-fn jelly() -> Result<Template, Error> {
-    let mut builder = Template::builder();
-    let material = Material { friction: 0.6, restitution: 0.0 };
-    let width = PITCH * (SIDE - 1) as f32;
-    for row in 0..SIDE {
-        for column in 0..SIDE {
-            let position = Vec2::new(column as f32, row as f32) * PITCH - 0.5 * width;
-            let role = if is_border(row) || is_border(column) { Role::Membrane } else { Role::Plain };
-            builder.node(Node { material, role, ..Node::disc(position, 1.0, 0.5 * PITCH) });
-        }
-    }
+/// Links neighbours along the grid and across each square.
+fn link(builder: &mut TemplateBuilder) {
     for row in 0..SIDE {
         for column in 0..SIDE {
             let (right, up) = (column + 1 < SIDE, row + 1 < SIDE);
@@ -81,6 +72,21 @@ fn jelly() -> Result<Template, Error> {
             }
         }
     }
+}
+
+/// The recipe: nodes row by row, links, outline, area.
+fn jelly() -> Result<Template, Error> {
+    let mut builder = Template::builder();
+    let material = Material { friction: 0.6, restitution: 0.0 };
+    let width = PITCH * (SIDE - 1) as f32;
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let position = Vec2::new(column as f32, row as f32) * PITCH - 0.5 * width;
+            let role = if is_border(row) || is_border(column) { Role::Membrane } else { Role::Plain };
+            builder.node(Node { material, role, ..Node::disc(position, 1.0, 0.5 * PITCH) });
+        }
+    }
+    link(&mut builder);
     let ring = outline();
     let rest_area = width * width;
     builder.constraint(Area { ring: ring.clone(), rest_area, compliance: 0.0, is_upper_bound: false });

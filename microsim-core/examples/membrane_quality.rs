@@ -42,15 +42,7 @@ fn measure(size: usize) -> Result<(), Error> {
     run(&mut world, &inputs, 5.0, |_| {});
     let rest = quality(&world, cell);
     inputs.set(cell, Intent::toward(Vec2::new(1e4, 0.5 * world.config().size.y))?);
-    run(&mut world, &inputs, 3.0, |_| {});
-    let mut crawl = Vec::new();
-    let (start, mut measuring) = (Instant::now(), Duration::ZERO);
-    let steps = run(&mut world, &inputs, 5.0, |world| {
-        let now = Instant::now();
-        crawl.push(quality(world, cell));
-        measuring += now.elapsed();
-    });
-    let step_ms = 1e3 * (start.elapsed() - measuring).as_secs_f64() / f64::from(steps);
+    let (crawl, step_ms) = crawl(&mut world, cell, &inputs);
     let (squeezed, squeeze_edge) = squeeze(&spec)?.map_or(("stuck".into(), 0.0), |(q, edge)| (percent(q.voids), edge));
     let mean = |value: fn(&MembraneQuality) -> f32| crawl.iter().map(value).sum::<f32>() / crawl.len() as f32;
     let most = |value: fn(&MembraneQuality) -> f32| crawl.iter().map(value).fold(f32::MIN, f32::max);
@@ -85,6 +77,18 @@ fn room(spec: &AmoeboidCellSpec, length: f32) -> Result<(World, OrganismId), Err
     let mut world = World::new(WorldConfig { size, max_speed: 20.0, ..WorldConfig::default() })?;
     let cell = world.spawn(&spec.clone().into(), Placement::at(1.5 * radius, 0.5 * size.y))?;
     Ok((world, cell))
+}
+
+/// The membrane after each step in five seconds of crawling, and the time of a step, ms.
+fn crawl(world: &mut World, cell: OrganismId, inputs: &Inputs) -> (Vec<MembraneQuality>, f64) {
+    run(world, inputs, 3.0, |_| {});
+    let (mut qualities, start, mut measuring) = (Vec::new(), Instant::now(), Duration::ZERO);
+    let steps = run(world, inputs, 5.0, |world| {
+        let now = Instant::now();
+        qualities.push(quality(world, cell));
+        measuring += now.elapsed();
+    });
+    (qualities, 1e3 * (start.elapsed() - measuring).as_secs_f64() / f64::from(steps))
 }
 
 /// The membrane two seconds after the cell has come through a gap of half its diameter between two discs, and the

@@ -95,7 +95,8 @@ fn ring_of(world: &mut World) -> (Vec<World>, usize) {
     (ring, (ALLOCATOR.allocated() - before) / RING)
 }
 
-fn main() {
+/// The name of the scenario that the command line asks for, and its world after some steps.
+fn world_to_measure() -> (String, World) {
     let mut arguments = std::env::args().skip(1);
     let name = arguments.next().unwrap_or_else(|| "platelets".to_owned());
     let mut overrides: Vec<_> = arguments
@@ -108,6 +109,23 @@ fn main() {
     let text = builtin(&name).expect("a built-in scenario").text;
     let mut world = Scenario::parse(text, &overrides).unwrap().build().unwrap().world;
     (0..WARM_UP).for_each(|_| world.step(&Inputs::new()));
+    (name, world)
+}
+
+fn print(turns: &[Vec<Turn>; WAYS.len()]) {
+    let plain: Vec<f64> = turns[0].iter().map(|turn| turn.whole).collect();
+    let share = |times: Vec<f64>| 100.0 * median(times.iter().zip(&plain).map(|(time, step)| time / step).collect());
+    println!("{:<34} {:>6.1} us", WAYS[0].1, median(plain.clone()));
+    for ((_, name), turns) in WAYS.iter().zip(turns).skip(1) {
+        let extra = || turns.iter().map(|turn| turn.extra).collect::<Vec<_>>();
+        let whole = turns.iter().map(|turn| turn.whole).collect();
+        let (micros, of_step, more) = (median(extra()), share(extra()), share(whole) - 100.0);
+        println!("{name:<34} {micros:>6.1} us, {of_step:>5.2} % of a step; steps with it {more:>5.2} % longer");
+    }
+}
+
+fn main() {
+    let (name, mut world) = world_to_measure();
     let bodies = world.census().bodies;
     let (mut ring, bytes) = ring_of(&mut world);
     println!("{name}: {bodies} bodies; each world of a ring takes {:.1} bytes per body", bytes as f64 / bodies as f64);
@@ -121,13 +139,5 @@ fn main() {
             turns.push(turn(*way, &mut world, &mut ring));
         }
     }
-    let plain: Vec<f64> = turns[0].iter().map(|turn| turn.whole).collect();
-    let share = |times: Vec<f64>| 100.0 * median(times.iter().zip(&plain).map(|(time, step)| time / step).collect());
-    println!("{:<34} {:>6.1} us", WAYS[0].1, median(plain.clone()));
-    for ((_, name), turns) in WAYS.iter().zip(&turns).skip(1) {
-        let extra = || turns.iter().map(|turn| turn.extra).collect::<Vec<_>>();
-        let whole = turns.iter().map(|turn| turn.whole).collect();
-        let (micros, of_step, more) = (median(extra()), share(extra()), share(whole) - 100.0);
-        println!("{name:<34} {micros:>6.1} us, {of_step:>5.2} % of a step; steps with it {more:>5.2} % longer");
-    }
+    print(&turns);
 }

@@ -125,6 +125,15 @@ fn needed(world: &World) -> usize {
     ALLOCATOR.allocated() - before
 }
 
+/// Prints a line of the table. Memory is in bytes.
+fn report(world: &World, start: Instant, [allocated, needed]: [usize; 2], counts: &BTreeMap<&'static str, u64>) {
+    let (step, census) = (world.step_index(), world.census());
+    let rate = step as f64 / start.elapsed().as_secs_f64();
+    let nodes: usize = world.view().organisms().map(|organism| organism.outline().len()).sum();
+    print!("{step}\t{rate:.0}\t{}\t{}\t{nodes}\t", census.organisms, census.particles);
+    println!("{}\t{}\t{}\t{counts:?}", allocated / 1000, needed / 1000, resident_kb());
+}
+
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1).map(|text| text.parse().expect("a number"));
     let (steps, seed) = (arguments.next().unwrap_or(1_000_000), arguments.next().unwrap_or(1));
@@ -144,12 +153,8 @@ fn main() -> ExitCode {
         }
         if step % REPORT == 0 || step == MINUTE || step == steps {
             let (allocated, needed) = (ALLOCATOR.allocated(), needed(&world));
-            let census = world.census();
-            let rate = world.step_index() as f64 / start.elapsed().as_secs_f64();
-            let nodes: usize = world.view().organisms().map(|organism| organism.outline().len()).sum();
-            print!("{step}\t{rate:.0}\t{}\t{}\t{nodes}\t", census.organisms, census.particles);
-            println!("{}\t{}\t{}\t{:?}", allocated / 1000, needed / 1000, resident_kb(), director.counts);
-            if census.quarantined > 0 || (step >= MINUTE && allocated > MOST_SLACK * needed) {
+            report(&world, start, [allocated, needed], &director.counts);
+            if world.census().quarantined > 0 || (step >= MINUTE && allocated > MOST_SLACK * needed) {
                 println!("step {step}: somebody is in quarantine, or memory is lost");
                 return ExitCode::FAILURE;
             }

@@ -104,23 +104,26 @@ impl Player {
         self.session.add_local_input(self.number, self.told)?;
         // Too far ahead of the other one: wait.
         let Ok(requests) = self.session.advance_frame() else { return Ok(()) };
-        for request in requests {
-            match request {
-                GgrsRequest::SaveGameState { cell, frame } => {
-                    cell.save(frame, Some(self.world.clone()), Some(self.world.digest().into()));
+        requests.into_iter().try_for_each(|request| self.fulfil(request))
+    }
+
+    /// Does what the session asks for: saves the world, restores it, or takes a step.
+    fn fulfil(&mut self, request: GgrsRequest<Game>) -> Result<(), Box<dyn std::error::Error>> {
+        match request {
+            GgrsRequest::SaveGameState { cell, frame } => {
+                cell.save(frame, Some(self.world.clone()), Some(self.world.digest().into()));
+            }
+            GgrsRequest::LoadGameState { cell, .. } => {
+                self.world = cell.load().ok_or("a state that was saved is gone")?;
+                self.rollbacks += 1;
+            }
+            GgrsRequest::AdvanceFrame { inputs: given } => {
+                let mut inputs = Inputs::new();
+                for (&id, (Told(goal), _)) in self.cells.iter().zip(given) {
+                    let intent = goal.map_or(Ok(Intent::REST), |goal| Intent::toward(Vec2::from(goal)))?;
+                    inputs.set(id, intent);
                 }
-                GgrsRequest::LoadGameState { cell, .. } => {
-                    self.world = cell.load().ok_or("a state that was saved is gone")?;
-                    self.rollbacks += 1;
-                }
-                GgrsRequest::AdvanceFrame { inputs: given } => {
-                    let mut inputs = Inputs::new();
-                    for (&id, (Told(goal), _)) in self.cells.iter().zip(given) {
-                        let intent = goal.map_or(Ok(Intent::REST), |goal| Intent::toward(Vec2::from(goal)))?;
-                        inputs.set(id, intent);
-                    }
-                    self.world.step(&inputs);
-                }
+                self.world.step(&inputs);
             }
         }
         Ok(())

@@ -116,28 +116,23 @@ fn write(target: &str, name: &str, content: &[u8]) {
     fs::write(folder(target).join(name), content).unwrap();
 }
 
-#[test]
-#[ignore = "writes the seeds of the corpora"]
-fn write_seeds() {
-    for scenario in builtins() {
-        write("scenario", scenario.name, scenario.text.as_bytes());
+/// Snapshots of a world and of its run, each also without what is around its content.
+fn write_snapshots(name: &str, text: &str) {
+    let scenario = Scenario::parse(text, &[]).unwrap();
+    let mut run = scenario.build().unwrap();
+    (0..12).for_each(|_| run.step(&Inputs::new()));
+    let world = run.world.to_snapshot().unwrap();
+    let run = Checkpoint { origin: scenario.origin(), run }.to_bytes().unwrap();
+    // Magic, version and length come before the content, the checksum after it.
+    let content = |file: &[u8]| file[20..file.len() - 8].to_vec();
+    for (kind, bytes) in [(0, world.clone()), (1, content(&world)), (2, run.clone()), (3, content(&run))] {
+        write("snapshot", &format!("{name}-{kind}"), &[&[kind][..], &bytes].concat());
     }
-    write("scenario", "small", SMALL.as_bytes());
-    for (name, text) in [("room", targets::ROOM), ("small", SMALL)] {
-        let scenario = Scenario::parse(text, &[]).unwrap();
-        let mut run = scenario.build().unwrap();
-        (0..12).for_each(|_| run.step(&Inputs::new()));
-        let world = run.world.to_snapshot().unwrap();
-        let run = Checkpoint { origin: scenario.origin(), run }.to_bytes().unwrap();
-        // Magic, version and length come before the content, the checksum after it.
-        let content = |file: &[u8]| file[20..file.len() - 8].to_vec();
-        for (kind, bytes) in [(0, world.clone()), (1, content(&world)), (2, run.clone()), (3, content(&run))] {
-            write("snapshot", &format!("{name}-{kind}"), &[&[kind][..], &bytes].concat());
-        }
-    }
-    let file = recorded();
-    write("replay", "whole", &[&[0][..], &file].concat());
-    // Without the header: magic and version, then chunks of kind, length, content and checksum.
+}
+
+/// A replay for the target that adds lengths and checksums itself: kind, length and content of each chunk.
+fn chunks(file: &[u8]) -> Vec<u8> {
+    // Magic and version come first, then chunks of kind, length, content and checksum.
     let mut chunks = vec![1];
     let mut rest = &file[12..];
     while let [kind, a, b, c, d, after @ ..] = rest {
@@ -148,7 +143,21 @@ fn write_seeds() {
         }
         rest = &after[length + 4..];
     }
-    write("replay", "chunks", &chunks);
+    chunks
+}
+
+#[test]
+#[ignore = "writes the seeds of the corpora"]
+fn write_seeds() {
+    for scenario in builtins() {
+        write("scenario", scenario.name, scenario.text.as_bytes());
+    }
+    write("scenario", "small", SMALL.as_bytes());
+    write_snapshots("room", targets::ROOM);
+    write_snapshots("small", SMALL);
+    let file = recorded();
+    write("replay", "whole", &[&[0][..], &file].concat());
+    write("replay", "chunks", &chunks(&file));
 }
 
 fn recorded() -> Vec<u8> {

@@ -7,7 +7,7 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::scenario::{Built, Scenario, builtin, builtins};
 use microsim_core::{
-    AmoeboidCellSpec, ChemicalSpec, ChemotaxisParams, Controller, Exchange, Inputs, Intent, Node, Obstacle,
+    AmoeboidCellSpec, ChemicalSpec, ChemotaxisParams, Controller, Exchange, Inputs, Intent, Node, Obstacle, OrganismId,
     OrganismSpec, Placement, PlateletSpec, Template, World, WorldConfig,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -141,19 +141,30 @@ fn threads_of_a_pool_give_the_same_digests_in_every_environment() {
 
 /// Digests after each call that computes state, with numbers that every rounding changes.
 fn digests_of_calls() -> Vec<u64> {
-    let mut world = World::new(WorldConfig { gravity: Vec2::new(1e-39, -0.1), ..WorldConfig::default() }).unwrap();
     let mut digests = Vec::new();
+    let (world, organisms) = furnish(&mut digests);
+    step_and_change(world, organisms, &mut digests);
+    digests
+}
+
+fn triangle() -> Template {
+    let mut builder = Template::builder();
+    let ring = [(0.1, 0.2), (1.3, 0.1), (0.7, 1.7)];
+    let ring = ring.map(|(x, y)| builder.node(Node::disc(Vec2::new(x, y), 1.0, 0.3)));
+    builder.ring(&ring, 1e-4).outline(&ring);
+    builder.build().unwrap()
+}
+
+/// A world with an amoeboid cell, a platelet, a custom body, an obstacle and a chemical.
+fn furnish(digests: &mut Vec<u64>) -> (World, [OrganismId; 2]) {
+    let mut world = World::new(WorldConfig { gravity: Vec2::new(1e-39, -0.1), ..WorldConfig::default() }).unwrap();
     let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.1, 40.7).turned(0.7)).unwrap();
     digests.push(world.digest());
     let platelet = world.spawn(&PlateletSpec::default().into(), Placement::at(70.3, 40.7).scaled(1.1)).unwrap();
     world.push(platelet, Vec2::new(0.1, -0.0)).unwrap();
     world.push(platelet, Vec2::new(0.7, 1e-40)).unwrap();
     digests.push(world.digest());
-    let mut builder = Template::builder();
-    let ring = [(0.1, 0.2), (1.3, 0.1), (0.7, 1.7)];
-    let ring = ring.map(|(x, y)| builder.node(Node::disc(Vec2::new(x, y), 1.0, 0.3)));
-    builder.ring(&ring, 1e-4).outline(&ring);
-    let template = world.add_template(builder.build().unwrap());
+    let template = world.add_template(triangle());
     world.spawn_template(template, Placement::at(100.1, 20.3).turned(0.3)).unwrap();
     digests.push(world.digest());
     world.add_obstacle(Obstacle::new(SharedShape::ball(1.7), Pose::translation(120.1, 60.7))).unwrap();
@@ -161,6 +172,10 @@ fn digests_of_calls() -> Vec<u64> {
     world.set_exchange(cell, Exchange { chemical, secretion: 0.3, uptake: 0.1 }).unwrap();
     world.set_controller(cell, Controller::chemotaxis(ChemotaxisParams::towards(chemical))).unwrap();
     digests.push(world.digest());
+    (world, [cell, platelet])
+}
+
+fn step_and_change(mut world: World, [cell, platelet]: [OrganismId; 2], digests: &mut Vec<u64>) {
     world.grow(cell, 3, 20).unwrap();
     digests.push(world.digest());
     let (mut world, mut inputs) = (world.clone(), Inputs::new());
@@ -178,7 +193,6 @@ fn digests_of_calls() -> Vec<u64> {
     world.spawn(&spec, Placement::at(90.1, 70.3).scaled(scale)).unwrap();
     world.step(&inputs);
     digests.push(world.digest());
-    digests
 }
 
 #[test]

@@ -9,16 +9,16 @@ use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Event, Inputs, Placement, PlateletSpec, Refusal, Rng, Role, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Event, Inputs, OrganismId, Placement, PlateletSpec, Refusal, Rng, Role, World,
+    WorldConfig,
 };
 
 /// Steps, s, and their numbers of substeps.
 const STEPPINGS: [(f32, u32); 5] =
     [(1.0 / 30.0, 8), (1.0 / 60.0, 4), (1.0 / 60.0, 8), (1.0 / 60.0, 16), (1.0 / 120.0, 8)];
 
-/// A cell of random size among platelets, divided and fused again.
-fn divide_and_fuse(seed: u64) {
-    let what = format!("seed {seed}");
+/// A cell of random size among platelets, on its way to somewhere.
+fn cell_among_platelets(seed: u64) -> (World, OrganismId) {
     let mut rng = Rng::new(seed, 77);
     let radii = Vec2::new(rng.range(8.0, 15.0), rng.range(8.0, 13.0));
     let (mut world, cell) = cell_in_room(AmoeboidCellSpec { radii, ..AmoeboidCellSpec::default() });
@@ -29,24 +29,35 @@ fn divide_and_fuse(seed: u64) {
     }
     let goal = CENTRE + unit_vector(rng.range(0.0, std::f32::consts::TAU)) * 60.0;
     run(&mut world, &toward(cell, goal), seed as u32 % 40);
-    let (nodes, fluid) = (count(&world, cell, Role::Membrane), count(&world, cell, Role::Cytoplasm));
-    let others = world.census().particles - nodes - fluid;
+    (world, cell)
+}
 
-    let daughter = divide(&mut world, cell, &what);
-    let halves = [cell, daughter].map(|id| count(&world, id, Role::Cytoplasm));
-    assert_eq!(halves.iter().sum::<usize>(), fluid, "{what}");
-    assert!(*halves.iter().min().unwrap() * 3 > fluid, "{what}: {halves:?} is not about even");
-    run_checked(&mut world, &Inputs::new(), 120, &format!("{what}, divided"));
-    for id in [cell, daughter] {
-        let ring = outline(&world, id);
+/// Each half encloses its cytoplasm, with as many nodes as it needs of those of the whole.
+fn check_halves(world: &World, halves: [OrganismId; 2], [nodes, fluid]: [usize; 2], what: &str) {
+    for id in halves {
+        let ring = outline(world, id);
         let held = world.view().organism(id).unwrap();
         assert!(held.particles().filter(|p| p.role == Role::Cytoplasm).all(|p| contains_point(&ring, p.position)));
         // Two circles of half the area: each has about 0.71 times the nodes of the whole.
-        let share = (count(&world, id, Role::Cytoplasm) as f32 / fluid as f32).sqrt();
+        let share = (count(world, id, Role::Cytoplasm) as f32 / fluid as f32).sqrt();
         assert!((ring.len() as f32 - share * nodes as f32).abs() <= 1.0, "{what}: {} of {nodes}", ring.len());
     }
+}
 
-    let left = fuse(&mut world, cell, daughter, &what);
+fn divide_and_fuse(seed: u64) {
+    let what = format!("seed {seed}");
+    let (mut world, cell) = cell_among_platelets(seed);
+    let (nodes, fluid) = (count(&world, cell, Role::Membrane), count(&world, cell, Role::Cytoplasm));
+    let others = world.census().particles - nodes - fluid;
+
+    let halves = [cell, divide(&mut world, cell, &what)];
+    let fluids = halves.map(|id| count(&world, id, Role::Cytoplasm));
+    assert_eq!(fluids.iter().sum::<usize>(), fluid, "{what}");
+    assert!(*fluids.iter().min().unwrap() * 3 > fluid, "{what}: {fluids:?} is not about even");
+    run_checked(&mut world, &Inputs::new(), 120, &format!("{what}, divided"));
+    check_halves(&world, halves, [nodes, fluid], &what);
+
+    let left = fuse(&mut world, halves[0], halves[1], &what);
     run_checked(&mut world, &Inputs::new(), 300, &format!("{what}, fused"));
     assert_eq!((count(&world, left, Role::Membrane), count(&world, left, Role::Cytoplasm)), (nodes, fluid), "{what}");
     assert_eq!(world.census().particles, others + nodes + fluid, "{what}: nothing left over");

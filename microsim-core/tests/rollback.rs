@@ -51,6 +51,23 @@ fn inputs(cells: &[OrganismId], told: &[Told]) -> Inputs {
     inputs
 }
 
+/// Does what the session asks for: saves the world, restores it, or takes a step.
+fn fulfil(request: GgrsRequest<Game>, world: &mut World, cells: &[OrganismId], alter: fn(&mut World)) {
+    match request {
+        GgrsRequest::SaveGameState { cell, frame } => {
+            cell.save(frame, Some(world.to_snapshot().unwrap()), Some(world.digest().into()));
+        }
+        GgrsRequest::LoadGameState { cell, .. } => {
+            *world = World::from_snapshot(&cell.load().unwrap()).unwrap();
+            alter(world);
+        }
+        GgrsRequest::AdvanceFrame { inputs: given } => {
+            let given: Vec<Told> = given.into_iter().map(|(told, _)| told).collect();
+            world.step(&inputs(cells, &given));
+        }
+    }
+}
+
 /// Runs `demo`; the session compares the digest of every step with those of its repetitions.
 fn synchronise(steps: u32, seed: u64) -> World {
     synchronise_through(steps, seed, |_| {})
@@ -71,21 +88,7 @@ fn synchronise_through(steps: u32, seed: u64, alter: fn(&mut World)) -> World {
             session.add_local_input(player, *told).unwrap();
         }
         let requests = session.advance_frame().unwrap_or_else(|mismatch| panic!("step {step}: {mismatch}"));
-        for request in requests {
-            match request {
-                GgrsRequest::SaveGameState { cell, frame } => {
-                    cell.save(frame, Some(world.to_snapshot().unwrap()), Some(world.digest().into()));
-                }
-                GgrsRequest::LoadGameState { cell, .. } => {
-                    world = World::from_snapshot(&cell.load().unwrap()).unwrap();
-                    alter(&mut world);
-                }
-                GgrsRequest::AdvanceFrame { inputs: given } => {
-                    let given: Vec<Told> = given.into_iter().map(|(told, _)| told).collect();
-                    world.step(&inputs(&cells, &given));
-                }
-            }
-        }
+        requests.into_iter().for_each(|request| fulfil(request, &mut world, &cells, alter));
     }
     world
 }

@@ -167,6 +167,15 @@ fn a_drain_takes_a_cell_by_its_centre_not_by_one_of_its_nodes() {
     assert!(world.view().organism(cell).is_none());
 }
 
+/// One of many regions that overlap.
+fn region(k: u32) -> Region {
+    match (k % 3, (k * 17 % 80) as f32, (k * 7 % 40) as f32) {
+        (0, x, y) => Region::Circle { centre: Vec2::new(x, y), radius: 6.0 },
+        (1, x, _) => area([x, x + 3.0], [0.0, 40.0]),
+        (_, x, y) => area([x - 5.0, x], [y - 5.0, y]),
+    }
+}
+
 #[test]
 fn of_many_drains_the_first_that_holds_something_takes_it() {
     let mut world = room(Sides::default(), Vec2::ZERO);
@@ -174,13 +183,7 @@ fn of_many_drains_the_first_that_holds_something_takes_it() {
     let balls: Vec<(OrganismId, Vec2)> =
         places.map(|at| (world.spawn(&AgarSpec::default().into(), Placement::at(at.x, at.y)).unwrap(), at)).collect();
     let water = water(&mut world, 70.0, 20.0);
-    let regions: Vec<Region> = (0..60)
-        .map(|k| match (k % 3, (k * 17 % 80) as f32, (k * 7 % 40) as f32) {
-            (0, x, y) => Region::Circle { centre: Vec2::new(x, y), radius: 6.0 },
-            (1, x, _) => area([x, x + 3.0], [0.0, 40.0]),
-            (_, x, y) => area([x - 5.0, x], [y - 5.0, y]),
-        })
-        .collect();
+    let regions: Vec<Region> = (0..60).map(region).collect();
     let drains = regions.iter().map(|&region| world.add_drain(Drain { region, kind: None }).unwrap());
     let drains: Vec<_> = drains.collect();
     let (mut left, mut taken) = (0, 0);

@@ -43,7 +43,7 @@ fn main() -> Result<(), String> {
 /// A match from the lobby to its end, as a line and as a record.
 fn play(room: &mut Room, number: u64, clock: Instant) -> Result<(String, Vec<u8>), String> {
     room.set_ready(true);
-    let (mut current, mut bot, mut intent) = (None::<Match>, Bot::new(Policy::Greedy, number), Intent::REST);
+    let (mut current, mut player) = (None::<Match>, (Bot::new(Policy::Greedy, number), Intent::REST));
     let (mut due, mut taken, mut over, mut moved) = (clock.elapsed(), clock.elapsed(), None, Vec::new());
     loop {
         thread::sleep(PAUSE);
@@ -68,17 +68,23 @@ fn play(room: &mut Room, number: u64, clock: Instant) -> Result<(String, Vec<u8>
             return Err(format!("nothing happens after {}", line(game, number, now)));
         }
         while due <= now {
-            let (round, steps) = (game.session().round(), game.session().steps());
-            let cell = game.own().and_then(|own| round.players().nth(own));
-            if game.session().frame() % DECISION == 0 {
-                intent = cell.map_or(Intent::REST, |cell| bot.intent(round.world(), cell));
-            }
-            if room.advance(game, intent, now.as_millis() as u32) {
+            let steps = game.session().steps();
+            if room.advance(game, decide(game, &mut player), now.as_millis() as u32) {
                 taken = now;
             }
             due += Duration::from_secs(1) * steps / 60;
         }
     }
+}
+
+/// What the bot wants in this frame: now and then something else.
+fn decide(game: &Match, (bot, intent): &mut (Bot, Intent)) -> Intent {
+    let round = game.session().round();
+    if game.session().frame().is_multiple_of(DECISION) {
+        let cell = game.own().and_then(|own| round.players().nth(own));
+        *intent = cell.map_or(Intent::REST, |cell| bot.intent(round.world(), cell));
+    }
+    *intent
 }
 
 /// Prints when the inputs of others first tell their cells to move: by the clock of the system, ms since 1970.

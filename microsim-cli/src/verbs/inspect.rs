@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::summary::{Table, rounded};
 use crate::world_file::{WorldFile, lost};
 use microsim_core::World;
-use microsim_core::replay::Ending;
+use microsim_core::replay::{Ending, Replay};
 use microsim_core::scenario::Origin;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -34,18 +34,7 @@ pub(crate) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
             describe(&checkpoint.run.world, &mut table);
         }
         WorldFile::Replay(replay) => {
-            table.row("what", "replay of a run");
-            origin(replay.origin(), &mut table);
-            table.row("recorded by", format!("version {}", replay.made_by()));
-            table.row("steps", replay.steps());
-            table.row("digest", format!("every {} steps", replay.interval()));
-            let ending = match replay.ending() {
-                Ending::Complete => "it is complete".to_owned(),
-                Ending::Unrecordable => "it ends before a change that cannot be recorded".to_owned(),
-                Ending::CutOff => "it was cut off".to_owned(),
-                Ending::Damaged { at } => format!("it is damaged at byte {at}"),
-            };
-            table.row("end", ending);
+            describe_replay(&replay, &mut table);
             damage = matches!(replay.ending(), Ending::Damaged { .. }).then(|| lost(&replay, &args.file)).flatten();
         }
     }
@@ -60,6 +49,21 @@ fn origin(origin: &Origin, table: &mut Table) {
         table.row("  with", format!("{key}={value}"));
     }
     table.row("seed", origin.seed);
+}
+
+fn describe_replay(replay: &Replay, table: &mut Table) {
+    table.row("what", "replay of a run");
+    origin(replay.origin(), table);
+    table.row("recorded by", format!("version {}", replay.made_by()));
+    table.row("steps", replay.steps());
+    table.row("digest", format!("every {} steps", replay.interval()));
+    let ending = match replay.ending() {
+        Ending::Complete => "it is complete".to_owned(),
+        Ending::Unrecordable => "it ends before a change that cannot be recorded".to_owned(),
+        Ending::CutOff => "it was cut off".to_owned(),
+        Ending::Damaged { at } => format!("it is damaged at byte {at}"),
+    };
+    table.row("end", ending);
 }
 
 fn describe(world: &World, table: &mut Table) {

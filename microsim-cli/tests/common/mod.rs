@@ -54,8 +54,7 @@ pub(crate) fn json(arguments: &[&str]) -> serde_json::Value {
 }
 
 /// A small scenario with several kinds of organisms that move.
-pub(crate) fn crowd() -> String {
-    r#"
+const CROWD: &str = r#"
         schema = 1
         name = "crowd-of-the-test"
         duration = 1.0
@@ -85,8 +84,10 @@ pub(crate) fn crowd() -> String {
         [[spawn]]
         of = "stone"
         at = [70.0, 50.0]
-    "#
-    .to_owned()
+    "#;
+
+pub(crate) fn crowd() -> String {
+    CROWD.to_owned()
 }
 
 /// A folder of its own that is removed at the end.

@@ -206,4 +206,6 @@ impl Replay {
 }
 
 #[cfg(test)]
+mod meddle;
+#[cfg(test)]
 mod tests;

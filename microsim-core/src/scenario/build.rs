@@ -101,20 +101,7 @@ impl Scenario {
             context.check("", built.world.add_obstacle(obstacle.clone()));
         }
         let placed = placing::place_all(groups, obstacles, config.seed, context);
-        let mut spawners = Vec::new();
-        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
-            let mut there = Vec::new();
-            for Placed { spec, placement, .. } in placed {
-                match built.world.spawn(&spec, placement) {
-                    Ok(id) => {
-                        built.note(group, id);
-                        there.push(id);
-                    }
-                    Err(error) => refuse_spawn(context, group, &error),
-                }
-            }
-            spawners.extend(Spawner::new(index, group, &there, &built.world));
-        }
+        let spawners = built.spawn_groups(groups, placed, context);
         for (path, emitter) in &supplies.emitters {
             context.check(path, built.world.add_emitter(emitter.clone()));
         }
@@ -131,6 +118,25 @@ impl Built {
         let mut inputs = self.script.before_step(&mut self.world).clone();
         inputs.replace_with(told);
         self.world.step(&inputs);
+    }
+
+    /// Spawns the organisms that have their places; returns the spawners of the others.
+    fn spawn_groups(&mut self, groups: &[Group], placed: Vec<Vec<Placed>>, context: &ReadContext<'_>) -> Vec<Spawner> {
+        let mut spawners = Vec::new();
+        for (index, (group, placed)) in groups.iter().zip(placed).enumerate() {
+            let mut there = Vec::new();
+            for Placed { spec, placement, .. } in placed {
+                match self.world.spawn(&spec, placement) {
+                    Ok(id) => {
+                        self.note(group, id);
+                        there.push(id);
+                    }
+                    Err(error) => refuse_spawn(context, group, &error),
+                }
+            }
+            spawners.extend(Spawner::new(index, group, &there, &self.world));
+        }
+        spawners
     }
 
     fn note(&mut self, group: &Group, id: OrganismId) {

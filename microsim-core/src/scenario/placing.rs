@@ -50,19 +50,24 @@ pub(super) fn place_all(
         }
         placed
     };
-    let is_short = |(group, placed): &(&Group, &Vec<Placed>)| placed.len() < group.random_count();
-    let is_complete = |placed: &Vec<Vec<Placed>>| !groups.iter().zip(placed).any(|pair| is_short(&pair));
+    let is_complete = |placed: &Vec<Vec<Placed>>| !groups.iter().zip(placed).any(is_short);
     if let Some(placed) = (0..LAYOUTS).map(&mut lay_out).find(is_complete) {
         return placed;
     }
     let placed = lay_out(0);
-    for (group, placed) in groups.iter().zip(&placed).filter(is_short) {
-        let (found, count) = (placed.len(), group.random_count());
-        let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
-        let accepted = format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
-        context.refuse(&group.count_path(context), message, accepted);
-    }
+    groups.iter().zip(&placed).filter(|pair| is_short(*pair)).for_each(|short| refuse_short(short, context));
     placed
+}
+
+fn is_short((group, placed): (&Group, &Vec<Placed>)) -> bool {
+    placed.len() < group.random_count()
+}
+
+fn refuse_short((group, placed): (&Group, &Vec<Placed>), context: &ReadContext<'_>) {
+    let (found, count) = (placed.len(), group.random_count());
+    let message = format!("only {found} of {count} found a free place in {TRIES} tries each");
+    let accepted = format!("about {found} at most here; more with a larger room or a smaller `gap` or `scale`");
+    context.refuse(&group.count_path(context), message, accepted);
 }
 
 /// Those of a group whose places are given.

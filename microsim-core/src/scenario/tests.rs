@@ -52,18 +52,24 @@ fn places_follow_from_the_seed() {
     assert_eq!(parse("schema = 1\nseed = 9223372036854775807\n[world]\nsize = [9, 9]").seed(), i64::MAX as u64);
 }
 
+/// How many organisms there are in a scenario with two parameters.
+fn count_with(overrides: &[(&str, &str)]) -> Result<usize, Diagnostics> {
+    let text = format!("{ROOM}[[spawn]]\nof = '$kind'\ncount = '$n'\n[parameters]\nkind = 'a'\nn = 3\n");
+    let owned: Vec<_> = overrides.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
+    Scenario::parse(&text, &owned).map(|scenario| scenario.build().unwrap().world.organisms().count())
+}
+
 #[test]
 fn parameters_and_overrides_are_typed_like_the_file() {
-    let text = format!("{ROOM}[[spawn]]\nof = '$kind'\ncount = '$n'\n[parameters]\nkind = 'a'\nn = 3\n");
-    let count = |overrides: &[(&str, &str)]| {
-        let owned: Vec<_> = overrides.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
-        Scenario::parse(&text, &owned).map(|scenario| scenario.build().unwrap().world.organisms().count())
-    };
-    assert_eq!(count(&[]), Ok(3));
-    assert_eq!(count(&[("n", "5")]), Ok(5));
-    assert_eq!(count(&[("parameters.n", "0x10")]), Ok(16));
-    assert_eq!(count(&[("n", "5"), ("spawn.0.count", "7")]), Ok(7), "a path reaches what a parameter had set");
-    assert_eq!(count(&[("kind", "a"), ("world.damping", "1"), ("step.dt", "0.01"), ("seed", "4")]), Ok(3));
+    assert_eq!(count_with(&[]), Ok(3));
+    assert_eq!(count_with(&[("n", "5")]), Ok(5));
+    assert_eq!(count_with(&[("parameters.n", "0x10")]), Ok(16));
+    assert_eq!(count_with(&[("n", "5"), ("spawn.0.count", "7")]), Ok(7), "a path reaches what a parameter had set");
+    assert_eq!(count_with(&[("kind", "a"), ("world.damping", "1"), ("step.dt", "0.01"), ("seed", "4")]), Ok(3));
+}
+
+#[test]
+fn a_bad_override_is_named_as_it_was_set() {
     for (key, value, field, message) in [
         ("n", "many", "spawn.0.count", "is the string \"many\", as set by `n=many`"),
         ("n", "2.5", "spawn.0.count", "is 2.5, as set by `n=2.5`"),
@@ -80,7 +86,7 @@ fn parameters_and_overrides_are_typed_like_the_file() {
         ),
         ("n", "[1", "n", "unclosed array, expected `]`, as set by `n=[1`"),
     ] {
-        let errors = count(&[(key, value)]).unwrap_err();
+        let errors = count_with(&[(key, value)]).unwrap_err();
         let error = errors.iter().next().unwrap();
         assert_eq!((error.field.as_str(), error.message.as_str()), (field, message));
         assert_eq!((error.line, error.span.clone()), (None, None), "{key}={value} is not in the text");
@@ -220,41 +226,47 @@ fn a_game_names_its_points_and_needs_a_player() {
     assert!(known.contains("respawn"), "{known}");
 }
 
-#[test]
-fn a_slide_has_goals_within_reach_and_a_time_for_each_star() {
-    let slide = format!(
+fn slide() -> String {
+    format!(
         "{DISH}[coccus.prey]\nradius = 0.6\n[[spawn]]\nof = \"prey\"\ncount = 3\n[slide]\ntitle = \"T\"\ntask = \"Go.\"\nfact = \"Cells crawl.\"\nsource = \"A, 1900, B\"\ntime = 60.0\n\
          stars = [20.0, 40.0]\n[[slide.goal]]\nreach = [[1.0, 2.0], [3.0, 4.0]]\n[[slide.goal]]\n\
          digested = \"coccus\"\ncount = 3\n"
-    );
-    let scenario = Scenario::parse(&slide, &[]).unwrap();
+    )
+}
+
+#[test]
+fn a_slide_has_goals_and_a_time_for_each_star() {
+    let scenario = Scenario::parse(&slide(), &[]).unwrap();
     let rules = scenario.slide().unwrap();
     let reach = Goal::Reach { low: Vec2::new(1.0, 2.0), high: Vec2::new(3.0, 4.0) };
     assert_eq!(rules.goals, [reach, Goal::Digest { kind: crate::Kind::Coccus, count: 3 }]);
     assert_eq!(rules.stars, [20.0, 40.0]);
-    let changes = [
-        ("player = true", "", "slide: nobody plays"),
-        ("time = 60.0", "time = 0.5", "slide.time: 0.5 is out of range (accepted: 1 to 3600)"),
-        ("time = 60.0", "", "missing field `time`"),
-        ("[20.0, 40.0]", "[50.0, 40.0]", "slide.stars"),
-        ("[20.0, 40.0]", "[50.0, 70.0]", "slide.stars"),
-        ("[1.0, 2.0]", "[5.0, 2.0]", "slide.goal.0.reach: not a box in the room"),
-        ("\"coccus\"", "\"cocus\"", "slide.goal.1.digested"),
-        ("count = 3\n[slide]", "count = 2\n[slide]", "slide.goal.1.digested: 3 wanted, 2 spawned"),
-        ("\"coccus\"", "\"bacillus\"", "slide.goal.1.digested: 3 wanted, 0 spawned"),
-        (
-            "\"coccus\"\ncount = 3",
-            "\"coccus\"\ncount = 0",
-            "slide.goal.1.count: 0 is out of range (accepted: 1 to 1000)",
-        ),
-        ("\"coccus\"\ncount = 3", "\"coccus\"\nreach = [[1.0, 2.0], [3.0, 4.0]]", "does not go with `reach`"),
-        ("digested = \"coccus\"", "", "slide.goal.1: nothing to do"),
-        ("4.0]]", "4.0]]\ncount = 2", "slide.goal.0.count: does not go with `reach`"),
-        ("title", "titel", "titel"),
-        ("\"Go.\"", "\"\"", "slide.task: 0 characters"),
-        ("[slide]", "[game]\n[slide]", "does not go with [game]"),
-    ];
-    for (from, to, expected) in changes {
+}
+
+/// What is changed in the slide, to what, and words of the refusal.
+const BAD_SLIDES: [(&str, &str, &str); 16] = [
+    ("player = true", "", "slide: nobody plays"),
+    ("time = 60.0", "time = 0.5", "slide.time: 0.5 is out of range (accepted: 1 to 3600)"),
+    ("time = 60.0", "", "missing field `time`"),
+    ("[20.0, 40.0]", "[50.0, 40.0]", "slide.stars"),
+    ("[20.0, 40.0]", "[50.0, 70.0]", "slide.stars"),
+    ("[1.0, 2.0]", "[5.0, 2.0]", "slide.goal.0.reach: not a box in the room"),
+    ("\"coccus\"", "\"cocus\"", "slide.goal.1.digested"),
+    ("count = 3\n[slide]", "count = 2\n[slide]", "slide.goal.1.digested: 3 wanted, 2 spawned"),
+    ("\"coccus\"", "\"bacillus\"", "slide.goal.1.digested: 3 wanted, 0 spawned"),
+    ("\"coccus\"\ncount = 3", "\"coccus\"\ncount = 0", "slide.goal.1.count: 0 is out of range (accepted: 1 to 1000)"),
+    ("\"coccus\"\ncount = 3", "\"coccus\"\nreach = [[1.0, 2.0], [3.0, 4.0]]", "does not go with `reach`"),
+    ("digested = \"coccus\"", "", "slide.goal.1: nothing to do"),
+    ("4.0]]", "4.0]]\ncount = 2", "slide.goal.0.count: does not go with `reach`"),
+    ("title", "titel", "titel"),
+    ("\"Go.\"", "\"\"", "slide.task: 0 characters"),
+    ("[slide]", "[game]\n[slide]", "does not go with [game]"),
+];
+
+#[test]
+fn a_bad_slide_is_refused() {
+    let slide = slide();
+    for (from, to, expected) in BAD_SLIDES {
         let problem = Scenario::parse(&slide.replacen(from, to, 1), &[]).unwrap_err().to_string();
         assert!(problem.contains(expected), "{from} -> {to}: {problem}");
     }

@@ -4,8 +4,8 @@ use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
     CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter,
-    Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId, JointKind,
-    JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
+    EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId,
+    JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
     PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec,
     Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
 };
@@ -136,8 +136,8 @@ fn blow(world: &mut World) {
     assert_eq!(fields.len(), world.fields().count());
 }
 
-/// Emitters of all that can be emitted, drains, and free places; returns their events.
-fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
+/// Emitters of all that can be emitted; the first of them.
+fn emitters(world: &mut World) -> EmitterId {
     let template = world.add_template({
         let mut builder = Template::builder();
         builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
@@ -153,7 +153,12 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
         let emitter = Emitter { angle: Some(0.0), ..Emitter::new(region, recipe, 0.5) };
         world.add_emitter(emitter).unwrap()
     });
-    let emitters: Vec<_> = emitters.collect();
+    emitters.collect::<Vec<_>>()[0]
+}
+
+/// Emitters, drains, and free places among both; returns their events.
+fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
+    let emitter = emitters(world);
     let corner = Region::Circle { centre: Vec2::ZERO, radius: 1.0 };
     let disc = Emitter::new(corner, Recipe::Organism(AgarSpec::default().into()), 0.0);
     world.add_emitter(disc.clone()).unwrap();
@@ -168,7 +173,7 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
     world.remove_drain(gone).unwrap();
     let outlets = [Outlet::Drain(drains[1]), Outlet::Side(Wall::Left)];
     let drained = outlets.map(|outlet| Event::Drained { outlet, organism, kind: Kind::Agar, particles: 1 });
-    [drained[0], drained[1], Event::Emitted { emitter: emitters[0], organism }]
+    [drained[0], drained[1], Event::Emitted { emitter, organism }]
 }
 
 /// A custom body, with a muscle.

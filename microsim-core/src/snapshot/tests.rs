@@ -10,6 +10,34 @@ use parry2d::math::Pose;
 use parry2d::shape::SharedShape;
 use proptest::prelude::*;
 
+fn specs() -> [OrganismSpec; 7] {
+    [
+        AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(),
+        RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() }.into(),
+        ProbeSpec { radius: 1.5, ..ProbeSpec::default() }.into(),
+        CoccusSpec::default().into(),
+        PlateletSpec { radius: 2.0, ..PlateletSpec::default() }.into(),
+        RedCellSpec { radius: 2.5, ..RedCellSpec::default() }.into(),
+        FluidBlockSpec { size: Vec2::new(4.0, 3.0), ..FluidBlockSpec::default() }.into(),
+    ]
+}
+
+/// Spawns one of each in two rows; what can move has a controller.
+fn spawn_in_rows(world: &mut World, specs: &[OrganismSpec]) {
+    let controllers = [
+        Controller::wander([0.1, 0.2], 0.3),
+        Controller::patrol(vec![Vec2::new(9.0, 9.0), Vec2::new(60.0, 40.0)], true),
+        Controller::thrash(0.2, 0.5),
+        Controller::ram(0.3, 0.3, 12.0),
+    ];
+    for (k, spec) in specs.iter().enumerate() {
+        let controller = controllers[k % 4].clone();
+        let at = Placement::at(8.0 + 9.0 * k as f32, if k % 2 == 0 { 40.0 } else { 12.0 });
+        let at = if spec.can_move() { at.steered_by(controller) } else { at };
+        world.spawn(spec, at).unwrap();
+    }
+}
+
 /// A small world with all kinds of organisms and obstacles, after some steps.
 fn menagerie() -> World {
     let mut world =
@@ -22,27 +50,8 @@ fn menagerie() -> World {
     world.add_chemical(ChemicalSpec { initial: 0.5, spacing: 4.0, ..ChemicalSpec::default() }).unwrap();
     let cell = AmoeboidCellSpec { radii: Vec2::new(6.0, 6.0), ..AmoeboidCellSpec::default() };
     let cell = world.spawn(&cell.into(), Placement::at(40.0, 25.0)).unwrap();
-    let controllers = [
-        Controller::wander([0.1, 0.2], 0.3),
-        Controller::patrol(vec![Vec2::new(9.0, 9.0), Vec2::new(60.0, 40.0)], true),
-        Controller::thrash(0.2, 0.5),
-        Controller::ram(0.3, 0.3, 12.0),
-    ];
-    let specs: [OrganismSpec; 7] = [
-        AgarSpec { radius: 0.8, ..AgarSpec::default() }.into(),
-        RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() }.into(),
-        ProbeSpec { radius: 1.5, ..ProbeSpec::default() }.into(),
-        CoccusSpec::default().into(),
-        PlateletSpec { radius: 2.0, ..PlateletSpec::default() }.into(),
-        RedCellSpec { radius: 2.5, ..RedCellSpec::default() }.into(),
-        FluidBlockSpec { size: Vec2::new(4.0, 3.0), ..FluidBlockSpec::default() }.into(),
-    ];
-    for (k, spec) in specs.iter().enumerate() {
-        let controller = controllers[k % 4].clone();
-        let at = Placement::at(8.0 + 9.0 * k as f32, if k % 2 == 0 { 40.0 } else { 12.0 });
-        let at = if spec.can_move() { at.steered_by(controller) } else { at };
-        world.spawn(spec, at).unwrap();
-    }
+    let specs = specs();
+    spawn_in_rows(&mut world, &specs);
     let prey = world.spawn(&specs[0], Placement::at(48.0, 25.0)).unwrap();
     let gone = world.spawn(&specs[4], Placement::at(70.0, 25.0)).unwrap();
     world.set_exempt(gone, prey, true).unwrap();

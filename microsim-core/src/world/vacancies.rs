@@ -57,6 +57,32 @@ mod tests {
         Vacancies::default().find(kind, blocks)
     }
 
+    /// Finds a block with room for an instance, the same as a search from the first one, or adds one.
+    fn occupy(
+        (template, slots): (u32, u32),
+        owner: u32,
+        vacancies: &mut Vacancies,
+        blocks: &mut Vec<Block>,
+        particles: &mut Particles,
+    ) -> bool {
+        let mut find = |kind| {
+            let found = vacancies.find(kind, blocks);
+            assert_eq!(found, first(kind, blocks));
+            found
+        };
+        let found = find(Vacancy::Lane(template)).or_else(|| find(Vacancy::Block(slots)));
+        let index = found.unwrap_or_else(|| {
+            blocks.push(Block::new(template, slots as usize, particles));
+            blocks.len() - 1
+        });
+        let is_of_another = blocks[index].template != template;
+        blocks[index].template = template;
+        vacancies.add(&blocks[index], index);
+        let lane = blocks[index].free_lane().unwrap();
+        blocks[index].owner[lane] = owner;
+        is_of_another
+    }
+
     #[test]
     fn notes_find_the_block_that_a_search_from_the_first_one_finds() {
         let (mut rng, mut particles) = (Rng::new(2, 2), Particles::default());
@@ -65,23 +91,8 @@ mod tests {
         for turn in 0..6000 {
             if rng.range(0.0, 1.0) < if turn / 1000 % 2 == 0 { 0.7 } else { 0.3 } {
                 // Templates 0 and 1 have blocks of equal size.
-                let (template, slots) = [(0, 1), (1, 1), (2, 3)][rng.range(0.0, 2.999) as usize];
-                let found = vacancies.find(Vacancy::Lane(template), &blocks);
-                assert_eq!(found, first(Vacancy::Lane(template), &blocks));
-                let found = found.or_else(|| {
-                    let empty = vacancies.find(Vacancy::Block(slots), &blocks);
-                    assert_eq!(empty, first(Vacancy::Block(slots), &blocks));
-                    empty
-                });
-                let index = found.unwrap_or_else(|| {
-                    blocks.push(Block::new(template, slots as usize, &mut particles));
-                    blocks.len() - 1
-                });
-                served += u32::from(blocks[index].template != template);
-                blocks[index].template = template;
-                vacancies.add(&blocks[index], index);
-                let lane = blocks[index].free_lane().unwrap();
-                blocks[index].owner[lane] = turn;
+                let instance = [(0, 1), (1, 1), (2, 3)][rng.range(0.0, 2.999) as usize];
+                served += u32::from(occupy(instance, turn, &mut vacancies, &mut blocks, &mut particles));
             } else if !blocks.is_empty() {
                 let index = rng.range(0.0, blocks.len() as f32 - 0.01) as usize;
                 let lanes = if turn % 4 == 0 { 0..LANES } else { 0..1 };

@@ -66,20 +66,7 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, ta
             Readiness::Ready => draw_at_edge(pen, at, unit, READY),
             _ if !is_seen => {}
             Readiness::TooLarge(share) => draw_too_large(pen, tip, unit, share),
-            Readiness::NoRoom => {
-                arrow(pen, tip, Vec2::Y, 0.8 * unit, WAIT);
-                let half = Vec2::new(0.55 * unit, 0.0);
-                let bar = tip - Vec2::new(0.0, 0.45 * unit);
-                pen.canvas().segment(bar - half, bar + half, 0.3 * unit, INK);
-                pen.canvas().segment(bar - 0.9 * half, bar + 0.9 * half, 0.16 * unit, HALO);
-                pen.label(
-                    tip - Vec2::new(0.0, 1.7 * unit),
-                    TextSize::Small,
-                    Align::Centre,
-                    HALO,
-                    words::text(Key::HudFull),
-                );
-            }
+            Readiness::NoRoom => draw_no_room(pen, tip, unit),
         }
     }
 }
@@ -94,6 +81,16 @@ fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
     pen.canvas().rectangle(filled, high, WAIT);
     let percent = format!("{:.0} %", (100.0 * share).floor());
     pen.label(tip - Vec2::new(0.0, 1.75 * unit), TextSize::Small, Align::Centre, HALO, &percent);
+}
+
+/// An arrow with a bar across.
+fn draw_no_room(pen: &mut Pen, tip: Vec2, unit: f32) {
+    arrow(pen, tip, Vec2::Y, 0.8 * unit, WAIT);
+    let half = Vec2::new(0.55 * unit, 0.0);
+    let bar = tip - Vec2::new(0.0, 0.45 * unit);
+    pen.canvas().segment(bar - half, bar + half, 0.3 * unit, INK);
+    pen.canvas().segment(bar - 0.9 * half, bar + 0.9 * half, 0.16 * unit, HALO);
+    pen.label(tip - Vec2::new(0.0, 1.7 * unit), TextSize::Small, Align::Centre, HALO, words::text(Key::HudFull));
 }
 
 /// An arrow at the edge of the picture that points to something outside.

@@ -5,6 +5,7 @@ use crate::album::Album;
 use crate::camera::Camera;
 use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
+use crate::guide;
 use crate::network::room::Room;
 use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
@@ -155,7 +156,7 @@ impl AppContext {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
         let (best_times, third_problem) = BestTimes::load(&store);
-        let (found, fourth_problem) = FoundEntries::load(&store);
+        let found = FoundEntries::load(&store);
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
@@ -188,10 +189,7 @@ impl AppContext {
         let other_language = context.settings.refuse_language();
         let refused = |code: String| words::text_with(Key::SettingsUnknownLanguage, &[("language", (&code).into())]);
         let problems: Vec<String> =
-            [problem, other_problem, third_problem, fourth_problem, other_language.map(refused)]
-                .into_iter()
-                .flatten()
-                .collect();
+            [problem, other_problem, third_problem, other_language.map(refused)].into_iter().flatten().collect();
         if !problems.is_empty() {
             context.tell(problems.join("\n"));
         }
@@ -223,7 +221,8 @@ impl AppContext {
 
     /// Notes an entry of the field guide as found.
     pub(super) fn find(&mut self, name: &str) {
-        if let Err(error) = self.found.add(name, &self.store) {
+        let kept = guide::find(name).map_or(Ok(()), |entry| self.found.add(entry, &self.store));
+        if let Err(error) = kept {
             self.tell_error(Key::GuideUnkept, &error);
         }
     }

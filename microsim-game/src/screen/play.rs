@@ -18,6 +18,7 @@ use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides::SLIDES;
 use crate::sound::Cue;
+use crate::store::settings::Settings;
 use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
@@ -186,6 +187,28 @@ impl Play {
         parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
     }
 
+    fn draw_marks(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>, hints: &Hints) {
+        let mut taken = marks::MarkLayout::default();
+        for (k, id) in self.round.players().enumerate() {
+            if let Some(cell) = view.organism(id) {
+                own::draw_own(pen, style, cell, self.two.map(|_| k + 1), k == 0);
+            }
+        }
+        places::draw_food(pen, style, view);
+        if let Some(attempt) = self.round.attempt() {
+            places::draw_places(pen, style, attempt.goals());
+        }
+        self.draw_chain(pen, style, view);
+        marks::draw_held(pen, style, &mut taken, &hints.held);
+        if self.round.chain().is_none() {
+            self.gains.draw(pen, style, &mut taken);
+        }
+        marks::draw_targets(pen, style, &mut taken, &targets_of(&self.round, view, self.round.player(), hints));
+        for other in self.round.players().skip(1) {
+            draw_prey(pen, style, &mut taken, &self.round, view, other);
+        }
+    }
+
     fn draw_chain(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>) {
         let (Some(chain), player) = (self.round.chain(), self.round.player()) else { return };
         food_chain::draw_others(pen, style, &threats_and_victims(view, player));
@@ -261,6 +284,14 @@ fn held_to_crawl(has_buttons: bool) -> &'static str {
     if has_buttons { words::text(Key::HintFinger) } else { words::text(Key::HintMouse) }
 }
 
+/// What is written on the key or the button that digests, if the player has to hold one.
+fn digestion_key(settings: &Settings, has_buttons: bool) -> Option<String> {
+    let label = || {
+        if has_buttons { words::text(Key::HintDigestButton).to_owned() } else { settings.keys.label(Action::Consume) }
+    };
+    settings.hold_to_digest.then(label)
+}
+
 impl Screen for Play {
     fn divides(&self) -> bool {
         self.round.chain().is_some() && !self.round.is_replay()
@@ -307,39 +338,14 @@ impl Screen for Play {
         }
         let hints = Hints::of(view, self.round.player());
         let covered = platform::covered_height();
-        let label = || {
-            if covered > 0.0 {
-                words::text(Key::HintDigestButton).to_owned()
-            } else {
-                context.settings.keys.label(Action::Consume)
-            }
-        };
-        let key = context.settings.hold_to_digest.then(label);
+        let key = digestion_key(&context.settings, covered > 0.0);
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
         let lesson = context.lessons.pass(&hints, context.time);
         let advice =
             self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(|lesson| words::text(lesson).to_owned()));
         let pen = &mut context.pen;
-        let mut taken = marks::MarkLayout::default();
-        for (k, id) in self.round.players().enumerate() {
-            if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, &style, cell, self.two.map(|_| k + 1), k == 0);
-            }
-        }
-        places::draw_food(pen, &style, view);
-        if let Some(attempt) = self.round.attempt() {
-            places::draw_places(pen, &style, attempt.goals());
-        }
-        self.draw_chain(pen, &style, view);
-        marks::draw_held(pen, &style, &mut taken, &hints.held);
-        if self.round.chain().is_none() {
-            self.gains.draw(pen, &style, &mut taken);
-        }
-        marks::draw_targets(pen, &style, &mut taken, &targets_of(&self.round, view, self.round.player(), &hints));
-        for other in self.round.players().skip(1) {
-            draw_prey(pen, &style, &mut taken, &self.round, view, other);
-        }
+        self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);
         if let Some(advice) = advice {
             hud::draw_advice(pen, &advice, covered);

@@ -55,6 +55,33 @@ fn percent(share: f32) -> String {
     words::text_with(Key::Percent, &[("number", (&words::number(100.0 * share, 0)).into())])
 }
 
+/// Changes the setting that was chosen, or says which screen comes next.
+fn change(choice: MenuChoice, context: &mut AppContext) -> Option<Next> {
+    let settings = &mut context.settings;
+    match choice {
+        MenuChoice::Pick(LANGUAGE) => context.change_language(false),
+        MenuChoice::Less(LANGUAGE) => context.change_language(true),
+        MenuChoice::Pick(SIGHT) => context.change_sight(false),
+        MenuChoice::Less(SIGHT) => context.change_sight(true),
+        MenuChoice::Pick(EFFORT) => context.change_effort(false),
+        MenuChoice::Less(EFFORT) => context.change_effort(true),
+        MenuChoice::Pick(TEXT) => settings.change_text_size(1),
+        MenuChoice::Less(TEXT) => settings.change_text_size(-1),
+        MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
+        MenuChoice::Pick(DIGESTION) | MenuChoice::Less(DIGESTION) => settings.hold_to_digest ^= true,
+        MenuChoice::Pick(CRAWL) | MenuChoice::Less(CRAWL) => settings.click_to_crawl ^= true,
+        MenuChoice::Pick(PACE) => settings.change_pace(false),
+        MenuChoice::Less(PACE) => settings.change_pace(true),
+        MenuChoice::Pick(SOUND) => settings.change_sound(true),
+        MenuChoice::Less(SOUND) => settings.change_sound(false),
+        MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
+        MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
+        MenuChoice::Pick(KEYS) => return Some(Next::Open(Overlay::Keys)),
+        _ => return Some(Next::Back),
+    }
+    None
+}
+
 impl Screen for SettingsMenu {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         // Keys change some of them too.
@@ -63,27 +90,8 @@ impl Screen for SettingsMenu {
             return Next::Back;
         }
         let Some(choice) = self.page.update(input, &context.pen) else { return Next::Stay };
-        let settings = &mut context.settings;
-        match choice {
-            MenuChoice::Pick(LANGUAGE) => context.change_language(false),
-            MenuChoice::Less(LANGUAGE) => context.change_language(true),
-            MenuChoice::Pick(SIGHT) => context.change_sight(false),
-            MenuChoice::Less(SIGHT) => context.change_sight(true),
-            MenuChoice::Pick(EFFORT) => context.change_effort(false),
-            MenuChoice::Less(EFFORT) => context.change_effort(true),
-            MenuChoice::Pick(TEXT) => settings.change_text_size(1),
-            MenuChoice::Less(TEXT) => settings.change_text_size(-1),
-            MenuChoice::Pick(MOTION) | MenuChoice::Less(MOTION) => settings.reduced_motion ^= true,
-            MenuChoice::Pick(DIGESTION) | MenuChoice::Less(DIGESTION) => settings.hold_to_digest ^= true,
-            MenuChoice::Pick(CRAWL) | MenuChoice::Less(CRAWL) => settings.click_to_crawl ^= true,
-            MenuChoice::Pick(PACE) => settings.change_pace(false),
-            MenuChoice::Less(PACE) => settings.change_pace(true),
-            MenuChoice::Pick(SOUND) => settings.change_sound(true),
-            MenuChoice::Less(SOUND) => settings.change_sound(false),
-            MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
-            MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
-            MenuChoice::Pick(KEYS) => return Next::Open(Overlay::Keys),
-            _ => return Next::Back,
+        if let Some(next) = change(choice, context) {
+            return next;
         }
         self.page.menu.items = items(context);
         if let MenuChoice::Pick(SOUND) | MenuChoice::Less(SOUND) = choice {

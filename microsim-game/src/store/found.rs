@@ -1,51 +1,48 @@
 //! The entries of the field guide that the player has found.
 
 use super::files::PlayerFolder;
-use crate::guide;
-use serde::{Deserialize, Serialize};
+use crate::guide::{self, Entry};
 use std::collections::BTreeSet;
 use std::io;
 
-/// File that they are kept in.
-const FILE: &str = "guide.toml";
+/// File that they are kept in: a name a line.
+const FILE: &str = "guide.txt";
 
 /// Names of entries.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FoundEntries {
-    found: BTreeSet<String>,
-}
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FoundEntries(BTreeSet<&'static str>);
 
 impl FoundEntries {
-    /// Reads them, with a word on what is wrong with the file. Names that the guide does not have are left out.
+    /// Reads them. Lines that the guide does not know are left out.
     #[must_use]
-    pub fn load(store: &PlayerFolder) -> (Self, Option<String>) {
-        let (Self { mut found }, problem) = store.load(FILE);
-        found.retain(|name| guide::find(name).is_some());
-        (Self { found }, problem)
+    pub fn load(store: &PlayerFolder) -> Self {
+        let text = store.read(FILE).and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default();
+        Self(text.lines().filter_map(guide::find).map(|entry| entry.name).collect())
     }
 
     /// Notes an entry, and keeps all in the store with what another window has kept since.
     ///
     /// # Errors
     /// When the file cannot be written; the entry counts all the same until the program ends.
-    pub fn add(&mut self, name: &str, store: &PlayerFolder) -> io::Result<()> {
-        if !self.found.insert(name.to_owned()) {
+    pub fn add(&mut self, entry: &Entry, store: &PlayerFolder) -> io::Result<()> {
+        if !self.0.insert(entry.name) {
             return Ok(());
         }
-        self.found.extend(Self::load(store).0.found);
-        store.save(FILE, self)
+        self.0.extend(Self::load(store).0);
+        let lines: String = self.0.iter().flat_map(|name| [name, "\n"]).collect();
+        store.write(FILE, lines.as_bytes())
     }
 
     /// Whether an entry was found.
     #[must_use]
     pub fn has(&self, name: &str) -> bool {
-        self.found.contains(name)
+        self.0.contains(name)
     }
 
     /// How many were found.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.found.len()
+        self.0.len()
     }
 }
 
@@ -57,13 +54,15 @@ mod tests {
     #[test]
     fn what_was_found_is_kept_over_a_restart_and_strange_names_are_left_out() {
         let (_folder, store) = Folder::new("guide");
-        let mut found = FoundEntries::load(&store).0;
-        found.add("agar", &store).unwrap();
+        let mut found = FoundEntries::load(&store);
+        found.add(guide::find("agar").unwrap(), &store).unwrap();
         let mut other = FoundEntries::default();
-        other.add("coccus", &store).unwrap();
+        other.add(guide::find("coccus").unwrap(), &store).unwrap();
         assert!(other.has("agar"), "another window's are kept");
-        store.write(FILE, b"found = [\"agar\", \"unicorn\"]").unwrap();
-        let (found, problem) = FoundEntries::load(&store);
-        assert_eq!((found.count(), found.has("agar"), problem), (1, true, None));
+        store.write(FILE, b"agar\nunicorn\n\n").unwrap();
+        let found = FoundEntries::load(&store);
+        assert_eq!((found.count(), found.has("agar")), (1, true));
+        store.write(FILE, b"\xff").unwrap();
+        assert_eq!(FoundEntries::load(&store).count(), 0);
     }
 }

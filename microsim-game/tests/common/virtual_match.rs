@@ -127,14 +127,7 @@ impl Match {
         came.into_iter().for_each(|member| self.come(member));
         for member in (0..self.sessions.len()).filter(|&member| self.is_there(member)).collect::<Vec<_>>() {
             let began = Instant::now();
-            let arrived: Vec<Letter> =
-                self.letters.extract_if(.., |letter| letter.to == member && letter.due <= self.now).collect();
-            for letter in arrived {
-                match self.seat_of(&self.sessions[member], letter.from) {
-                    Some(seat) => self.sessions[member].receive(seat, &letter.bytes, self.now as u32),
-                    None => self.sessions[member].receive_guest(letter.from as Member, &letter.bytes, self.now as u32),
-                }
-            }
+            self.deliver(member);
             self.notice_those_who_left(member);
             let told = self.decide(member);
             let session = &mut self.sessions[member];
@@ -152,6 +145,18 @@ impl Match {
     }
 
     /// A room knows of those who have left a moment later, and gives their cells away.
+    /// A member receives the letters that have arrived by now.
+    fn deliver(&mut self, member: usize) {
+        let arrived: Vec<Letter> =
+            self.letters.extract_if(.., |letter| letter.to == member && letter.due <= self.now).collect();
+        for letter in arrived {
+            match self.seat_of(&self.sessions[member], letter.from) {
+                Some(seat) => self.sessions[member].receive(seat, &letter.bytes, self.now as u32),
+                None => self.sessions[member].receive_guest(letter.from as Member, &letter.bytes, self.now as u32),
+            }
+        }
+    }
+
     fn notice_those_who_left(&mut self, member: usize) {
         let is_known = |&(who, when): &(usize, u32)| when as f32 + 50.0 <= self.now && !self.is_there(who);
         let gone: Vec<usize> = self.leaving.iter().copied().filter(is_known).map(|(who, _)| who).collect();

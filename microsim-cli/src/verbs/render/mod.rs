@@ -89,15 +89,7 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     let format = PictureFormat::of(&args.output)?;
     let (prepared, replay) = projector::open(&args.scenario)?;
     let plan = RenderPlan::of(args, &prepared, replay.as_ref())?;
-    // A sheet is a PNG like a still.
-    let is_sheet = format == PictureFormat::Png && plan.pictures() > 1;
-    if format != PictureFormat::Png && plan.optics.len() > 1 {
-        return Err(Failure::Message("a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned()));
-    }
-    if is_sheet && plan.pictures() as u64 * plan.size.pixels() > MOST_SHEET {
-        let accepted = format!("at most {MOST_SHEET} pixels in all");
-        return Err(Failure::Message(format!("a sheet of {} pictures, accepted: {accepted}", plan.pictures())));
-    }
+    plan.check(format)?;
     interrupt::listen();
     let mut projector = Projector::new(&prepared, replay.as_ref(), Path::new(&args.scenario.scenario))?;
     plan.view.field(projector.world(), &prepared, plan.size)?;
@@ -110,7 +102,8 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     if format == PictureFormat::Png {
         let mut pictures = pictures.collect::<Result<Vec<_>, _>>()?;
         let columns = args.columns.map_or(plan.columns(), |columns| columns as usize);
-        let picture = if is_sheet { Picture::sheet_in(&pictures, columns) } else { pictures.swap_remove(0) };
+        let picture =
+            if plan.is_sheet(format) { Picture::sheet_in(&pictures, columns) } else { pictures.swap_remove(0) };
         let (outputs, name) = Outputs::beside(&args.output)?;
         outputs.write(&name, &picture.encoded()?)?;
     } else {
@@ -119,11 +112,15 @@ pub(crate) fn render(args: &RenderArgs, console: &Console) -> Result<(), Failure
     }
     bar.finish_and_clear();
     console.note(&format!("wrote {}", args.output.display()));
-    let (replay, path) = (replay.as_ref(), Path::new(&args.scenario.scenario));
-    match replay.and_then(|replay| Some((lost(replay, path)?, replay.ending()))) {
-        Some((text, Ending::Damaged { .. })) => return Err(Failure::Message(text)),
-        Some((text, _)) => console.note(&text),
-        None => {}
+    replay.map_or(Ok(()), |replay| report_ending(&replay, Path::new(&args.scenario.scenario), console))
+}
+
+/// Says what of a replay is lost, which is a failure if it is damaged.
+fn report_ending(replay: &Replay, path: &Path, console: &Console) -> Result<(), Failure> {
+    match (lost(replay, path), replay.ending()) {
+        (Some(text), Ending::Damaged { .. }) => return Err(Failure::Message(text)),
+        (Some(text), _) => console.note(&text),
+        (None, _) => {}
     }
     Ok(())
 }
@@ -166,6 +163,25 @@ impl RenderPlan {
             has_scale_bar: !args.no_scale_bar,
             shows_chemicals: args.chemicals,
         })
+    }
+
+    /// Whether the file can hold the pictures.
+    fn check(&self, format: PictureFormat) -> Result<(), Failure> {
+        if format != PictureFormat::Png && self.optics.len() > 1 {
+            return Err(Failure::Message(
+                "a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned(),
+            ));
+        }
+        if self.is_sheet(format) && self.pictures() as u64 * self.size.pixels() > MOST_SHEET {
+            let accepted = format!("at most {MOST_SHEET} pixels in all");
+            return Err(Failure::Message(format!("a sheet of {} pictures, accepted: {accepted}", self.pictures())));
+        }
+        Ok(())
+    }
+
+    /// A sheet is a PNG like a still.
+    fn is_sheet(&self, format: PictureFormat) -> bool {
+        format == PictureFormat::Png && self.pictures() > 1
     }
 
     fn pictures(&self) -> usize {

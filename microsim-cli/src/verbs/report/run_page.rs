@@ -80,7 +80,8 @@ struct Track<'a> {
     area: Vec<(f64, f64)>,
 }
 
-fn organisms(trajectories: &TextTable) -> String {
+/// The samples of each organism, by its name.
+fn tracks(trajectories: &TextTable) -> BTreeMap<&str, Track<'_>> {
     let [organism, kind] = ["organism", "kind"].map(|name| trajectories.texts(name));
     let [time, x, y, speed, area] = ["time", "x", "y", "speed", "area"].map(|name| trajectories.numbers(name));
     let mut tracks: BTreeMap<&str, Track<'_>> = BTreeMap::new();
@@ -91,6 +92,11 @@ fn organisms(trajectories: &TextTable) -> String {
         track.speed.push((time[k], speed[k]));
         track.area.push((time[k], area[k]));
     }
+    tracks
+}
+
+fn organisms(trajectories: &TextTable) -> String {
+    let tracks = tracks(trajectories);
     if tracks.is_empty() {
         return String::new();
     }

@@ -328,6 +328,27 @@ mod tests {
         }
     }
 
+    /// A member, what it has not read, and who it believes is there.
+    type Visitor = (Place, Shelf, BTreeSet<u8>);
+
+    /// One of the members reads everything, and leaves if the room has given it up.
+    fn read(rooms: &mut Rooms<Shelf>, members: &mut Vec<Visitor>, which: usize) {
+        let (place, shelf, others) = &mut members[which];
+        told(others, &shelf.take());
+        if !is_there(rooms, place) {
+            rooms.leave(&members.swap_remove(which).0, None);
+        }
+    }
+
+    fn assert_all_know_each_other(mut members: Vec<Visitor>) {
+        for (place, shelf, others) in &mut members {
+            told(others, &shelf.take());
+            others.insert(place.member);
+        }
+        let all: BTreeSet<u8> = members.iter().map(|(place, ..)| place.member).collect();
+        assert!(members.iter().all(|(_, _, others)| *others == all), "{members:?}");
+    }
+
     #[test]
     fn whatever_happens_members_know_who_is_there() {
         let mut state = 7u64;
@@ -336,7 +357,7 @@ mod tests {
             (state >> 33) as usize % count
         };
         let mut rooms = Rooms::new(1, None);
-        let mut members: Vec<(Place, Shelf, BTreeSet<u8>)> = Vec::new();
+        let mut members: Vec<Visitor> = Vec::new();
         for _ in 0..20_000 {
             match below(8) {
                 0 => {
@@ -351,22 +372,13 @@ mod tests {
                     if k > 5
                         || rooms.relay(&members[sender].0, &frame).is_err_and(|refusal| refusal == Refusal::TooSlow)
                     {
-                        let (place, shelf, others) = &mut members[sender];
-                        told(others, &shelf.take());
-                        if !is_there(&rooms, place) {
-                            rooms.leave(&members.swap_remove(sender).0, None);
-                        }
+                        read(&mut rooms, &mut members, sender);
                     }
                 }
                 _ => {}
             }
         }
         members.retain(|(place, ..)| is_there(&rooms, place));
-        for (place, shelf, others) in &mut members {
-            told(others, &shelf.take());
-            others.insert(place.member);
-        }
-        let all: BTreeSet<u8> = members.iter().map(|(place, ..)| place.member).collect();
-        assert!(members.iter().all(|(_, _, others)| *others == all), "{members:?}");
+        assert_all_know_each_other(members);
     }
 }

@@ -73,6 +73,15 @@ pub(crate) fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     Ok(text)
 }
 
+fn header(set: &BTreeSet<&str>, events: &BTreeSet<&str>, measures: &BTreeSet<&str>) -> Vec<String> {
+    let mut header: Vec<String> = ["key", "scenario", "seed"].map(str::to_owned).into();
+    header.extend(set.iter().map(|name| (*name).to_owned()));
+    header.extend(["steps", "simulated_seconds", "digest", "failures"].map(str::to_owned));
+    header.extend(events.iter().flat_map(|name| [format!("events.{name}"), format!("first.{name}")]));
+    header.extend(measures.iter().map(|name| (*name).to_owned()));
+    header
+}
+
 /// The results as one table.
 pub(crate) fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     fn names<'a>(of: impl Iterator<Item = &'a String>) -> BTreeSet<&'a str> {
@@ -82,12 +91,7 @@ pub(crate) fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     let events = names(outcomes.iter().flat_map(|outcome| outcome.events.keys()));
     let measures = names(outcomes.iter().flat_map(|outcome| outcome.measures.keys()));
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut header: Vec<String> = ["key", "scenario", "seed"].map(str::to_owned).into();
-    header.extend(set.iter().map(|name| (*name).to_owned()));
-    header.extend(["steps", "simulated_seconds", "digest", "failures"].map(str::to_owned));
-    header.extend(events.iter().flat_map(|name| [format!("events.{name}"), format!("first.{name}")]));
-    header.extend(measures.iter().map(|name| (*name).to_owned()));
-    let mut rows = vec![header];
+    let mut rows = vec![header(&set, &events, &measures)];
     for outcome in outcomes {
         let mut row = vec![outcome.key.clone(), outcome.scenario.clone(), outcome.seed.to_string()];
         row.extend(set.iter().map(|name| outcome.set.get(*name).cloned().unwrap_or_default()));

@@ -3,7 +3,7 @@
 use super::scene::{GRAVITY, Stepping, particles, run, value_at};
 use super::{Experiment, Outcome, Row};
 use microsim_core::glam::Vec2;
-use microsim_core::{Error, FluidBlockSpec, FluidParams, Placement, World, WorldConfig};
+use microsim_core::{Error, FluidBlockSpec, FluidParams, ParticleView, Placement, World, WorldConfig};
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "hydrostatic_rest",
@@ -14,6 +14,18 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     run: measure,
 };
 
+/// Level of the fluid in a strip of width 4: most of its particles lie below.
+fn level(particles: &[ParticleView], left: f32) -> f64 {
+    let mut heights: Vec<f64> = particles
+        .iter()
+        .filter(|p| p.position.x > left && p.position.x < left + 4.0)
+        .map(|p| f64::from(p.position.y) + 0.5)
+        .collect();
+    heights.sort_by(f64::total_cmp);
+    let ranks: Vec<[f64; 2]> = heights.iter().enumerate().map(|(k, y)| [k as f64, *y]).collect();
+    value_at(&ranks, 0.97 * ranks.len() as f64)
+}
+
 fn measure() -> Result<Outcome, Error> {
     let room = Stepping::DEFAULT.room(Vec2::new(40.0, 60.0), GRAVITY);
     let mut world = World::new(WorldConfig { damping: 0.2, ..room })?;
@@ -23,17 +35,7 @@ fn measure() -> Result<Outcome, Error> {
     run(&mut world, 40.0);
     let at_rest = particles(&world, column);
     let count = at_rest.len() as f64;
-    let level = |left: f32| {
-        let mut heights: Vec<f64> = at_rest
-            .iter()
-            .filter(|p| p.position.x > left && p.position.x < left + 4.0)
-            .map(|p| f64::from(p.position.y) + 0.5)
-            .collect();
-        heights.sort_by(f64::total_cmp);
-        let ranks: Vec<[f64; 2]> = heights.iter().enumerate().map(|(k, y)| [k as f64, *y]).collect();
-        value_at(&ranks, 0.97 * ranks.len() as f64)
-    };
-    let levels: Vec<f64> = (0..10u8).map(|k| level(4.0 * f32::from(k))).collect();
+    let levels: Vec<f64> = (0..10u8).map(|k| level(&at_rest, 4.0 * f32::from(k))).collect();
     let mean = levels.iter().sum::<f64>() / 10.0;
     let spread = levels.iter().map(|level| (level - mean).abs()).fold(0.0, f64::max);
     let speed = at_rest.iter().map(|p| f64::from(p.velocity.length_squared())).sum::<f64>() / count;

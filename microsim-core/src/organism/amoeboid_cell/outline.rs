@@ -15,8 +15,7 @@ const NEIGHBOURS: usize = 3;
 /// Height of a row of the lattice in its spacing: half the root of 3.
 const ROW: f32 = 0.866_025_4;
 
-/// Nodes along an outline, counter-clockwise, as many as fit without a gap.
-pub(super) fn chain(outline: &[Vec2], node_radius: f32) -> Result<Vec<Vec2>, Error> {
+fn check_corners(outline: &[Vec2]) -> Result<(), Error> {
     if outline.len() < 3 || outline.len() > MAX_CORNERS {
         return Err(out_of_range("outline", outline.len() as f64, format!("3 to {MAX_CORNERS} corners")));
     }
@@ -27,6 +26,12 @@ pub(super) fn chain(outline: &[Vec2], node_radius: f32) -> Result<Vec<Vec2>, Err
     if !is_simple(outline) {
         return Err(Error::unsupported("outline", "an outline that does not cross or touch itself"));
     }
+    Ok(())
+}
+
+/// Nodes along an outline, counter-clockwise, as many as fit without a gap.
+pub(super) fn chain(outline: &[Vec2], node_radius: f32) -> Result<Vec<Vec2>, Error> {
+    check_corners(outline)?;
     let mut corners = outline.to_vec();
     if signed_area(&corners) < 0.0 {
         corners.reverse();

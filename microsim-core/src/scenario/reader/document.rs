@@ -28,6 +28,18 @@ struct Spans {
 }
 
 impl Document {
+    /// Parses the text of this document.
+    fn parse<'a>(&self, text: &'a str) -> Result<SpannedValue<'a>, Diagnostics> {
+        let (root, errors) = DeTable::parse_recoverable(text);
+        // One syntax error for each line: others there are consequences of it.
+        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| self.syntax_error(error)).collect();
+        broken.dedup_by_key(|diagnostic| diagnostic.line);
+        let mut found = Findings::default();
+        broken.into_iter().for_each(|diagnostic| found.add_diagnostic(diagnostic));
+        found.check()?;
+        Ok(Spanned::new(root.span(), DeValue::Table(root.into_inner())))
+    }
+
     /// Parses the text, applies the overrides and puts parameters in.
     pub(crate) fn read<'a>(
         text: &'a str,
@@ -35,14 +47,7 @@ impl Document {
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
         let (spans, lines) = (BTreeMap::new(), Lines::of(text));
         let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans, lines };
-        let (root, errors) = DeTable::parse_recoverable(text);
-        // One syntax error for each line: others there are consequences of it.
-        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| document.syntax_error(error)).collect();
-        broken.dedup_by_key(|diagnostic| diagnostic.line);
-        let mut found = Findings::default();
-        broken.into_iter().for_each(|diagnostic| found.add_diagnostic(diagnostic));
-        found.check()?;
-        let mut root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+        let mut root = document.parse(text)?;
         let mut found = Findings::default();
         for (index, (key, value)) in overrides.iter().enumerate() {
             let span = text.len() + 1 + index;

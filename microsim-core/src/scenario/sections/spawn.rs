@@ -39,19 +39,10 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
     let exchanges = chemical::read_exchanges(fields, definitions.chemicals);
     let name = read_name(fields, names);
     let is_player = fields.or("player", false);
-    let from = fields.number("from", 0.0, [0.0, 1e6]);
-    let respawn = fields.number_within("respawn", [0.0, 1e6]);
-    for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && (is_player || name.is_some())) {
-        let accepted = "a [[spawn]] without `name` and `player`";
-        fields.refuse(field, "one that is known by name is there from the beginning, once", accepted);
-    }
+    let (from, respawn) = read_times(fields, is_player || name.is_some());
     let groups = read_tier(fields, prototype.as_ref());
     let prototype = prototype?;
-    let steering = [("controller", controller != Controller::Still), ("player", is_player)];
-    for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
-        let message = format!("`{}` cannot move", prototype.name);
-        fields.refuse(field, message, "an amoeboid_cell, a rigid_cell, a bacterium or a probe");
-    }
+    check_steering(fields, &prototype, controller != Controller::Still, is_player);
     let (path, positions) = (fields.path.clone(), positions?);
     check_box(fields, &positions, prototype.extent(scale[1]));
     Some(Group {
@@ -68,6 +59,26 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
         from,
         respawn,
     })
+}
+
+/// When organisms are spawned at first, and how long after they are gone again, s.
+fn read_times(fields: &mut Fields<'_>, is_known_by_name: bool) -> (f32, Option<f32>) {
+    let from = fields.number("from", 0.0, [0.0, 1e6]);
+    let respawn = fields.number_within("respawn", [0.0, 1e6]);
+    for field in ["from", "respawn"].into_iter().filter(|field| fields.has(field) && is_known_by_name) {
+        let accepted = "a [[spawn]] without `name` and `player`";
+        fields.refuse(field, "one that is known by name is there from the beginning, once", accepted);
+    }
+    (from, respawn)
+}
+
+/// Checks that what is steered can move.
+fn check_steering(fields: &Fields<'_>, prototype: &Prototype, has_controller: bool, is_player: bool) {
+    let steering = [("controller", has_controller), ("player", is_player)];
+    for (field, _) in steering.into_iter().filter(|(_, is_set)| *is_set && !prototype.can_move()) {
+        let message = format!("`{}` cannot move", prototype.name);
+        fields.refuse(field, message, "an amoeboid_cell, a rigid_cell, a bacterium or a probe");
+    }
 }
 
 /// The groups of the tier that organisms lie in, or all.

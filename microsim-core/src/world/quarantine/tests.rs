@@ -159,36 +159,40 @@ fn phase(world: &World, cell: OrganismId) -> Option<MealPhase> {
     world.organisms.get(cell)?.engulfer.as_ref()?.meals.first().map(|meal| meal.phase)
 }
 
+/// Leads the cell through its prey until the meal is in this phase.
+fn eat_until(world: &mut World, [cell, prey]: [OrganismId; 2], is_wanted: fn(MealPhase) -> bool, digests: bool) {
+    let is_there = |world: &World| phase(world, cell).is_some_and(is_wanted);
+    let mut inputs = Inputs::new();
+    for _ in 0..1200 {
+        if is_there(world) {
+            break;
+        }
+        let goal = world.centroid(prey).unwrap() + Vec2::new(20.0, 0.0);
+        inputs.set(cell, Intent::toward(goal).unwrap().digesting(digests));
+        world.step(&inputs);
+    }
+    assert!(is_there(world), "{:?}", phase(world, cell));
+}
+
 #[test]
 fn engulfers_and_prey_in_every_phase_of_a_meal() {
-    let is_wanted: [fn(MealPhase) -> bool; 4] = [
+    let phases: [fn(MealPhase) -> bool; 4] = [
         |phase| matches!(phase, MealPhase::Touching(_)),
         |phase| matches!(phase, MealPhase::Ingesting(elapsed) if elapsed > 0.05),
         |phase| matches!(phase, MealPhase::Ingested),
         |phase| matches!(phase, MealPhase::Digesting(part) if part > 0.2),
     ];
     let soft = RigidCellSpec { radii: Vec2::new(4.0, 2.5), ..RigidCellSpec::default() };
-    for prey in [AgarSpec::default().into(), soft.into()] {
-        for way in [IngestionWay::Cup, IngestionWay::Gate] {
-            let (mut world, [cell, prey]) = meal(&prey, way);
-            let mut inputs = Inputs::new();
-            for (k, wanted) in is_wanted.into_iter().enumerate() {
-                let is_there = |world: &World| phase(world, cell).is_some_and(wanted);
-                for _ in 0..1200 {
-                    if is_there(&world) {
-                        break;
-                    }
-                    let goal = world.centroid(prey).unwrap() + Vec2::new(20.0, 0.0);
-                    inputs.set(cell, Intent::toward(goal).unwrap().digesting(k == 3));
-                    world.step(&inputs);
-                }
-                assert!(is_there(&world), "{way:?}: {:?}", phase(&world, cell));
-                for victim in [cell, prey] {
-                    // Radii are computed again while prey is scaled.
-                    for poison in POISONS.into_iter().filter(|(_, _, is_written)| *is_written) {
-                        let what = format!("{way:?}, {:?}, {victim:?}", phase(&world, cell));
-                        break_and_step(&mut world.clone(), victim, 3, poison, &what);
-                    }
+    let meals = [AgarSpec::default().into(), soft.into()];
+    for (prey, way) in meals.iter().flat_map(|prey| [(prey, IngestionWay::Cup), (prey, IngestionWay::Gate)]) {
+        let (mut world, both) = meal(prey, way);
+        for (k, is_wanted) in phases.into_iter().enumerate() {
+            eat_until(&mut world, both, is_wanted, k == 3);
+            let what = format!("{way:?}, {:?}", phase(&world, both[0]));
+            for victim in both {
+                // Radii are computed again while prey is scaled.
+                for poison in POISONS.into_iter().filter(|(_, _, is_written)| *is_written) {
+                    break_and_step(&mut world.clone(), victim, 3, poison, &format!("{what}, {victim:?}"));
                 }
             }
         }

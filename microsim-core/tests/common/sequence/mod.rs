@@ -58,22 +58,7 @@ struct Sequence<'a> {
 pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
     let mut choices = Choices(bytes);
     let Ok(world) = World::new(choices.config()) else { return Ok(Tally::default()) };
-    let mut sequence = Sequence {
-        choices,
-        saved: world.clone(),
-        digest_saved: world.digest(),
-        world,
-        handles: Vec::new(),
-        obstacles: Vec::new(),
-        templates: Vec::new(),
-        chemicals: Vec::new(),
-        joints: Vec::new(),
-        fields: Vec::new(),
-        emitters: Vec::new(),
-        drains: Vec::new(),
-        inputs: Inputs::new(),
-        tally: Tally::default(),
-    };
+    let mut sequence = Sequence::new(choices, world);
     for _ in 0..CALLS {
         if sequence.choices.0.is_empty() {
             break;
@@ -97,7 +82,26 @@ pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
     Ok(sequence.tally)
 }
 
-impl Sequence<'_> {
+impl<'a> Sequence<'a> {
+    fn new(choices: Choices<'a>, world: World) -> Self {
+        Self {
+            choices,
+            saved: world.clone(),
+            digest_saved: world.digest(),
+            world,
+            handles: Vec::new(),
+            obstacles: Vec::new(),
+            templates: Vec::new(),
+            chemicals: Vec::new(),
+            joints: Vec::new(),
+            fields: Vec::new(),
+            emitters: Vec::new(),
+            drains: Vec::new(),
+            inputs: Inputs::new(),
+            tally: Tally::default(),
+        }
+    }
+
     /// One call, and its name.
     fn call(&mut self) -> (&'static str, Outcome) {
         match self.choices.below(36) {

@@ -120,18 +120,25 @@ enum State {
 }
 
 impl Room {
+    /// Takes the connection when it is there; what the game is told when there will be none.
+    fn take_connection(&mut self) -> Option<Notice> {
+        let State::Connecting(way) = &self.state else { return None };
+        match way.try_recv() {
+            Ok(Ok(socket)) => {
+                self.mesh = socket.get_ref().local_addr().ok().and_then(|own| Mesh::new(own.ip()));
+                self.state = State::Open(Box::new(socket));
+                None
+            }
+            Ok(Err(failure)) => Some(Notice::Closed(failure.told())),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(relay::cut()),
+        }
+    }
+
     /// What comes next, if something has come by now: a notice, or nothing that the game is told.
     fn next(&mut self) -> Option<Option<Notice>> {
-        if let State::Connecting(way) = &self.state {
-            match way.try_recv() {
-                Ok(Ok(socket)) => {
-                    self.mesh = socket.get_ref().local_addr().ok().and_then(|own| Mesh::new(own.ip()));
-                    self.state = State::Open(Box::new(socket));
-                }
-                Ok(Err(failure)) => return Some(Some(Notice::Closed(failure.told()))),
-                Err(TryRecvError::Empty) => {}
-                Err(TryRecvError::Disconnected) => return Some(Some(relay::cut())),
-            }
+        if let Some(failure) = self.take_connection() {
+            return Some(Some(failure));
         }
         let State::Open(socket) = &mut self.state else { return None };
         let notice = match socket.read() {

@@ -52,11 +52,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
         MenuChoice::Less(item) => (item, true),
     };
     if let Some(&(tool, _)) = Tool::ALL.get(item) {
-        // What is spawned changes once the tool has been chosen.
-        if tool == Tool::Spawn && sandbox.tools.tool == tool {
-            sandbox.tools.change_spawn(is_back);
-        }
-        sandbox.tools.tool = tool;
+        sandbox.tools.choose(tool, is_back);
         return Next::Stay;
     }
     match item {

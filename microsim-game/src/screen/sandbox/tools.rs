@@ -104,8 +104,16 @@ impl Tools {
         SPAWNS[self.spawn].0
     }
 
+    /// Takes a tool in hand. Chosen again, the one that spawns changes to the next thing, or the one before.
+    pub(super) fn choose(&mut self, tool: Tool, is_back: bool) {
+        if tool == Tool::Spawn && self.tool == tool {
+            self.change_spawn(is_back);
+        }
+        self.tool = tool;
+    }
+
     /// The next thing to put into the room, or the one before.
-    pub(super) fn change_spawn(&mut self, is_back: bool) {
+    fn change_spawn(&mut self, is_back: bool) {
         self.spawn = (self.spawn + if is_back { SPAWNS.len() - 1 } else { 1 }) % SPAWNS.len();
     }
 
@@ -127,9 +135,11 @@ impl Tools {
         }
         let goal = self.hand.filter(|_| self.tool == Tool::Steer).and_then(|at| Intent::toward(at).ok());
         stage.steer(goal.unwrap_or(Intent::REST).digesting(digests));
-        if !begins {
-            return None;
-        }
+        if begins { self.begin(stage, camera, at) } else { None }
+    }
+
+    /// Begins to use the tool at a point. Returns what went wrong, or why it does nothing.
+    fn begin(&mut self, stage: &mut Stage, camera: &Camera, at: Vec2) -> Option<String> {
         let within = NEAR / camera.scale();
         let found = organism_at(stage.world(), at, within);
         let told = |key| Some(words::text(key).to_owned());

@@ -94,7 +94,7 @@ fn check_slots(world: &World) -> Check {
 
 /// Blocks fit their template and do not overlap. Records the owners of their lanes in `owned`.
 fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
-    let (organisms, none) = (&world.organisms, Subject::default());
+    let none = Subject::default();
     let (blocks, known) = (world.blocks.len(), world.sleep.len());
     none.must(blocks == known, || format!("{blocks} blocks, but sleep counters of {known}"))?;
     let mut end = 0;
@@ -108,24 +108,30 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
         })?;
         let channels = template.map_or(0, |template| template.channels().len());
         none.must(channels == block.contraction.len(), || format!("block {k} has not the channels of its template"))?;
-        for (lane, (&owner, &scale)) in block.owner.iter().zip(&block.scale).enumerate() {
-            none.must_range(&format!("scale of lane {lane} of block {k}"), scale, 1e-6, 1e6)?;
-            for contraction in &block.contraction {
-                none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
-            }
-            let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
-            let place = holder.and_then(|organism| match organism.body {
-                Storage::Lane { block, first } => Some((block as usize, first)),
-                Storage::Loose { .. } => None,
-            });
-            let is_home = owner == NO_OWNER || place == Some((k, block.particle(0, lane)));
-            none.must(is_home, || format!("lane {lane} of block {k} is owned by {owner}, which does not know"))?;
+        for (lane, &owner) in block.owner.iter().enumerate() {
+            check_lane(world, k, block, lane)?;
             let owner = if owner == NO_OWNER { EMPTY_LANE } else { owner };
             (0..block.slots).for_each(|slot| owned[block.particle(slot, lane) as usize] = owner);
         }
         end = after;
     }
     Ok(())
+}
+
+/// A lane has numbers in their ranges and an owner that lies in it, or none.
+fn check_lane(world: &World, k: usize, block: &Block, lane: usize) -> Check {
+    let (organisms, none, owner) = (&world.organisms, Subject::default(), block.owner[lane]);
+    none.must_range(&format!("scale of lane {lane} of block {k}"), block.scale[lane], 1e-6, 1e6)?;
+    for contraction in &block.contraction {
+        none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
+    }
+    let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
+    let place = holder.and_then(|organism| match organism.body {
+        Storage::Lane { block, first } => Some((block as usize, first)),
+        Storage::Loose { .. } => None,
+    });
+    let is_home = owner == NO_OWNER || place == Some((k, block.particle(0, lane)));
+    none.must(is_home, || format!("lane {lane} of block {k} is owned by {owner}, which does not know"))
 }
 
 /// Fields of an organism.
@@ -174,23 +180,7 @@ fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Re
 
 /// Records the particles of an organism in `owned`, where they must be free, and checks its indices.
 fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &mut [u32]) -> Check {
-    let loose: &[u32] = match &organism.body {
-        Storage::Lane { block, first } => {
-            let block = world.blocks.get(*block as usize).filter(|block| block.slots == organism.slots);
-            let is_home = |block: &Block| {
-                let lane = block.owner.iter().position(|&owner| owner == index);
-                lane.is_some_and(|lane| block.particle(0, lane) == *first)
-            };
-            cell.must(block.is_some_and(is_home), || "it is not in its block".to_owned())?;
-            let in_slots = organism.outline.iter().all(|&slot| slot < organism.slots);
-            cell.must(in_slots, || "its outline names a slot that does not exist".to_owned())?;
-            &[]
-        }
-        Storage::Loose { particles, .. } => {
-            cell.must(organism.slots == 0, || "it has slots and is in no block".to_owned())?;
-            particles
-        }
-    };
+    let loose = check_storage(world, index, organism, cell)?;
     for &i in loose.iter().chain(&organism.fluid_particles) {
         let place = owned.get_mut(i as usize).filter(|place| **place == NO_OWNER);
         *place.ok_or_else(|| in_cell(cell, i, "it does not exist or has another owner"))? = index;
@@ -209,6 +199,27 @@ fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &
     let furrow = organism.furrow().map(|furrow| furrow.nodes);
     let unknown = gates.chain(furrow.iter().flatten()).find(|&&i| i as usize >= owned.len());
     unknown.map_or(Ok(()), |&i| Err(in_cell(cell, i, "a gate or furrow has it, and it does not exist")))
+}
+
+/// An organism is in its block or in none. Returns the particles of its body that are in none.
+fn check_storage<'a>(world: &World, index: u32, organism: &'a Organism, cell: Subject) -> Result<&'a [u32], Violation> {
+    match &organism.body {
+        Storage::Lane { block, first } => {
+            let block = world.blocks.get(*block as usize).filter(|block| block.slots == organism.slots);
+            let is_home = |block: &Block| {
+                let lane = block.owner.iter().position(|&owner| owner == index);
+                lane.is_some_and(|lane| block.particle(0, lane) == *first)
+            };
+            cell.must(block.is_some_and(is_home), || "it is not in its block".to_owned())?;
+            let in_slots = organism.outline.iter().all(|&slot| slot < organism.slots);
+            cell.must(in_slots, || "its outline names a slot that does not exist".to_owned())?;
+            Ok(&[])
+        }
+        Storage::Loose { particles, .. } => {
+            cell.must(organism.slots == 0, || "it has slots and is in no block".to_owned())?;
+            Ok(particles)
+        }
+    }
 }
 
 fn in_cell(cell: Subject, particle: u32, what: &str) -> Violation {

@@ -119,7 +119,7 @@ fn damage_to_organisms_is_found() {
 }
 
 #[test]
-fn damage_to_joints_fields_and_muscles_is_found() {
+fn damage_to_joints_is_found() {
     let joint = |w: &mut World, change: &dyn Fn(&mut JointRecord)| {
         let organism = w.organisms().next().unwrap();
         let ends = [JointEnd::Node { organism, node: 0 }, JointEnd::Point(Vec2::ZERO)];
@@ -130,6 +130,10 @@ fn damage_to_joints_fields_and_muscles_is_found() {
     finds(|w| joint(w, &|joint| joint.particles[0] = Some(1 << 20)), "joint 0 holds a particle");
     finds(|w| joint(w, &|joint| joint.particles[1] = Some(0)), "joint 0 holds a particle");
     finds(|w| joint(w, &|joint| joint.spec.break_force = -1.0), "joints[0]: `break_force`");
+}
+
+#[test]
+fn damage_to_fields_emitters_and_drains_is_found() {
     let wind = |acceleration| ForceField { region: Region::All, kind: FieldKind::Uniform { acceleration } };
     finds(
         |w| {
@@ -152,6 +156,10 @@ fn damage_to_joints_fields_and_muscles_is_found() {
         },
         "drains[0]: `region.centre.x`",
     );
+}
+
+#[test]
+fn damage_to_muscles_and_gravity_scales_is_found() {
     finds(|w| w.blocks[0].contraction.push([1.0; 8]), "has not the channels of its template");
     finds(
         |w| {
