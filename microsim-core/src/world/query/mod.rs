@@ -1,15 +1,16 @@
 //! Queries: organisms at a point, in a circle, in a box; and [`Queries`], for which the world is sorted once after each change: rays, casts
 //! of discs, nearest points and overlaps with organisms, obstacles and walls.
 
+mod area;
 mod filter;
 mod index;
-mod region;
 mod sorted;
 
 use super::World;
 use crate::collider::Collider;
 use crate::collision::obstacle::Obstacle;
 use crate::id::OrganismId;
+use area::{QueryArea, reaches_into};
 pub use filter::QueryFilter;
 use glam::Vec2;
 use index::{Disc, Ray};
@@ -17,7 +18,6 @@ use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
 use parry2d::query::{ShapeCastOptions, cast_shapes};
 use parry2d::shape::Ball;
-use region::{Region, reaches_into};
 pub(crate) use sorted::QueryIndex;
 use sorted::Sorted;
 use std::sync::Arc;
@@ -177,51 +177,51 @@ impl<'w> Queries<'w> {
     /// What a disc overlaps: discs of organisms, the area within their outlines, obstacles, walls. In a stable order.
     #[must_use]
     pub fn overlap_disc(&self, centre: Vec2, radius: f32, filter: &QueryFilter<'_>) -> Vec<Collider> {
-        self.overlap(&Region::Disc(centre, radius), filter)
+        self.overlap(&QueryArea::Disc(centre, radius), filter)
     }
 
     /// What a box overlaps, see [`Queries::overlap_disc`].
     #[must_use]
     pub fn overlap_box(&self, low: Vec2, high: Vec2, filter: &QueryFilter<'_>) -> Vec<Collider> {
         let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-        self.overlap(&Region::Polygon(&corners), filter)
+        self.overlap(&QueryArea::Polygon(&corners), filter)
     }
 
     /// What a simple polygon overlaps, see [`Queries::overlap_disc`]. Fewer than three corners overlap nothing.
     #[must_use]
     pub fn overlap_polygon(&self, corners: &[Vec2], filter: &QueryFilter<'_>) -> Vec<Collider> {
-        self.overlap(&Region::Polygon(corners), filter)
+        self.overlap(&QueryArea::Polygon(corners), filter)
     }
 
-    fn overlap(&self, region: &Region<'_>, filter: &QueryFilter<'_>) -> Vec<Collider> {
-        let Some(bounds) = region.aabb() else { return Vec::new() };
-        let near = self.sorted.discs.in_box(bounds.mins, bounds.maxs).filter(|disc| region.touches_disc(disc));
+    fn overlap(&self, area: &QueryArea<'_>, filter: &QueryFilter<'_>) -> Vec<Collider> {
+        let Some(bounds) = area.aabb() else { return Vec::new() };
+        let near = self.sorted.discs.in_box(bounds.mins, bounds.maxs).filter(|disc| area.touches_disc(disc));
         let mut found: Vec<Collider> = near.filter_map(|disc| self.organism_of(disc, filter)).collect();
         found.sort_unstable();
         found.dedup();
         let around = self.sorted.outlined.iter().filter(|(_, organism)| organism.intersects(&bounds));
         let around = around.filter(|(id, _)| found.binary_search(&Collider::Organism(*id)).is_err());
-        let around: Vec<_> = around.filter(|(id, _)| self.is_within(*id, region, filter)).map(|(id, _)| *id).collect();
+        let around: Vec<_> = around.filter(|(id, _)| self.is_within(*id, area, filter)).map(|(id, _)| *id).collect();
         found.extend(around.into_iter().map(Collider::Organism));
         let near = self.surfaces(filter).filter(|(.., aabb)| aabb.intersects(&bounds));
-        found.extend(near.filter(|(_, obstacle, _)| region.touches_obstacle(obstacle)).map(|(collider, ..)| collider));
+        found.extend(near.filter(|(_, obstacle, _)| area.touches_obstacle(obstacle)).map(|(collider, ..)| collider));
         found.sort_unstable();
         found
     }
 
-    /// Whether a region overlaps the area within an organism's outline.
-    fn is_within(&self, id: OrganismId, region: &Region<'_>, filter: &QueryFilter<'_>) -> bool {
+    /// Whether an area overlaps that within an organism's outline.
+    fn is_within(&self, id: OrganismId, area: &QueryArea<'_>, filter: &QueryFilter<'_>) -> bool {
         let Some(organism) = self.world.organisms.get(id) else { return false };
         let mut nodes = organism.outline_particles().map(|i| self.world.particles.groups[i as usize]);
         nodes.any(|groups| groups.meets(filter.groups))
             && self.is_asked_for(id, filter)
-            && region.touches_outline(&self.world.outline_of(organism))
+            && area.touches_outline(&self.world.outline_of(organism))
     }
 
-    fn nearest_disc(&self, point: Vec2, most: f32, filter: &QueryFilter<'_>) -> Option<NearestPoint> {
-        let mut reach: f32 = 1.0;
+    fn nearest_disc(&self, point: Vec2, max_distance: f32, filter: &QueryFilter<'_>) -> Option<NearestPoint> {
+        let mut searched: f32 = 1.0;
         loop {
-            let within = if reach < most { reach } else { most };
+            let within = if searched < max_distance { searched } else { max_distance };
             let gap = |disc: &Disc| {
                 let gap = (disc.at - point).length() - disc.radius;
                 if gap > 0.0 { gap } else { 0.0 }
@@ -236,10 +236,10 @@ impl<'w> Queries<'w> {
                 return Some(NearestPoint { collider, node, point, distance });
             }
             let Vec2 { x, y } = self.world.config.size;
-            if within == most || reach > 4.0 * (x + y) + point.length() {
+            if within == max_distance || searched > 4.0 * (x + y) + point.length() {
                 return None;
             }
-            reach *= 2.0;
+            searched *= 2.0;
         }
     }
 
