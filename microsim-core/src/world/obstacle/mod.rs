@@ -43,6 +43,7 @@ impl World {
         if obstacle.is_sensor {
             self.wake_up_near(&obstacle);
         }
+        self.scratch.query_index.clear_obstacles();
         let at = WALLS + self.obstacle_table.next_index();
         let id = self.obstacle_table.insert(&obstacle);
         if at < self.obstacles.len() {
@@ -121,6 +122,7 @@ impl World {
 
     /// Puts an obstacle in the place of another one, and wakes what is near either.
     fn put(&mut self, id: ObstacleId, obstacle: Obstacle) {
+        self.scratch.query_index.clear_obstacles();
         self.wake_up_near(&obstacle);
         let place = &mut self.obstacles[WALLS + id.index as usize];
         let before = std::mem::replace(place, obstacle);

@@ -79,6 +79,9 @@ impl World {
             Some(ObstaclePath::new(at, &obstacles[at as usize], target, config.max_displacement(), config.substeps))
         };
         scratch.obstacle_paths.extend(obstacle_table.moving().filter_map(path));
+        if !scratch.obstacle_paths.is_empty() {
+            scratch.query_index.clear_obstacles();
+        }
     }
 
     /// Moves obstacles as far as they come in a substep.

@@ -1,6 +1,6 @@
 //! Areas that overlap queries ask about: discs and polygons.
 
-use super::index::Disc;
+use super::entry::Disc;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::polygon::contains_point;
 use crate::geometry::segment::{nearest_on_segment, segments_touch};
