@@ -19,9 +19,8 @@ impl World {
     /// A body that is caught between it and something that does not give way is not crushed: the obstacle moves back, and
     /// then goes on or stops, see [`ObstacleMotion`]. It comes to an end with [`Event::ObstacleBlocked`] if it stops.
     ///
-    /// There is no continuous collision detection. In a substep a disc and a surface approach each other by at most twice
-    /// `max_speed * dt / substeps`; an obstacle that is moved should be thicker than twice that less the diameter of the
-    /// smallest disc, 0.17 units less the diameter with the default settings.
+    /// There is no continuous collision detection: an obstacle that is moved should be at least twice
+    /// [`safe_thickness`](crate::WorldConfig::safe_thickness) thick, less the diameter of the smallest disc.
     ///
     /// ```
     /// use microsim_core::prelude::*;
