@@ -2,7 +2,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use microsim_benches::{platelets, scene, time_of_saved_steps, time_of_steps};
-use microsim_core::{QueryFilter, glam::Vec2};
+use microsim_core::glam::Vec2;
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
+use microsim_core::{Obstacle, QueryFilter, Rng, World};
 
 fn state(criterion: &mut Criterion) {
     for (name, world) in [("platelets-800", platelets(800)), ("demo", scene("demo", &[]))] {
@@ -26,34 +28,66 @@ fn rollback(criterion: &mut Criterion) {
     group.bench_function("save and step", |bencher| bencher.iter_custom(|steps| time_of_saved_steps(&world, steps)));
 }
 
-/// A ray, and the nearest point, in a world that is sorted for queries already, and after a change, which sorts it again.
+/// Queries in a world that is sorted for them already, and after a change, which sorts it again. With platelets only, and among
+/// 1000 obstacles.
 fn queries(criterion: &mut Criterion) {
-    for count in [300, 833] {
+    for (count, obstacles) in [(300, 0), (833, 0), (300, 1000), (833, 1000)] {
         let mut world = platelets(count);
-        let first = world.organisms().next().expect("there are platelets");
-        let (centre, filter) = (world.config().size * 0.5, QueryFilter::default());
-        let mut group = criterion.benchmark_group(format!("queries/platelets-{count}"));
+        scatter_obstacles(&mut world, obstacles);
+        let mut group = criterion.benchmark_group(format!("queries/platelets-{count} obstacles-{obstacles}"));
+        let (first, size) = (world.organisms().next().expect("there are platelets"), world.config().size);
+        let (filter, surfaces) = (QueryFilter::default(), QueryFilter::surfaces());
         let turned = |k: u32| Vec2::from_angle(k as f32);
-        let mut k = 0;
-        group.bench_function("ray", |bencher| {
-            bencher.iter(|| {
-                k += 1;
-                world.queries().cast_ray(centre, turned(k), 1e3, &filter)
+        let place = |k: u32| size * (0.5 + 0.4 * turned(k));
+        let mut query = |name: &str, ask: &dyn Fn(&World, u32) -> bool| {
+            let mut k = 0;
+            group.bench_function(name, |bencher| {
+                bencher.iter(|| {
+                    k += 1;
+                    ask(&world, k)
+                });
             });
+        };
+        query("ray", &|world, k| world.queries().cast_ray(place(k), turned(k), 1e3, &filter).is_some());
+        query("ray, surfaces", &|world, k| world.queries().cast_ray(place(k), turned(k), 1e3, &surfaces).is_some());
+        query("all along a ray", &|world, k| {
+            world.queries().cast_ray_all(place(k), turned(k), 1e3, &filter).is_empty()
         });
-        group.bench_function("nearest", |bencher| {
-            bencher.iter(|| {
-                k += 1;
-                world.queries().nearest(centre + 5.0 * turned(k), 10.0, &filter)
+        query("nearest", &|world, k| world.queries().nearest(place(k), 10.0, &filter).is_some());
+        query("nearest surface", &|world, k| world.queries().nearest(place(k), 1e3, &surfaces).is_some());
+        query("overlap", &|world, k| world.queries().overlap_disc(place(k), 2.0, &filter).is_empty());
+        query("organisms_at", &|world, k| world.organisms_at(place(k)).next().is_some());
+        query("organisms_in_circle", &|world, k| world.organisms_in_circle(place(k), 2.0).next().is_some());
+        query("organisms_in_box", &|world, k| world.organisms_in_box(place(k), place(k) + 4.0).next().is_some());
+        let mut after_change = |name: &str, ask: &dyn Fn(&World, u32) -> bool| {
+            let mut k = 0;
+            group.bench_function(format!("{name} after a change"), |bencher| {
+                bencher.iter(|| {
+                    k += 1;
+                    world.push(first, Vec2::ZERO).expect("it lives");
+                    ask(&world, k)
+                });
             });
-        });
-        group.bench_function("ray after a change", |bencher| {
-            bencher.iter(|| {
-                k += 1;
-                world.push(first, Vec2::ZERO).expect("it lives");
-                world.queries().cast_ray(centre, turned(k), 1e3, &filter)
-            });
-        });
+        };
+        after_change("ray", &|world, k| world.queries().cast_ray(place(k), turned(k), 1e3, &filter).is_some());
+        after_change("organisms_at", &|world, k| world.organisms_at(place(k)).next().is_some());
+    }
+}
+
+/// Adds small obstacles of three shapes in places that are free.
+fn scatter_obstacles(world: &mut World, count: u32) {
+    let mut rng = Rng::new(1, 1);
+    let size = world.config().size;
+    let shapes = [
+        SharedShape::ball(0.2),
+        SharedShape::cuboid(0.4, 0.1),
+        SharedShape::capsule(Vec2::new(-0.3, 0.0), Vec2::new(0.3, 0.1), 0.1),
+    ];
+    let mut added = 0;
+    while added < count {
+        let at = Vec2::new(rng.range(0.0, size.x), rng.range(0.0, size.y));
+        let obstacle = Obstacle::new(shapes[added as usize % 3].clone(), Pose::new(at, added as f32));
+        added += u32::from(world.add_obstacle(obstacle).is_ok());
     }
 }
 

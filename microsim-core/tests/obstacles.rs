@@ -343,3 +343,30 @@ fn the_digest_sees_every_property_of_an_obstacle() {
     let digests: std::collections::BTreeSet<u64> = changes.map(with).into_iter().collect();
     assert_eq!(digests.len(), changes.len());
 }
+
+/// Discs that get through a still bar of this thickness, shot at it as fast as they may be.
+fn shot_through(config: &WorldConfig, thickness: f32, radius: f32) -> usize {
+    let mut world = World::new(config.clone()).unwrap();
+    let bar = SharedShape::cuboid(0.5 * thickness, 45.0);
+    world.add_obstacle(Obstacle::new(bar, Pose::translation(50.0, 45.0))).unwrap();
+    let way = 0.5 * config.safe_thickness();
+    let shoot = |k: u8| {
+        let at = Placement::at(10.0 + way * f32::from(k) / 30.0, 3.0 + 2.5 * f32::from(k));
+        let disc = world.spawn(&AgarSpec { radius, ..AgarSpec::default() }.into(), at).unwrap();
+        world.push(disc, Vec2::new(config.max_speed, 0.0)).unwrap();
+        disc
+    };
+    let discs: Vec<_> = (0..30).map(shoot).collect();
+    run(&mut world, &Inputs::new(), 120);
+    discs.into_iter().filter(|&disc| world.centroid(disc).unwrap().x > 50.0).count()
+}
+
+#[test]
+fn nothing_gets_through_an_obstacle_of_safe_thickness() {
+    for (max_speed, substeps, radius) in [(200.0, 2, 0.3), (400.0, 8, 0.2), (1000.0, 32, 0.1)] {
+        let config = WorldConfig { max_speed, substeps, damping: 0.0, ..WorldConfig::default() };
+        let thickness = config.safe_thickness() - 2.0 * radius;
+        assert_eq!(shot_through(&config, 1.001 * thickness, radius), 0, "{config:?}");
+        assert!(shot_through(&config, 0.7 * thickness, radius) > 0, "{config:?}");
+    }
+}

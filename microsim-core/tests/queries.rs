@@ -1,81 +1,20 @@
-//! Queries against brute force: before the first step, after spawning, motion and removal.
+//! Queries against marching along rays and brute force: before the first step, after spawning, motion and removal.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 mod common;
+#[path = "common/crowd.rs"]
+mod crowd;
 
-use common::run;
+use crowd::{SIZE, all_colliders, crowd, discs, place};
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::segment::nearest_on_segment;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Collider, CollisionGroups, Inputs, Kind, Obstacle, OrganismId, Placement, Queries,
-    QueryFilter, RigidCellSpec, Rng, Wall, World, WorldConfig,
+    AgarSpec, Collider, CollisionGroups, Kind, Obstacle, Placement, Queries, QueryFilter, RigidCellSpec, Wall, World,
+    WorldConfig,
 };
 use proptest::prelude::*;
-
-const SIZE: Vec2 = Vec2::new(100.0, 60.0);
-
-/// A crowd of discs of many sizes, some cells, and obstacles of several shapes; some of it moved, spawned late and removed.
-fn crowd(seed: u64, steps: u32) -> World {
-    let mut world = World::new(WorldConfig { size: SIZE, ..WorldConfig::default() }).unwrap();
-    let mut rng = Rng::new(seed, 0);
-    let shapes = [
-        (SharedShape::ball(2.0), Pose::translation(50.0, 50.0)),
-        (SharedShape::cuboid(4.0, 1.0), Pose::new(Vec2::new(20.0, 8.0), 0.5)),
-        (SharedShape::capsule(Vec2::ZERO, Vec2::new(4.0, 1.0), 0.7), Pose::translation(80.0, 20.0)),
-        (
-            SharedShape::polyline(vec![Vec2::ZERO, Vec2::new(6.0, 1.0), Vec2::new(9.0, -3.0)], None),
-            Pose::new(Vec2::new(40.0, 8.0), 0.2),
-        ),
-        (
-            SharedShape::compound(vec![
-                (Pose::translation(-2.0, 0.0), SharedShape::ball(1.5)),
-                (Pose::translation(2.0, 0.0), SharedShape::cuboid(1.0, 2.0)),
-            ]),
-            Pose::new(Vec2::new(86.0, 48.0), 1.0),
-        ),
-    ];
-    for (shape, pose) in shapes {
-        world.add_obstacle(Obstacle::new(shape, pose)).unwrap();
-    }
-    let zone = Obstacle::new(SharedShape::ball(5.0), Pose::translation(70.0, 40.0));
-    world.add_obstacle(Obstacle { is_sensor: true, ..zone.clone() }).unwrap();
-    world.add_obstacle(Obstacle { is_enabled: false, ..zone }).unwrap();
-    let cell = AmoeboidCellSpec { radii: Vec2::splat(7.0), ..AmoeboidCellSpec::default() };
-    world.spawn(&cell.into(), Placement::at(30.0, 30.0)).unwrap();
-    world
-        .spawn(
-            &RigidCellSpec { radii: Vec2::new(5.0, 3.0), ..RigidCellSpec::default() }.into(),
-            Placement::at(60.0, 20.0),
-        )
-        .unwrap();
-    let mut discs = fill(&mut world, &mut rng, 60);
-    for &id in &discs {
-        world.push(id, Vec2::new(rng.range(-15.0, 15.0), rng.range(-15.0, 15.0))).unwrap();
-    }
-    run(&mut world, &Inputs::new(), steps);
-    discs.extend(fill(&mut world, &mut rng, 20));
-    for id in discs.into_iter().step_by(5) {
-        world.remove(id).unwrap();
-    }
-    world
-}
-
-fn fill(world: &mut World, rng: &mut Rng, count: u32) -> Vec<OrganismId> {
-    let spawn = |_| {
-        let radius = rng.range(0.1, 1.5);
-        let at = Placement::at(rng.range(2.0, SIZE.x - 2.0), rng.range(2.0, SIZE.y - 2.0));
-        world.spawn(&AgarSpec { radius, ..AgarSpec::default() }.into(), at).ok()
-    };
-    (0..count).filter_map(spawn).collect()
-}
-
-/// All discs that can be touched.
-fn discs(world: &World) -> Vec<(OrganismId, Vec2, f32)> {
-    let organisms = world.view().organisms();
-    organisms.flat_map(|organism| organism.particles().map(move |p| (organism.id(), p.position, p.radius))).collect()
-}
 
 /// Distance from the surface of an obstacle or wall, 0 inside.
 fn distance_to(world: &World, collider: Collider, at: Vec2) -> f32 {
@@ -93,12 +32,6 @@ fn distance_to(world: &World, collider: Collider, at: Vec2) -> f32 {
             own.map(|(_, centre, radius)| ((centre - at).length() - radius).max(0.0)).fold(f32::MAX, f32::min)
         }
     }
-}
-
-fn all_colliders(world: &World) -> Vec<Collider> {
-    let solid = world.obstacles().filter(|&id| world.obstacle(id).unwrap().is_solid());
-    let organisms = world.organisms().map(Collider::Organism);
-    organisms.chain(solid.map(Collider::Obstacle)).chain(Wall::ALL.map(Collider::Wall)).collect()
 }
 
 /// Where a disc first touches something, by small steps; the distance to each thing bounds the steps.
@@ -122,10 +55,6 @@ fn march(
         None
     };
     colliders.iter().filter_map(first).reduce(|a, b| if b.1 < a.1 { b } else { a })
-}
-
-fn place() -> impl Strategy<Value = Vec2> {
-    (1.0f32..SIZE.x - 1.0, 1.0f32..SIZE.y - 1.0).prop_map(Vec2::from)
 }
 
 fn check_casts(world: &World, origin: Vec2, direction: Vec2, length: f32, radius: f32) -> Result<(), TestCaseError> {
@@ -328,6 +257,10 @@ fn numbers_that_make_no_sense_find_nothing() {
     );
     assert!(queries.overlap_box(at, far, &filter).is_empty() && queries.overlap_polygon(&[at, at], &filter).is_empty());
     assert!(World::new(WorldConfig::default()).unwrap().queries().nearest(at, 1.0, &filter).is_none());
+    assert_eq!(world.organisms_in_circle(nan, 1.0).chain(world.organisms_in_circle(at, f32::NAN)).count(), 0);
+    assert_eq!(world.organisms_in_box(nan, far).count(), 0);
+    assert!(world.organisms_in_circle(at, f32::INFINITY).eq(world.organisms()));
+    assert!(world.organisms_in_box(-far, far).eq(world.organisms()));
 }
 
 #[test]

@@ -221,6 +221,7 @@ impl Clone for World {
         self.scratch.occupancy.clear();
         self.scratch.vacancies.clear();
         self.scratch.query_index.clear();
+        self.scratch.query_index.clear_obstacles();
         self.dispatch = *dispatch;
     }
 }

@@ -219,7 +219,11 @@ fn flatten(stream: TokenStream, out: &mut Vec<Token>) {
                 _ => out.push(Token { line, text: mark.as_char().to_string() }),
             },
             TokenTree::Ident(word) => out.push(Token { line, text: word.to_string() }),
-            TokenTree::Literal(_) => out.push(Token { line, text: "\"\"".to_owned() }),
+            TokenTree::Literal(literal) => {
+                let text = literal.to_string();
+                let is_number = text.starts_with(|c: char| c.is_ascii_digit());
+                out.push(Token { line, text: if is_number { text } else { "\"\"".to_owned() } });
+            }
         }
     }
 }

@@ -78,7 +78,7 @@ pub(crate) struct Senses<'a> {
 
 /// A wall next to an organism.
 #[derive(Clone, Copy, Debug)]
-struct Wall {
+struct SensedWall {
     /// Unit vector away from it.
     away: Vec2,
     /// Gap between it and the organism's surface, units.
@@ -116,7 +116,7 @@ impl Senses<'_> {
     /// A direction without its component into walls nearby. One that is head-on becomes a direction along the wall.
     pub(crate) fn along_walls(&self, heading: Vec2) -> Vec2 {
         let mut direction = heading;
-        for Wall { away, gap } in self.walls() {
+        for SensedWall { away, gap } in self.walls() {
             let into = -direction.dot(away);
             if gap < WHISKERS * self.radius && into > -DETACH {
                 let side = if direction.perp_dot(away) > 0.0 { away.perp() } else { -away.perp() };
@@ -142,14 +142,14 @@ impl Senses<'_> {
         nearest.map(|wall| wall.away)
     }
 
-    fn walls(&self) -> impl Iterator<Item = Wall> {
+    fn walls(&self) -> impl Iterator<Item = SensedWall> {
         self.around.obstacles.iter().filter(|obstacle| obstacle.is_solid()).filter_map(|obstacle| {
             let (surface, is_inside) = obstacle.nearest(self.at);
             let offset = self.at - surface;
             let away = direction_or(if is_inside { -offset } else { offset }, Vec2::Y);
             let reach = self.outline.iter().map(|&node| (self.at - node).dot(away));
             let reach = reach.fold(if self.outline.is_empty() { self.radius } else { 0.0 }, larger);
-            (!is_inside).then(|| Wall { away, gap: offset.length() - reach })
+            (!is_inside).then(|| SensedWall { away, gap: offset.length() - reach })
         })
     }
 }

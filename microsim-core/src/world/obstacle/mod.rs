@@ -22,7 +22,8 @@ use parry2d::shape::SharedShape;
 pub(crate) use walls::{WALLS, walls};
 
 impl World {
-    /// Adds an obstacle: any `parry2d` shape.
+    /// Adds an obstacle: any `parry2d` shape. A disc at the speed limit can get through one that is thinner than
+    /// [`safe_thickness`](crate::WorldConfig::safe_thickness) less its diameter.
     ///
     /// # Errors
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, a one-way platform has no
@@ -43,6 +44,7 @@ impl World {
         if obstacle.is_sensor {
             self.wake_up_near(&obstacle);
         }
+        self.scratch.query_index.clear_obstacles();
         let at = WALLS + self.obstacle_table.next_index();
         let id = self.obstacle_table.insert(&obstacle);
         if at < self.obstacles.len() {
@@ -121,6 +123,7 @@ impl World {
 
     /// Puts an obstacle in the place of another one, and wakes what is near either.
     fn put(&mut self, id: ObstacleId, obstacle: Obstacle) {
+        self.scratch.query_index.clear_obstacles();
         self.wake_up_near(&obstacle);
         let place = &mut self.obstacles[WALLS + id.index as usize];
         let before = std::mem::replace(place, obstacle);

@@ -19,9 +19,8 @@ impl World {
     /// A body that is caught between it and something that does not give way is not crushed: the obstacle moves back, and
     /// then goes on or stops, see [`ObstacleMotion`]. It comes to an end with [`Event::ObstacleBlocked`] if it stops.
     ///
-    /// There is no continuous collision detection. In a substep a disc and a surface approach each other by at most twice
-    /// `max_speed * dt / substeps`; an obstacle that is moved should be thicker than twice that less the diameter of the
-    /// smallest disc, 0.17 units less the diameter with the default settings.
+    /// There is no continuous collision detection: an obstacle that is moved should be at least twice
+    /// [`safe_thickness`](crate::WorldConfig::safe_thickness) thick, less the diameter of the smallest disc.
     ///
     /// ```
     /// use microsim_core::prelude::*;
@@ -79,6 +78,9 @@ impl World {
             Some(ObstaclePath::new(at, &obstacles[at as usize], target, config.max_displacement(), config.substeps))
         };
         scratch.obstacle_paths.extend(obstacle_table.moving().filter_map(path));
+        if !scratch.obstacle_paths.is_empty() {
+            scratch.query_index.clear_obstacles();
+        }
     }
 
     /// Moves obstacles as far as they come in a substep.

@@ -1,141 +1,121 @@
-//! All discs of a world in two grids, small ones and large ones, so that a query looks at those that are near.
+//! Entries of a world in grids, those of like size in one, so that a query looks at those that are near.
 
+use super::entry::{Entry, rounding};
+use super::ray::Ray;
 use crate::collision::uniform_grid::UniformGrid;
 use glam::Vec2;
-use std::ops::Range;
 
-/// A disc is large if its radius is more than so many times the mean.
-const LARGE: f32 = 2.0;
-
-/// A disc as queries see it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Disc {
-    pub at: Vec2,
-    pub radius: f32,
-    /// Which particle it is.
-    pub index: u32,
-}
-
-/// Discs of like size, in cell order.
-#[derive(Clone, Debug, Default)]
-struct SizeClass {
-    discs: Vec<Disc>,
+/// Entries of like size, in cell order.
+#[derive(Clone, Debug)]
+struct SizeClass<E> {
+    entries: Vec<E>,
     grid: UniformGrid,
-    max_radius: f32,
+    max_extent: f32,
     low: Vec2,
     high: Vec2,
 }
 
-/// All discs.
+/// All entries.
 #[derive(Clone, Debug)]
-pub(super) struct DiscIndex([SizeClass; 2]);
+pub(super) struct Index<E>(Vec<SizeClass<E>>);
 
-/// A ray, thick as a disc that moves along it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
-    pub origin: Vec2,
-    /// Of length 1.
-    pub direction: Vec2,
-    pub length: f32,
-    pub radius: f32,
-}
-
-impl Ray {
-    pub(super) fn point_at(&self, distance: f32) -> Vec2 {
-        self.origin + self.direction * distance
-    }
-
-    /// Where it first touches a disc; 0 if it begins there.
-    pub(super) fn touches(&self, disc: &Disc) -> Option<f32> {
-        let to_centre = disc.at - self.origin;
-        let (along, reach) = (to_centre.dot(self.direction), disc.radius + self.radius);
-        if to_centre.length_squared() <= reach * reach {
-            return Some(0.0);
-        }
-        // The distance from the line, not the difference of two large squares: far discs are hit as exactly as near ones.
-        let aside = (to_centre - self.direction * along).length_squared();
-        let half_chord = reach * reach - aside;
-        let distance = along - if half_chord > 0.0 { half_chord.sqrt() } else { 0.0 };
-        (along > 0.0 && half_chord >= 0.0 && distance <= self.length).then_some(distance)
-    }
-
-    /// The part of it within a box, as distances; empty if it misses.
-    fn within(&self, low: Vec2, high: Vec2) -> Range<f32> {
-        let (mut start, mut end) = (0.0, self.length);
-        for axis in 0..2 {
-            let (origin, direction) = (self.origin[axis], self.direction[axis]);
-            let (a, b) = ((low[axis] - origin) / direction, (high[axis] - origin) / direction);
-            if direction == 0.0 {
-                if origin < low[axis] || origin > high[axis] {
-                    return 0.0..0.0;
-                }
-            } else {
-                let (near, far) = if a < b { (a, b) } else { (b, a) };
-                start = if near > start { near } else { start };
-                end = if far < end { far } else { end };
+impl<E: Entry> Index<E> {
+    /// An index of a room of this size.
+    pub(super) fn new(entries: impl IntoIterator<Item = E>, size: Vec2) -> Self {
+        let mut classes: Vec<(u32, Vec<E>)> = Vec::new();
+        for entry in entries {
+            let rank = size_rank(entry.extent());
+            match classes.iter_mut().find(|class| class.0 == rank) {
+                Some((_, class)) => class.push(entry),
+                None => classes.push((rank, vec![entry])),
             }
         }
-        start..end
-    }
-}
-
-impl DiscIndex {
-    pub(super) fn new(discs: Vec<Disc>, size: Vec2) -> Self {
-        let mean = discs.iter().map(|disc| disc.radius).sum::<f32>() / discs.len() as f32;
-        let (large, small) = discs.into_iter().partition(|disc: &Disc| disc.radius > LARGE * mean);
-        Self([SizeClass::new(small, size), SizeClass::new(large, size)])
+        Self(classes.into_iter().map(|(_, entries)| SizeClass::new(&entries, size)).collect())
     }
 
-    /// Discs that may reach into a box.
-    pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
+    /// Entries that may reach into a box.
+    pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &E> {
         self.0.iter().flat_map(move |class| class.in_box(low, high))
     }
 
-    /// Calls `visit` once with each disc that a ray touches and where, those of one stretch after those of the one before, until
+    /// Calls `visit` once with each entry that a ray touches and where, those of one stretch after those of the one before, until
     /// `is_enough` of the distance up to which all have been visited.
-    pub(super) fn along(&self, ray: &Ray, mut visit: impl FnMut(&Disc, f32), is_enough: impl Fn(f32) -> bool + Copy) {
+    pub(super) fn along(&self, ray: &Ray, mut visit: impl FnMut(&E, f32), is_enough: impl Fn(f32) -> bool + Copy) {
         for class in &self.0 {
             class.along(ray, &mut visit, is_enough);
         }
     }
+
+    /// The nearest entry at most `max_distance` away; the first by index of equally near ones. `measure` tells the distance of one if
+    /// it is at most its second argument.
+    pub(super) fn nearest(
+        &self,
+        point: Vec2,
+        max_distance: f32,
+        measure: impl Fn(&E, f32) -> Option<f32>,
+    ) -> Option<(f32, &E)> {
+        let mut searched = FIRST_SEARCH;
+        loop {
+            let within = if searched < max_distance { searched } else { max_distance };
+            let (low, high) = (point - within, point + within);
+            let near = self.in_box(low, high).filter_map(|entry| Some((measure(entry, within)?, entry)));
+            let first = near.reduce(|a, b| if (b.0, b.1.index()) < (a.0, a.1.index()) { b } else { a });
+            let is_all = self.0.iter().all(|class| class.low.cmpge(low).all() && class.high.cmple(high).all());
+            if first.is_some() || within == max_distance || is_all {
+                return first;
+            }
+            searched *= 2.0;
+        }
+    }
 }
 
-impl SizeClass {
-    fn new(found: Vec<Disc>, size: Vec2) -> Self {
+/// Distance in which the nearest entry is searched first, units.
+const FIRST_SEARCH: f32 = 1.0;
+
+/// Equal for extents of one class, which differ by less than a factor of four: half the exponent.
+fn size_rank(extent: f32) -> u32 {
+    extent.to_bits() >> 24
+}
+
+impl<E: Entry> SizeClass<E> {
+    fn new(found: &[E], size: Vec2) -> Self {
         let mut grid = UniformGrid::default();
-        let max_radius = found.iter().fold(0.0, |most, disc| if disc.radius > most { disc.radius } else { most });
-        let cell = Vec2::splat(if max_radius > 0.0 { 2.0 * max_radius } else { 1.0 });
-        grid.fill(Vec2::ZERO, size, cell, found.len(), |k| found[k].at);
-        let discs: Vec<Disc> = grid.order().iter().map(|&k| found[k as usize]).collect();
-        let low = discs.iter().fold(Vec2::INFINITY, |low, disc| low.min(disc.at - disc.radius));
-        let high = discs.iter().fold(Vec2::NEG_INFINITY, |high, disc| high.max(disc.at + disc.radius));
-        Self { discs, grid, max_radius, low, high }
+        let max_extent =
+            found.iter().map(E::extent).fold(0.0, |most, extent| if extent > most { extent } else { most });
+        let cell = Vec2::splat(if max_extent > 0.0 { 2.0 * max_extent } else { 1.0 });
+        grid.fill(Vec2::ZERO, size, cell, found.len(), |k| found[k].centre());
+        let entries: Vec<E> = grid.order().iter().map(|&k| found[k as usize]).collect();
+        let low = entries.iter().fold(Vec2::INFINITY, |low, entry| low.min(entry.centre() - entry.extent()));
+        let high = entries.iter().fold(Vec2::NEG_INFINITY, |high, entry| high.max(entry.centre() + entry.extent()));
+        Self { entries, grid, max_extent, low, high }
     }
 
-    fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
-        let ranges = self.grid.ranges_in_box(low - self.max_radius, high + self.max_radius);
-        ranges.flat_map(|range| &self.discs[range])
+    fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &E> {
+        let reach = self.max_extent + rounding(low, high);
+        let ranges = self.grid.ranges_in_box(low - reach, high + reach);
+        ranges.flat_map(|range| &self.entries[range])
     }
 
-    fn along(&self, ray: &Ray, visit: &mut impl FnMut(&Disc, f32), is_enough: impl Fn(f32) -> bool) {
-        if self.discs.is_empty() {
-            return;
-        }
-        let reach = Vec2::splat(ray.radius + self.max_radius);
-        let whole = ray.within(self.low - reach, self.high + reach);
-        let stretch = 4.0 * reach.x + 1.0;
-        let mut start = whole.start;
-        while start < whole.end && !is_enough(start) {
+    fn along(&self, ray: &Ray, visit: &mut impl FnMut(&E, f32), is_enough: impl Fn(f32) -> bool) {
+        let reach = ray.radius + self.max_extent;
+        let Some((first, last)) = ray.within(self.low - reach, self.high + reach) else { return };
+        let stretch = 4.0 * reach + 1.0;
+        let mut start = first;
+        while !is_enough(start) {
             let end = start + stretch;
-            let (a, b) = (ray.point_at(start), ray.point_at(if end < whole.end { end } else { whole.end }));
+            // Also where a stretch is less than rounding.
+            let is_last = end >= last || end == start;
+            let (a, b) = (ray.point_at(start), ray.point_at(if is_last { last } else { end }));
             let near = self.in_box(a.min(b) - ray.radius, a.max(b) + ray.radius);
-            let is_first = start == whole.start;
-            for (disc, at) in near.filter_map(|disc| Some((disc, ray.touches(disc)?))) {
+            for (entry, at) in near.filter_map(|entry| Some((entry, entry.first_touch(ray)?))) {
                 // Each where its distance is; rounding must not lose it at the ends.
-                let (after, before) = (at >= start || is_first, at < end || end >= whole.end);
+                let (after, before) = (at >= start || start == first, at < end || is_last);
                 if after && before {
-                    visit(disc, at);
+                    visit(entry, at);
                 }
+            }
+            if is_last {
+                return;
             }
             start = end;
         }
@@ -146,6 +126,8 @@ impl SizeClass {
 mod tests {
     use super::*;
     use crate::rng::Rng;
+    use crate::world::query::entry::{Bounds, Disc};
+    use parry2d::bounding_volume::Aabb;
 
     fn discs(rng: &mut Rng) -> Vec<Disc> {
         let disc = |index: u32| {
@@ -160,7 +142,7 @@ mod tests {
     fn a_ray_visits_exactly_the_discs_that_it_touches_once_each() {
         let mut rng = Rng::new(4, 4);
         let discs = discs(&mut rng);
-        let index = DiscIndex::new(discs.clone(), Vec2::new(80.0, 40.0));
+        let index = Index::new(discs.clone(), Vec2::new(80.0, 40.0));
         let mut touched = 0;
         for k in 0..500 {
             let origin = Vec2::new(rng.range(-50.0, 130.0), rng.range(-50.0, 90.0));
@@ -170,7 +152,7 @@ mod tests {
             let mut visited = Vec::new();
             index.along(&ray, |disc, at| visited.push((disc.index, at.to_bits())), |_| false);
             visited.sort_unstable();
-            let all = discs.iter().filter_map(|disc| Some((disc.index, ray.touches(disc)?.to_bits())));
+            let all = discs.iter().filter_map(|disc| Some((disc.index, disc.first_touch(&ray)?.to_bits())));
             assert_eq!(visited, all.collect::<Vec<_>>(), "{ray:?}");
             touched += visited.len();
         }
@@ -178,10 +160,73 @@ mod tests {
     }
 
     #[test]
+    fn a_ray_visits_the_boxes_that_it_touches_also_those_without_a_breadth() {
+        let mut rng = Rng::new(6, 6);
+        let bounds = |index: u32| {
+            let at = Vec2::new(rng.range(-3.0, 83.0), rng.range(-3.0, 43.0));
+            let half = Vec2::new(rng.range(0.0, 3.0), if index.is_multiple_of(3) { 0.0 } else { rng.range(0.0, 20.0) });
+            Bounds::new(Aabb::new(at - half, at + half), index)
+        };
+        let boxes: Vec<Bounds> = (0..200).map(bounds).collect();
+        let index = Index::new(boxes.clone(), Vec2::new(80.0, 40.0));
+        for k in 0..200 {
+            let target = boxes[k].centre();
+            let origin = Vec2::new(rng.range(-50.0, 130.0), if k % 2 == 0 { target.y } else { rng.range(-50.0, 90.0) });
+            let ray = Ray::new(origin, target - origin, rng.range(100.0, 300.0), (k % 3) as f32 * 0.7).unwrap();
+            let mut visited = Vec::new();
+            index.along(&ray, |bounds, _| visited.push(bounds.index), |_| false);
+            visited.sort_unstable();
+            let all = boxes.iter().filter(|bounds| bounds.first_touch(&ray).is_some()).map(|bounds| bounds.index);
+            assert_eq!(visited, all.collect::<Vec<_>>(), "{ray:?}");
+            assert!(visited.contains(&(k as u32)), "{ray:?}");
+        }
+    }
+
+    #[test]
+    fn a_ray_without_a_length_touches_what_it_begins_in() {
+        let discs = discs(&mut Rng::new(9, 9));
+        let index = Index::new(discs.clone(), Vec2::new(80.0, 40.0));
+        for disc in discs {
+            let mut visited = Vec::new();
+            index.along(&Ray::new(disc.at, Vec2::X, 0.0, 0.0).unwrap(), |disc, _| visited.push(disc.index), |_| false);
+            assert!(visited.contains(&disc.index));
+        }
+    }
+
+    #[test]
+    fn a_ray_from_far_away_comes_to_an_end() {
+        let index = Index::new(discs(&mut Rng::new(7, 7)), Vec2::new(80.0, 40.0));
+        for far in [1e6, 1e9, 1e12, 1e20, 1e38] {
+            let ray = Ray::new(Vec2::new(-far, 20.0), Vec2::X, f32::INFINITY, 0.0).unwrap();
+            let mut count = 0;
+            index.along(&ray, |_, _| count += 1, |_| false);
+            assert!(count > 0, "from {far} away");
+        }
+    }
+
+    #[test]
+    fn the_nearest_disc_is_that_of_brute_force() {
+        let mut rng = Rng::new(8, 8);
+        let discs = discs(&mut rng);
+        let index = Index::new(discs.clone(), Vec2::new(80.0, 40.0));
+        for k in 0..300 {
+            let point = Vec2::new(rng.range(-90.0, 170.0), rng.range(-90.0, 130.0));
+            let most = if k % 3 == 0 { f32::INFINITY } else { rng.range(0.0, 9.0) };
+            // Many are equally near.
+            let gap = |disc: &Disc| ((disc.at - point).length() - disc.radius).max(0.0).ceil();
+            let found = index.nearest(point, most, |disc, within| Some(gap(disc)).filter(|gap| *gap <= within));
+            let all = discs.iter().map(|disc| (gap(disc), disc.index)).filter(|(gap, _)| *gap <= most);
+            let first = all.reduce(|a, b| if b < a { b } else { a });
+            assert_eq!(found.map(|(gap, disc)| (gap, disc.index)), first);
+        }
+        assert!(Index::<Disc>::new([], Vec2::ONE).nearest(Vec2::ZERO, f32::INFINITY, |_, _| Some(0.0)).is_none());
+    }
+
+    #[test]
     fn boxes_find_all_discs_that_reach_into_them() {
         let mut rng = Rng::new(5, 5);
         let discs = discs(&mut rng);
-        let index = DiscIndex::new(discs.clone(), Vec2::new(80.0, 40.0));
+        let index = Index::new(discs.clone(), Vec2::new(80.0, 40.0));
         for _ in 0..200 {
             let low = Vec2::new(rng.range(-9.0, 80.0), rng.range(-9.0, 40.0));
             let high = low + Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 9.0));
@@ -191,6 +236,6 @@ mod tests {
                 assert!(!reaches || found.contains(&disc.index));
             }
         }
-        assert_eq!(DiscIndex::new(Vec::new(), Vec2::ONE).in_box(Vec2::ZERO, Vec2::ONE).count(), 0);
+        assert_eq!(Index::<Disc>::new([], Vec2::ONE).in_box(Vec2::ZERO, Vec2::ONE).count(), 0);
     }
 }

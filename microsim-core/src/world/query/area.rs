@@ -1,6 +1,6 @@
-//! Regions that overlap queries ask about: discs and polygons.
+//! Areas that overlap queries ask about: discs and polygons.
 
-use super::index::Disc;
+use super::entry::Disc;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::polygon::contains_point;
 use crate::geometry::segment::{nearest_on_segment, segments_touch};
@@ -13,14 +13,14 @@ use parry2d::shape::Triangle;
 
 /// Where something is looked for.
 #[derive(Clone, Debug)]
-pub(super) enum Region<'a> {
+pub(super) enum QueryArea<'a> {
     Disc(Vec2, f32),
     /// The corners of a simple polygon.
     Polygon(&'a [Vec2]),
 }
 
-impl Region<'_> {
-    /// The box around it; `None` if there is no such region.
+impl QueryArea<'_> {
+    /// The box around it; `None` if there is no such area.
     pub(super) fn aabb(&self) -> Option<Aabb> {
         match *self {
             Self::Disc(centre, radius) => {
