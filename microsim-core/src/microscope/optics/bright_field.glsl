@@ -5,5 +5,5 @@ vec3 shade() {
     float focus = FOCUS.x * noise / (abs(noise) + FOCUS.y);
     float focused = clamp(1.0 - DEFOCUS * focus * curvature(STEP), 0.2, 2.0);
     wave += focus * vec2(-detail.y, detail.x);
-    return vec3(BACKGROUND * dot(wave, wave) * focused);
+    return vec3(BACKGROUND * pow(dot(wave, wave) * focused, 1.5));
 }

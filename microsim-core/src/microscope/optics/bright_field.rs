@@ -1,6 +1,6 @@
 //! Bright field without a stain: absorption, and focusing by the specimen because it is never quite in focus.
 //!
-//! `I = |E + i f (E - S)|^2 (1 - z f Lap phi)`: details of the wave are set back by defocus, coarse ones by the first
+//! `I = [|E + i f (E - S)|^2 (1 - z f Lap phi)]^1.5`: details of the wave are set back by defocus, coarse ones by the first
 //! factor and fine ones, as the transport of intensity, by the second. The slide is not quite level: `f` goes by place.
 
 use super::mode::{Mode, Optics, Shader, grey};
@@ -14,7 +14,7 @@ const DEFOCUS: f32 = 0.10;
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.30;
 /// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
-const FOCUS: [f32; 3] = [0.5, 0.18, 110.0];
+const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
 const FOCUS_SEED: u32 = 0xf0c5;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
@@ -52,5 +52,7 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let noise = octaves(sampler.raster.grid.place(x, y) / size, 1, FOCUS_SEED);
     let focus = largest * noise / (noise.abs() + half);
     let focused = (1.0 - DEFOCUS * focus * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
-    grey(BACKGROUND * (wave + (wave - surround).perp() * focus).length_squared() * focused)
+    // A camera's contrast.
+    let light = (wave + (wave - surround).perp() * focus).length_squared() * focused;
+    grey(BACKGROUND * light * light.sqrt())
 }

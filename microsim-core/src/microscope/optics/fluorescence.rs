@@ -14,11 +14,11 @@ const UNEVEN_SIZE: f32 = 28.0;
 const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
 const HAZE: f32 = 0.55;
-const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
+const NUCLEUS: [f32; 3] = [0.05, 0.24, 0.95];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
 /// How soon the camera saturates.
-const SATURATION: f32 = 1.15;
+const SATURATION: f32 = 1.0;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),

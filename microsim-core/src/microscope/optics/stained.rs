@@ -11,12 +11,12 @@ use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
 use glam::Vec2;
 
-/// A field without a specimen: 198, 200, 196 of 255.
-const BACKGROUND: [f32; 3] = [0.776, 0.784, 0.769];
+/// A field without a specimen: 199, 203, 197 of 255.
+const BACKGROUND: [f32; 3] = [0.780, 0.796, 0.773];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.092, 0.248, 0.192];
-const CYTOPLASM: [f32; 3] = [0.115, 0.275, 0.005];
-const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.12];
+const HAEMOGLOBIN: [f32; 3] = [0.092, 0.252, 0.200];
+const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
+const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.16];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
 const PLASMA: [f32; 3] = [0.014, 0.007, 0.011];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
@@ -67,7 +67,7 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 3,
     surround: None,
-    blur: 0.14,
+    blur: 0.12,
     ground: BACKGROUND,
     grain: 0.85,
     shader: Shader::Light(shade, &GLSL),

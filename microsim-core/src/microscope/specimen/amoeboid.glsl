@@ -74,7 +74,7 @@ void main() {
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));
     float nucleus = nucleus_at(at, softness);
     float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(own / nucleus_texture.y, shifts[2]));
-    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.6 * dense - 1.0)));
+    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.35 * dense - 1.0)));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

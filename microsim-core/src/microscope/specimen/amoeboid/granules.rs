@@ -69,7 +69,7 @@ impl AmoeboidBody {
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius - clear);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
         let matter = look.matter * (2.0 * radius * share * dense);
-        let shown = if focus > 0.0 && radius < 0.5 {
+        let shown = if focus > 0.0 && radius < 0.3 {
             let wide = radius + 0.08 * focus;
             Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
         } else {
