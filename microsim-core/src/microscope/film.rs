@@ -52,7 +52,7 @@ impl Film {
     };
     /// A digital camera.
     pub const DIGITAL: Self = Self {
-        grain: 0.012,
+        grain: 0.019,
         weave: 0.0,
         flicker: 0.0,
         vignette: 0.06,
@@ -157,11 +157,12 @@ struct GrainShifts {
 }
 
 /// Shares of grain of a pixel's size and of larger grain.
-const FINE: f32 = 0.6;
-const COARSE: f32 = 0.4;
+const FINE: f32 = 0.95;
+const COARSE: f32 = 0.12;
 /// Grain of each colour's own, in blotches of some pixels: a sensor has least blue light, and its noise is smoothed most.
-const BLOTCHES: [f32; 3] = [0.7, 0.5, 2.4];
-const BLOTCH_SIZE: f32 = 2.6;
+const BLOTCHES: [f32; 3] = [0.8, 0.3, 2.4];
+const BLOTCH_SIZE: f32 = 6.0;
+const DARK_BLOTCHES: f32 = 0.2;
 /// Shadows of dust.
 pub(super) const SHADOWS: usize = 3;
 /// Standard deviation of the unsharp mask, pixels of the picture.
@@ -187,7 +188,11 @@ impl FilmFrame {
         let exposure = self.level * falloff * self.camera.light(from_middle);
         let [black, white] = self.film.levels;
         let strength = self.film.grain * mode.grain;
-        let grain = if strength > 0.0 { self.grain::<N>(IVec2::new(x as i32, y as i32)) } else { [0.0; N] };
+        let grain = if strength > 0.0 {
+            self.grain::<N>(IVec2::new(x as i32, y as i32), self.blotches(mode))
+        } else {
+            [0.0; N]
+        };
         std::array::from_fn(|channel| {
             let light = mix(light[channel], mode.ground[channel], self.film.glare) * exposure;
             // Grain is strongest in the middle greys, and never quite gone.
@@ -197,15 +202,24 @@ impl FilmFrame {
         })
     }
 
+    /// Strength of blotches; a camera that takes dark fields sees colours one after the other.
+    fn blotches(&self, mode: &Mode) -> f32 {
+        match (mode.channels, mode.is_bright) {
+            (1, _) => 0.0,
+            (_, true) => self.film.blotches,
+            (_, false) => DARK_BLOTCHES * self.film.blotches,
+        }
+    }
+
     /// Grain of two sizes, standard deviation 1, and blotches of colour on it.
-    fn grain<const N: usize>(&self, pixel: IVec2) -> [f32; N] {
+    fn grain<const N: usize>(&self, pixel: IVec2, blotches: f32) -> [f32; N] {
         let fine = grain(pixel.wrapping_add(self.grain.fine));
         // Two by two pixels of another part, so that it is correlated over about 1.6 pixels.
         let corners = [IVec2::ZERO, IVec2::X, IVec2::Y, IVec2::ONE];
         let coarse = |corner: IVec2| grain(pixel.wrapping_add(self.grain.coarse).wrapping_add(corner));
         let common = FINE * fine + COARSE * corners.map(coarse).iter().sum::<f32>();
         let own = if N > 1 { three_grains(pixel.as_vec2() / BLOTCH_SIZE, self.grain.blotches) } else { [0.0; 3] };
-        std::array::from_fn(|channel| common + self.film.blotches * BLOTCHES[channel] * own[channel])
+        std::array::from_fn(|channel| common + blotches * BLOTCHES[channel] * own[channel])
     }
 
     /// The blur of a lens of this standard deviation and the camera's sharpening, both in pixels of `pixel` of the picture's.
@@ -225,9 +239,8 @@ impl FilmFrame {
     /// Uniforms of [`GLSL`] for a picture of this size.
     pub(super) fn uniforms(&self, mode: &Mode, [width, height]: [usize; 2]) -> Vec<f32> {
         let [black, white] = self.film.levels;
-        let blotches = if mode.channels == 1 { 0.0 } else { self.film.blotches };
         let mut uniforms = vec![self.level, self.film.vignette, black, white];
-        uniforms.extend([self.film.grain * mode.grain, blotches, width as f32, height as f32]);
+        uniforms.extend([self.film.grain * mode.grain, self.blotches(mode), width as f32, height as f32]);
         let GrainShifts { fine, coarse, blotches } = self.grain;
         uniforms.extend([fine, coarse, blotches].iter().flat_map(|part| part.as_vec2().to_array()));
         uniforms.extend(mode.ground);

@@ -158,7 +158,7 @@ impl Painting {
         let corners = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
         draws.add_apart(Program::Page, &corners, QUAD.to_vec(), room.clone(), None);
         for obstacle in &self.obstacles {
-            if let Some((_, map)) = obstacle_map(obstacle, draws) {
+            if let Some((_, map)) = obstacle_map(obstacle, draws, 0.0) {
                 draws.add_apart(Program::PageObstacle, &corners, QUAD.to_vec(), room.clone(), Some(map.texture()));
             }
         }

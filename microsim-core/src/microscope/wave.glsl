@@ -19,10 +19,6 @@ vec2 emitted(vec4 matter) {
     return clamp(matter.wz, 0.0, 1.0);
 }
 
-float transmitted(vec4 matter) {
-    return exp(-GREEN_DENSITY * matter.y);
-}
-
 // Waves are kept as colours.
 vec4 kept(vec4 waves) {
     return 0.5 + 0.5 * waves / WAVE_RANGE;

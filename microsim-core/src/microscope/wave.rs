@@ -20,8 +20,3 @@ pub(super) fn behind(matter: Matter) -> Vec2 {
 pub(super) fn emitted(matter: Matter) -> Vec2 {
     Vec2::new(matter.nucleus, matter.cytoplasm).clamp(Vec2::ZERO, Vec2::ONE)
 }
-
-/// The share of green light that matter without stain lets through.
-pub(super) fn transmitted(matter: Matter) -> f32 {
-    if matter.haemoglobin == 0.0 { 1.0 } else { libm::expf(-GREEN_DENSITY * matter.haemoglobin) }
-}

@@ -1,4 +1,9 @@
 vec3 shade() {
-    float focused = clamp(1.0 - DEFOCUS * curvature(STEP), 0.2, 2.0);
-    return vec3(BACKGROUND * transmitted(matter_here()) * focused);
+    vec2 wave = behind(matter_here());
+    vec2 detail = wave - surround();
+    float noise = value((area.xy + uv * area.zw) / FOCUS.z, FOCUS_SHIFT);
+    float focus = FOCUS.x * noise / (abs(noise) + FOCUS.y);
+    float focused = clamp(1.0 - DEFOCUS * focus * curvature(STEP), 0.2, 2.0);
+    wave += focus * vec2(-detail.y, detail.x);
+    return vec3(BACKGROUND * pow(dot(wave, wave) * focused, 1.5));
 }

@@ -1,22 +1,33 @@
-//! Bright field without a stain: absorption, and a little focusing by the specimen because it is never quite in focus.
+//! Bright field without a stain: absorption, and focusing by the specimen because it is never quite in focus.
 //!
-//! `I = exp(-OD) (1 - z Lap phi)`, the transport of intensity over a small defocus.
+//! `I = [|E + i f (E - S)|^2 (1 - z f Lap phi)]^1.5`: details of the wave are set back by defocus, coarse ones by the first
+//! factor and fine ones, as the transport of intensity, by the second. The slide is not quite level: `f` goes by place.
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::wave::transmitted;
+use crate::microscope::noise::{octaves, shift_of};
+use crate::microscope::surround_wave::Surround;
 
-/// Defocus over the wave number, square micrometres per radian.
-const DEFOCUS: f32 = 0.026;
+/// Defocus over the wave number for each unit of `f`, square micrometres per radian.
+const DEFOCUS: f32 = 0.10;
 /// Distance over which the curvature of the delay is taken, micrometres.
-const STEP: f32 = 0.21;
+const STEP: f32 = 0.30;
+/// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
+const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
+const FOCUS_SEED: u32 = 0xf0c5;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("bright_field.glsl"),
-    constants: &[("DEFOCUS", &[DEFOCUS]), ("STEP", &[STEP]), ("BACKGROUND", &[BACKGROUND])],
+    constants: &[
+        ("DEFOCUS", &[DEFOCUS]),
+        ("STEP", &[STEP]),
+        ("FOCUS", &FOCUS),
+        ("FOCUS_SHIFT", &shift_of(FOCUS_SEED)),
+        ("BACKGROUND", &[BACKGROUND]),
+    ],
 };
 
 impl Optics {
@@ -28,15 +39,20 @@ const MODE: Mode = Mode {
     name: "bright-field",
     is_bright: true,
     channels: 1,
-    surround: None,
-    blur: 0.10,
+    surround: Some(Surround::Wave),
+    blur: 0.14,
     ground: [BACKGROUND; 3],
-    grain: 0.7,
+    grain: 1.0,
     shader: Shader::Light(shade, &GLSL),
 };
 
 fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
-    let matter = sampler.matter(x, y);
-    let focused = (1.0 - DEFOCUS * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
-    grey(BACKGROUND * transmitted(matter) * focused)
+    let (wave, surround) = sampler.waves(x, y);
+    let [largest, half, size] = FOCUS;
+    let noise = octaves(sampler.raster.grid.place(x, y) / size, 1, FOCUS_SEED);
+    let focus = largest * noise / (noise.abs() + half);
+    let focused = (1.0 - DEFOCUS * focus * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
+    // A camera's contrast.
+    let light = (wave + (wave - surround).perp() * focus).length_squared() * focused;
+    grey(BACKGROUND * light * light.sqrt())
 }

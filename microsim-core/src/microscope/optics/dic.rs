@@ -30,9 +30,9 @@ const MODE: Mode = Mode {
     is_bright: false,
     channels: 1,
     surround: None,
-    blur: 0.09,
+    blur: 0.13,
     ground: [BACKGROUND; 3],
-    grain: 0.8,
+    grain: 1.2,
     shader: Shader::Light(shade, &GLSL),
 };
 

@@ -3,23 +3,31 @@
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
 use crate::microscope::glsl::Glsl;
+use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.030, 0.050, 0.050];
+/// Share by which autofluorescence of the medium differs over a distance, micrometres.
+const UNEVEN: f32 = 0.35;
+const UNEVEN_SIZE: f32 = 28.0;
+const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
 const HAZE: f32 = 0.55;
-const NUCLEUS: [f32; 3] = [0.10, 0.36, 1.10];
+const NUCLEUS: [f32; 3] = [0.05, 0.24, 0.95];
 const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 
 /// How soon the camera saturates.
-const SATURATION: f32 = 1.15;
+const SATURATION: f32 = 1.0;
 
 const GLSL: Glsl = Glsl {
     source: include_str!("fluorescence.glsl"),
     constants: &[
         ("DARK", &DARK),
         ("HAZE", &[HAZE]),
+        ("UNEVEN", &[UNEVEN]),
+        ("UNEVEN_SIZE", &[UNEVEN_SIZE]),
+        ("UNEVEN_SHIFT", &shift_of(UNEVEN_SEED)),
         ("NUCLEUS", &NUCLEUS),
         ("CYTOPLASM", &CYTOPLASM),
         ("SATURATION", &[SATURATION]),
@@ -38,7 +46,7 @@ const MODE: Mode = Mode {
     surround: Some(Surround::Emission),
     blur: 0.17,
     ground: [0.03, 0.07, 0.06],
-    grain: 2.2,
+    grain: 3.0,
     shader: Shader::Light(shade, &GLSL),
 };
 
@@ -47,8 +55,10 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
     let haze = sampler.waves(x, y).1 * HAZE;
     let (nucleus, cytoplasm) = (shines(matter.nucleus) + haze.x, shines(matter.cytoplasm) + haze.y);
+    let place = sampler.raster.grid.place(x, y);
+    let dark = 1.0 + UNEVEN * octaves(place / UNEVEN_SIZE, 2, UNEVEN_SEED);
     std::array::from_fn(|k| {
-        let light = DARK[k] + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
+        let light = DARK[k] * dark + NUCLEUS[k] * nucleus + CYTOPLASM[k] * cytoplasm;
         1.0 - libm::expf(-SATURATION * light)
     })
 }

@@ -11,12 +11,12 @@ use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
 use glam::Vec2;
 
-/// A field without a specimen: 198, 198, 193 of 255.
-const BACKGROUND: [f32; 3] = [0.776, 0.780, 0.757];
+/// A field without a specimen: 199, 203, 197 of 255.
+const BACKGROUND: [f32; 3] = [0.780, 0.796, 0.773];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.092, 0.248, 0.192];
-const CYTOPLASM: [f32; 3] = [0.125, 0.275, 0.025];
-const NUCLEUS: [f32; 3] = [0.36, 0.62, -0.08];
+const HAEMOGLOBIN: [f32; 3] = [0.092, 0.252, 0.200];
+const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
+const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.16];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
 const PLASMA: [f32; 3] = [0.014, 0.007, 0.011];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
@@ -35,7 +35,7 @@ const PLASMA_SIZE: Vec2 = Vec2::new(19.0, 6.5);
 const PLASMA_WAY: Vec2 = Vec2::new(0.8, 0.6);
 const PLASMA_SEED: u32 = 0x57a1;
 /// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.
-const DRY: [f32; 2] = [0.45, 0.55];
+const DRY: [f32; 2] = [0.7, 0.3];
 
 const GLSL: Glsl = Glsl {
     source: include_str!("stained.glsl"),
@@ -67,9 +67,9 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 3,
     surround: None,
-    blur: 0.10,
+    blur: 0.12,
     ground: BACKGROUND,
-    grain: 0.8,
+    grain: 0.85,
     shader: Shader::Light(shade, &GLSL),
 };
 

@@ -23,7 +23,7 @@ uniform vec2 shifts[5];
 
 float rise(float depth) {
     float d = clamp(depth, 0.0, 1.0);
-    return sqrt(d * (2.0 - d));
+    return pow(d * (2.0 - d), 0.75);
 }
 
 float lamella_at(vec2 place) {
@@ -48,9 +48,9 @@ float nucleus_at(vec2 place, float softness) {
     if (depth <= -2.0 * softness - 0.3) {
         return 0.0;
     }
-    float uneven = 0.03 * middle.z * two_octaves(from_centre / (0.13 * middle.z), shifts[4]);
+    depth += 0.025 * middle.z * three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
     float width = max(softness, 0.12);
-    return rising(-width, width, depth + uneven) * mix(0.75, 1.0, rising(0.0, 0.18 * middle.z, depth));
+    return rising(-width, width, depth) * (1.0 + ENVELOPE * bell((depth - 0.2) / 0.25));
 }
 
 void main() {
@@ -63,16 +63,18 @@ void main() {
     float front_share = lamella_at(at);
     vec2 from_centre = at - middle.xy;
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
-    float rags = two_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
+    float rags = three_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
     depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * rags + front_share * edge.y);
     float rim = middle.w * (1.0 + RIM_UNEVEN * value(own / (RIM_SIZE * middle.z), shifts[3]));
     float dome = mix(rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
-    vec4 sum = matter * (dome * (1.0 + relief.z * three_octaves(own / relief.w, shifts[0])));
+    float uneven = three_octaves(own / relief.w, shifts[0]);
+    vec4 sum = matter * (dome * (1.0 + relief.z * uneven));
+    sum.z *= 1.0 + DYED * uneven;
     float ruffle = bell((depth - relief.y) / 0.28) * front_share;
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));
     float nucleus = nucleus_at(at, softness);
-    float dense = rising(CHROMATIN.x, CHROMATIN.y, two_octaves(own / nucleus_texture.y, shifts[2]));
-    sum += nucleus_matter * (nucleus * (1.0 + nucleus_texture.x * (1.6 * dense - 1.0)));
+    float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(own / nucleus_texture.y, shifts[2]));
+    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.35 * dense - 1.0)));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

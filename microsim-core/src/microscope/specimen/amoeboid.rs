@@ -37,7 +37,7 @@ const BLEB_NECK: f32 = 0.5;
 /// Width over which lobes of a nucleus run into each other, in the cell's mean radii.
 const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
-const RAGS: f32 = 0.3;
+const RAGS: f32 = 0.38;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
 const RAGS_BEHIND: f32 = 0.6;
@@ -47,7 +47,12 @@ const RIM_UNEVEN: f32 = 0.6;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
-const CHROMATIN: [f32; 2] = [-0.45, 0.5];
+const CHROMATIN: [f32; 2] = [-0.70, 0.15];
+/// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
+const CLUMPS: f32 = 1.8;
+const ENVELOPE: f32 = 0.25;
+/// How much more uneven what takes up dye is than what delays light.
+const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
 pub(in crate::microscope) const LOBES: usize = 10;
 
@@ -61,6 +66,9 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
+        ("CLUMPS", &[CLUMPS]),
+        ("ENVELOPE", &[ENVELOPE]),
+        ("DYED", &[DYED]),
     ],
 };
 
@@ -208,13 +216,14 @@ impl AmoeboidBody {
         }
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
-        let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
+        let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 3, self.seed ^ SALTS[1]);
         let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
         let depth = depth + look.lamella.rags * (ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * self.rim_share(own);
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
-        let texture = 1.0 + look.texture.amount * octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
-        let mut matter = look.matter * (dome * texture);
+        let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
+        let mut matter = look.matter * (dome * (1.0 + look.texture.amount * uneven));
+        matter.cytoplasm *= 1.0 + DYED * uneven;
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
             let along = octaves(own * 0.7 + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
@@ -223,8 +232,8 @@ impl AmoeboidBody {
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let noise = octaves(own / texture.size, 2, self.seed ^ SALTS[2]);
-            let clumps = texture.amount * (1.6 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
+            let noise = octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
+            let clumps = CLUMPS * texture.amount * (1.35 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
             matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
         }
         matter * smoothstep(-softness, softness, depth)
@@ -268,9 +277,10 @@ impl AmoeboidBody {
         let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.03 * self.radius * octaves(from_centre / (0.13 * self.radius), 2, self.seed ^ SALTS[4]);
+        let uneven = 0.025 * self.radius * octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
-        smoothstep(-edge, edge, depth + uneven) * mix(0.75, 1.0, smoothstep(0.0, 0.18 * self.radius, depth))
+        let depth = depth + uneven;
+        smoothstep(-edge, edge, depth) * (1.0 + ENVELOPE * bell((depth - 0.2) / 0.25))
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.
@@ -308,10 +318,11 @@ fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
     pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
 }
 
-/// A quarter of a circle: 0 outside, 1 from a depth of 1 on, steep at the edge.
+/// 0 outside, 1 from a depth of 1 on, steeper at the edge: a dome that ends thin.
 fn rise(depth: f32) -> f32 {
     let depth = depth.clamp(0.0, 1.0);
-    (depth * (2.0 - depth)).sqrt()
+    let root = (depth * (2.0 - depth)).sqrt();
+    root * root.sqrt()
 }
 
 /// The linear map that takes the disc of radius 1 nearest to an outline: its first Fourier coefficients. Node 0 is where

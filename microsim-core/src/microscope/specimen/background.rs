@@ -146,7 +146,7 @@ impl BackgroundMatter {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
         let size = 0.14 * libm::expf(0.55 * rng.normal());
-        let dense = 0.30 * libm::expf(0.4 * rng.normal()) * strength;
+        let dense = 0.25 * libm::expf(0.4 * rng.normal()) * strength;
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
         let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };

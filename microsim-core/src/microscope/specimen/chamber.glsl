@@ -4,21 +4,24 @@
 uniform vec4 room;
 
 vec4 polymer(vec2 place, float depth) {
-    if (depth <= 0.0) {
+    if (depth <= -REACH) {
         return vec4(0.0);
     }
-    float lacking = 0.5 + 0.5 * three_octaves(place / ROUGH_SIZE, room.zw);
-    depth = max(depth - ROUGH * lacking, 0.0);
-    float rim = max(1.0 - depth / RIM, 0.0);
+    float along = value(place / ALONG, room.zw);
+    depth -= ROUGH * (0.5 + 0.5 * three_octaves(place / ROUGH_SIZE, room.zw));
+    float fringes = FRINGES * (1.0 - along) * bell(1.6 * depth / REACH) * (1.0 + cos(CHIRP * depth * depth));
+    float rise = rising(0.0, RIM * (1.0 + LEANING * along), depth);
     float texture = 1.0 + TEXTURE * three_octaves(place / TEXTURE_SIZE, room.zw);
-    return POLYMER * (sqrt(1.0 - rim * rim) * rising(0.0, EDGE, depth) * texture);
+    return POLYMER * (rise * texture + fringes);
 }
 
 void main() {
 #ifdef OBSTACLE
     put(polymer(at, depth_at(at)));
 #else
-    put(polymer(at, length(at - clamp(at, vec2(0.0), room.xy))));
+    vec2 half_size = 0.5 * room.xy;
+    vec2 beyond = abs(at - half_size) - half_size + CORNER;
+    put(polymer(at, length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - CORNER));
 #endif
 }
 #endif

@@ -3,7 +3,7 @@
 use super::distance_field::DistanceField;
 use crate::collision::obstacle::Obstacle;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::maths::{larger, smaller, smoothstep};
+use crate::microscope::maths::{bell, larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
@@ -11,10 +11,18 @@ use glam::Vec2;
 
 /// Polymer from its rim on.
 const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.03, nucleus: 0.0 };
-/// Width of the rim in which it rises, micrometres.
-const RIM: f32 = 1.2;
-/// Width over which its edge fades, micrometres.
-const EDGE: f32 = 0.4;
+/// Width over which it rises, micrometres, and the share by which that differs along a wall: its side is not upright.
+const RIM: f32 = 2.6;
+const LEANING: f32 = 0.7;
+/// Size of what differs along a wall, micrometres.
+const ALONG: f32 = 21.0;
+/// Radius of the room's corners, micrometres.
+const CORNER: f32 = 1.5;
+/// Fringes of an edge above the plane of focus: strength as a share, chirp, and how far they reach, micrometres. They only
+/// add, because a target of bytes holds nothing that is less than nothing.
+const FRINGES: f32 = 0.12;
+const CHIRP: f32 = 1.6;
+const REACH: f32 = 2.6;
 /// How far moulding leaves its edge rough, and over which size, micrometres.
 const ROUGH: f32 = 0.5;
 const ROUGH_SIZE: f32 = 5.0;
@@ -29,7 +37,12 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
     constants: &[
         ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
         ("RIM", &[RIM]),
-        ("EDGE", &[EDGE]),
+        ("LEANING", &[LEANING]),
+        ("ALONG", &[ALONG]),
+        ("CORNER", &[CORNER]),
+        ("FRINGES", &[FRINGES]),
+        ("CHIRP", &[CHIRP]),
+        ("REACH", &[REACH]),
         ("ROUGH", &[ROUGH]),
         ("ROUGH_SIZE", &[ROUGH_SIZE]),
         ("TEXTURE", &[TEXTURE]),
@@ -49,12 +62,12 @@ pub(super) struct Chamber {
 impl Chamber {
     pub(super) fn draw(&self, raster: &mut MatterRaster) {
         let (low, high) = raster.grid.bounds();
-        if low.min_element() < 0.0 || high.x > self.size.x || high.y > self.size.y {
-            raster.add(low, high, |p| self.polymer(p, (p - p.clamp(Vec2::ZERO, self.size)).length()));
+        if self.has_walls_in(low, high) {
+            raster.add(low, high, |p| self.polymer(p, self.depth_in_wall(p)));
         }
         for obstacle in &self.obstacles {
             let bounds = obstacle.aabb();
-            raster.add(bounds.mins, bounds.maxs, |p| self.polymer(p, depth_in(obstacle, p)));
+            raster.add(bounds.mins - REACH, bounds.maxs + REACH, |p| self.polymer(p, depth_in(obstacle, p)));
         }
     }
 
@@ -63,25 +76,37 @@ impl Chamber {
         let [x, y] = shift_of(self.seed);
         let room = vec![self.size.x, self.size.y, x, y];
         let (low, high) = draws.bounds();
-        if low.min_element() < 0.0 || high.x > self.size.x || high.y > self.size.y {
+        if self.has_walls_in(low, high) {
             draws.add_apart(Program::Walls, &box_corners(low, high), QUAD.to_vec(), room.clone(), None);
         }
         for obstacle in &self.obstacles {
-            if let Some((corners, map)) = obstacle_map(obstacle, draws) {
+            if let Some((corners, map)) = obstacle_map(obstacle, draws, REACH) {
                 draws.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(map.texture()));
             }
         }
     }
 
+    fn has_walls_in(&self, low: Vec2, high: Vec2) -> bool {
+        low.min_element() < REACH || (high + REACH).cmpgt(self.size).any()
+    }
+
+    /// How deep a place lies in a wall, negative in the room.
+    fn depth_in_wall(&self, place: Vec2) -> f32 {
+        let half = 0.5 * self.size;
+        let beyond = (place - half).abs() - half + CORNER;
+        beyond.max(Vec2::ZERO).length() + smaller(beyond.max_element(), 0.0) - CORNER
+    }
+
     fn polymer(&self, place: Vec2, depth: f32) -> Matter {
-        if depth <= 0.0 {
+        if depth <= -REACH {
             return Matter::NONE;
         }
-        let lacking = 0.5 + 0.5 * octaves(place / ROUGH_SIZE, 3, self.seed);
-        let depth = larger(depth - ROUGH * lacking, 0.0);
-        let rim = larger(1.0 - depth / RIM, 0.0);
+        let along = octaves(place / ALONG, 1, self.seed);
+        let depth = depth - ROUGH * (0.5 + 0.5 * octaves(place / ROUGH_SIZE, 3, self.seed));
+        let fringes = FRINGES * (1.0 - along) * bell(1.6 * depth / REACH) * (1.0 + libm::cosf(CHIRP * depth * depth));
+        let rise = smoothstep(0.0, RIM * (1.0 + LEANING * along), depth);
         let texture = 1.0 + TEXTURE * octaves(place / TEXTURE_SIZE, 3, self.seed);
-        POLYMER * ((1.0 - rim * rim).sqrt() * smoothstep(0.0, EDGE, depth) * texture)
+        POLYMER * (rise * texture + fringes)
     }
 }
 
@@ -92,15 +117,19 @@ fn depth_in(obstacle: &Obstacle, place: Vec2) -> f32 {
         (false, _) => -distance,
         (true, None) => distance,
         // A compound's parts have edges inside it, which are no rim.
-        (true, Some(_)) => RIM,
+        (true, Some(_)) => 2.0 * RIM,
     }
 }
 
-/// The corners of an obstacle that can be seen, and a map of depths in all of it. Straight edges come out exactly however
-/// coarse the map is, and it may be coarse, because it is made for every picture.
-pub(in crate::microscope) fn obstacle_map(obstacle: &Obstacle, draws: &DrawList) -> Option<(Vec<f32>, DistanceField)> {
+/// The corners of an obstacle that can be seen, and a map of depths in it and `beyond`. Straight edges come out exactly
+/// however coarse the map is, and it may be coarse, because it is made for every picture.
+pub(in crate::microscope) fn obstacle_map(
+    obstacle: &Obstacle,
+    draws: &DrawList,
+    beyond: f32,
+) -> Option<(Vec<f32>, DistanceField)> {
     let bounds = obstacle.aabb();
-    let (low, high) = (bounds.mins, bounds.maxs);
+    let (low, high) = (bounds.mins - beyond, bounds.maxs + beyond);
     let extent = high - low;
     let finest = (extent.x * extent.y / MOST_CELLS).sqrt();
     let step = larger(finest, smaller(extent.min_element() / 10.0, extent.max_element() / 64.0));

@@ -88,7 +88,8 @@ vec2 thickness(float rho) {
 void main() {
     vec2 amount = thickness(rho / (1.0 + fade)) * rising(1.0 + fade, 1.0 - fade, rho);
     if (noise.x > 0.0) {
-        amount *= 1.0 + noise.x * two_octaves(own / noise.y, noise.zw);
+        float uneven = 1.5 * noise.x * two_octaves(own / noise.y, noise.zw) * max(1.0 - rho * rho, 0.0);
+        amount *= 1.0 + vec2(1.0, DYED) * uneven;
     }
 #ifdef PELLICLE
     amount *= relief(own / frame.xy);

@@ -29,6 +29,8 @@ const ABOVE: f32 = 0.09;
 const ON_EDGE: f32 = 1.2;
 /// Share of red cells that have pits from drying.
 const PITTED: f32 = 0.2;
+/// How much more uneven what takes up dye is than what delays light.
+const DYED: f32 = 2.0;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
 /// radius 1 that heads for +x; where it ends at the mouth; half its width at the front, where it is shallow and broad.
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
@@ -49,6 +51,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("EDGE", &[EDGE]),
         ("THICKEST", &[THICKEST]),
         ("KNOB", &[KNOB]),
+        ("DYED", &[DYED]),
         ("GROOVE", &GROOVE),
         ("GROOVE_END", &GROOVE_END),
         ("GROOVE_WIDTH", &[GROOVE_WIDTH]),
@@ -170,9 +173,11 @@ impl RoundBody {
         let texture = &self.look.texture;
         let noise = if texture.amount > 0.0 { octaves(own / texture.size, 2, self.seed) } else { 0.0 };
         let relief = self.look.pellicle.map_or(1.0, |pellicle| pellicle.relief(own / self.axes, self.seed));
-        let share = smoothstep(1.0 + fade, 1.0 - fade, rho) * (1.0 + texture.amount * noise) * relief;
-        let matter = self.matter * (thickness[1] * share);
-        Matter { phase: self.matter.phase * (thickness[0] * share), ..matter }
+        let share = smoothstep(1.0 + fade, 1.0 - fade, rho) * relief;
+        // A rim is clear.
+        let uneven = 1.5 * texture.amount * noise * larger(1.0 - rho * rho, 0.0);
+        let matter = self.matter * (thickness[1] * share * (1.0 + DYED * uneven));
+        Matter { phase: self.matter.phase * (thickness[0] * share * (1.0 + uneven)), ..matter }
     }
 
     /// Thickness in the living and in the dried state, 1 where it is thickest.

@@ -57,7 +57,10 @@ impl AmoeboidBody {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
         let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
-        let dense = rng.range([0.35, 1.25]);
+        // Few are dense, and half have no edge.
+        let share = rng.unit();
+        let dense = 0.2 + 1.2 * share * share;
+        let shape = if rng.unit() < 0.5 { SpotShape::Bump } else { look.shape };
         let seed = rng.bits();
         let now = self.time * JIGGLE_RATE;
         let jitter = Vec2::new(wobble(now, seed), wobble(now, seed ^ 1)) * (JIGGLE * (0.2 / radius).sqrt());
@@ -70,7 +73,7 @@ impl AmoeboidBody {
             let wide = radius + 0.08 * focus;
             Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
         } else {
-            Spot { at, radius, matter, shape: look.shape }
+            Spot { at, radius, matter, shape }
         };
         (share > 0.02).then_some(shown)
     }
