@@ -74,19 +74,19 @@ pub(super) fn bilinear<T>(
 
 /// Convolves pixels with a kernel along rows and columns. Border pixels repeat beyond the border.
 pub(super) fn blur<const N: usize>(pixels: &mut [[f32; N]], columns: usize, kernel: &[f32]) {
-    let reach = kernel.len() / 2;
+    let half = kernel.len() / 2;
     let mut across = pixels.to_vec();
-    let mut padded = Vec::with_capacity(columns + 2 * reach);
+    let mut padded = Vec::with_capacity(columns + 2 * half);
     for (line, blurred) in pixels.chunks_exact(columns).zip(across.chunks_exact_mut(columns)) {
         padded.clear();
-        padded.resize(reach, line[0]);
+        padded.resize(half, line[0]);
         padded.extend_from_slice(line);
-        padded.resize(columns + 2 * reach, line[columns - 1]);
+        padded.resize(columns + 2 * half, line[columns - 1]);
         weighted_sum(blurred, kernel, |k| &padded[k..]);
     }
     let last = pixels.len() / columns - 1;
     for (y, blurred) in pixels.chunks_exact_mut(columns).enumerate() {
-        weighted_sum(blurred, kernel, |k| &across[(y + k).saturating_sub(reach).min(last) * columns..]);
+        weighted_sum(blurred, kernel, |k| &across[(y + k).saturating_sub(half).min(last) * columns..]);
     }
 }
 
@@ -105,9 +105,9 @@ fn weighted_sum<'a, const N: usize>(sum: &mut [[f32; N]], weights: &[f32], line:
 /// Weights of a normal distribution of this standard deviation in pixels, up to three of them on either side; they add
 /// up to 1.
 pub(super) fn gaussian(sigma: f32) -> Vec<f32> {
-    let reach = (3.0 * sigma).ceil() as i32;
+    let half = (3.0 * sigma).ceil() as i32;
     let weight = |k: i32| if k == 0 { 1.0 } else { libm::expf(-0.5 * (k as f32 / sigma) * (k as f32 / sigma)) };
-    let weights: Vec<f32> = (-reach..=reach).map(weight).collect();
+    let weights: Vec<f32> = (-half..=half).map(weight).collect();
     let sum: f32 = weights.iter().sum();
     weights.into_iter().map(|weight| weight / sum).collect()
 }

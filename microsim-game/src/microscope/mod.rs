@@ -24,7 +24,7 @@ use macroquad::texture::{DrawTextureParams, Texture2D, draw_texture_ex};
 use macroquad::window::get_internal_gl;
 use microsim_core::View;
 use microsim_core::microscope::recipe::{
-    Card, Draw, Map, PassContent, Precision, Program, Recipe, RenderTarget, TextureInput, noise_table,
+    Card, Draw, Map, PassContent, Precision, Program, RenderRecipe, RenderTarget, TextureInput, noise_table,
 };
 use microsim_core::microscope::{Field, Microscope};
 use pipelines::Pipelines;
@@ -118,7 +118,7 @@ impl Renderer {
         field: Field,
         microscope: Microscope,
         quality: RenderQuality,
-    ) -> Result<Recipe, String> {
+    ) -> Result<RenderRecipe, String> {
         microscope.recipe(view, field, quality.card(self.precision)).map_err(|error| error.to_string())
     }
 
@@ -130,7 +130,7 @@ impl Renderer {
     }
 
     /// Draws a picture. The texture is the renderer's own and shows the next picture once that is drawn.
-    pub fn draw(&mut self, recipe: &Recipe) -> Texture2D {
+    pub fn draw(&mut self, recipe: &RenderRecipe) -> Texture2D {
         let card = card();
         self.upload(card, recipe);
         for pass in &recipe.passes {
@@ -154,7 +154,7 @@ impl Renderer {
     }
 
     /// Hands the recipe's triangles and maps to the card.
-    fn upload(&mut self, card: &mut dyn RenderingBackend, recipe: &Recipe) {
+    fn upload(&mut self, card: &mut dyn RenderingBackend, recipe: &RenderRecipe) {
         while self.draws.len() < recipe.draws.len() {
             self.draws.push(Mesh::empty(card));
         }

@@ -9,7 +9,7 @@ use super::maths::{larger, smaller};
 use super::optics::{Mode, Optics, Shader};
 use super::painting::Painting;
 use super::raster::{PixelGrid, gaussian};
-use super::recipe::{Card, DrawList, Pass, PassContent, Precision, Program, Recipe, RenderTarget, TextureInput};
+use super::recipe::{Card, DrawList, Pass, PassContent, Precision, Program, RenderRecipe, RenderTarget, TextureInput};
 use super::specimen::Specimen;
 use super::surround_wave;
 use super::surround_wave::Surround;
@@ -31,7 +31,7 @@ impl Microscope {
     ///
     /// # Errors
     /// Names the number of the field, the film or the card that is out of range.
-    pub fn recipe(&self, view: View<'_>, field: Field, card: Card) -> Result<Recipe, Error> {
+    pub fn recipe(&self, view: View<'_>, field: Field, card: Card) -> Result<RenderRecipe, Error> {
         let frame = self.frame(view, field)?;
         in_range("card.detail", card.detail, 0.1, 1.0)?;
         let mode = self.optics.mode();
@@ -53,7 +53,7 @@ struct RecipeBuilder {
 }
 
 impl RecipeBuilder {
-    fn lit(&self, view: View<'_>) -> Recipe {
+    fn lit(&self, view: View<'_>) -> RenderRecipe {
         let grid = self.image_grid(larger(self.field.pixel() / self.card.detail, FINEST));
         let (scale, bias) = self.coding();
         let coarse = if self.card.is_soft { grid.pixel } else { 2.0 * grid.pixel };
@@ -75,10 +75,10 @@ impl RecipeBuilder {
         }
         passes.push(screen(RenderTarget::Image, &grid, Program::Image(self.optics), uniforms, inputs));
         self.develop(&grid, &mut passes);
-        Recipe { draws: draws.draws, maps: draws.maps, passes }
+        RenderRecipe { draws: draws.draws, maps: draws.maps, passes }
     }
 
-    fn painted(&self, painting: &Painting) -> Recipe {
+    fn painted(&self, painting: &Painting) -> RenderRecipe {
         // At full detail, four pixels for each of the picture's.
         let samples = if self.card.detail == 1.0 { 2.0 } else { 1.0 };
         let grid = self.image_grid(self.field.pixel() / (samples * self.card.detail));
@@ -87,7 +87,7 @@ impl RecipeBuilder {
         let content = PassContent::Draws(view(&grid).to_vec());
         let mut passes = vec![Pass { target: RenderTarget::Image, size: size(&grid), content }];
         self.develop(&grid, &mut passes);
-        Recipe { draws: draws.draws, maps: draws.maps, passes }
+        RenderRecipe { draws: draws.draws, maps: draws.maps, passes }
     }
 
     /// Pixels of this side over the whole picture.

@@ -52,10 +52,10 @@ impl DrawList {
     }
 
     /// Whether something around a place may be seen.
-    pub(in crate::microscope) fn sees(&self, place: Vec2, reach: f32) -> bool {
+    pub(in crate::microscope) fn sees(&self, place: Vec2, radius: f32) -> bool {
         let (low, high) = self.bounds;
-        let reach = Vec2::splat(reach + 2.0 * self.pixel);
-        place.cmpgt(low - reach).all() && place.cmplt(high + reach).all()
+        let beyond = Vec2::splat(radius + 2.0 * self.pixel);
+        place.cmpgt(low - beyond).all() && place.cmplt(high + beyond).all()
     }
 
     /// Adds triangles to those of the same program.

@@ -60,7 +60,7 @@ pub struct Pass {
 /// What a pass draws.
 #[derive(Clone, Debug)]
 pub enum PassContent {
-    /// [`Recipe::draws`] in their order. The numbers come before each draw's own uniforms.
+    /// [`RenderRecipe::draws`] in their order. The numbers come before each draw's own uniforms.
     Draws(Vec<f32>),
     /// A program on each pixel.
     Screen {
@@ -75,7 +75,7 @@ pub enum PassContent {
 
 /// The passes of a picture, in their order; the last draws [`RenderTarget::Picture`].
 #[derive(Clone, Debug)]
-pub struct Recipe {
+pub struct RenderRecipe {
     /// Things on the slide.
     pub draws: Vec<Draw>,
     /// Textures that only this picture needs.

@@ -48,7 +48,7 @@ pub enum TextureInput {
     Noise,
     /// What an earlier pass has drawn; between pixels it is interpolated.
     Target(RenderTarget),
-    /// One of [`Recipe::maps`](super::Recipe::maps), not interpolated.
+    /// One of [`RenderRecipe::maps`](super::RenderRecipe::maps), not interpolated.
     Map(usize),
 }
 

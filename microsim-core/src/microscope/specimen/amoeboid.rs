@@ -298,8 +298,8 @@ impl AmoeboidBody {
         let direction = rotate(-self.front.direction, unit_vector(rng.range([-1.9, 1.9])));
         let swelling = unit_vector(TAU * 0.5 * cycle.fract()).y;
         let radius = rng.range([smallest, largest]) * swelling * smoothstep(0.0, 1.5, self.field.at(prey));
-        let reach = self.field.crossing(self.centre, direction, 0.05 * self.radius)?;
-        (radius > 0.05).then_some((self.centre + direction * (reach + 0.3 * radius), radius))
+        let edge = self.field.crossing(self.centre, direction, 0.05 * self.radius)?;
+        (radius > 0.05).then_some((self.centre + direction * (edge + 0.3 * radius), radius))
     }
 }
 

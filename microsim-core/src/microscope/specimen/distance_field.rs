@@ -64,8 +64,8 @@ impl DistanceField {
         let middle = self.low + Vec2::new(left as f32, top as f32) * self.step + Vec2::splat(half);
         let squares: Vec<f32> = edges.iter().map(|edge| distance_squared(edge, middle)).collect();
         let nearest = squares.iter().copied().fold(f32::INFINITY, smaller).sqrt();
-        let reach = nearest + 2.0 * half * std::f32::consts::SQRT_2;
-        let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= reach * reach);
+        let farthest = nearest + 2.0 * half * std::f32::consts::SQRT_2;
+        let near = edges.iter().zip(&squares).filter(|(_, square)| **square <= farthest * farthest);
         let near: Vec<Edge> = near.map(|(edge, _)| *edge).collect();
         if side > BLOCK {
             let part = side / 2;

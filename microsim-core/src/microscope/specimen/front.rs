@@ -34,13 +34,13 @@ impl Front {
         // the velocity does when a cell changes its goal.
         let polarity = velocity / (velocity.length() + CRAWLING) * 0.5 - skew * SKEWED;
         let direction = polarity.try_normalize().unwrap_or(Vec2::X);
-        let reach = |direction: Vec2| outline.iter().map(|&p| (p - centre).dot(direction)).fold(0.0, larger);
+        let farthest = |direction: Vec2| outline.iter().map(|&p| (p - centre).dot(direction)).fold(0.0, larger);
         Self {
             direction,
             strength: smoothstep(0.1, 0.6, polarity.length()),
             tail: smoothstep(0.05, 0.12, skew.length()),
-            ahead: reach(direction),
-            behind: reach(-direction),
+            ahead: farthest(direction),
+            behind: farthest(-direction),
         }
     }
 }

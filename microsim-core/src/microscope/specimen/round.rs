@@ -113,9 +113,9 @@ impl RoundBody {
     }
 
     pub(super) fn draw(&self, raster: &mut MatterRaster) {
-        let reach = Vec2::splat(self.polar.farthest + self.edge + raster.grid.pixel);
+        let extent = Vec2::splat(self.polar.farthest + self.edge + raster.grid.pixel);
         let softness = larger(0.6 * raster.grid.pixel, self.edge);
-        raster.add(self.polar.centre - reach, self.polar.centre + reach, |p| self.at(p, softness));
+        raster.add(self.polar.centre - extent, self.polar.centre + extent, |p| self.at(p, softness));
     }
 
     /// A fan of triangles for [`GLSL`].

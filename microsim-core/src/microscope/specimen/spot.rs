@@ -58,7 +58,7 @@ impl Spot {
         let blur = 0.7 * raster.grid.pixel;
         let radius = (self.radius * self.radius + blur * blur).sqrt();
         let matter = self.matter * (self.radius * self.radius / (radius * radius));
-        let reach = Vec2::splat(radius * reach(self.shape));
+        let extent = Vec2::splat(radius * extent(self.shape));
         let softness = larger(blur / radius, 0.08);
         let profile = |rho: f32| match self.shape {
             SpotShape::Bump => {
@@ -72,12 +72,12 @@ impl Spot {
             SpotShape::Ring => bell((rho - 1.2) / 0.25),
             SpotShape::Defocused(chirp) => bell(DAMPING * rho) * libm::cosf(chirp * rho * rho - LAG),
         };
-        raster.add(self.at - reach, self.at + reach, |p| matter * profile((p - self.at).length() / radius));
+        raster.add(self.at - extent, self.at + extent, |p| matter * profile((p - self.at).length() / radius));
     }
 }
 
 /// How far a spot reaches, in radii.
-fn reach(shape: SpotShape) -> f32 {
+fn extent(shape: SpotShape) -> f32 {
     match shape {
         SpotShape::Bump | SpotShape::Ball => 1.25,
         SpotShape::Ring | SpotShape::Defocused(_) => 1.8,

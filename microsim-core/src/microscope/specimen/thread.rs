@@ -48,10 +48,10 @@ impl Thread {
         let blur = 0.7 * raster.grid.pixel;
         let radius = (self.radius * self.radius + blur * blur).sqrt();
         let matter = self.matter * (self.radius / radius);
-        let reach = Vec2::splat(2.0 * radius);
+        let extent = Vec2::splat(2.0 * radius);
         let axis = self.to - self.from;
         let per_length = 1.0 / larger(axis.length_squared(), 1e-12);
-        raster.add(self.from.min(self.to) - reach, self.from.max(self.to) + reach, |p| {
+        raster.add(self.from.min(self.to) - extent, self.from.max(self.to) + extent, |p| {
             let along = ((p - self.from).dot(axis) * per_length).clamp(0.0, 1.0);
             let apart = (p - self.from - axis * along).length() / radius;
             let share = if along < self.peak { along / self.peak } else { (1.0 - along) / (1.0 - self.peak) };

@@ -40,8 +40,8 @@ impl AmoeboidBody {
         let direction = (self.from_shape.inverse() * rng.direction()).normalize_or_zero();
         let grown = unit_vector(TAU * 0.5 * cycle.fract()).y;
         let length = self.look.longest_process * rng.unit() * grown;
-        let Some(reach) = self.field.crossing(self.centre, direction, 0.05 * self.radius) else { return };
-        let mut at = self.centre + direction * (reach - 0.5);
+        let Some(edge) = self.field.crossing(self.centre, direction, 0.05 * self.radius) else { return };
+        let mut at = self.centre + direction * (edge - 0.5);
         let mut step =
             rotate(direction, unit_vector(0.4 * rng.normal())) * ((length + 0.5) / (PROCESS_POINTS - 1) as f32);
         let bend = unit_vector(0.35 * rng.normal());
