@@ -1,6 +1,6 @@
 //! What records the image: film with grain, weave and flicker, or a camera.
 
-use super::glsl::Glsl;
+use super::glsl::{Glsl, glsl_text};
 use super::maths::{larger, mix};
 use super::noise::{HashRng, grain, hash, shift, three_grains, wobble};
 use super::optics::Mode;
@@ -169,7 +169,7 @@ pub(super) const SHADOWS: usize = 3;
 pub(super) const MASK: f32 = 1.3;
 
 pub(super) const GLSL: Glsl = Glsl {
-    source: include_str!("film.glsl"),
+    source: glsl_text!("film.glsl"),
     constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE]), ("BLOTCHES", &BLOTCHES), ("BLOTCH_SIZE", &[BLOTCH_SIZE])],
 };
 

@@ -1,11 +1,11 @@
 //! What light meets: how much a place of the specimen delays it and how much of what dyes it there is.
 
-use super::glsl::Glsl;
+use super::glsl::{Glsl, glsl_text};
 use super::raster::PixelGrid;
 pub(super) use crate::look::Matter;
 use glam::Vec2;
 
-pub(super) const GLSL: Glsl = Glsl { source: include_str!("matter.glsl"), constants: &[] };
+pub(super) const GLSL: Glsl = Glsl { source: glsl_text!("matter.glsl"), constants: &[] };
 
 /// Matter on a grid.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@
 //!   particles, blurred (3.2.2).
 //! - Background: sprites at points that wander (3.2.3).
 
-use super::glsl::Glsl;
+use super::glsl::{Glsl, glsl_text};
 use super::maths::{mix, smoothstep};
 use super::noise::{HashRng, octaves, scramble, shift_of, wobble};
 use super::raster::PixelGrid;
@@ -34,7 +34,7 @@ const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
 const PAGE_SEED: u32 = 1;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: include_str!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
+    Glsl { source: glsl_text!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
 
 /// A painted picture: primitives that cover each other, the lowest first.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The surround wave: what the wave behind the specimen is without its details. Phase contrast and dark field set it
 //! against the wave itself; how far it reaches is the width of the halo. The haze of fluorescence reaches as far.
 
-use super::glsl::Glsl;
+use super::glsl::{Glsl, glsl_text};
 use super::maths::larger;
 use super::matter::MatterRaster;
 use super::raster::{PixelGrid, bilinear, blur, gaussian};
@@ -18,7 +18,7 @@ const NEAR_SHARE: f32 = 0.52;
 const PIXEL: f32 = 0.33;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: include_str!("surround_wave.glsl"), constants: &[("NEAR_SHARE", &[NEAR_SHARE])] };
+    Glsl { source: glsl_text!("surround_wave.glsl"), constants: &[("NEAR_SHARE", &[NEAR_SHARE])] };
 
 /// Pixels on which the surround wave of a picture is computed: coarse ones, of at least a side, and some beyond the picture.
 pub(super) fn grid_around(picture: &PixelGrid, least: f32) -> PixelGrid {

@@ -1,6 +1,6 @@
 //! The wave of light behind the specimen.
 
-use super::glsl::Glsl;
+use super::glsl::{Glsl, glsl_text};
 use super::matter::Matter;
 use glam::Vec2;
 
@@ -8,7 +8,7 @@ use glam::Vec2;
 const GREEN_DENSITY: f32 = 0.42;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: include_str!("wave.glsl"), constants: &[("GREEN_DENSITY", &[GREEN_DENSITY])] };
+    Glsl { source: glsl_text!("wave.glsl"), constants: &[("GREEN_DENSITY", &[GREEN_DENSITY])] };
 
 /// The wave behind some matter, relative to the one behind nothing: amplitude and phase as a vector.
 pub(super) fn behind(matter: Matter) -> Vec2 {

@@ -1,7 +1,7 @@
 //! The GLSL of each program, and the uniforms and textures that it is fed.
 
 use crate::microscope::film::SHADOWS;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::optics::{Shader, sampler};
 use crate::microscope::recipe::{GlslSource, Program};
 use crate::microscope::specimen::{amoeboid, background, chamber, distance_field, round, spot, thread};
@@ -47,9 +47,9 @@ const FILM: Uniforms = &[
     ("weights", 1, LONGEST),
 ];
 
-const SCREEN: Glsl = Glsl { source: include_str!("screen.glsl"), constants: &[] };
-const BOX: Glsl = Glsl { source: include_str!("box.glsl"), constants: &[] };
-const SOFTEN: Glsl = Glsl { source: include_str!("soften.glsl"), constants: &[] };
+const SCREEN: Glsl = Glsl { source: glsl_text!("screen.glsl"), constants: &[] };
+const BOX: Glsl = Glsl { source: glsl_text!("box.glsl"), constants: &[] };
+const SOFTEN: Glsl = Glsl { source: glsl_text!("soften.glsl"), constants: &[] };
 
 impl Program {
     fn uniforms(self) -> Vec<(&'static str, usize, usize)> {

@@ -5,7 +5,7 @@
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
@@ -20,7 +20,7 @@ const FOCUS_SEED: u32 = 0xf0c5;
 const BACKGROUND: f32 = 0.60;
 
 const GLSL: Glsl = Glsl {
-    source: include_str!("bright_field.glsl"),
+    source: glsl_text!("bright_field.glsl"),
     constants: &[
         ("DEFOCUS", &[DEFOCUS]),
         ("STEP", &[STEP]),

@@ -2,7 +2,7 @@
 
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
@@ -21,7 +21,7 @@ const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
 const SATURATION: f32 = 1.0;
 
 const GLSL: Glsl = Glsl {
-    source: include_str!("fluorescence.glsl"),
+    source: glsl_text!("fluorescence.glsl"),
     constants: &[
         ("DARK", &DARK),
         ("HAZE", &[HAZE]),

@@ -6,7 +6,7 @@
 
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
 use glam::Vec2;
@@ -38,7 +38,7 @@ const PLASMA_SEED: u32 = 0x57a1;
 const DRY: [f32; 2] = [0.7, 0.3];
 
 const GLSL: Glsl = Glsl {
-    source: include_str!("stained.glsl"),
+    source: glsl_text!("stained.glsl"),
     constants: &[
         ("BACKGROUND", &BACKGROUND),
         ("HAEMOGLOBIN", &HAEMOGLOBIN),

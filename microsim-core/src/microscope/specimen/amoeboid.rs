@@ -13,7 +13,7 @@ use super::spline::smooth;
 use super::spot::Spot;
 use crate::geometry::{centroid, rotate, signed_area, unit_vector};
 use crate::look::{AmoeboidLook, SpotShape};
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, scramble, shift_of, wobble};
@@ -57,7 +57,7 @@ const DYED: f32 = 0.2;
 pub(in crate::microscope) const LOBES: usize = 10;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: include_str!("amoeboid.glsl"),
+    source: glsl_text!("amoeboid.glsl"),
     constants: &[
         ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),

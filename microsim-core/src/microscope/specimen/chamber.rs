@@ -2,7 +2,7 @@
 
 use super::distance_field::DistanceField;
 use crate::collision::obstacle::Obstacle;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{octaves, shift_of};
@@ -33,7 +33,7 @@ const TEXTURE: f32 = 0.012;
 const TEXTURE_SIZE: f32 = 4.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: include_str!("chamber.glsl"),
+    source: glsl_text!("chamber.glsl"),
     constants: &[
         ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
         ("RIM", &[RIM]),

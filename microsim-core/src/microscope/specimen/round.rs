@@ -8,7 +8,7 @@ use super::spot::Spot;
 use super::thread::Thread;
 use crate::geometry::{direction_or, rotate, unit_vector};
 use crate::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, shift_of, wobble};
@@ -45,7 +45,7 @@ const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: include_str!("round.glsl"),
+    source: glsl_text!("round.glsl"),
     constants: &[
         ("TURN", &[TAU]),
         ("EDGE", &[EDGE]),

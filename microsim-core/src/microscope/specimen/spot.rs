@@ -1,14 +1,14 @@
 //! Small round things: granules, vacuoles, dust.
 
 use crate::look::SpotShape;
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
 pub(in crate::microscope) const GLSL: Glsl =
-    Glsl { source: include_str!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
+    Glsl { source: glsl_text!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
 
 /// Decay of the rings of a thing out of focus, and the phase with which they begin.
 const DAMPING: f32 = 1.25;

@@ -1,12 +1,12 @@
 //! Thin straight threads: fibres, cilia, canals.
 
-use crate::microscope::glsl::Glsl;
+use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: include_str!("thread.glsl"), constants: &[] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl { source: glsl_text!("thread.glsl"), constants: &[] };
 
 /// A thin straight thread.
 #[derive(Clone, Copy, Debug)]
