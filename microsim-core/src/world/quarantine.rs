@@ -13,7 +13,7 @@ use std::ops::Range;
 
 impl World {
     /// Freezes every organism with a particle that has a number that is not finite, or is outside of where particles may be
-    /// ([`crate::config::WorldConfig::reach`]), or with a membrane that encloses no area.
+    /// ([`crate::config::WorldConfig::particle_bounds`]), or with a membrane that encloses no area.
     pub(crate) fn quarantine(&mut self) {
         // The fast check of whole columns nearly always succeeds.
         if !self.all_are_valid() || self.is_anybody_flat() {
