@@ -121,7 +121,7 @@ impl App {
             next_frame().await;
             let submitting = self.context.scenery.take_submitting();
             let waited = platform::now() - drawn;
-            self.timings.add([updated - self.began, (drawn - updated).saturating_sub(submitting), waited + submitting]);
+            self.timings.add([updated - self.began, drawn - updated, waited], submitting);
             self.rest();
         }
         if self.options.timings {

@@ -15,8 +15,10 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Adds a frame.
-    pub fn add(&mut self, parts: [Duration; 3]) {
+    /// Adds a frame: times of its update, of its drawing and of waiting for the next one. `submitting` is what commands to the
+    /// graphics card took, while it was drawn or, for pictures, while it was updated.
+    pub fn add(&mut self, [update, draw, wait]: [Duration; 3], submitting: Duration) {
+        let parts = [update, draw.saturating_sub(submitting), wait + submitting];
         for (times, part) in self.parts.iter_mut().zip(parts) {
             let milliseconds = part.as_secs_f32() * 1000.0;
             match times.get_mut(self.frames % KEPT) {
@@ -49,9 +51,16 @@ mod tests {
     fn medians_are_of_the_last_frames() {
         let mut timings = Timings::default();
         for k in 0..10_000 {
-            timings.add([Duration::from_millis(if k < 5000 { 1 } else { 3 }); 3]);
+            timings.add([Duration::from_millis(if k < 5000 { 1 } else { 3 }); 3], Duration::ZERO);
         }
         let text = timings.to_string();
         assert!(text.contains("10000 frames") && text.contains("step 3.00 3.00"), "{text}");
+    }
+
+    #[test]
+    fn a_picture_that_is_taken_in_an_update_may_take_longer_than_the_drawing() {
+        let mut timings = Timings::default();
+        timings.add([40, 2, 1].map(Duration::from_millis), Duration::from_millis(30));
+        assert!(timings.to_string().contains("view 0.00 0.00 0.00 submit 31.00"), "{timings}");
     }
 }
