@@ -200,6 +200,21 @@ async function menus() {
     await page.context().close();
 }
 
+/** The field guide, whose articles are fetched when they are asked for. */
+async function guide() {
+    const page = await profile();
+    await open(page, "?optics=drawn");
+    const items = (screen) => page.getByRole("group", { name: screen, exact: true }).getByRole("button");
+    await items("title").filter({ hasText: /^Field guide$/ }).dispatchEvent("click");
+    await items("guide").filter({ hasText: /^\? Pseudopod$/ }).waitFor({ timeout: 10_000 });
+    check("guide: has titles", (await items("guide").count()) === 29, `${await items("guide").count()}`);
+    await items("guide").filter({ hasText: /^Drawing$/ }).dispatchEvent("click");
+    await items("article-drawn").first().waitFor({ timeout: 10_000 });
+    await page.waitForTimeout(1000); // a picture is taken
+    await checkPicture("guide, an article", await screenshot(page, "guide-article"));
+    await page.context().close();
+}
+
 /** The page is in the browser's language, offline too, or in that of the address. */
 async function languages() {
     const page = await profile({ locale: "cs-CZ" });
@@ -383,7 +398,7 @@ async function mistakes() {
     complaints.length = before;
 }
 
-for (const part of [title, menus, languages, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, gamepads, offline, mistakes]) {
+for (const part of [title, menus, guide, languages, digests, settings, round, files, optics, loss, hiding, phones, fingers, foodChain, gamepads, offline, mistakes]) {
     if (wanted.length > 0 && !wanted.includes(part.name)) continue;
     try {
         await part();
