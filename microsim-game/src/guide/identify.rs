@@ -102,6 +102,17 @@ mod tests {
     }
 
     #[test]
+    fn the_inside_of_an_obstacle_is_a_wall_and_beside_it_is_none() {
+        let stage = Stage::builtin("squeeze").unwrap();
+        let world = stage.world();
+        let obstacle = world.obstacles().filter_map(|id| world.obstacle(id)).next().unwrap();
+        let bounds = obstacle.shape.compute_aabb(&obstacle.pose);
+        assert_eq!(name_at(world.view(), bounds.center(), 0.0), "wall");
+        let beside = bounds.center() + Vec2::new(0.5 * bounds.extents().x + 1.0, 0.0);
+        assert_ne!(name_at(world.view(), beside, 0.0), "wall");
+    }
+
+    #[test]
     fn t87_what_lies_on_slides_is_told_apart() {
         let expected: [(&str, f64, &[&str]); 7] = [
             ("absorb-agar", 8.0, &["agar", "amoeboid-cell", "medium", "membrane", "phagosome", "platelet", "wall"]),

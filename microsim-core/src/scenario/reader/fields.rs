@@ -23,7 +23,6 @@ pub(crate) struct Fields<'a> {
     pub context: &'a ReadContext<'a>,
 }
 
-// Not inlined in the hundred places that read fields: a page downloads this.
 impl<'a> Fields<'a> {
     pub(crate) fn root(table: &'a DeTable<'a>, context: &'a ReadContext<'a>) -> Self {
         Self::new(Some(table), false, String::new(), context)
@@ -43,13 +42,11 @@ impl<'a> Fields<'a> {
     }
 
     /// Path of a field.
-    #[inline(never)]
     pub(crate) fn at(&self, field: &str) -> String {
         join(&self.path, field)
     }
 
     /// Refuses the value of a field.
-    #[inline(never)]
     pub(crate) fn refuse(&self, field: &str, message: impl Into<String>, accepted: impl Into<String>) {
         self.context.refuse(&self.at(field), message, accepted);
     }
@@ -65,7 +62,6 @@ impl<'a> Fields<'a> {
         self.context.refuse_unknown(&self.at(field), what, name, known);
     }
 
-    #[inline(never)]
     fn ask(&mut self, field: &'static str) -> Option<&'a SpannedValue<'a>> {
         if !self.asked.contains(&field) {
             self.asked.push(field);
@@ -76,7 +72,6 @@ impl<'a> Fields<'a> {
     }
 
     /// Reads a field of which the default is noted.
-    #[inline(never)]
     fn read<T: Read>(&mut self, field: &'static str, is_required: bool, default: Option<&T>) -> Option<T> {
         let entry = || Entry::Value { value_type: T::value_type(), is_required, default: default.map(T::written) };
         self.context.note(self.at(field), entry);
@@ -100,7 +95,6 @@ impl<'a> Fields<'a> {
     }
 
     /// One of several words, by its index, or a default.
-    #[inline(never)]
     pub(crate) fn word(&mut self, field: &'static str, words: &[&'static str], default: usize) -> usize {
         let entry = || Entry::Value {
             value_type: ValueType::Word(words.to_vec()),
@@ -117,7 +111,6 @@ impl<'a> Fields<'a> {
     }
 
     /// Reports that a field is not there, if it is not.
-    #[inline(never)]
     pub(crate) fn require(&self, field: &str, accepted: &str) {
         if !self.is_broken && !self.has(field) {
             self.refuse(field, format!("missing field `{field}`"), accepted);
@@ -131,20 +124,17 @@ impl<'a> Fields<'a> {
     }
 
     /// A number within a range, or a default within it.
-    #[inline(never)]
     pub(crate) fn number(&mut self, field: &'static str, default: f32, range: [f32; 2]) -> f32 {
         let value = self.or(field, default);
         if self.is_within(field, value, range) { value } else { default }
     }
 
     /// A number within a range, if it is there.
-    #[inline(never)]
     pub(crate) fn number_within(&mut self, field: &'static str, range: [f32; 2]) -> Option<f32> {
         self.get(field).filter(|&value| self.is_within(field, value, range))
     }
 
     /// Whether the field's value is within a range; reports it if it is not.
-    #[inline(never)]
     pub(crate) fn is_within(&self, field: &str, value: f32, [low, high]: [f32; 2]) -> bool {
         let is_within = (low..=high).contains(&value);
         if !is_within {
@@ -154,7 +144,6 @@ impl<'a> Fields<'a> {
     }
 
     /// A table of this table; where it is missing, one without fields.
-    #[inline(never)]
     pub(crate) fn table(&mut self, field: &'static str) -> Self {
         let path = self.at(field);
         self.context.note(path.clone(), || Entry::Table);
@@ -165,7 +154,6 @@ impl<'a> Fields<'a> {
     }
 
     /// The tables `[field.NAME]`, each with its name.
-    #[inline(never)]
     pub(crate) fn named(&mut self, field: &'static str) -> Vec<(String, Self)> {
         let tables = self.table(field);
         if self.context.notes.is_some() {
@@ -185,7 +173,6 @@ impl<'a> Fields<'a> {
     }
 
     /// The tables `[[field]]`.
-    #[inline(never)]
     pub(crate) fn list(&mut self, field: &'static str) -> Vec<Self> {
         let path = self.at(field);
         self.context.note(path.clone(), || Entry::Tables);
@@ -204,7 +191,6 @@ impl<'a> Fields<'a> {
     }
 
     /// Refuses what was not asked for, in the order of the text.
-    #[inline(never)]
     pub(crate) fn finish(self) {
         let keys = self.table.into_iter().flat_map(DeTable::keys);
         let mut others: Vec<_> = keys.filter(|key| !self.asked.contains(&key.get_ref().as_ref())).collect();
