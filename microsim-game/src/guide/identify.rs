@@ -55,12 +55,13 @@ fn membrane_at(organism: OrganismView<'_>, at: Vec2) -> Option<&'static str> {
         return None;
     }
     let region = organism.membrane_regions().and_then(|regions| regions.get(nearest).copied());
-    let protrudes =
-        organism.protrusion().is_some_and(|shares| shares.get(nearest).is_some_and(|share| *share > PROTRUDES));
+    let protrudes = match organism.protrusion() {
+        Some(shares) => shares.get(nearest).is_some_and(|share| *share > PROTRUDES),
+        None => region == Some(MembraneRegion::Front),
+    };
     Some(match region {
-        Some(MembraneRegion::Rear) => "uropod",
-        Some(MembraneRegion::Front) => "pseudopod",
         _ if protrudes => "pseudopod",
+        Some(MembraneRegion::Rear) => "uropod",
         _ => "membrane",
     })
 }
@@ -110,6 +111,22 @@ mod tests {
         assert_eq!(name_at(world.view(), bounds.center(), 0.0), "wall");
         let beside = bounds.center() + Vec2::new(0.5 * bounds.extents().x + 1.0, 0.0);
         assert_ne!(name_at(world.view(), beside, 0.0), "wall");
+    }
+
+    #[test]
+    fn of_a_cell_with_pseudopods_only_what_protrudes_is_one() {
+        let mut stage = Stage::builtin("crawl").unwrap();
+        (0..180).for_each(|_| stage.step());
+        let view = stage.world().view();
+        let mut found = [0; 2];
+        for cell in view.organisms() {
+            for (node, share) in cell.outline().zip(cell.protrusion().unwrap_or_default()) {
+                let protrudes = share > PROTRUDES;
+                assert_eq!(name_at(view, node, 0.1) == "pseudopod", protrudes, "{share}");
+                found[usize::from(protrudes)] += 1;
+            }
+        }
+        assert!(found.iter().all(|count| *count > 10), "{found:?}");
     }
 
     #[test]
