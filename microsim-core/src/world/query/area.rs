@@ -37,8 +37,8 @@ impl QueryArea<'_> {
     pub(super) fn touches_disc(&self, disc: &Disc) -> bool {
         match *self {
             Self::Disc(centre, radius) => {
-                let reach = radius + disc.radius;
-                (disc.at - centre).length_squared() <= reach * reach
+                let extent = radius + disc.radius;
+                (disc.at - centre).length_squared() <= extent * extent
             }
             Self::Polygon(corners) => reaches_into(corners, disc.at, disc.radius),
         }

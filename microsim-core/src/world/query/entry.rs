@@ -47,13 +47,13 @@ impl Entry for Disc {
 
     fn first_touch(&self, ray: &Ray) -> Option<f32> {
         let to_centre = self.at - ray.origin;
-        let (along, reach) = (to_centre.dot(ray.direction), self.radius + ray.radius);
-        if to_centre.length_squared() <= reach * reach {
+        let (along, extent) = (to_centre.dot(ray.direction), self.radius + ray.radius);
+        if to_centre.length_squared() <= extent * extent {
             return Some(0.0);
         }
         // The distance from the line, not the difference of two large squares: far discs are hit as exactly as near ones.
         let aside = (to_centre - ray.direction * along).length_squared();
-        let half_chord = reach * reach - aside;
+        let half_chord = extent * extent - aside;
         let distance = along - if half_chord > 0.0 { half_chord.sqrt() } else { 0.0 };
         (along > 0.0 && half_chord >= 0.0 && distance <= ray.length).then_some(distance)
     }

@@ -91,15 +91,15 @@ impl<E: Entry> SizeClass<E> {
     }
 
     fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &E> {
-        let reach = self.max_extent + rounding(low, high);
-        let ranges = self.grid.ranges_in_box(low - reach, high + reach);
+        let extent = self.max_extent + rounding(low, high);
+        let ranges = self.grid.ranges_in_box(low - extent, high + extent);
         ranges.flat_map(|range| &self.entries[range])
     }
 
     fn along(&self, ray: &Ray, visit: &mut impl FnMut(&E, f32), is_enough: impl Fn(f32) -> bool) {
-        let reach = ray.radius + self.max_extent;
-        let Some((first, last)) = ray.within(self.low - reach, self.high + reach) else { return };
-        let stretch = 4.0 * reach + 1.0;
+        let extent = ray.radius + self.max_extent;
+        let Some((first, last)) = ray.within(self.low - extent, self.high + extent) else { return };
+        let stretch = 4.0 * extent + 1.0;
         let mut start = first;
         while !is_enough(start) {
             let end = start + stretch;

@@ -85,9 +85,9 @@ impl World {
     /// Organisms that a circle touches: one of their discs, or the area within their outline, reaches into it. The first question
     /// since the last step, or since another change, looks at every particle.
     pub fn organisms_in_circle(&self, centre: Vec2, radius: f32) -> impl Iterator<Item = OrganismId> + '_ {
-        let reach = Vec2::splat(if radius < 0.0 { 0.0 } else { radius });
+        let extent = Vec2::splat(if radius < 0.0 { 0.0 } else { radius });
         let meets = move |disc: Vec2, r: f32| (disc - centre).length() <= r + radius;
-        self.find([centre - reach, centre + reach], meets, Some((centre, radius)))
+        self.find([centre - extent, centre + extent], meets, Some((centre, radius)))
     }
 
     /// Organisms with a disc that reaches into the box from `low` to `high`.
