@@ -115,6 +115,37 @@ fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
     (distance(best) <= tolerated).then_some(*best)
 }
 
+/// For tests: two cells too far apart to fuse, one of which is told to from the first step on, every sixth. Each time is an
+/// event.
+#[cfg(test)]
+pub(crate) fn apart(more: &str) -> Prepared {
+    let text = format!(
+        r#"
+        schema = 1
+        name = "apart"
+        [world]
+        size = [40.0, 30.0]
+        [amoeboid_cell.cell]
+        radii = [5.0, 5.0]
+        [[spawn]]
+        of = "cell"
+        at = [10.0, 15.0]
+        name = "one"
+        [[spawn]]
+        of = "cell"
+        at = [30.0, 15.0]
+        name = "other"
+        [[command]]
+        of = "one"
+        every = 0.1
+        fuse = "other"
+        {more}
+    "#
+    );
+    let source = ScenarioText::new("apart".to_owned(), text);
+    Prepared::new(source, &Changes::default()).unwrap_or_else(|failure| panic!("{failure:?}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -54,6 +54,8 @@ const BAD: &[(&[&str], &str, &str)] = &[
     (&["sweep", "plan", "empty", "--grid", "wrold.damping=1,2"], "wrold.damping", "did you mean `world`?"),
     (&["sweep", "plan", "empty", "--grid", "world.damping=1,-2"], "world.damping=-2", "0 to 100"),
     (&["sweep", "plan", "empty", "--seeds", "one"], "one", "0..99"),
+    (&["sweep", "plan", "empty", "--grid", "k=1..1000", "--seeds", "0..1000"], "1001000 tasks", "at most 1000000"),
+    (&["sweep", "plan", "empty", "--grid", "k=1..1000", "--grid", "m=0..1000"], "m: more than", "fewer values"),
     (&["sweep", "run", "{}/none.jsonl", "--store", "{}/store"], "none.jsonl", "No such file"),
     (&["sweep", "run", "{}/file.toml", "--store", "{}/store"], "file.toml:1", "microsim sweep plan"),
     (&["sweep", "run", "{}/changed.jsonl", "--store", "{}/store"], "changed.jsonl:1", "plan it again"),

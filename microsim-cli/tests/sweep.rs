@@ -122,6 +122,8 @@ fn a_task_that_breaks_an_invariant_has_a_result_and_says_so() {
         assert_eq!(output.status.code(), Some(1));
         assert!(stderr(&output).contains("bodies is 0 after step 1"), "{}", stderr(&output));
     }
+    let status = success(&["sweep", "status", &plan, "--store", &folder.path("store")]);
+    assert!(stderr(&status).contains("1 of 1 tasks done, 1 with failures"), "{}", stderr(&status));
     let merged = run(&["sweep", "merge", &plan, "--store", &folder.path("store"), "-o", "-"]);
     assert!(merged.status.success() && stdout(&merged).contains("bodies is 0"));
 }
@@ -188,6 +190,18 @@ fn a_torn_or_swapped_result_counts_as_missing_and_is_made_again() {
         success(&["sweep", "run", &plan, "--store", &store]);
         assert!(fs::read(&one).unwrap() == sound);
     }
+}
+
+#[test]
+fn a_result_that_cannot_be_read_is_named_and_not_taken_for_missing() {
+    let folder = Folder::new("unreadable");
+    let (plan, names) = two_tasks(&folder, &[]);
+    let store = folder.path("store");
+    success(&["sweep", "run", &plan, "--store", &store]);
+    let one = Path::new(&store).join(&names[0]);
+    fs::remove_file(&one).unwrap();
+    fs::create_dir(&one).unwrap();
+    common::refused(&["sweep", "status", &plan, "--store", &store], &names[0]);
 }
 
 #[test]

@@ -217,3 +217,19 @@ pub(crate) fn sha256(path: &Path) -> Result<String, Failure> {
 pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_goes_again_only_if_it_was_made_and_stayed_empty() {
+        let folder = std::env::temp_dir().join(format!("microsim-empty-{}", std::process::id()));
+        drop(Outputs::open(&folder, false).unwrap());
+        assert!(!folder.exists(), "it was made for nothing");
+        fs::create_dir(&folder).unwrap();
+        drop(Outputs::open(&folder, false).unwrap());
+        assert!(folder.exists(), "it was there before");
+        fs::remove_dir(&folder).unwrap();
+    }
+}

@@ -225,3 +225,98 @@ fn frames(plan: &OutputPlan, world: &World, steps: u64) -> Vec<u64> {
     frames.dedup();
     frames
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepared::{Prepared, apart};
+    use crate::session::timed_step;
+    use std::fs;
+
+    const TABLES: &str = "
+        [output]
+        pictures = false
+        [output.measures]
+        formats = ['csv']
+        of = ['organisms']
+        every = 0.166667
+        [output.trajectories]
+        formats = ['csv']
+        every = 1.0
+    ";
+
+    fn place(name: &str) -> PathBuf {
+        std::env::temp_dir().join(format!("microsim-{name}-{}", std::process::id()))
+    }
+
+    fn advance(built: &mut Built, writer: &mut RunWriter<'_>, to: u64) {
+        while built.world.step_index() < to {
+            timed_step(built);
+            writer.look_at(&built.world).unwrap();
+        }
+    }
+
+    #[test]
+    fn rows_name_their_organisms_and_count_events_across_a_resumption() {
+        let folder = place("rows");
+        let outputs = Outputs::open(&folder, true).unwrap();
+        let Prepared { scenario, mut built, .. } = apart(TABLES);
+        let mut writer = RunWriter::start(&outputs, scenario.output(), &built, 20).unwrap();
+        advance(&mut built, &mut writer, 8);
+        let progress = writer.progress().unwrap();
+        drop(writer);
+        let mut writer = RunWriter::resume(&outputs, scenario.output(), &built, 20, &progress).unwrap();
+        advance(&mut built, &mut writer, 20);
+        writer.finish(&built.world).unwrap();
+        let [measures, trajectories] =
+            ["measures.csv", "trajectories.csv"].map(|name| fs::read_to_string(folder.join(name)).unwrap());
+        drop(outputs);
+        fs::remove_dir_all(&folder).unwrap();
+        // There are events in steps 1, 7, 13 and 19.
+        assert_eq!(measures, "step,time,events,organisms\n0,0,0,2\n10,0.166667,2,2\n20,0.333333,2,2\n");
+        let rows: Vec<&str> = trajectories.lines().skip(1).collect();
+        assert!(rows[0].starts_with("0,0,0:0,amoeboid_cell,one,10,15,0,"), "{rows:?}");
+        assert!(rows[1].starts_with("0,0,1:0,amoeboid_cell,other,30,15,0,"), "{rows:?}");
+    }
+
+    #[test]
+    fn pictures_wait_in_the_folder_only_where_the_run_can_be_resumed() {
+        for every in [0, 5] {
+            let folder = place("waiting");
+            let outputs = Outputs::open(&folder, true).unwrap();
+            let Prepared { scenario, built, .. } = apart(&format!("[output]\ncheckpoint_every = {every}"));
+            let writer = RunWriter::start(&outputs, scenario.output(), &built, 20).unwrap();
+            assert_eq!(folder.join(moment_name(0)).exists(), every > 0);
+            drop(writer);
+            drop(outputs);
+            let _ = fs::remove_dir_all(&folder);
+        }
+    }
+
+    #[test]
+    fn what_is_not_in_the_folder_is_not_taken_up() {
+        let folder = place("elsewhere");
+        let outputs = Outputs::open(&folder, true).unwrap();
+        let Prepared { scenario, built, .. } = apart(TABLES);
+        let progress = RunWriter::start(&outputs, scenario.output(), &built, 20).unwrap().progress().unwrap();
+        assert!(progress.check(&outputs, scenario.output()).is_ok());
+        fs::create_dir_all(folder.join("deep")).unwrap();
+        for name in ["deep/../.lock", ""] {
+            let progress = FileProgress { whole: vec![name.to_owned()], lengths: progress.lengths.clone(), events: 0 };
+            let refused = format!("{:?}", progress.check(&outputs, scenario.output()));
+            assert!(refused.contains("is no name of a file"), "{refused}");
+        }
+        drop(outputs);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn frames_are_at_the_moments_that_are_named_and_at_those_between() {
+        let steps = |frames: &str| {
+            let Prepared { scenario, built, .. } = apart(&format!("[output.frames]\nat = [0.15, 0.2]\n{frames}"));
+            super::frames(scenario.output(), &built.world, 20)
+        };
+        assert_eq!(steps(""), [9, 12]);
+        assert_eq!(steps("every = 0.1"), [0, 6, 9, 12, 18]);
+    }
+}

@@ -58,3 +58,36 @@ fn area(organism: OrganismView<'_>) -> f32 {
     let outline: Vec<Vec2> = organism.outline().collect();
     if outline.len() < 3 { organism.spawn_area() } else { signed_area(&outline).abs() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use microsim_core::{AgarSpec, AmoeboidCellSpec, Inputs, OrganismSpec, Placement, WorldConfig};
+
+    fn alone(spec: OrganismSpec) -> (World, OrganismId) {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&spec, Placement::at(40.0, 40.0)).unwrap();
+        (world, id)
+    }
+
+    #[test]
+    fn the_speed_is_that_of_the_whole_organism() {
+        let (mut world, cell) = alone(AmoeboidCellSpec::default().into());
+        world.push(cell, Vec2::new(3.0, -4.0)).unwrap();
+        let speed = speed(world.view().organism(cell).unwrap());
+        assert!((speed - 5.0).abs() < 1e-4, "{speed}");
+    }
+
+    #[test]
+    fn the_area_is_that_within_the_outline_or_of_the_disc() {
+        let (world, food) = alone(AgarSpec { radius: 2.0, ..AgarSpec::default() }.into());
+        let disc = area(world.view().organism(food).unwrap());
+        assert!((disc - 4.0 * std::f32::consts::PI).abs() < 1e-4, "{disc}");
+        let (mut world, cell) = alone(AmoeboidCellSpec::default().into());
+        let round = area(world.view().organism(cell).unwrap());
+        world.grow(cell, 12, 24).unwrap();
+        (0..240).for_each(|_| world.step(&Inputs::new()));
+        let grown = area(world.view().organism(cell).unwrap());
+        assert!(grown > 1.05 * round, "{grown} after {round}");
+    }
+}

@@ -111,11 +111,12 @@ mod tests {
     fn values_are_split_where_nothing_is_open() {
         assert_eq!(values("[1, 2],[3, 4]"), ["[1, 2]", "[3, 4]"]);
         assert_eq!(values("a,\"b,c\""), ["a", "\"b,c\""]);
+        assert_eq!(values("'a,b',c"), ["'a,b'", "c"]);
     }
 
     #[test]
     fn what_is_no_axis_is_refused() {
-        for text in ["k", "k=", "=1", "k=5..1", "k=0..99999999", "k=0..1/1", "k=x..y"] {
+        for text in ["k", "k=", "=1", "k=5..1", "k=0..99999999", "k=0..1/1", "k=1..1/2", "k=x..y"] {
             assert!(text.parse::<Axis>().is_err(), "{text}");
         }
         assert!("a".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());

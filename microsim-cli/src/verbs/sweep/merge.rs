@@ -110,3 +110,33 @@ pub(crate) fn csv(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     written.map_err(|error| fail(&error))?;
     writer.into_inner().map_err(|error| fail(&error))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outcome(key: &str) -> TaskOutcome {
+        let json = format!(
+            r#"{{"key": "{key}", "scenario": "s", "seed": 1, "set": {{}}, "steps": 2, "simulated_seconds": 0.5,
+                "digest": "d", "failures": [], "events": {{}}, "first": {{}}, "measures": {{}}}}"#
+        );
+        serde_json::from_str(&json).unwrap()
+    }
+
+    #[test]
+    fn a_table_has_a_column_for_whatever_any_result_has() {
+        let one = TaskOutcome { set: [("speed".to_owned(), "3".to_owned())].into(), ..outcome("one") };
+        let other = TaskOutcome {
+            events: [("divided".to_owned(), 4)].into(),
+            first: [("divided".to_owned(), 0.25)].into(),
+            measures: [("leaks".to_owned(), 7.0)].into(),
+            failures: ["a".to_owned(), "b".to_owned()].into(),
+            ..outcome("other")
+        };
+        let table = csv(&[one, other]).ok().unwrap();
+        let expected = "key,scenario,seed,speed,steps,simulated_seconds,digest,failures,events.divided,first.divided,leaks\n\
+            one,s,1,3,2,0.5,d,,0,,\n\
+            other,s,1,,2,0.5,d,a; b,4,0.25,7\n";
+        assert_eq!(String::from_utf8(table).unwrap(), expected);
+    }
+}

@@ -137,7 +137,7 @@ fn shortest(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prepared::prepare;
+    use crate::prepared::{apart, prepare};
     use crate::scenario_args::ScenarioArgs;
 
     fn task(seed: u64) -> Task {
@@ -173,5 +173,12 @@ mod tests {
     fn a_task_has_one_outcome() {
         let (a, b) = (task(3).run().ok().flatten().unwrap(), task(3).run().ok().flatten().unwrap());
         assert_eq!(a, b);
+    }
+
+    #[test]
+    fn events_are_counted_and_the_first_of_each_kind_is_timed() {
+        let outcome = Task::new(&apart(""), BTreeMap::new(), 20).run().ok().flatten().unwrap();
+        assert_eq!(outcome.events, [("fusion_refused".to_owned(), 4)].into());
+        assert_eq!(outcome.first, [("fusion_refused".to_owned(), 0.016667)].into());
     }
 }
