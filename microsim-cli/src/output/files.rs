@@ -141,3 +141,19 @@ fn attempt<T>(call: impl Fn() -> io::Result<T>) -> io::Result<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_lock_has_one_owner_and_is_worth_nothing_once_its_file_is_removed() {
+        let path = std::env::temp_dir().join(format!("microsim-lock-{}", std::process::id()));
+        let [first, second] = [(); 2].map(|()| Written::lockable(&path).unwrap());
+        assert!(first.try_lock(&path) && !second.try_lock(&path));
+        drop(first);
+        fs::remove_file(&path).unwrap();
+        assert!(!second.try_lock(&path));
+    }
+}
