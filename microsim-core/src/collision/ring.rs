@@ -226,10 +226,14 @@ impl RingContacts {
         ends.push(nodes.len());
         for hits in hits.chunk_by(|a, b| a.particle == b.particle) {
             let (particle, first) = (hits[0].particle, links.len() as u32);
+            let (i, node) = (particle as usize, ring.nodes[0] as usize);
+            if near.exemptions.contains(p.owner[i], ring.owner) {
+                continue;
+            }
             let places = hits.iter().flat_map(|hit| hit.places());
             let all = places.map(|place| FoundLink { link: ring.link(place as usize), place });
             links.extend(all.filter(|found| may_touch(p, particle, found.link, near.exemptions)));
-            let (last, i, node) = (links.len() as u32, particle as usize, ring.nodes[0] as usize);
+            let last = links.len() as u32;
             if last == first {
                 continue;
             }
@@ -255,13 +259,11 @@ impl Hit {
     }
 }
 
-/// Whether a disc that is no node of a link's ring collides with the link, and not through a gate.
+/// Whether a disc collides with a link of a ring that it is no node of, and not through a gate. Exempt owners never do.
 pub(crate) fn may_touch(p: &Particles, disc: u32, Link { a, b }: Link, exemptions: &Exemptions) -> bool {
     let (i, node) = (disc as usize, a as usize);
     let owners = [p.owner[i], p.owner[node]];
-    p.groups[i].meets(p.groups[node])
-        && !exemptions.contains(owners[0], owners[1])
-        && ![a, b].iter().any(|&node| exemptions.gate_is_open([disc, node], owners))
+    p.groups[i].meets(p.groups[node]) && ![a, b].iter().any(|&node| exemptions.gate_is_open([disc, node], owners))
 }
 
 #[cfg(test)]

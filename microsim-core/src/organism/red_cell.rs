@@ -181,8 +181,8 @@ mod tests {
         let outline = |world: &World| world.view().organism(cell).unwrap().outline().collect::<Vec<_>>();
         let slimness = |outline: &[Vec2]| {
             let centre = crate::geometry::centroid(outline).unwrap();
-            let reach = |axis: fn(Vec2) -> f32| outline.iter().map(|&p| axis(p - centre).abs()).fold(0.0, f32::max);
-            reach(|p| p.y) / reach(|p| p.x)
+            let extent = |axis: fn(Vec2) -> f32| outline.iter().map(|&p| axis(p - centre).abs()).fold(0.0, f32::max);
+            extent(|p| p.y) / extent(|p| p.x)
         };
         let (area, mut dented) = (signed_area(&outline(&world)), 1.0_f32);
         let mut push = Inputs::new();

@@ -3,7 +3,9 @@
 //! two crossing links that are a few links apart are put on a straight line.
 
 use super::contact::shift;
+use super::lanes::{LANES, load};
 use crate::geometry::segment::{folds_back, segments_touch};
+use crate::instruction_set::each;
 use crate::particle::Particles;
 use glam::Vec2;
 
@@ -20,16 +22,19 @@ const ROUNDS: usize = 4;
 pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>) -> u32 {
     // The way between the two links that cross is the shorter one.
     let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
-    let mut crossings = 0;
+    let (mut crossings, mut midpoints) = (0, Midpoints::default());
     read(ring, p, outline);
+    midpoints.read(outline);
     for _ in 0..ROUNDS {
         let before = crossings;
         for first in 0..ring.len() {
-            if let Some(apart) = (1..=farthest).find(|&apart| cross(outline, first, apart))
+            let last = if midpoints.any_near(first, farthest) { farthest } else { farthest.min(1) };
+            if let Some(apart) = (1..=last).find(|&apart| cross(outline, first, apart))
                 && straighten(ring, first, apart + 1, p)
             {
                 crossings += 1;
                 read(ring, p, outline);
+                midpoints.read(outline);
             }
         }
         if crossings == before {
@@ -42,6 +47,49 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>)
 fn read(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>) {
     outline.clear();
     outline.extend(ring.iter().map(|&node| p.position(node as usize)));
+}
+
+/// The middle of each link, and of the first ones once more after the last, so that the next links lie side by side.
+#[derive(Default)]
+struct Midpoints {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    /// Squared length of the longest link, and some more for rounding.
+    farthest_squared: f32,
+}
+
+impl Midpoints {
+    fn read(&mut self, outline: &[Vec2]) {
+        let Self { x, y, farthest_squared } = self;
+        x.clear();
+        y.clear();
+        *farthest_squared = 0.0;
+        for (k, a) in outline.iter().enumerate() {
+            let b = outline[if k + 1 < outline.len() { k + 1 } else { 0 }];
+            x.push(0.5 * (a.x + b.x));
+            y.push(0.5 * (a.y + b.y));
+            let squared = 1.001 * a.distance_squared(b);
+            *farthest_squared = if squared > *farthest_squared { squared } else { *farthest_squared };
+        }
+        for column in [x, y] {
+            while column.len() < outline.len() + FARTHEST + LANES + 1 {
+                column.extend_from_within(..outline.len().min(FARTHEST + LANES + 1));
+            }
+        }
+    }
+
+    /// Whether any link that is two to `farthest` links later, or a few more, is so near that a link may touch it: their
+    /// middles are apart by half of both lengths at most.
+    fn any_near(&self, first: usize, farthest: usize) -> bool {
+        let mut least = f32::INFINITY;
+        for k in (first + 2..=first + farthest).step_by(LANES) {
+            let (x, y) = (load::<LANES>(&self.x, k), load::<LANES>(&self.y, k));
+            let (x, y) = (each::<LANES>(|l| x[l] - self.x[first]), each::<LANES>(|l| y[l] - self.y[first]));
+            let squared = each::<LANES>(|l| x[l] * x[l] + y[l] * y[l]);
+            least = squared.into_iter().fold(least, |least, squared| if squared < least { squared } else { least });
+        }
+        least <= self.farthest_squared
+    }
 }
 
 /// Whether a link crosses, or folds back onto, the one `apart` links later.
@@ -72,6 +120,7 @@ mod tests {
     use super::super::testing::disc;
     use super::*;
     use crate::geometry::polygon::is_simple;
+    use crate::rng::Rng;
     use proptest::prelude::*;
 
     fn ring_of(points: &[Vec2]) -> (Vec<u32>, Particles) {
@@ -135,6 +184,26 @@ mod tests {
         let (ring, mut p) = ring_of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(Vec2::from));
         assert_eq!(untangle(&ring, &mut p), 0);
         assert_eq!(untangle(&ring[..3], &mut p), 0);
+    }
+
+    #[test]
+    fn links_whose_middles_are_far_apart_do_not_touch() {
+        let (mut rng, mut midpoints, mut far, mut near) = (Rng::new(5, 2), Midpoints::default(), 0, 0);
+        for count in [3, 5, 12, 44] {
+            for _ in 0..500 {
+                let mut noise = || Vec2::new(rng.range(-0.6, 0.6), rng.range(-0.6, 0.6));
+                let points: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(k as f32 / 7.0) * 7.0 + noise()).collect();
+                let farthest = FARTHEST.min((count / 2).saturating_sub(1));
+                midpoints.read(&points);
+                for first in 0..count {
+                    let crosses = (2..=farthest).any(|apart| cross(&points, first, apart));
+                    let is_near = midpoints.any_near(first, farthest);
+                    assert!(is_near || !crosses, "{points:?}, link {first}");
+                    (far, near) = (far + u32::from(!is_near), near + u32::from(crosses));
+                }
+            }
+        }
+        assert!(far > 1000 && near > 1000, "{far} far, {near} near");
     }
 
     proptest! {

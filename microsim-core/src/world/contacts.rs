@@ -3,7 +3,7 @@
 use super::World;
 use crate::collision::Contact;
 use crate::collision::broad_phase::SearchInput;
-use crate::collision::ring::{Link, Ring};
+use crate::collision::ring::{Link, Ring, RingContact};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -82,16 +82,26 @@ impl World {
     /// All that the last step's search found, not measured.
     pub(crate) fn near(&self) -> impl Iterator<Item = Near> + '_ {
         let found = &self.scratch.broad_phase;
-        let discs = found.contacts.iter().map(|&Contact { i, j, touched, .. }| Near::Discs { i, j, touched });
-        let links = found.ring_contacts.contacts.iter().flat_map(|contact| {
-            let (i, touched) = (contact.particle, contact.touched);
-            found.ring_contacts.found.links_of(contact).iter().map(move |found| Near::DiscAndLink {
-                i,
-                link: found.link,
-                touched,
-            })
-        });
+        let discs = found.contacts.iter().map(Near::discs);
+        discs.chain(found.ring_contacts.contacts.iter().flat_map(|contact| self.near_links(contact)))
+    }
+
+    /// The same of different owners only, who are looked up once for all links near a disc.
+    pub(crate) fn near_of_others(&self) -> impl Iterator<Item = ([u32; 2], Near)> + '_ {
+        let found = &self.scratch.broad_phase;
+        let others = |near: Near| Some(near.owners(&self.particles)).filter(|[a, b]| a != b);
+        let discs = found.contacts.iter().map(Near::discs).filter_map(move |near| Some((others(near)?, near)));
+        let contacts = found.ring_contacts.contacts.iter();
+        let near_rings = contacts.filter_map(move |contact| Some((others(self.near_links(contact).next()?)?, contact)));
+        let links = near_rings.flat_map(|(owners, contact)| self.near_links(contact).map(move |near| (owners, near)));
         discs.chain(links)
+    }
+
+    /// The links near a disc, one pair each.
+    fn near_links(&self, contact: &RingContact) -> impl Iterator<Item = Near> + '_ {
+        let RingContact { particle: i, touched, .. } = *contact;
+        let links = self.scratch.broad_phase.ring_contacts.found.links_of(contact).iter();
+        links.map(move |found| Near::DiscAndLink { i, link: found.link, touched })
     }
 
     /// Measures what was found, if both particles are still those that were found.
@@ -112,6 +122,10 @@ impl World {
 }
 
 impl Near {
+    fn discs(&Contact { i, j, touched, .. }: &Contact) -> Self {
+        Self::Discs { i, j, touched }
+    }
+
     /// Owners of the two.
     pub(crate) fn owners(self, p: &Particles) -> [u32; 2] {
         let (Self::Discs { i, j, .. } | Self::DiscAndLink { i, link: Link { a: j, .. }, .. }) = self;

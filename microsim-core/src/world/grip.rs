@@ -12,7 +12,7 @@ use crate::solver::drive::{Drive, Traction};
 use glam::Vec2;
 
 /// Gap that a node bridges, as a share of its radius: it is off what it crawls on for a moment now and then.
-const REACH: f32 = 0.25;
+const BRIDGED_GAP: f32 = 0.25;
 /// Time in which a cell as a whole reaches its speed, s: it bounds the force.
 const GRIP_TIME: f32 = 0.1;
 /// Length of the mean normal of what is touched above which a cell is touched from one side.
@@ -79,7 +79,8 @@ impl World {
             let (i, obstacle) = (particle as usize, &self.obstacles[obstacle as usize]);
             let (surface, is_inside) = obstacle.nearest(p.position(i));
             let way = p.position(i) - surface;
-            let (way, is_near) = if is_inside { (-way, true) } else { (way, way.length() <= reach(p.radius[i])) };
+            let (way, is_near) =
+                if is_inside { (-way, true) } else { (way, way.length() <= grip_distance(p.radius[i])) };
             let grips = is_near && p.fluid[i] == 0 && !(is_inside && obstacle.one_way.is_some());
             grips.then(|| Grip { owner: p.owner[i], normal: way.normalize_or_zero(), on: None })
         })
@@ -90,7 +91,7 @@ impl World {
         let touching = self.near_pairs().filter(|pair| {
             let [i, j] = [pair.i, pair.j].map(|i| i as usize);
             let least = if p.radius[i] < p.radius[j] { p.radius[i] } else { p.radius[j] };
-            pair.gap <= REACH * least && p.owner[i] != p.owner[j]
+            pair.gap <= BRIDGED_GAP * least && p.owner[i] != p.owner[j]
         });
         touching.flat_map(|NearPair { i, j, .. }| {
             [(i, j), (j, i)].into_iter().filter_map(|(own, other)| {
@@ -135,6 +136,6 @@ impl World {
 }
 
 /// Distance of a centre from a surface at which a disc still grips it.
-fn reach(radius: f32) -> f32 {
-    radius * (1.0 + REACH)
+fn grip_distance(radius: f32) -> f32 {
+    radius * (1.0 + BRIDGED_GAP)
 }

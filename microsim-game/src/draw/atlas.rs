@@ -32,8 +32,8 @@ impl Tile {
     /// Texture coordinates of a point of the tile, -1 to 1 on both axes, y down.
     pub(crate) fn at(self, point: Vec2) -> Vec2 {
         let middle = Vec2::new((self as usize as f32 + 0.5) * SIDE as f32, 0.5 * SIDE as f32);
-        let reach = 0.5 * SIDE as f32 - GUARD;
-        (middle + point * reach) / Vec2::new(f32::from(WIDTH), f32::from(HEIGHT))
+        let half_side = 0.5 * SIDE as f32 - GUARD;
+        (middle + point * half_side) / Vec2::new(f32::from(WIDTH), f32::from(HEIGHT))
     }
 }
 

@@ -147,9 +147,9 @@ impl Senses<'_> {
             let (surface, is_inside) = obstacle.nearest(self.at);
             let offset = self.at - surface;
             let away = direction_or(if is_inside { -offset } else { offset }, Vec2::Y);
-            let reach = self.outline.iter().map(|&node| (self.at - node).dot(away));
-            let reach = reach.fold(if self.outline.is_empty() { self.radius } else { 0.0 }, larger);
-            (!is_inside).then(|| SensedWall { away, gap: offset.length() - reach })
+            let extent = self.outline.iter().map(|&node| (self.at - node).dot(away));
+            let extent = extent.fold(if self.outline.is_empty() { self.radius } else { 0.0 }, larger);
+            (!is_inside).then(|| SensedWall { away, gap: offset.length() - extent })
         })
     }
 }

@@ -93,16 +93,16 @@ fn read_tier(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Collisio
     })
 }
 
-/// Checks that an organism of this reach fits into the box that it is to be put into.
-fn check_box(fields: &Fields<'_>, positions: &Positions, reach: f32) {
+/// Checks that an organism of this extent fits into the box that it is to be put into.
+fn check_box(fields: &Fields<'_>, positions: &Positions, extent: f32) {
     let Positions::Random { within: [low, high], .. } = positions else {
         return;
     };
-    let inner = *high - *low - 2.0 * reach;
+    let inner = *high - *low - 2.0 * extent;
     if inner.cmplt(Vec2::ZERO).any() {
         let named = ["within", "scale"].into_iter().find(|field| fields.has(field));
-        let message = format!("with a reach of {reach} it does not fit into its box");
-        let accepted = format!("a box of at least {0} by {0}, or a smaller organism", 2.0 * reach);
+        let message = format!("with an extent of {extent} it does not fit into its box");
+        let accepted = format!("a box of at least {0} by {0}, or a smaller organism", 2.0 * extent);
         fields.refuse(named.unwrap_or("of"), message, accepted);
     }
 }

@@ -49,9 +49,9 @@ impl World {
         let room = organism.body.membrane().map_or(0.0, |membrane| membrane.rest_length);
         let soft = organism.meals().iter().filter(|meal| meal.class == PreyClass::Soft && meal.phase.is_inside());
         soft.filter_map(|meal| self.organisms.get(meal.prey)).any(|prey| {
-            let side = |i: usize, reach: f32| (self.particles.position(i) - point).dot(axis) + reach;
+            let side = |i: usize, radius: f32| (self.particles.position(i) - point).dot(axis) + radius;
             let discs = || prey.particles().map(|i| (i as usize, self.particles.radius[i as usize] + room));
-            discs().any(|(i, reach)| side(i, reach) > 0.0) && discs().any(|(i, reach)| side(i, -reach) < 0.0)
+            discs().any(|(i, radius)| side(i, radius) > 0.0) && discs().any(|(i, radius)| side(i, -radius) < 0.0)
         })
     }
 }

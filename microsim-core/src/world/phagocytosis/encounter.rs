@@ -30,9 +30,8 @@ impl World {
     pub(super) fn near_prey(&self) -> NearPrey {
         let organism = |owner| self.organisms.id_at(owner).and_then(|id| self.organisms.get(id));
         let mut found = Vec::new();
-        for near in self.near() {
-            let [a, b] = near.owners(&self.particles);
-            for (engulfer, prey) in [(a, b), (b, a)].into_iter().filter(|_| a != b) {
+        for (owners, near) in self.near_of_others() {
+            for [engulfer, prey] in [owners, [owners[1], owners[0]]] {
                 let may_eat = organism(engulfer).is_some_and(|organism| organism.engulfer.is_some());
                 if may_eat && organism(prey).is_some_and(|organism| organism.prey.is_some()) {
                     found.push((engulfer, near));

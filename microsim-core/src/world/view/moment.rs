@@ -66,8 +66,8 @@ impl View<'_> {
         let was_there = owner != NO_OWNER && earlier.owners.get(i) == Some(&owner);
         // Indices are used again: a particle farther away than twice the speed limit allows was another one.
         let steps = ((self.world.time() - earlier.time) / f64::from(self.world.config.dt)) as f32 + 1.0;
-        let reach = 2.0 * steps * self.world.config.max_displacement();
-        let near = |before: &Vec2| (*before - now).length_squared() <= reach * reach;
+        let farthest = 2.0 * steps * self.world.config.max_displacement();
+        let near = |before: &Vec2| (*before - now).length_squared() <= farthest * farthest;
         earlier.positions.get(i).copied().filter(near).filter(|_| was_there).unwrap_or(now)
     }
 }
