@@ -316,6 +316,8 @@ pub(crate) struct NucleusLook {
     pub bent: f32,
     pub matter: Matter,
     pub texture: Texture,
+    /// Fewest and most nucleoli of a lobe.
+    pub nucleoli: [u32; 2],
 }
 
 /// One sort of granules.
@@ -327,6 +329,8 @@ pub(crate) struct GranuleLook {
     pub radius: f32,
     pub spread: f32,
     pub limits: [f32; 2],
+    /// How much they keep to the surroundings of the nucleus and to patches, 0 to 1.
+    pub gathered: f32,
     /// Smaller ones that a granule has grown together with, at most.
     pub companions: u32,
     /// Of a granule one micrometre thick.

@@ -17,7 +17,7 @@ const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.30;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 2.0;
+const CLUMPS: f32 = 3.6;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
 const GRAINS: f32 = 3.0;
@@ -138,22 +138,24 @@ impl BackgroundMatter {
         let radius = 0.07 + 0.33 * size * size * size;
         let sign = if rng.unit() < 0.75 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.08, 0.32])) };
-        Spot { at, radius, matter, shape: SpotShape::Bump }
+        let spot = Spot { at, radius, matter, shape: SpotShape::Bump };
+        if rng.unit() < 0.35 { spot.out_of_focus(rng.range([2.5, 7.0])) } else { spot }
     }
 
-    /// Grains that grew on each other, all of a kind, in focus or out of it.
+    /// Grains that grew on each other, more or less along one way, all of a kind, in focus or out of it.
     fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
         let size = 0.14 * libm::expf(0.55 * rng.normal());
-        let dense = 0.25 * libm::expf(0.4 * rng.normal()) * strength;
+        let dense = 0.17 * libm::expf(0.65 * rng.normal()) * strength;
+        let along = rng.direction() * (1.6 * rng.unit());
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
-        let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
+        let chirp = if rng.unit() < 0.4 { rng.range([2.5, 8.0]) } else { 0.0 };
         let mut tips = [at; TIPS];
         for k in 0..(count as usize).min(MOST_GRAINS) {
             let from = tips[rng.bits() as usize % TIPS];
-            let at = from + rng.direction() * (1.4 * size);
+            let at = from + (rng.direction() + along).normalize_or_zero() * (1.4 * size);
             tips[k % TIPS] = at;
             let radius = size * libm::expf(0.3 * rng.normal());
             let matter = matter * rng.range([0.5, 1.1]);

@@ -6,9 +6,9 @@ pub(super) const LOOK: RoundLook = RoundLook {
     profile: Profile::Dome(0.45),
     matter: Matter { phase: 2.5, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     variation: 0.05,
-    texture: Texture { amount: 0.05, size: 0.5 },
+    texture: Texture { amount: 0.03, size: 1.1 },
     outline: OutlineLook::uneven(0.012),
-    inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
+    inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS, CHROMATIN],
     cilia: Some(&Cilia { most: 380.0, apart: 0.35, length: 0.16, width: 0.14, phase: 0.26, waves: 9.0, rate: 4.0 }),
     pellicle: Some(&Pellicle {
         furrows: 22.0,
@@ -52,4 +52,12 @@ const MACRONUCLEUS: Inclusion = Inclusion {
     place: [0.0, 0.15],
     matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
     shape: SpotShape::Ball,
+};
+
+const CHROMATIN: Inclusion = Inclusion {
+    count: [16, 26],
+    radius: [0.03, 0.10],
+    place: [0.0, 0.16],
+    matter: Matter { phase: 0.10, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.22 },
+    shape: SpotShape::Bump,
 };
