@@ -64,6 +64,7 @@ impl ImageLook {
             place: [0.0, 0.2],
             matter: Matter { phase: 0.25, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
             shape: SpotShape::Ball,
+            grains: [0, 0],
         }],
         ..RoundLook::PLAIN
     });
@@ -212,6 +213,8 @@ pub(crate) struct Inclusion {
     /// Each at its thickest.
     pub matter: Matter,
     pub shape: SpotShape,
+    /// Fewest and most soft grains inside each.
+    pub grains: [u32; 2],
 }
 
 /// How a small round thing fades outwards.

@@ -78,6 +78,7 @@ const LUMPS: Inclusion = Inclusion {
     place: [0.0, 0.6],
     matter: Matter { phase: 0.15, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.0 },
     shape: SpotShape::Bump,
+    grains: [0, 0],
 };
 
 #[cfg(test)]

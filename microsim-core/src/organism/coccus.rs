@@ -69,7 +69,7 @@ impl Spec for CoccusSpec {
             image: ImageLook::Round(&RoundLook {
                 matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
                 variation: 0.25,
-                outline: OutlineLook { size: 0.06, ovals: 0.4, ..const { OutlineLook::uneven(0.06) } },
+                outline: OutlineLook { size: 0.06, ovals: 0.4, spread: 0.9, ..const { OutlineLook::uneven(0.06) } },
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },

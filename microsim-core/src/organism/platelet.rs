@@ -108,7 +108,7 @@ impl Spec for PlateletSpec {
         Look {
             image: ImageLook::Round(&RoundLook {
                 profile: Profile::Dome(0.3),
-                matter: Matter { phase: 0.15, haemoglobin: 0.0, cytoplasm: 0.26, nucleus: 0.06 },
+                matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: 0.28, nucleus: 0.06 },
                 variation: 0.3,
                 texture: Texture { amount: 0.12, size: 0.7 },
                 outline: OutlineLook {
@@ -139,6 +139,7 @@ const GRANULOMERE: Inclusion = Inclusion {
     place: [0.0, 0.28],
     matter: Matter { phase: 0.17, haemoglobin: 0.0, cytoplasm: 0.22, nucleus: 0.12 },
     shape: SpotShape::Bump,
+    grains: [0, 0],
 };
 
 const GRANULES: Inclusion = Inclusion {
@@ -147,6 +148,7 @@ const GRANULES: Inclusion = Inclusion {
     place: [0.0, 0.5],
     matter: Matter { phase: 0.20, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
     shape: SpotShape::Bump,
+    grains: [0, 0],
 };
 
 impl PlateletSpec {

@@ -43,7 +43,7 @@ const PULSE: f32 = 2.0;
 const RAGS_BEHIND: f32 = 0.6;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
-const RIM_UNEVEN: f32 = 0.6;
+const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.

@@ -1,13 +1,15 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
-use super::individual::{self, Hollow, KNOB, REGIONS, Region};
+mod inclusions;
+
+use super::individual::{self, Hollow, KNOB};
 use super::polar_outline::PolarOutline;
 use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
 use crate::geometry::{direction_or, rotate, unit_vector};
-use crate::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
+use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
@@ -29,8 +31,6 @@ const STEEPEST: f32 = 0.9;
 const ABOVE: f32 = 0.09;
 /// How much thicker the middle of a red cell that stands up is, micrometres.
 const ON_EDGE: f32 = 1.2;
-/// Share of red cells that have pits from drying.
-const PITTED: f32 = 0.2;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 2.0;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
@@ -38,10 +38,6 @@ const DYED: f32 = 2.0;
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
-/// Share of many inclusions that have no edge.
-const SOFT: f32 = 0.5;
-/// Largest radius of an inclusion whose rings are seen where it is out of focus, micrometres.
-const RINGED: f32 = 0.3;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
 /// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
@@ -114,7 +110,7 @@ impl RoundBody {
             matter.haemoglobin *= pose.thickness().sqrt();
         }
         let blur = rng.unit();
-        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
+        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
         let slope = rotate(rng.direction() * (STEEPEST * rng.unit()), facing);
         Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
     }
@@ -230,44 +226,6 @@ impl RoundBody {
             spots.extend(self.vacuoles(pellicle, time).map(spot));
         }
         spots
-    }
-
-    fn include(&self, inclusion: &Inclusion, rng: &mut HashRng) -> Vec<Spot> {
-        let [fewest, most] = inclusion.count;
-        let count = fewest + rng.bits() % (most - fewest + 1);
-        let regions: [Region; REGIONS] = std::array::from_fn(|_| Region::of(inclusion, rng));
-        let spot = |_| {
-            let at = Region::place(&regions, inclusion.place, rng);
-            let apart = |region: &&Region| (region.at - at).length_squared();
-            let region = regions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(&regions[0]);
-            let share = rng.unit();
-            let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
-            let at = self.place(at.normalize_or_zero(), at.length());
-            // The groove is clear.
-            let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
-            let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
-            let matter = inclusion.matter * (rng.range([0.6, 1.3]) * region.dense * (1.0 - 0.9 * clear));
-            let is_soft = most > 3 && rng.unit() < SOFT;
-            let shape = if is_soft { SpotShape::Bump } else { inclusion.shape };
-            let spot = Spot { at, radius: radius * region.size * self.polar.mean, matter, shape };
-            if region.chirp > 0.0 && spot.radius < RINGED { spot.out_of_focus(region.chirp) } else { spot }
-        };
-        (0..count).map(spot).collect()
-    }
-
-    /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
-    fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
-        let count = if rng.unit() < PITTED { 1 + rng.bits() % 3 } else { 0 };
-        let pit = |_| {
-            let at = self.place(rng.direction(), 0.6 * rng.unit());
-            let radius = 0.30 * libm::expf(0.4 * rng.normal());
-            let dense = rng.range([0.3, 0.9]);
-            let clear = Matter { haemoglobin: -dense, ..Matter::phase(-0.10) };
-            let around = Matter { haemoglobin: 0.5 * dense, nucleus: 0.25 * dense, ..Matter::NONE };
-            let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
-            [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring]
-        };
-        (0..count).flat_map(pit).collect()
     }
 
     /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.

@@ -48,7 +48,7 @@ const CLEAR: GranuleLook = GranuleLook {
 };
 
 const VACUOLES: GranuleLook = GranuleLook {
-    density: 0.05,
+    density: 0.03,
     radius: 0.5,
     spread: 0.25,
     limits: [0.35, 0.75],
