@@ -41,12 +41,12 @@ const CRYSTALS: Inclusion = Inclusion {
 };
 
 const FOOD: Inclusion = Inclusion {
-    count: [7, 14],
+    count: [6, 10],
     radius: [0.035, 0.10],
     place: [0.15, 0.72],
     matter: Matter { phase: 0.45, haemoglobin: 0.10, cytoplasm: 0.6, nucleus: 0.1 },
     shape: SpotShape::Ball,
-    grains: [3, 9],
+    grains: [0, 2],
 };
 
 const MACRONUCLEUS: Inclusion = Inclusion {
@@ -55,5 +55,5 @@ const MACRONUCLEUS: Inclusion = Inclusion {
     place: [0.0, 0.15],
     matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
     shape: SpotShape::Ball,
-    grains: [16, 26],
+    grains: [6, 10],
 };
