@@ -17,7 +17,7 @@ const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.30;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 5.5;
+const CLUMPS: f32 = 2.5;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
 const GRAINS: f32 = 3.0;
@@ -138,9 +138,10 @@ impl BackgroundMatter {
         let radius = 0.07 + 0.3 * size * size * size;
         let sign = if rng.unit() < 0.75 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.04, 0.22])) };
-        let chirp = if rng.unit() < 0.35 { rng.range([2.5, 7.0]) } else { 0.0 };
+        let chirp = if rng.unit() < 0.2 { rng.range([2.5, 7.0]) } else { 0.0 };
+        let grains = if chirp > 0.0 { 1 } else { 1 + rng.bits() % 3 };
         let mut at = at;
-        for _ in 0..1 + rng.bits() % 3 {
+        for _ in 0..grains {
             let spot = Spot { at, radius: radius * rng.range([0.5, 1.0]), matter, shape: SpotShape::Bump };
             spots.push(if chirp > 0.0 { spot.out_of_focus(chirp) } else { spot });
             at += rng.direction() * radius;
@@ -156,7 +157,7 @@ impl BackgroundMatter {
         let along = rng.direction() * (1.6 * rng.unit());
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
-        let chirp = if rng.unit() < 0.4 { rng.range([2.5, 8.0]) } else { 0.0 };
+        let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
         let mut tips = [at; TIPS];
         for k in 0..(count as usize).min(MOST_GRAINS) {
             let from = tips[rng.bits() as usize % TIPS];

@@ -23,7 +23,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
 };
 
 const GRANULES: Inclusion = Inclusion {
-    count: [420, 520],
+    count: [320, 400],
     radius: [0.015, 0.055],
     place: [0.0, 0.93],
     matter: Matter { phase: 0.30, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
@@ -55,5 +55,5 @@ const MACRONUCLEUS: Inclusion = Inclusion {
     place: [0.0, 0.15],
     matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
     shape: SpotShape::Ball,
-    grains: [6, 10],
+    grains: [4, 7],
 };
