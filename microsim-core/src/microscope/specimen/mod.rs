@@ -13,7 +13,7 @@ mod spline;
 pub(super) mod spot;
 pub(super) mod thread;
 
-use super::maths::{bell, mix};
+use super::maths::{bell, larger, mix};
 use super::matter::{Matter, MatterRaster};
 use super::noise::{HashRng, scramble};
 use super::raster::PixelGrid;
@@ -155,8 +155,8 @@ fn rod(organism: OrganismView<'_>, matter: Matter, seed: u32) -> Vec<Spot> {
     let Some((head, tail)) = ends.filter(|(head, _)| head.radius > 0.0) else { return Vec::new() };
     let mut rng = HashRng::new(seed);
     let way = tail.position - head.position;
-    let reach = head.radius / way.length().max(head.radius);
-    let [from, to] = [0.0, 1.0].map(|end| end + ROD_ENDS * reach * rng.range([-1.0, 1.0]));
+    let cap = head.radius / larger(way.length(), head.radius);
+    let [from, to] = [0.0, 1.0].map(|end| end + ROD_ENDS * cap * rng.range([-1.0, 1.0]));
     let bend = way.perp() * (ROD_BEND * rng.normal());
     let width = head.radius * (1.0 + ROD_WIDTH * rng.range([-1.0, 0.6]));
     let septum = if rng.unit() < ROD_SEPTA { rng.range([0.15, 0.4]) } else { 0.0 };
