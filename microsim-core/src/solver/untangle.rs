@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn links_whose_middles_are_far_apart_do_not_touch() {
         let (mut rng, mut midpoints, mut far, mut near) = (Rng::new(5, 2), Midpoints::default(), 0, 0);
-        for count in [3, 5, 12, 44] {
+        for count in [3_usize, 5, 12, 44] {
             for _ in 0..500 {
                 let mut noise = || Vec2::new(rng.range(-0.6, 0.6), rng.range(-0.6, 0.6));
                 let points: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(k as f32 / 7.0) * 7.0 + noise()).collect();
