@@ -191,7 +191,7 @@ mod tests {
         let (mut rng, mut midpoints, mut far, mut near) = (Rng::new(5, 2), Midpoints::default(), 0, 0);
         for count in [3_usize, 5, 12, 44] {
             for _ in 0..500 {
-                let mut noise = || Vec2::new(rng.range(-0.6, 0.6), rng.range(-0.6, 0.6));
+                let mut noise = || Vec2::new(rng.range(-1.0, 1.0), rng.range(-1.0, 1.0));
                 let points: Vec<Vec2> = (0..count).map(|k| Vec2::from_angle(k as f32 / 7.0) * 7.0 + noise()).collect();
                 let farthest = FARTHEST.min((count / 2).saturating_sub(1));
                 midpoints.read(&points);
@@ -203,7 +203,7 @@ mod tests {
                 }
             }
         }
-        assert!(far > 1000 && near > 1000, "{far} far, {near} near");
+        assert!(far > 1000 && near > 300, "{far} far, {near} near");
     }
 
     proptest! {
