@@ -306,9 +306,9 @@ fn damp_stretching(world: &mut World) {
 /// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.
 fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
-    let mut outline = Vec::new();
+    let (mut outline, mut midpoints) = (Vec::new(), untangle::Midpoints::default());
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
-        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles, &mut outline));
+        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles, &mut outline, &mut midpoints));
         let contacts = &scratch.broad_phase.ring_contacts;
         let caught = strays::catch_strays(ring, place, &outline, contacts, particles);
         guard.net_fired += u64::from(caught);

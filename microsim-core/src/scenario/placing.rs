@@ -40,8 +40,9 @@ pub(super) fn place_all(
     if groups.iter().all(|group| group.random_count() == 0) {
         return fixed;
     }
-    let extent = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
-    let mut taken = Taken::new(extent.fold(0.0, |far, extent| if extent > far { extent } else { far }), obstacles);
+    let extents = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
+    let largest = extents.fold(0.0, |largest, extent| if extent > largest { extent } else { largest });
+    let mut taken = Taken::new(largest, obstacles);
     fixed.iter().flatten().for_each(|placed| taken.add(placed));
     let mut lay_out = |layout: usize| {
         let (mut placed, mut taken) = (fixed.clone(), taken.clone());
@@ -126,15 +127,14 @@ pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
 #[derive(Clone)]
 struct Taken<'a> {
     cell: f32,
-    /// Largest radius.
-    extent: f32,
+    largest_radius: f32,
     circles: BTreeMap<[i32; 2], Vec<(Vec2, f32, CollisionGroups)>>,
     obstacles: &'a [Obstacle],
 }
 
 impl<'a> Taken<'a> {
-    fn new(extent: f32, obstacles: &'a [Obstacle]) -> Self {
-        Self { cell: 2.0 * extent + 0.1, extent, circles: BTreeMap::new(), obstacles }
+    fn new(largest_radius: f32, obstacles: &'a [Obstacle]) -> Self {
+        Self { cell: 2.0 * largest_radius + 0.1, largest_radius, circles: BTreeMap::new(), obstacles }
     }
 
     fn cell_of(&self, at: Vec2) -> [i32; 2] {
@@ -148,12 +148,12 @@ impl<'a> Taken<'a> {
 
     fn is_free(&self, at: Vec2, radius: f32, groups: CollisionGroups) -> bool {
         let blocked = |obstacle: &Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
-        let [left, bottom] = self.cell_of(at - (radius + self.extent));
-        let [right, top] = self.cell_of(at + (radius + self.extent));
+        let [left, bottom] = self.cell_of(at - (radius + self.largest_radius));
+        let [right, top] = self.cell_of(at + (radius + self.largest_radius));
         let cells = (left..=right).flat_map(|i| (bottom..=top).map(move |j| [i, j]));
         let mut circles = cells.filter_map(|cell| self.circles.get(&cell)).flatten();
-        let is_apart = |&(other, extent, others): &(Vec2, f32, CollisionGroups)| {
-            !others.meets(groups) || (other - at).length() >= extent + radius
+        let is_apart = |&(other, other_radius, others): &(Vec2, f32, CollisionGroups)| {
+            !others.meets(groups) || (other - at).length() >= other_radius + radius
         };
         circles.all(is_apart) && !self.obstacles.iter().any(blocked)
     }

@@ -18,11 +18,11 @@ const BROKEN: f32 = 40.0;
 const ROUNDS: usize = 4;
 
 /// Straightens the ring between each two links that cross, a few links apart. Leaves in `outline` where its nodes are, and
-/// returns the number of crossings.
-pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>) -> u32 {
+/// returns the number of crossings. `midpoints` is scratch.
+pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>, midpoints: &mut Midpoints) -> u32 {
     // The way between the two links that cross is the shorter one.
     let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
-    let (mut crossings, mut midpoints) = (0, Midpoints::default());
+    let mut crossings = 0;
     read(ring, p, outline);
     midpoints.read(outline);
     for _ in 0..ROUNDS {
@@ -51,30 +51,27 @@ fn read(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>) {
 
 /// The middle of each link, and of the first ones once more after the last, so that the next links lie side by side.
 #[derive(Default)]
-struct Midpoints {
+pub(crate) struct Midpoints {
     x: Vec<f32>,
     y: Vec<f32>,
     /// Squared length of the longest link, and some more for rounding.
-    farthest_squared: f32,
+    longest_squared: f32,
 }
 
 impl Midpoints {
     fn read(&mut self, outline: &[Vec2]) {
-        let Self { x, y, farthest_squared } = self;
+        let Self { x, y, longest_squared } = self;
         x.clear();
         y.clear();
-        *farthest_squared = 0.0;
-        for (k, a) in outline.iter().enumerate() {
-            let b = outline[if k + 1 < outline.len() { k + 1 } else { 0 }];
+        *longest_squared = 0.0;
+        for (a, b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
             x.push(0.5 * (a.x + b.x));
             y.push(0.5 * (a.y + b.y));
-            let squared = 1.001 * a.distance_squared(b);
-            *farthest_squared = if squared > *farthest_squared { squared } else { *farthest_squared };
+            let squared = 1.001 * a.distance_squared(*b);
+            *longest_squared = if squared > *longest_squared { squared } else { *longest_squared };
         }
         for column in [x, y] {
-            while column.len() < outline.len() + FARTHEST + LANES + 1 {
-                column.extend_from_within(..outline.len().min(FARTHEST + LANES + 1));
-            }
+            (0..FARTHEST + LANES).for_each(|k| column.extend(column.get(k).copied()));
         }
     }
 
@@ -88,7 +85,7 @@ impl Midpoints {
             let squared = each::<LANES>(|l| x[l] * x[l] + y[l] * y[l]);
             least = squared.into_iter().fold(least, |least, squared| if squared < least { squared } else { least });
         }
-        least <= self.farthest_squared
+        least <= self.longest_squared
     }
 }
 
@@ -131,7 +128,7 @@ mod tests {
 
     fn untangle(ring: &[u32], p: &mut Particles) -> u32 {
         let mut seen = Vec::new();
-        let crossings = super::untangle(ring, p, &mut seen);
+        let crossings = super::untangle(ring, p, &mut seen, &mut Midpoints::default());
         assert_eq!(format!("{seen:?}"), format!("{:?}", outline(ring, p)));
         crossings
     }
@@ -184,6 +181,7 @@ mod tests {
         let (ring, mut p) = ring_of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(Vec2::from));
         assert_eq!(untangle(&ring, &mut p), 0);
         assert_eq!(untangle(&ring[..3], &mut p), 0);
+        assert_eq!(untangle(&[], &mut p), 0);
     }
 
     #[test]

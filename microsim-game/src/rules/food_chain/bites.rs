@@ -17,6 +17,8 @@ const GAP: f32 = 1.8;
 const HOLD: f32 = 0.4;
 /// Cytoplasm that a bite takes, particles/s; for each thick coat half as much.
 const RATE: f32 = 20.0;
+/// Time for which a bite counts after it, s: cells lose touch for a moment when one is pushed away.
+const RECENT: f64 = 1.0;
 
 /// An amoeba that touches a smaller one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +35,18 @@ pub struct Bite {
 
 /// Amoebae that touch smaller ones.
 #[derive(Clone, Debug, Default)]
-pub struct Bites(Vec<Bite>);
+pub struct Bites {
+    touching: Vec<Bite>,
+    /// Who was bitten in the last [`RECENT`], and when, s.
+    recent: Vec<(OrganismId, f64)>,
+}
 
 impl Bites {
     /// Looks after a step who touches whom. Returns who loses a particle of cytoplasm now: by whom, and who.
     pub fn advance(&mut self, world: &World) -> Vec<[OrganismId; 2]> {
-        let dt = world.config().dt;
-        let before = std::mem::take(&mut self.0);
+        let (dt, now) = (world.config().dt, world.time());
+        self.recent.retain(|(_, at)| now - at < RECENT);
+        let before = std::mem::take(&mut self.touching);
         let mut taken = Vec::new();
         for [by, of] in pairs(world) {
             let known = before.iter().find(|bite| (bite.by, bite.of) == (by.id(), of.id()));
@@ -52,15 +59,22 @@ impl Bites {
                 bite.owed -= 1.0;
                 taken.push([bite.by, bite.of]);
             }
-            self.0.push(bite);
+            self.touching.push(bite);
         }
+        self.recent.extend(taken.iter().map(|[_, of]| (*of, now)));
         taken
     }
 
     /// Whether somebody is bitten now.
     #[must_use]
     pub fn is_bitten(&self, cell: OrganismId) -> bool {
-        self.0.iter().any(|bite| bite.of == cell && bite.held > HOLD)
+        self.touching.iter().any(|bite| bite.of == cell && bite.held > HOLD)
+    }
+
+    /// Whether somebody bit it just now.
+    #[must_use]
+    pub fn was_bitten(&self, cell: OrganismId) -> bool {
+        self.recent.iter().any(|(of, _)| *of == cell)
     }
 }
 
@@ -108,7 +122,7 @@ fn touch(a: OrganismView<'_>, b: OrganismView<'_>) -> bool {
 mod tests {
     use super::super::change::mark_own;
     use super::*;
-    use microsim_core::{AmoeboidCellSpec, Placement, WorldConfig};
+    use microsim_core::{AmoeboidCellSpec, Inputs, Intent, Placement, WorldConfig};
 
     /// A world with the player's cell, and another whose radius is so much larger.
     fn meeting(larger: f32, changes: &[Change]) -> (World, [OrganismId; 2]) {
@@ -139,8 +153,8 @@ mod tests {
         assert_eq!(bites(1.1, &[Change::WideMouth; 4]), [false, false], "never one that is larger");
     }
 
-    #[test]
-    fn sisters_do_not_bite_each_other_when_one_has_changed() {
+    /// A large and a small cell that touch.
+    fn touching() -> (World, [OrganismId; 2]) {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let mut spawn = |radius: f32, x: f32| {
             let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), ..Default::default() };
@@ -148,6 +162,34 @@ mod tests {
         };
         let large = spawn(9.0, 60.0).unwrap();
         let small = (0..30).find_map(|k| spawn(5.0, 73.0 + 0.1 * k as f32)).unwrap();
+        (world, [large, small])
+    }
+
+    #[test]
+    fn a_bite_counts_for_a_second_though_touch_is_lost() {
+        let (mut world, [large, small]) = touching();
+        mark_own(&mut world, small).unwrap();
+        let (mut bites, mut hunt) = (Bites::default(), Inputs::new());
+        while !bites.was_bitten(small) && world.time() < 10.0 {
+            bites.advance(&world);
+            hunt.set(large, Intent::toward(world.centroid(small).unwrap()).unwrap());
+            world.step(&hunt);
+        }
+        assert!(bites.is_bitten(small) && bites.was_bitten(small));
+        world.remove(large).unwrap();
+        let end = world.time();
+        for (after, was_bitten) in [(0.8, true), (1.2, false)] {
+            while world.time() < end + after {
+                bites.advance(&world);
+                world.step(&Inputs::new());
+            }
+            assert_eq!((bites.is_bitten(small), bites.was_bitten(small)), (false, was_bitten), "after {after} s");
+        }
+    }
+
+    #[test]
+    fn sisters_do_not_bite_each_other_when_one_has_changed() {
+        let (mut world, [large, small]) = touching();
         assert_eq!(pairs(&world).len(), 0, "neither is the player's");
         mark_own(&mut world, small).unwrap();
         assert_eq!(pairs(&world).len(), 1);

@@ -26,8 +26,6 @@ const RAMP: f32 = 90.0;
 const RESTING: f32 = 0.3;
 /// What each [`Change::Thrift`] leaves of it.
 const THRIFT: f32 = 0.9;
-/// Time after a bite for which a cell that is gone was eaten, s: hunger may take its last particle, and touch is lost for a moment.
-const AFTER_BITE: f64 = 1.0;
 /// Streams of random numbers from here on are for offers.
 const STREAM: u64 = 5 << 60;
 
@@ -39,8 +37,6 @@ pub struct FoodChain {
     /// What hunger will take next, by cell, particles.
     owed: Vec<(OrganismId, f32)>,
     bites: Bites,
-    /// When the player's cells were bitten last, s.
-    bitten: Vec<(OrganismId, f64)>,
     offer: Option<[Change; 3]>,
     rng: Rng,
     fate: Option<Fate>,
@@ -62,8 +58,8 @@ impl FoodChain {
     pub fn new(world: &World, player: OrganismId) -> Self {
         let first = world.view().organism(player).map_or(1, cytoplasm).max(1);
         let rng = Rng::new(world.config().seed, STREAM);
-        let (owed, bites, bitten) = (Vec::new(), Bites::default(), Vec::new());
-        Self { first, owed, bites, bitten, offer: None, rng, fate: None, is_over: false }
+        let (owed, bites) = (Vec::new(), Bites::default());
+        Self { first, owed, bites, offer: None, rng, fate: None, is_over: false }
     }
 
     /// What the rules do before a step: bites and hunger. A cell that has nothing left to lose is gone.
@@ -77,15 +73,12 @@ impl FoodChain {
         let own: Vec<OrganismId> =
             world.view().organisms().filter(|cell| is_own(*cell)).map(|cell| cell.id()).collect();
         self.owed.retain(|(id, _)| own.contains(id));
-        self.bitten.retain(|(id, _)| own.contains(id));
         for id in own {
             self.starve(world, id, player);
         }
     }
 
     fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
-        self.bitten.retain(|(id, _)| *id != of);
-        self.bitten.push((of, world.time()));
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
         if world.view().organism(by).is_some_and(is_own) {
@@ -114,8 +107,8 @@ impl FoodChain {
         self.owed[place].1 += used;
         if self.owed[place].1 >= 1.0 {
             self.owed[place].1 -= 1.0;
-            let is_eaten = self.bitten.iter().any(|&(of, at)| of == id && world.time() - at < AFTER_BITE);
-            self.take(world, id, if is_eaten { Fate::Eaten } else { Fate::Starved });
+            // Hunger may take the last particle of a cell that is being eaten.
+            self.take(world, id, if self.bites.was_bitten(id) { Fate::Eaten } else { Fate::Starved });
         }
     }
 
