@@ -1,12 +1,14 @@
 //! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`.
 //!
-//! All players are computed in one process on one thread; a row fails unless all get the world that one process computes alone.
+//! The players of a row are computed on one thread, rows on all cores; they are printed as they are done. A row fails unless all
+//! get the world that one process computes alone.
 
 #[path = "../tests/common/virtual_match.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod virtual_match;
 
 use microsim_game::network::pacing::Pacing;
+use std::sync::Mutex;
 use virtual_match::{Match, Weather};
 
 fn main() {
@@ -16,16 +18,22 @@ fn main() {
         "| players | Hz | one way, ms | loss | frame p50/p99/max, ms | rollbacks | repeated a frame, most | waits | up, down B/s |"
     );
     println!("|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
-    for latency in [20.0, 80.0, 150.0].into_iter().filter(|latency| only.is_none_or(|only| only == *latency)) {
-        for (hz, pacing) in [(30, Pacing::USUAL), (60, Pacing::QUICK)] {
-            for players in 2..=4 {
-                for loss in [0.0, 0.03, 0.1] {
-                    let weather = Weather { latency, jitter: 0.25 * latency, loss, ..Weather::default() };
-                    row(players, hz, frames, pacing, weather);
-                }
-            }
+    let latencies = [150.0, 80.0, 20.0].into_iter().filter(|latency| only.is_none_or(|only| only == *latency));
+    let paces = || [(30, Pacing::USUAL), (60, Pacing::QUICK)].into_iter();
+    let crowds = latencies.flat_map(|latency| paces().flat_map(move |pace| [4, 3, 2].map(|players| (latency, pace, players))));
+    let all = Mutex::new(crowds.flat_map(|crowd| [0.0, 0.03, 0.1].map(|loss| (crowd, loss))));
+    let next = || all.lock().expect("no row fails with it").next();
+    let work = || {
+        while let Some(((latency, (hz, pacing), players), loss)) = next() {
+            let weather = Weather { latency, jitter: 0.25 * latency, loss, ..Weather::default() };
+            row(players, hz, frames, pacing, weather);
         }
-    }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
 }
 
 fn row(players: usize, hz: u32, frames: f32, pacing: Pacing, weather: Weather) {

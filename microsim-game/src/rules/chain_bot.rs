@@ -302,7 +302,11 @@ mod tests {
 
     /// How long lives are, s, the shortest first, and how many end eaten.
     fn lives(skill: Skill) -> Vec<f32> {
-        let lives = each_seed(|seed| play(skill, seed, LONGEST).0.result().life.unwrap());
+        let lives = each_seed(|seed| {
+            let life = play(skill, seed, LONGEST).0.result().life.unwrap();
+            println!("{skill:?}, seed {seed}: {:.0} s, {:?}", life.time, life.fate);
+            life
+        });
         let mut times: Vec<f32> = lives.iter().map(|life| life.time).collect();
         times.sort_by(f32::total_cmp);
         let eaten = lives.iter().filter(|life| life.fate == Some(Fate::Eaten)).count();
