@@ -20,7 +20,8 @@ fn main() {
     println!("|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
     let latencies = [150.0, 80.0, 20.0].into_iter().filter(|latency| only.is_none_or(|only| only == *latency));
     let paces = || [(30, Pacing::USUAL), (60, Pacing::QUICK)].into_iter();
-    let crowds = latencies.flat_map(|latency| paces().flat_map(move |pace| [4, 3, 2].map(|players| (latency, pace, players))));
+    let crowds =
+        latencies.flat_map(|latency| paces().flat_map(move |pace| [4, 3, 2].map(|players| (latency, pace, players))));
     let all = Mutex::new(crowds.flat_map(|crowd| [0.0, 0.03, 0.1].map(|loss| (crowd, loss))));
     let next = || all.lock().expect("no row fails with it").next();
     let work = || {

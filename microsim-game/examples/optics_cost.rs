@@ -39,7 +39,9 @@ fn measure() -> Result<(), String> {
                 let each = start.elapsed().as_secs_f32() * 1000.0 / (FRAMES + 1) as f32;
                 let [width, height] = pixels;
                 let name = optics.name();
-                println!("{width}x{height} {name} {quality:?}: {worked_out:.2} {each:.2}, of which submitted {submitted:.2}");
+                println!(
+                    "{width}x{height} {name} {quality:?}: {worked_out:.2} {each:.2}, of which submitted {submitted:.2}"
+                );
             }
         }
     }
