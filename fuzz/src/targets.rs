@@ -97,6 +97,8 @@ const WORLD: [u8; 8] = *b"MSIMWRLD";
 const WORLD_VERSION: u32 = 8;
 /// Of checkpoints.
 const RUN_VERSION: u32 = 6;
+/// Of replays.
+const REPLAY_VERSION: u32 = 3;
 
 /// The scenario of replays that are made up.
 pub(crate) const ROOM: &str = r#"
@@ -118,9 +120,9 @@ at = [20.0, 10.0]
 "#;
 
 /// A replay of chunks: kind, length and content of each.
-fn chunked(mut rest: &[u8]) -> Vec<u8> {
+pub(crate) fn chunked(mut rest: &[u8]) -> Vec<u8> {
     let mut bytes = b"MSIMPLAY".to_vec();
-    bytes.extend(2u32.to_le_bytes());
+    bytes.extend(REPLAY_VERSION.to_le_bytes());
     // Library, interval, text, overrides, seed.
     let mut header = vec![1, b'0', 60];
     header.extend([(ROOM.len() % 128) as u8 | 128, (ROOM.len() / 128) as u8]);

@@ -61,6 +61,7 @@ fn seeds_are_accepted() {
         Checkpoint::from_bytes(&targets::sealed(*b"MSIMRUN\0", &run_content)).unwrap();
     }
     assert_eq!(Replay::read(&read("replay", "whole")).unwrap().ending(), Ending::Complete);
+    Replay::read(&targets::chunked(&read("replay", "chunks"))).unwrap();
     Scenario::parse(&fs::read_to_string(folder("scenario").join("small")).unwrap(), &[]).unwrap();
 }
 

@@ -370,3 +370,27 @@ fn nothing_gets_through_an_obstacle_of_safe_thickness() {
         assert!(shot_through(&config, 0.7 * thickness, radius) > 0, "{config:?}");
     }
 }
+
+#[test]
+fn a_half_space_is_moved_and_not_turned() {
+    let mut world = room(0.0);
+    let floor = Obstacle::new(SharedShape::halfspace(Vec2::Y), Pose::translation(40.0, 5.0));
+    let floor = world.add_obstacle(Obstacle { motion: ObstacleMotion::Push, ..floor }).unwrap();
+    let pellet = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 7.0)).unwrap();
+    for step in 1..=120 {
+        world.move_obstacle(floor, Pose::translation(40.0, 5.0 + 0.05 * step as f32)).unwrap();
+        world.step(&Inputs::new());
+    }
+    assert!(world.centroid(pellet).unwrap().y > 11.5, "it is lifted: {:?}", world.centroid(pellet));
+    let turned = Pose::new(Vec2::new(40.0, 11.0), 0.1);
+    assert_eq!(world.move_obstacle(floor, turned).unwrap_err().field(), "target.rotation");
+}
+
+#[test]
+fn shapes_inside_out_are_refused() {
+    let mut world = room(0.0);
+    for shape in [SharedShape::ball(-1.0), SharedShape::cuboid(-1.0, 1.0)] {
+        let refused = world.add_obstacle(Obstacle::new(shape, Pose::translation(30.0, 30.0)));
+        assert_eq!(refused.unwrap_err().field(), "shape");
+    }
+}

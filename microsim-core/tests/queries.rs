@@ -276,3 +276,14 @@ fn the_normal_of_a_wall_is_its_own_however_the_ray_comes() {
         assert!((hit.normal + Vec2::Y).length() < 1e-5, "{hit:?}");
     }
 }
+
+#[test]
+fn a_ray_from_the_centre_of_a_ball_meets_it_at_once() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let ball = Obstacle::new(SharedShape::ball(2.0), Pose::translation(30.0, 30.0));
+    world.add_obstacle(ball).unwrap();
+    let (at, filter) = (Vec2::splat(30.0), QueryFilter::surfaces());
+    let ray = world.queries().cast_ray(at, Vec2::X, 5.0, &filter).expect("it begins inside");
+    assert_eq!((ray.distance, ray.point, ray.normal), (0.0, at, Vec2::ZERO));
+    assert!(world.queries().cast_disc(at, Vec2::X, 5.0, 0.5, &filter).is_some());
+}

@@ -228,3 +228,11 @@ fn a_body_longer_than_the_room_leaves_by_an_open_side() {
     let gone = Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom, particles: 2 };
     assert_eq!(events, [gone]);
 }
+
+#[test]
+fn an_emitter_of_what_cannot_be_spawned_is_refused() {
+    let mut world = World::new(WorldConfig { dt: 0.1, substeps: 8, ..WorldConfig::default() }).unwrap();
+    let cell = Recipe::Organism(AmoeboidCellSpec::default().into());
+    assert_eq!(world.add_emitter(Emitter::new(Region::All, cell, 10.0)).unwrap_err().field(), "substeps");
+    assert!(world.add_emitter(Emitter::new(Region::All, ball(), 10.0)).is_ok());
+}

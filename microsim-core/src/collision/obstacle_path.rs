@@ -130,13 +130,19 @@ pub(crate) fn path_of(paths: &mut [ObstaclePath], obstacle: u32) -> Option<&mut 
     Some(&mut paths[at])
 }
 
+/// At least how far a point of the obstacle is from its origin.
+pub(crate) fn extent(obstacle: &Obstacle) -> f32 {
+    let bounds = obstacle.shape.compute_local_aabb();
+    bounds.mins.abs().max(bounds.maxs.abs()).length()
+}
+
 /// At least the longest way of a point of the obstacle between two poses, if its speed were constant.
 fn farthest(obstacle: &Obstacle, from: &Pose, to: &Pose) -> f32 {
     let (a, b) = (from.rotation, to.rotation);
     let chord = Vec2::new(b.re - a.re, b.im - a.im).length();
-    let bounds = obstacle.shape.compute_local_aabb();
-    let extent = bounds.mins.abs().max(bounds.maxs.abs()).length();
-    (to.translation - from.translation).length() + TURN_SPEED * chord * extent
+    let way = (to.translation - from.translation).length();
+    // A shape without an end is moved but not turned.
+    if chord == 0.0 { way } else { way + TURN_SPEED * chord * extent(obstacle) }
 }
 
 #[cfg(test)]

@@ -247,7 +247,10 @@ impl World {
     /// Checks an emitter, and that this world can emit what it emits.
     pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
         emitter.validate()?;
-        self.blueprint_of(&emitter.recipe).map(drop)
+        if self.blueprint_of(&emitter.recipe)?.has_membrane {
+            self.config.check_membranes()?;
+        }
+        Ok(())
     }
 
     /// What a recipe amounts to in this world.

@@ -24,6 +24,9 @@ impl Patrol {
         if self.through.is_empty() || self.through.len() > 1000 {
             return Err(Error::reference("through", "1 to 1000 points"));
         }
+        if self.next as usize >= self.through.len() {
+            return Err(Error::reference("next", "the index of a point"));
+        }
         self.through.iter().enumerate().try_for_each(|(k, &p)| check_point(&format!("through[{k}]"), p))
     }
 
@@ -60,6 +63,13 @@ mod tests {
         let mut forever = Bench::new(Controller::patrol(points.clone(), true), 0.1);
         goal(&mut forever, points[0]);
         assert_eq!(goal(&mut forever, points[1]), Some(points[0]));
+    }
+
+    #[test]
+    fn one_that_moves_to_no_point_is_refused() {
+        let through = vec![Vec2::ZERO; 2];
+        let at = |next| Patrol { through: through.clone(), repeats: true, next }.validate();
+        assert!(at(1).is_ok() && at(2).is_err() && at(u32::MAX).is_err());
     }
 
     #[test]

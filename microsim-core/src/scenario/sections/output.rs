@@ -97,7 +97,12 @@ pub(crate) fn read(root: &mut Fields<'_>) -> OutputPlan {
 
 fn read_table(mut fields: Fields<'_>, formats: Vec<TableFormat>) -> TablePlan {
     let mut formats = fields.or("formats", formats);
-    formats.dedup();
+    let mut seen = Vec::new();
+    formats.retain(|format| {
+        let is_new = !seen.contains(format);
+        seen.push(*format);
+        is_new
+    });
     let every = fields.number("every", EVERY, [0.0, LONGEST]);
     fields.finish();
     TablePlan { formats, every }

@@ -197,6 +197,9 @@ fn check(obstacle: &Obstacle) -> Result<(), Error> {
     if !(bounds.mins.is_finite() && bounds.maxs.is_finite()) {
         return Err(Error::unsupported("shape", "a shape with a finite bounding box"));
     }
+    if !bounds.mins.cmple(bounds.maxs).all() {
+        return Err(Error::unsupported("shape", "a shape whose sizes are not negative"));
+    }
     let normal = obstacle.one_way.unwrap_or(Vec2::Y);
     in_range("one_way.x", normal.x, -1e5, 1e5)?;
     in_range("one_way.y", normal.y, -1e5, 1e5)?;

@@ -2,7 +2,7 @@
 
 use super::{WALLS, check_pose};
 use crate::collision::obstacle::ObstacleMotion;
-use crate::collision::obstacle_path::ObstaclePath;
+use crate::collision::obstacle_path::{ObstaclePath, extent};
 use crate::collision::obstacle_record::record;
 use crate::error::{Error, out_of_range};
 use crate::event::Event;
@@ -10,6 +10,9 @@ use crate::id::ObstacleId;
 use crate::world::World;
 use crate::world::change::WorldChange;
 use parry2d::math::Pose;
+
+/// Extent of a shape, units, above which it has no end, and a turn no longest way.
+const LARGEST_TURNED: f32 = 1e6;
 
 impl World {
     /// Gives a kinematic obstacle a target, which it reaches by the end of the next step: on a straight line, turning at a
@@ -38,7 +41,8 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// When the handle is stale, the obstacle is fixed or disabled, the target is not finite, or more than a quarter turn away.
+    /// When the handle is stale, the obstacle is fixed or disabled, the target is not finite, or more than a quarter turn away, or a
+    /// half-space is to turn.
     pub fn move_obstacle(&mut self, id: ObstacleId, target: Pose) -> Result<(), Error> {
         let obstacle = self.known_obstacle(id)?;
         if obstacle.motion == ObstacleMotion::Fixed {
@@ -56,6 +60,9 @@ impl World {
         if cosine < 0.0 {
             let accepted = "at most a quarter turn from where it is, a cosine of 0 to 1".to_owned();
             return Err(out_of_range("target.rotation", cosine.into(), accepted));
+        }
+        if a != b && extent(obstacle) > LARGEST_TURNED {
+            return Err(Error::unsupported("target.rotation", "its own, for a shape without an end"));
         }
         self.obstacle_table.set_target(id.index, Some(&target));
         self.changed(|| WorldChange::MoveObstacle(id, record(&target)));

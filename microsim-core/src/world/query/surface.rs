@@ -108,6 +108,8 @@ fn meeting(ray: &Ray, collider: Collider, obstacle: &Obstacle) -> Option<RayHit>
     // On the surface itself the way out is the way back.
     let away = away.try_normalize().filter(|away| away.dot(ray.direction) < 0.0).unwrap_or(-ray.direction);
     let normal = if begins_inside { Vec2::ZERO } else { away };
+    // The centre of a ball has no nearest point.
+    let surface = if is_inside && !surface.is_finite() { centre } else { surface };
     // Not where a number overflows far outside.
     surface.is_finite().then_some(RayHit { collider, node: None, distance, point: surface, normal })
 }
