@@ -34,8 +34,13 @@ pub(crate) struct ReplayWriter {
 }
 
 impl RecordArgs {
-    /// Refuses files that would take each other's place, or that of something in the folder of the results.
-    pub(crate) fn check(&self, out: Option<&Path>) -> Result<(), Failure> {
+    /// Refuses files that would take each other's place, or that of something in the folder of the results, and all of them for a
+    /// run that may be stopped and resumed, which would leave them out.
+    pub(crate) fn check(&self, out: Option<&Path>, is_resumable: bool) -> Result<(), Failure> {
+        if is_resumable && (self.record.is_some() || self.save.is_some()) {
+            let told = "--record and --save do not go with output.checkpoint_every, accepted: 0";
+            return Err(Failure::Message(told.to_owned()));
+        }
         let whole = |path: &Path| std::path::absolute(path).map_err(|error| Failure::file("write", path, &error));
         let (record, save) =
             (self.record.as_deref().map(whole).transpose()?, self.save.as_deref().map(whole).transpose()?);
@@ -47,9 +52,10 @@ impl RecordArgs {
         if let Some(path) = [&record, &save].into_iter().flatten().find(is_inside) {
             return Err(Failure::Message(format!("{} is in the folder of --out", path.display())));
         }
-        // A bad path is refused before the run.
-        if let Some(save) = &self.save {
-            Outputs::beside(save)?;
+        // A path that cannot be written is refused before the run, and before anything else is replaced.
+        for path in [&self.record, &self.save].into_iter().flatten() {
+            let (outputs, name) = Outputs::beside(path)?;
+            outputs.file(&name)?;
         }
         Ok(())
     }

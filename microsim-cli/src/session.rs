@@ -77,8 +77,9 @@ impl<'o> Session<'o> {
     pub(crate) fn run(self, is_json: bool, console: &Console) -> Result<(), Failure> {
         let name = self.prepared.name().to_owned();
         let report = self.complete(console)?;
-        if is_json { print_json(&report) } else { report.table().print() }?;
-        verdict(&report, &name)
+        let printed = if is_json { print_json(&report) } else { report.table().print() };
+        // A reader that has gone away does not change the verdict.
+        verdict(&report, &name).and(printed.map_err(Failure::from))
     }
 
     /// Takes the remaining steps and finishes the files.
@@ -143,12 +144,9 @@ impl<'o> Session<'o> {
 
     fn conclude(self, console: &Console) -> Result<RunReport, Failure> {
         let built = &self.prepared.built;
-        if let Some(replay) = self.replay {
-            replay.finish(&built.world)?;
-        }
-        if let Some(record) = self.record {
-            record.save(self.prepared.scenario.origin(), built)?;
-        }
+        // What fails here must not take the folder of results with it.
+        let recorded = self.replay.map_or(Ok(()), |replay| replay.finish(&built.world));
+        let saved = self.record.map_or(Ok(()), |record| record.save(self.prepared.scenario.origin(), built));
         let refusals = built.script.refusals().iter().map(ToString::to_string);
         let failures = self.header.broken.into_iter().chain(refusals).collect();
         let report = RunReport { failures, ..RunReport::new(&self.prepared, &built.world, self.header.tally) };
@@ -160,6 +158,7 @@ impl<'o> Session<'o> {
             checkpoint::remove(outputs.folder(), waiting);
             console.note(&format!("wrote {}", outputs.folder().display()));
         }
+        recorded.and(saved)?;
         Ok(report)
     }
 }

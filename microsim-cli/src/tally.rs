@@ -35,7 +35,8 @@ impl Tally {
         self.leaks = self.leaks.max(census.leaks);
         self.improper_absorptions = self.improper_absorptions.max(census.improper_absorptions);
         for event in world.events() {
-            *self.events.entry(event.name().to_owned()).or_default() += 1;
+            let count = self.events.entry(event.name().to_owned()).or_default();
+            *count = count.saturating_add(1);
         }
     }
 }

@@ -36,6 +36,11 @@ const BAD: &[(&[&str], &str, &str)] = &[
     (&["run", "empty", "--out", "{}/new", "--frames", "-3"], "output.frames.at", "0 to 1000000"),
     (&["run", "empty", "--out", "{}/new", "--snapshots", "soon"], "output.snapshots", "TOML"),
     (&["run", "empty", "--measures", "csv"], "--out", "required"),
+    // What a plan says already.
+    (&["run", "--task", "{}/file.toml", "--store", "{}/s", "--seed", "5"], "--seed", "cannot be used with"),
+    (&["run", "--task", "{}/file.toml", "--store", "{}/s", "--set", "a=1"], "--set", "cannot be used with"),
+    (&["run", "--task", "{}/file.toml", "--store", "{}/s", "--seconds", "1"], "--seconds", "cannot be used with"),
+    (&["run", "--task", "{}/file.toml", "--store", "{}/s", "--save", "{}/end"], "--save", "cannot be used with"),
     (&["new", "{}/file.toml"], "file.toml exists", "--force"),
     (&["new", "{}/other.toml", "--from", "hnut"], "hnut", "hunt"),
     // Checkpoints, snapshots and reports.

@@ -24,7 +24,7 @@ fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 const CHOSEN: &str = "[output]\nsnapshots = [0.25]\nevents = false\npictures = false\n\
-[output.measures]\nformats = ['csv', 'jsonl']\nevery = 0.0\nof = ['leaks', 'bodies']\n\
+[output.measures]\nformats = ['csv', 'jsonl', 'csv']\nevery = 0.0\nof = ['leaks', 'bodies']\n\
 [output.trajectories]\nformats = ['csv', 'jsonl']\n[output.frames]\nat = [0.1]\nwidth = 200\n";
 
 #[test]

@@ -170,6 +170,9 @@ fn files_that_would_take_the_place_of_something_are_refused() {
         (vec!["--record", &one, "--save", &one], "--record and --save are both"),
         (vec!["--out", &out, "--record", &inside], "is in the folder of --out"),
         (vec!["--out", &out, "--save", &inside], "is in the folder of --out"),
+        // Resuming would leave them out.
+        (vec!["--out", &out, "--checkpoint-every", "5", "--save", &one], "do not go with output.checkpoint_every"),
+        (vec!["--out", &out, "--set", "output.checkpoint_every=5", "--record", &one], "do not go with"),
     ];
     let socket = folder.path("socket");
     #[cfg(unix)]
@@ -180,6 +183,12 @@ fn files_that_would_take_the_place_of_something_are_refused() {
         refused(&[&["run", "empty", "--steps", "2"], &options[..]].concat(), problem);
     }
     assert!(!std::path::Path::new(&one).exists());
+    // What cannot be written is known before anything is replaced.
+    #[cfg(target_os = "linux")]
+    for option in ["--record", "--save"] {
+        refused(&["run", "empty", "--steps", "2", "--out", &out, option, "/proc/end"], "cannot write");
+        assert!(!std::path::Path::new(&out).exists(), "{option}");
+    }
 }
 
 #[test]

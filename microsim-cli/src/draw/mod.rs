@@ -30,6 +30,12 @@ struct Viewport {
 }
 
 impl PicturePage {
+    /// Width and height in pixels if its longer side has `longest`.
+    pub(crate) fn pixels(&self, longest: u32) -> [usize; 2] {
+        let viewport = self.viewport(longest);
+        [viewport.width as usize, viewport.height as usize]
+    }
+
     /// Pixels such that the longer side has `longest`.
     fn viewport(&self, longest: u32) -> Viewport {
         let size = self.high - self.low;

@@ -48,7 +48,8 @@ impl Picture {
         let (width, rest) = raw.split_first_chunk()?;
         let (height, bytes) = rest.split_first_chunk()?;
         let [width, height] = [width, height].map(|side| u32::from_le_bytes(*side) as usize);
-        (bytes.len() == 3 * width * height).then(|| Self::new(width, height, bytes.to_vec()))
+        let length = width.checked_mul(height)?.checked_mul(3)?;
+        (length > 0 && bytes.len() == length).then(|| Self::new(width, height, bytes.to_vec()))
     }
 
     /// From three bytes per pixel.
@@ -229,6 +230,16 @@ mod tests {
         assert_eq!((sheet.width, sheet.height), (12, 6));
         assert_eq!(sheet.bytes.len(), 12 * 6 * 3);
         assert_eq!(Picture::sheet(&vec![tile(9, 2); 6]).width, 18);
+    }
+
+    #[test]
+    fn only_bytes_of_a_picture_are_one() {
+        let picture = tile(4, 3);
+        assert_eq!(Picture::from_raw(&picture.to_raw()), Some(picture));
+        let huge = [[0xff; 8], [7; 8]].concat();
+        for raw in [&[0; 8][..], &[1, 0, 0, 0, 0, 0, 0, 0], &[1, 0, 0, 0, 1, 0, 0, 0, 7, 7], &huge, &[7]] {
+            assert_eq!(Picture::from_raw(raw), None, "{raw:?}");
+        }
     }
 
     #[test]

@@ -43,13 +43,14 @@ impl Moments {
         self.steps.clone().into_iter().filter(move |moment| *moment <= step)
     }
 
-    /// The pictures of a stopped run, up to a step.
-    pub(crate) fn take_up(&mut self, folder: &Path, step: u64) -> Result<(), Failure> {
-        for moment in self.until(step).collect::<Vec<_>>() {
+    /// The pictures of a stopped run, up to the step of its world.
+    pub(crate) fn take_up(&mut self, folder: &Path, world: &World) -> Result<(), Failure> {
+        let size = draw::draw(world).pixels(TILE);
+        for moment in self.until(world.step_index()).collect::<Vec<_>>() {
             let path = folder.join(moment_name(moment));
             let raw = read::whole(&path).map_err(|error| Failure::file("read", &path, &error))?;
             let broken = || Failure::Message(format!("{}: no picture; run the scenario again", path.display()));
-            self.pictures.push(Picture::from_raw(&raw).ok_or_else(broken)?);
+            self.pictures.push(Picture::from_raw(&raw).filter(|picture| picture.size() == size).ok_or_else(broken)?);
         }
         Ok(())
     }
@@ -67,7 +68,22 @@ pub(super) fn moment_name(step: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Moments;
+    use super::*;
+    use crate::prepared::apart;
+
+    #[test]
+    fn pictures_of_a_stopped_run_are_those_of_its_world() {
+        let world = apart("").built.world;
+        let folder = std::env::temp_dir().join(format!("microsim-moments-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let right = Picture::of(&draw::draw(&world), TILE).to_raw();
+        let other = Picture::new(1, 1, vec![7; 3]).to_raw();
+        for (raw, is_taken) in [(&right[..], true), (&other, false), (&[0; 8], false)] {
+            std::fs::write(folder.join(moment_name(0)), raw).unwrap();
+            assert_eq!(Moments::new(100).take_up(&folder, &world).is_ok(), is_taken, "{} bytes", raw.len());
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn moments_are_evenly_spaced_and_distinct() {

@@ -29,7 +29,7 @@ pub(crate) struct RunWriter<'o> {
     events: Option<Events>,
     moments: Option<Moments>,
     /// Steps that are pictured.
-    frames: Vec<u64>,
+    frames: PicturedSteps,
     frame_width: u32,
     /// Steps of which the state is written.
     snapshots: Vec<u64>,
@@ -102,7 +102,7 @@ impl<'o> RunWriter<'o> {
         progress.check(outputs, plan)?;
         let mut moments = plan.pictures.then(|| Moments::new(steps));
         if let Some(moments) = &mut moments {
-            moments.take_up(outputs.folder(), built.world.step_index())?;
+            moments.take_up(outputs.folder(), &built.world)?;
         }
         let mut writer = Self::open(outputs, plan, built, steps, &progress.lengths)?;
         writer.moments = moments;
@@ -153,7 +153,7 @@ impl<'o> RunWriter<'o> {
             None => Some(Events(outputs.file(Events::FILE)?)),
         };
         let moments = plan.pictures.then(|| Moments::new(steps));
-        let (frames, frame_width) = (frames(plan, world, steps), plan.frames.width);
+        let (frames, frame_width) = (PicturedSteps::of(plan, world), plan.frames.width);
         let snapshots = plan.snapshots.iter().map(|&time| step_at(time, world)).collect();
         let is_resumable = plan.checkpoint_every > 0;
         Ok(Self { outputs, measures, trajectories, events, moments, frames, frame_width, snapshots, is_resumable })
@@ -175,7 +175,7 @@ impl<'o> RunWriter<'o> {
         if let Some(trajectories) = &mut self.trajectories {
             trajectories.look_at(world)?;
         }
-        if self.frames.binary_search(&step).is_ok() {
+        if self.frames.contains(step) {
             let picture = Picture::of(&draw::draw(world), self.frame_width);
             self.outputs.write(&format!("frames/{step:08}.png"), &picture.encoded()?)?;
         }
@@ -215,15 +215,22 @@ fn step_at(time: f32, world: &World) -> u64 {
     (f64::from(time) / f64::from(world.config().dt)).round() as u64
 }
 
-/// Steps that are pictured, in order.
-fn frames(plan: &OutputPlan, world: &World, steps: u64) -> Vec<u64> {
-    let mut frames: Vec<u64> = plan.frames.at.iter().map(|&time| step_at(time, world)).collect();
-    if plan.frames.every > 0.0 {
-        frames.extend((0..=steps).step_by(step_at(plan.frames.every, world).max(1) as usize));
+/// Steps that are pictured: a run of any length keeps only those that are named.
+#[derive(Debug)]
+struct PicturedSteps {
+    named: Vec<u64>,
+    every: Option<u64>,
+}
+
+impl PicturedSteps {
+    fn of(plan: &OutputPlan, world: &World) -> Self {
+        let every = (plan.frames.every > 0.0).then(|| step_at(plan.frames.every, world).max(1));
+        Self { named: plan.frames.at.iter().map(|&time| step_at(time, world)).collect(), every }
     }
-    frames.sort_unstable();
-    frames.dedup();
-    frames
+
+    fn contains(&self, step: u64) -> bool {
+        self.named.contains(&step) || self.every.is_some_and(|every| step.is_multiple_of(every))
+    }
 }
 
 #[cfg(test)]
@@ -314,9 +321,13 @@ mod tests {
     fn frames_are_at_the_moments_that_are_named_and_at_those_between() {
         let steps = |frames: &str| {
             let Prepared { scenario, built, .. } = apart(&format!("[output.frames]\nat = [0.15, 0.2]\n{frames}"));
-            super::frames(scenario.output(), &built.world, 20)
+            let pictured = PicturedSteps::of(scenario.output(), &built.world);
+            (0..=20).filter(|&step| pictured.contains(step)).collect::<Vec<u64>>()
         };
         assert_eq!(steps(""), [9, 12]);
         assert_eq!(steps("every = 0.1"), [0, 6, 9, 12, 18]);
+        let Prepared { scenario, built, .. } = apart("[output.frames]\nevery = 0.1\n");
+        let pictured = PicturedSteps::of(scenario.output(), &built.world);
+        assert!(pictured.contains(u64::MAX / 6 * 6) && pictured.named.is_empty(), "a run of any length keeps no list");
     }
 }

@@ -70,8 +70,8 @@ impl Comparison {
         let Self { difference, compared, mismatches } = self;
         let is_equal = difference.is_none() && mismatches.is_empty();
         let as_played = if mismatches.is_empty() { "" } else { ", as played now" };
-        print(difference.unwrap_or_else(|| format!("no difference{compared}{as_played}")) + "\n")?;
-        if is_equal { Ok(()) } else { Err(Failure::Broken(mismatches)) }
+        let printed = print(difference.unwrap_or_else(|| format!("no difference{compared}{as_played}")) + "\n");
+        if is_equal { Ok(printed?) } else { Err(Failure::Broken(mismatches)) }
     }
 }
 

@@ -172,7 +172,7 @@ impl RenderPlan {
                 "a movie shows one kind of optics, accepted: one, or -o SHEET.png".to_owned(),
             ));
         }
-        if self.is_sheet(format) && self.pictures() as u64 * self.size.pixels() > MOST_SHEET {
+        if self.is_sheet(format) && self.size.pixels().saturating_mul(self.pictures() as u64) > MOST_SHEET {
             let accepted = format!("at most {MOST_SHEET} pixels in all");
             return Err(Failure::Message(format!("a sheet of {} pictures, accepted: {accepted}", self.pictures())));
         }

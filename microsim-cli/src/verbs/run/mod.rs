@@ -56,7 +56,7 @@ pub(crate) struct RunArgs {
     #[arg(long)]
     pub dry_run: bool,
     /// Run the tasks of a sweep, one a line, from a file or `-`; those in the store are skipped
-    #[arg(long, value_name = "FILE", requires = "store", conflicts_with_all = ["scenario", "out", "dry_run", "json"])]
+    #[arg(long, value_name = "FILE", requires = "store", conflicts_with_all = ["scenario", "out", "dry_run", "json", "seed", "set", "steps", "seconds", "validate", "record", "save"])]
     pub task: Option<String>,
     /// Where the results of tasks are kept
     #[arg(long, value_name = "DIR", requires = "task")]
@@ -80,7 +80,8 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<(), Failure> {
         return estimate(&prepared, steps);
     }
     interrupt::listen();
-    args.keep.check(args.out.as_deref())?;
+    let is_resumable = args.out.is_some() && prepared.scenario.output().checkpoint_every > 0;
+    args.keep.check(args.out.as_deref(), is_resumable)?;
     let outputs = args.out.as_deref().map(|folder| Outputs::open(folder, args.force)).transpose()?;
     Session::start(prepared, steps, outputs.as_ref(), args.validate, &args.keep)?.run(args.json, console)
 }

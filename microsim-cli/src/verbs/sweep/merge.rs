@@ -16,8 +16,8 @@ pub(super) fn status(args: &StatusArgs, console: &Console) -> Result<(), Failure
     let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.from.store)?)?;
     let broken = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
     console.note(&format!("{} of {} tasks done, {broken} with failures", outcomes.len(), tasks.len()));
-    print(missing.iter().map(|task| format!("{}\n", task.key)).collect::<String>())?;
-    if missing.is_empty() { Ok(()) } else { Err(Failure::Negative) }
+    let printed = print(missing.iter().map(|task| format!("{}\n", task.key)).collect::<String>());
+    if missing.is_empty() { Ok(printed?) } else { Err(Failure::Negative) }
 }
 
 pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> {
