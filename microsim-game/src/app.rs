@@ -65,6 +65,8 @@ pub struct App {
     resized: f32,
     /// When this frame began.
     began: Duration,
+    /// Time since the program began, s: frames of a window that is open for days are short beside it.
+    clock: f64,
     /// What input and steps took in the last frame, s.
     updating: f32,
     timings: Timings,
@@ -93,6 +95,7 @@ impl App {
             is_full: false,
             resized: f32::NEG_INFINITY,
             began,
+            clock: 0.0,
             updating: 0.0,
             timings,
             shown_menu: Default::default(),
@@ -136,7 +139,8 @@ impl App {
         let elapsed = if is_exact { EXACT_FRAME } else { (self.began - last).as_secs_f32() };
         let context = &mut self.context;
         context.pace = Pace { elapsed, is_exact };
-        context.time += elapsed;
+        self.clock += f64::from(elapsed);
+        context.time = self.clock as f32;
         context.choose_language();
         // Time of the steps does not count: less detail would not shorten it.
         let drawing = Pace { elapsed: (elapsed - self.updating).max(0.0), ..context.pace };

@@ -242,8 +242,12 @@ impl AppContext {
 
     /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.
     pub fn save_settings(&mut self) {
-        if let Some(kept) = self.store.read(kept::FILE).and_then(|bytes| toml::from_slice(&bytes).ok()) {
-            self.settings = self.settings.clone().over(&self.kept_settings, kept);
+        if self.store.read(kept::FILE).is_some() {
+            // One that makes no sense is put aside.
+            match self.store.load(kept::FILE) {
+                (kept, None) => self.settings = self.settings.clone().over(&self.kept_settings, kept),
+                (_, Some(problem)) => self.tell(problem),
+            }
         }
         self.kept_settings = self.settings.clone();
         if let Err(error) = self.store.save(kept::FILE, &self.settings) {

@@ -16,7 +16,7 @@ impl FoundEntries {
     /// Reads them. Lines that the guide does not know are left out.
     #[must_use]
     pub fn load(store: &PlayerFolder) -> Self {
-        let text = store.read(FILE).and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default();
+        let text = store.read(FILE).map_or(String::new(), |bytes| String::from_utf8_lossy(&bytes).into_owned());
         Self(text.lines().filter_map(guide::find).map(|entry| entry.name).collect())
     }
 
@@ -62,7 +62,7 @@ mod tests {
         store.write(FILE, b"agar\nunicorn\n\n").unwrap();
         let found = FoundEntries::load(&store);
         assert_eq!((found.count(), found.has("agar")), (1, true));
-        store.write(FILE, b"\xff").unwrap();
-        assert_eq!(FoundEntries::load(&store).count(), 0);
+        store.write(FILE, b"agar\n\xff\ncoccus\n").unwrap();
+        assert_eq!(FoundEntries::load(&store).count(), 2, "a damaged line is one entry less");
     }
 }
