@@ -92,12 +92,12 @@ impl World {
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
         let (body, outline, slots) = match blueprint.template {
-            Some(template) if !blueprint.has_membrane => {
+            Some(template) if blueprint.rim.is_none() => {
                 let outline = template.outline().to_vec();
                 (self.add_to_block(template, id.index, scale, body_plan), outline, nodes as u32)
             }
             _ => {
-                let (body, outline) = self.add_loose(body_plan);
+                let (body, outline) = self.add_loose(body_plan, blueprint.rim);
                 (body, outline, 0)
             }
         };
@@ -136,7 +136,7 @@ impl World {
     /// Checks all of a blueprint and its placement but for what is there already.
     fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
         placement.validate()?;
-        if blueprint.has_membrane {
+        if blueprint.rim.is_some() {
             self.config.check_membranes()?;
         }
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
@@ -236,12 +236,12 @@ impl World {
     }
 
     /// Adds the nodes of a membrane (or none) as loose particles; the nodes are its outline.
-    fn add_loose(&mut self, planned: &[Particle]) -> (Storage, Vec<u32>) {
+    fn add_loose(&mut self, planned: &[Particle], rim: Option<f32>) -> (Storage, Vec<u32>) {
         let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
-        let membrane = planned.first().map(|node| {
+        let membrane = planned.first().zip(rim).map(|(node, rim)| {
             let count = planned.len();
             let length = |k: usize| (planned[(k + 1) % count].offset - planned[k].offset).length();
-            Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, count)
+            Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, rim, count)
         });
         self.particles.link_ring(&particles);
         (Storage::Loose { particles: particles.clone(), membrane }, particles)

@@ -96,7 +96,7 @@ fn check_divider(organism: &Organism, cell: Subject) -> Check {
 }
 
 fn check_membrane(membrane: &Membrane, cell: Subject) -> Check {
-    let names = ["rest length", "node radius", "activity", "rest perimeter"];
+    let names = ["rest length", "node radius", "rim", "activity", "rest perimeter"];
     let mut named = names.into_iter().zip(membrane.state());
     named.try_for_each(|(name, value)| cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST))
 }
