@@ -287,6 +287,20 @@ mod tests {
     }
 
     #[test]
+    fn a_name_is_no_formula_in_a_table() {
+        let folder = place("formula");
+        let outputs = Outputs::open(&folder, true).unwrap();
+        let more = format!("[[spawn]]\nof = 'cell'\nname = '-A1'\nat = [20.0, 6.0]\n{TABLES}");
+        let Prepared { scenario, built, .. } = apart(&more);
+        let writer = RunWriter::start(&outputs, scenario.output(), &built, 20).unwrap();
+        writer.finish(&built.world).unwrap();
+        let rows = fs::read_to_string(folder.join("trajectories.csv")).unwrap();
+        drop(outputs);
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(rows.contains(",'-A1,") && !rows.contains(",-A1,"), "{rows}");
+    }
+
+    #[test]
     fn pictures_wait_in_the_folder_only_where_the_run_can_be_resumed() {
         for every in [0, 5] {
             let folder = place("waiting");

@@ -3,6 +3,7 @@
 use super::folder::Outputs;
 use super::pending::PendingFile;
 use crate::failure::Failure;
+use crate::sanitize;
 use microsim_core::scenario::TableFormat;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
@@ -114,7 +115,7 @@ fn write_csv(file: &mut PendingFile, cells: &[Cell<'_>]) -> io::Result<()> {
             Cell::Whole(value) => write!(file, "{value}")?,
             Cell::Single(value) => write!(file, "{value}")?,
             Cell::Double(value) => write!(file, "{value}")?,
-            Cell::Text(text) => file.write_all(text.as_bytes())?,
+            Cell::Text(text) => file.write_all(sanitize::cell(text).as_bytes())?,
         }
     }
     file.write_all(b"\n")

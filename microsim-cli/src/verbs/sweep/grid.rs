@@ -1,5 +1,6 @@
 //! The axes and seeds of a sweep.
 
+use std::collections::BTreeSet;
 use std::str::FromStr;
 
 /// Most values of one axis.
@@ -26,7 +27,7 @@ impl FromStr for Axis {
         if key.is_empty() || values.is_empty() {
             return Err(expected.to_owned());
         }
-        let values = range(values)?.unwrap_or_else(|| listed(values));
+        let values = each_once(range(values)?.unwrap_or_else(|| listed(values)))?;
         Ok(Self { key: key.to_owned(), values })
     }
 }
@@ -35,7 +36,7 @@ impl FromStr for Seeds {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let values = range(text)?.unwrap_or_else(|| listed(text));
+        let values = each_once(range(text)?.unwrap_or_else(|| listed(text)))?;
         let seed = |value: &String| {
             value.parse().map_err(|_| format!("{value:?} is not a seed, expected 0..99 or whole numbers with commas"))
         };
@@ -55,7 +56,8 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
         let ((low, high), count) =
             ends.zip(count).ok_or("expected a..b/n: two numbers in order and 2 or more values")?;
         let at = |k: u64| low + (high - low) * k as f64 / (count - 1) as f64;
-        return Ok(Some((0..count).map(|k| shortest(at(k))).collect()));
+        let decimals = decimals(low.abs().max(high.abs()));
+        return Ok(Some((0..count).map(|k| shortest(at(k), decimals)).collect()));
     }
     let ends = low.trim().parse::<i64>().ok().zip(high.trim().parse::<i64>().ok());
     let (low, high) = ends.filter(|(low, high)| low <= high).ok_or("expected a..b: two whole numbers in order")?;
@@ -65,9 +67,23 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
     Ok(Some((low..=high).map(|value| value.to_string()).collect()))
 }
 
-/// To nine decimals, which drops the rounding errors of divisions. Whole numbers without a fraction, to serve as counts.
-fn shortest(value: f64) -> String {
-    format!("{value:.9}").trim_end_matches('0').trim_end_matches('.').to_owned()
+/// Refuses values of which two are equal: their tasks would be one and the same.
+fn each_once(values: Vec<String>) -> Result<Vec<String>, String> {
+    let mut known = BTreeSet::new();
+    let twice = values.iter().find(|value| !known.insert(value.as_str()));
+    twice.map_or(Ok(()), |value| Err(format!("{value} is there twice, accepted: each value once")))?;
+    Ok(values)
+}
+
+/// Decimals to which numbers up to this one are written: 12 digits of it, which drops the rounding errors of divisions.
+fn decimals(largest: f64) -> usize {
+    (12.0 - largest.log10().ceil()).clamp(0.0, 300.0) as usize
+}
+
+/// Whole numbers without a fraction, to serve as counts.
+fn shortest(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_owned() }
 }
 
 /// Values between commas that are not within brackets or quotes.
@@ -104,6 +120,8 @@ mod tests {
         assert_eq!(values("-1..1"), ["-1", "0", "1"]);
         assert_eq!(values("0..1/5"), ["0", "0.25", "0.5", "0.75", "1"]);
         assert_eq!(values("0.1..0.3/3"), ["0.1", "0.2", "0.3"]);
+        assert_eq!(values("1e-10..4e-10/4"), ["0.0000000001", "0.0000000002", "0.0000000003", "0.0000000004"]);
+        assert_eq!(values("0..3e15/4"), ["0", "1000000000000000", "2000000000000000", "3000000000000000"]);
         assert_eq!("3..5".parse(), Ok(Seeds(vec![3, 4, 5])));
     }
 
@@ -116,9 +134,20 @@ mod tests {
 
     #[test]
     fn what_is_no_axis_is_refused() {
-        for text in ["k", "k=", "=1", "k=5..1", "k=0..99999999", "k=0..1/1", "k=1..1/2", "k=x..y"] {
+        for text in [
+            "k",
+            "k=",
+            "=1",
+            "k=5..1",
+            "k=0..99999999",
+            "k=0..1/1",
+            "k=1..1/2",
+            "k=x..y",
+            "k=1,2,1",
+            "k=1..1.00000000000001/9",
+        ] {
             assert!(text.parse::<Axis>().is_err(), "{text}");
         }
-        assert!("a".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());
+        assert!("a".parse::<Seeds>().is_err() && "7,7".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());
     }
 }

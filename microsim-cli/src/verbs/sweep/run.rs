@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::sanitize;
 use indicatif::ProgressBar;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::str::FromStr;
 use std::sync::Mutex;
@@ -33,7 +34,10 @@ impl FromStr for Shard {
 pub(super) fn run(args: &SweepRunArgs, console: &Console) -> Result<(), Failure> {
     let tasks = plan::read(&args.from.plan)?;
     let Shard { index, count } = args.shard.unwrap_or(Shard { index: 0, count: 1 });
-    let tasks: Vec<Task> = tasks.into_iter().skip(index).step_by(count).collect();
+    // Two workers would write the one result of equal tasks at once.
+    let mut known = BTreeSet::new();
+    let tasks = tasks.into_iter().filter(|task| known.insert(task.key.clone()));
+    let tasks: Vec<Task> = tasks.skip(index).step_by(count).collect();
     let jobs = args.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
     run_all(&tasks, &ResultStore::open(&args.from.store)?, jobs, console)
 }
