@@ -11,6 +11,7 @@ use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
+use crate::geometry::polygon::contains_point;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage, TOUCHING};
@@ -28,8 +29,8 @@ impl World {
     /// Puts an organism into the world.
     ///
     /// # Errors
-    /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
-    /// what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
+    /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls, inside a membrane
+    /// or overlap what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
     /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
@@ -190,8 +191,19 @@ impl World {
         Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }
 
-    /// Whether an organism overlaps discs within these bounds.
+    /// Whether an organism overlaps discs within these bounds, or has one of them inside its membrane, which would hold it in.
     fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
+        self.touches(organism, discs, bounds, share) || self.encloses(organism, discs)
+    }
+
+    fn encloses(&self, organism: &Organism, discs: &[Particle]) -> bool {
+        let Some(&node) = organism.outline.first().filter(|_| organism.body.membrane().is_some()) else { return false };
+        let groups = self.particles.groups[organism.body.particle(node) as usize];
+        let outline = self.outline_of(organism);
+        discs.iter().any(|disc| disc.groups.meets(groups) && contains_point(&outline, disc.position()))
+    }
+
+    fn touches(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
         let p = &self.particles;
         let share = if organism.outline.is_empty() { share } else { TOUCHING };
         organism.particles().map(|i| i as usize).any(|i| {

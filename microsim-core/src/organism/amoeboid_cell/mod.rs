@@ -33,7 +33,7 @@ use serde::{Deserialize, Serialize};
 use std::f32::consts::PI;
 
 /// Most nodes of a membrane.
-const MAX_NODES: f32 = 4096.0;
+pub(crate) const MAX_NODES: f32 = 4096.0;
 
 /// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
 const LEAST_CYTOPLASM: usize = 7;
