@@ -184,7 +184,7 @@ impl World {
                 let slowest = 0.5 * config.fall_speed(organism.gravity_scale);
                 let speed = MassProperties::of(particles, &list).map_or(0.0, |body| body.velocity.length());
                 if let Some((block, lane)) = lane.filter(|_| 0.0 < slowest && slowest < speed) {
-                    sleep.wake_up(block as u32, lane);
+                    sleep.wake_up(block, lane);
                 }
                 scratch.forces.add(&list, Force { acceleration, ..Force::default() });
             }
