@@ -6,12 +6,10 @@
 //   worker.postMessage({ goal: { x: 60, y: 30 } });
 import { load } from "./index.js";
 
-const loading = load();
+const microsim = await load();
 let world;
 
-// Before the program is there: what came without a receiver would be lost.
-onmessage = async ({ data: { open, goal } }) => {
-    const microsim = await loading;
+onmessage = ({ data: { open, goal } }) => {
     if (open) {
         world?.close();
         world = microsim.open(open);

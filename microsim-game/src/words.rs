@@ -83,10 +83,12 @@ impl Language {
         if self.table.get().is_none() {
             let texts = match builtin(self.code) {
                 Some(texts) => texts,
-                // Only what is taken is kept for good.
-                None => String::from_utf8(fetch()?).ok().filter(|texts| texts.split('\0').count() >= COUNT)?.leak(),
+                None => String::from_utf8(fetch()?).ok()?.leak(),
             };
-            let _ = self.table.set(texts.split('\0').collect());
+            let texts: Vec<&str> = texts.split('\0').collect();
+            if texts.len() >= COUNT {
+                let _ = self.table.set(texts);
+            }
         }
         self.table.get().map(Vec::as_slice)
     }

@@ -19,9 +19,8 @@ pub(crate) struct Blueprint {
     pub scale: f32,
     /// ... and masses.
     pub mass: f32,
-    /// Radius of its membrane at rest less that of its content, units, see [`crate::solver::membrane::Membrane::rim`]; none
-    /// if its outline is no membrane, which may grow, but a ring that the template's constraints hold together.
-    pub rim: Option<f32>,
+    /// Its outline is a membrane, which may grow, rather than a ring that the template's constraints hold together.
+    pub has_membrane: bool,
     pub fluid: Option<FluidPlan>,
     pub locomotion: Locomotion,
     /// Speed when it moves, units/s.
@@ -51,7 +50,7 @@ impl Blueprint {
             template: None,
             scale: 1.0,
             mass: 1.0,
-            rim: None,
+            has_membrane: false,
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
@@ -72,7 +71,7 @@ impl Blueprint {
 
     /// Whether it is fluid or a membrane around fluid.
     pub(crate) fn holds_fluid(&self) -> bool {
-        self.rim.is_some() || self.fluid.is_some()
+        self.has_membrane || self.fluid.is_some()
     }
 
     pub(crate) fn particle_count(&self) -> usize {

@@ -54,8 +54,7 @@ impl World {
                 (Err(_), Ok(_)) => pair.i,
                 _ => continue,
             };
-            let owner = self.organisms.id_at(self.particles.owner[other as usize]);
-            touched.extend(owner.filter(|&other| other != id && !self.exemptions.contains(id.index, other.index)));
+            touched.extend(self.organisms.id_at(self.particles.owner[other as usize]).filter(|&other| other != id));
         }
         touched.sort_unstable();
         let Some(centre) = self.centroid(id) else { return Vec::new() };

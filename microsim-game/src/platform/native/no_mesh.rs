@@ -15,10 +15,6 @@ impl Mesh {
         match *self {}
     }
 
-    pub(super) fn late_offers(&mut self) -> Vec<Vec<u8>> {
-        match *self {}
-    }
-
     pub(super) fn poll(&mut self) -> Vec<Notice> {
         match *self {}
     }
