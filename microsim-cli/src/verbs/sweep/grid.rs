@@ -1,6 +1,7 @@
 //! The axes and seeds of a sweep.
 
 use std::collections::BTreeSet;
+use std::fmt::Display;
 use std::str::FromStr;
 
 /// Most values of one axis.
@@ -36,11 +37,11 @@ impl FromStr for Seeds {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let values = each_once(range(text)?.unwrap_or_else(|| listed(text)))?;
+        let values = range(text)?.unwrap_or_else(|| listed(text));
         let seed = |value: &String| {
             value.parse().map_err(|_| format!("{value:?} is not a seed, expected 0..99 or whole numbers with commas"))
         };
-        values.iter().map(seed).collect::<Result<_, _>>().map(Self)
+        each_once(values.iter().map(seed).collect::<Result<_, _>>()?).map(Self)
     }
 }
 
@@ -68,9 +69,9 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
 }
 
 /// Refuses values of which two are equal: their tasks would be one and the same.
-fn each_once(values: Vec<String>) -> Result<Vec<String>, String> {
+fn each_once<T: Ord + Display>(values: Vec<T>) -> Result<Vec<T>, String> {
     let mut known = BTreeSet::new();
-    let twice = values.iter().find(|value| !known.insert(value.as_str()));
+    let twice = values.iter().find(|value| !known.insert(*value));
     twice.map_or(Ok(()), |value| Err(format!("{value} is there twice, accepted: each value once")))?;
     Ok(values)
 }
@@ -148,6 +149,6 @@ mod tests {
         ] {
             assert!(text.parse::<Axis>().is_err(), "{text}");
         }
-        assert!("a".parse::<Seeds>().is_err() && "7,7".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());
+        assert!("a".parse::<Seeds>().is_err() && "7,07".parse::<Seeds>().is_err() && "-1".parse::<Seeds>().is_err());
     }
 }
