@@ -88,6 +88,6 @@ fn an_invalid_state_exits_with_1_and_is_described() {
     let output = run(&[&["run", "hunt", "--steps", "240", "--validate"][..], absurd.as_flattened()].concat());
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    let flaw = ": amoeboid_cell 0 (generation 0): particle 143: it has leaked out of its membrane";
-    assert!(said.contains("hunt with seed 5: after step 29") && said.contains(flaw), "{said}");
+    let flaw = ": amoeboid_cell 0 (generation 0): particle 161: it has leaked out of its membrane";
+    assert!(said.contains("hunt with seed 5: after step 26") && said.contains(flaw), "{said}");
 }

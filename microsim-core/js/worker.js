@@ -6,10 +6,12 @@
 //   worker.postMessage({ goal: { x: 60, y: 30 } });
 import { load } from "./index.js";
 
-const microsim = await load();
+const loading = load();
 let world;
 
-onmessage = ({ data: { open, goal } }) => {
+// Before the program is there: what came without a receiver would be lost.
+onmessage = async ({ data: { open, goal } }) => {
+    const microsim = await loading;
     if (open) {
         world?.close();
         world = microsim.open(open);

@@ -41,7 +41,7 @@ pub enum Side {
     /// A wall.
     #[default]
     Wall,
-    /// Nothing: what is wholly beyond it is removed at the end of the step, with
+    /// Nothing: what has the centres of all its discs beyond it is removed at the end of the step, fluid particle by particle, with
     /// [`Event::Drained`](crate::Event::Drained).
     Open,
 }
@@ -196,6 +196,12 @@ impl WorldConfig {
         (least..=most).contains(&self.substeps).then_some(()).ok_or_else(accepted)
     }
 
+    /// Least distance between two walls that face each other, units; infinite if there are none.
+    pub(crate) fn width_between_walls(&self) -> f32 {
+        let [low, high] = self.walls();
+        (high - low).min_element()
+    }
+
     /// Time of one substep, s.
     pub(crate) fn substep(&self) -> f32 {
         self.dt / self.substeps as f32
@@ -214,8 +220,13 @@ impl WorldConfig {
     /// Speed of its fastest particle below which a body counts as at rest, units/s. At most half of the speed of free fall
     /// through the medium after the time to sleep, so that nothing falls asleep on its way down.
     pub(crate) fn sleep_speed(&self) -> f32 {
-        let fall = self.gravity.length() * TIME_TO_SLEEP / (1.0 + self.damping * TIME_TO_SLEEP);
+        let fall = self.fall_speed(1.0);
         if fall > 0.0 && 0.5 * fall < SLEEP_SPEED { 0.5 * fall } else { SLEEP_SPEED }
+    }
+
+    /// Speed that what was at rest falls with after the time to sleep, with a share of gravity, units/s.
+    pub(crate) fn fall_speed(&self, gravity_scale: f32) -> f32 {
+        gravity_scale.abs() * self.gravity.length() * TIME_TO_SLEEP / (1.0 + self.damping * TIME_TO_SLEEP)
     }
 
     /// Largest displacement of a particle in a step, units.

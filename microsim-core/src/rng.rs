@@ -23,6 +23,11 @@ impl Rng {
         rng
     }
 
+    /// Whether its increment is odd, as that of all but forged ones: else numbers repeat soon, and [`Rng::normal`] need not end.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.increment % 2 == 1
+    }
+
     /// The next 32 random bits.
     pub fn next_u32(&mut self) -> u32 {
         let old = self.state;

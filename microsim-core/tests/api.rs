@@ -143,6 +143,21 @@ fn contacts_begin_once_and_end_once_even_by_removal() {
 }
 
 #[test]
+fn nothing_is_spawned_inside_a_membrane() {
+    let mut world = room();
+    let cell = AmoeboidCellSpec { radii: Vec2::splat(20.0), node_radius: 1.5, ..AmoeboidCellSpec::default() };
+    world.spawn(&cell.into(), Placement::at(50.0, 50.0)).unwrap();
+    // Small enough for the gaps of the cytoplasm.
+    let dust = OrganismSpec::from(ProbeSpec { radius: 0.1, ..ProbeSpec::default() });
+    for k in 0..400 {
+        let at = Placement::at(40.0 + (k % 20) as f32, 40.0 + 0.98 * (k / 20) as f32);
+        let error = world.spawn(&dust, at).unwrap_err();
+        assert!(matches!(error.kind(), ErrorKind::Overlap { .. }), "{error}");
+    }
+    world.spawn(&dust, Placement::at(75.0, 50.0)).unwrap();
+}
+
+#[test]
 fn exempt_organisms_pass_through_each_other() {
     let passes = |is_exempt: bool| {
         let mut world = room();

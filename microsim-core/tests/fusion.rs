@@ -3,14 +3,15 @@
 
 mod common;
 
+use common::chase::{agar_of, by, chase, ingests};
 use common::lobes::{CENTRE, cell_in_room, count, divide, fuse, run_checked};
 use common::{outline, run, toward};
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Event, Inputs, OrganismId, Placement, PlateletSpec, Refusal, Rng, Role, World,
-    WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Event, IngestionWay, Inputs, OrganismId, Placement, PlateletSpec, Refusal, Rng, Role,
+    World, WorldConfig,
 };
 
 /// Steps, s, and their numbers of substeps.
@@ -112,6 +113,23 @@ fn the_first_order_right_after_a_fusion_is_carried_out_for_24_radii() {
     for (dt, substeps) in STEPPINGS {
         (0..24).for_each(|k| divide_right_after_a_fusion(8.0 + 0.375 * k as f32, dt, substeps));
     }
+}
+
+#[test]
+fn prey_that_another_cell_let_through_stays_inside_when_the_two_fuse() {
+    let small =
+        AmoeboidCellSpec { radii: Vec2::splat(9.0), phagocytosis: by(IngestionWay::Gate), ..Default::default() };
+    let (mut world, small) = cell_in_room(small);
+    let prey = world.spawn(&agar_of(1.5), Placement::at(CENTRE.x + 13.0, CENTRE.y)).unwrap();
+    chase(&mut world, small, prey, 300, ingests).unwrap();
+    let at = world.centroid(small).unwrap() - Vec2::new(26.0, 0.0);
+    let large = AmoeboidCellSpec { radii: Vec2::splat(13.0), ..Default::default() };
+    let large = world.spawn(&large.into(), Placement::at(at.x, at.y)).unwrap();
+    world.set_exempt(large, prey, true).unwrap();
+    assert_eq!(fuse(&mut world, small, large, "with prey"), large);
+    run_checked(&mut world, &toward(large, Vec2::new(20.0, 20.0)), 300, "fused");
+    assert_eq!(world.view().organism(prey).unwrap().held_by(), Some(large));
+    assert!(contains_point(&outline(&world, large), world.centroid(prey).unwrap()));
 }
 
 #[test]

@@ -199,6 +199,20 @@ fn what_moves_wakes_what_it_is_joined_to_and_what_rests_sleeps() {
 }
 
 #[test]
+fn what_a_joint_moves_slowly_does_not_fall_asleep() {
+    let slow = JointKind::SpeedMotor { speed: 0.01, max_force: 1e6 };
+    let soft = JointKind::Spring { length: 10.0, frequency: 0.01, damping_ratio: 0.0 };
+    for (kind, expected) in [(slow, 20.0 + 0.01 * 20.0), (soft, 10.0 + 10.0 * (TAU * 0.01 * 20.0).cos())] {
+        let mut world = room(0.0, 8);
+        let disc = disc(&mut world, Vec2::new(70.0, 45.0), 1.0);
+        join(&mut world, JointEnd::Point(Vec2::new(50.0, 45.0)), node(disc), kind);
+        run(&mut world, 20.0);
+        let length = at(&world, disc).x - 50.0;
+        assert!((length - expected).abs() < 0.1, "{kind:?}: {length} instead of {expected}");
+    }
+}
+
+#[test]
 fn everything_that_cannot_be_joined_is_refused_by_name_and_changes_nothing() {
     let mut world = room(0.0, 8);
     let [a, gone] = [60.0, 80.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0));

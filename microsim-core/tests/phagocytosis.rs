@@ -158,6 +158,24 @@ fn t38_t39_t40_t41_rigid_cells_are_drawn_in_and_shrink_while_the_cell_waits() {
 }
 
 #[test]
+fn what_passes_through_a_cell_is_not_taken_in_and_what_is_in_it_does_not_fall_out() {
+    let (mut world, cell, prey) = scene(&agar(), 14.0);
+    world.set_exempt(cell, prey, true).unwrap();
+    for step in 0..300 {
+        let at = world.centroid(prey).unwrap();
+        run(&mut world, &toward(cell, at), 1);
+        assert!(!begins(&world), "step {step}");
+    }
+    let (mut world, cell, prey) = scene_with(by(IngestionWay::Gate), CENTRE, &agar_of(2.0), 15.0);
+    chase(&mut world, cell, prey, 300, ingests).unwrap();
+    for [a, b] in [[cell, prey], [prey, cell]] {
+        assert_eq!(world.set_exempt(a, b, true).unwrap_err().field(), "b");
+        world.set_exempt(a, b, false).unwrap();
+    }
+    assert_eq!(world.census().improper_absorptions, 0);
+}
+
+#[test]
 fn t42_t79_a_rigid_cell_of_the_wrong_size_never_gets_inside() {
     let large: OrganismSpec = RigidCellSpec { radii: Vec2::new(7.0, 12.0), ..RigidCellSpec::default() }.into();
     let (mut world, cell, prey) = scene(&large, 19.0);

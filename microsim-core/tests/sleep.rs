@@ -108,6 +108,20 @@ fn what_sinks_slowly_does_not_fall_asleep() {
     assert!((0.17..0.21).contains(&sunk), "it has sunk by {sunk}");
 }
 
+#[test]
+fn what_sinks_with_a_share_of_gravity_does_not_fall_asleep() {
+    for (gravity, damping, scale) in [(-1.0, 0.0, 0.03), (-10.0, 10.0, 0.02)] {
+        let gravity = Vec2::new(0.0, gravity);
+        let mut world = World::new(WorldConfig { gravity, damping, ..WorldConfig::default() }).unwrap();
+        let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
+        world.set_gravity_scale(agar, scale).unwrap();
+        run(&mut world, &Inputs::new(), 300);
+        let (sunk, fall) = (50.0 - world.centroid(agar).unwrap().y, -gravity.y * scale);
+        let expected = if damping > 0.0 { fall / damping * (5.0 - 1.0 / damping) } else { 0.5 * fall * 25.0 };
+        assert!((sunk / expected - 1.0).abs() < 0.05, "it has sunk by {sunk}, expected {expected}");
+    }
+}
+
 // One at a time: an agar and a probe share a block.
 #[test]
 fn a_push_wakes() {

@@ -83,12 +83,10 @@ impl Language {
         if self.table.get().is_none() {
             let texts = match builtin(self.code) {
                 Some(texts) => texts,
-                None => String::from_utf8(fetch()?).ok()?.leak(),
+                // Only what is taken is kept for good.
+                None => String::from_utf8(fetch()?).ok().filter(|texts| texts.split('\0').count() >= COUNT)?.leak(),
             };
-            let texts: Vec<&str> = texts.split('\0').collect();
-            if texts.len() >= COUNT {
-                let _ = self.table.set(texts);
-            }
+            let _ = self.table.set(texts.split('\0').collect());
         }
         self.table.get().map(Vec::as_slice)
     }

@@ -65,8 +65,10 @@ export function fail(problem) {
 /** Hands files to the game as if they were dropped on its window. */
 export async function give(list) {
     for (const file of list) {
-        if (file.size <= LONGEST_FILE) {
-            files.set(file.name, new Uint8Array(await file.arrayBuffer()));
+        // A folder, for one, cannot be read.
+        const bytes = file.size <= LONGEST_FILE && (await file.arrayBuffer().catch(() => null));
+        if (bytes) {
+            files.set(file.name, new Uint8Array(bytes));
             dropped.push(file.name);
         }
     }
@@ -106,9 +108,7 @@ const fromBase64 = (text) => Uint8Array.from(atob(text), (letter) => letter.char
 
 function storageWorks() {
     try {
-        localStorage.setItem(STORE, "");
-        localStorage.removeItem(STORE);
-        return true;
+        return localStorage.length >= 0; // There is something to read, though there may be no room for more.
     } catch {
         return false;
     }
@@ -124,21 +124,22 @@ function readKept(name) {
     }
 }
 
-function keep(name, bytes) {
+function put(name, text) {
     try {
-        localStorage.setItem(STORE + name, toBase64(bytes));
+        localStorage.setItem(STORE + name, text);
         return true;
     } catch {
         return false;
     }
 }
 
+const keep = (name, bytes) => put(name, toBase64(bytes));
+
 function rename(name, other) {
     const value = kept(name);
     if (value === null) return false;
-    localStorage.setItem(STORE + decode(other), value);
-    localStorage.removeItem(STORE + name);
-    return true;
+    localStorage.removeItem(STORE + name); // There may be no room for both.
+    return put(decode(other), value) || (put(name, value), false);
 }
 
 function download(name, bytes) {
@@ -211,10 +212,12 @@ function showMenu(screen, bytes) {
     return true;
 }
 
-/** Connections to rooms by number, with the frames that came since the game last asked. */
+/** Connections to rooms by number, with the frames that came since the game last asked, and how many of them are of whom. */
 const rooms = new Map();
-/** Frames that wait for a game that does not ask, as in a hidden tab: 20 s of a match of two. With more the room is left. */
+/** Frames of one member that wait for a game that does not ask, as in a hidden tab: 20 s of a match. More are lost. */
 const MOST_FRAMES = 600;
+/** Time after which a game that does not ask leaves the room instead, ms. */
+const PAUSE = 15_000;
 /** Longest frame, bytes. */
 const LONGEST_FRAME = 65537;
 /** Bytes that wait to be sent; what is more is lost. */
@@ -222,8 +225,15 @@ const MOST_UNSENT = 1 << 20;
 
 function enterRoom(number, code) {
     const socket = new WebSocket(new URL(`room/${decode(code)}`, location.href.replace("http", "ws")));
-    const frames = [];
-    const receive = (frame) => (frames.length < MOST_FRAMES ? frames.push(frame) : socket.close(4000));
+    const frames = [], counts = new Uint16Array(256), room = { socket, frames, counts, asked: performance.now() };
+    const receive = (frame) => {
+        const [from] = frame, isLost = from !== 255 && counts[from] >= MOST_FRAMES; // 255: the server.
+        const isTooMuch = isLost ? performance.now() - room.asked > PAUSE : frames.length > 5 * MOST_FRAMES;
+        if (isTooMuch) return socket.close(4000);
+        if (isLost) return;
+        counts[from] += 1;
+        frames.push(frame);
+    };
     const mesh = address.get("direct") === "no" ? null : new Mesh((frame) => submit(socket, frame), receive);
     socket.binaryType = "arraybuffer";
     socket.onmessage = ({ data }) => {
@@ -235,7 +245,14 @@ function enterRoom(number, code) {
         mesh?.close();
         frames.push(Uint8Array.of(255, 3)); // As if the server had refused, without a reason.
     };
-    rooms.set(number, { socket, frames, mesh });
+    rooms.set(number, Object.assign(room, { mesh }));
+}
+
+function nextFrame(number) {
+    const room = rooms.get(number), frame = room.frames.shift();
+    room.asked = performance.now();
+    if (frame) room.counts[frame[0]] -= 1;
+    return frame ?? null;
 }
 
 function leaveRoom(number) {
@@ -333,7 +350,7 @@ const answers = {
     "held": () => encode([...held].join("\n")),
     "kept": readKept,
     "words": wordsOf,
-    "room": (number) => rooms.get(number).frames.shift() ?? null,
+    "room": nextFrame,
     "room key": roomKey,
     "pressed": () => encode(pressed.splice(0).join("\n")),
 };

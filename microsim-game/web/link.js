@@ -2,18 +2,21 @@
 
 const LONGEST = 1 << 20;
 
+const tooMuch = () => new Error("the link has too much in it");
+
 async function through(stream, bytes) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader();
     const parts = [];
     for (let length = 0, part; !(part = await reader.read()).done; parts.push(part.value)) {
         length += part.value.length;
-        if (length > LONGEST) throw new Error("the link has too much in it");
+        if (length > LONGEST) throw tooMuch();
     }
     return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
 /** The address of this page with a file in it. */
 export async function linkTo(kind, bytes) {
+    if (bytes.length > LONGEST) throw tooMuch();
     const packed = await through(new CompressionStream("deflate-raw"), bytes);
     const text = btoa(Array.from(packed, (byte) => String.fromCharCode(byte)).join(""));
     const safe = text.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");

@@ -8,6 +8,8 @@ const OFFER = 0, ANSWER = 1, CANDIDATE = 2;
 const NOTICE = 255, JOINED = 1, LEFT = 2, HELPERS = 4, BACK = 5;
 /** Longest signal, bytes; most signals of an attempt, and most offers of a member. One may have been for who had this number before. */
 const LONGEST_SIGNAL = 8192, MOST_SIGNALS = 64, MOST_OFFERS = 3;
+/** Shortest time between two offers to a number, however often somebody comes with it, ms. */
+const PAUSE = 2000;
 /** Longest message of a channel, bytes: it fits in one packet. Longer ones go by the server. */
 const LONGEST_MESSAGE = 1100;
 /** Most messages of a channel in a second; a match of two has 60. */
@@ -89,6 +91,9 @@ export class Mesh {
     #ways = new Map();
     /** How many offers have come, by member. */
     #offers = new Map();
+    /** Before when nobody is offered a way, and what waits for that, by member. */
+    #pauses = new Map();
+    #timers = new Map();
     #helpers = [];
     #attempts = 0;
 
@@ -106,16 +111,19 @@ export class Mesh {
         }
         if (kind === HELPERS) this.#helpers = JSON.parse(decode(frame.subarray(2)));
         const comes = kind === JOINED || kind === BACK;
-        if (comes || kind === LEFT) {
-            this.#drop(member);
-            this.#offers.delete(member);
-        }
+        if (comes || kind === LEFT) this.#drop(member);
         // Who is there already offers a way to who comes.
-        if (comes) {
-            this.#attempts = (this.#attempts + 1) % 256;
-            quietly(this.#way(member, this.#attempts)?.offer());
-        }
+        const wait = this.#pauses.get(member) - performance.now();
+        if (comes && wait > 0) this.#timers.set(member, setTimeout(() => this.#offer(member), wait));
+        else if (comes) this.#offer(member);
         return kind === HELPERS;
+    }
+
+    #offer(member) {
+        this.#pauses.set(member, performance.now() + PAUSE);
+        this.#offers.delete(member);
+        this.#attempts = (this.#attempts + 1) % 256;
+        quietly(this.#way(member, this.#attempts)?.offer());
     }
 
     /** Sends a message of a frame by a channel, and returns whether it need not go by the server as well. */
@@ -124,10 +132,11 @@ export class Mesh {
     }
 
     close() {
-        for (const member of [...this.#ways.keys()]) this.#drop(member);
+        for (const member of [...this.#ways.keys(), ...this.#timers.keys()]) this.#drop(member);
     }
 
     #drop(member) {
+        clearTimeout(this.#timers.get(member));
         this.#ways.get(member)?.close();
         this.#ways.delete(member);
     }

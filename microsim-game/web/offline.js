@@ -5,9 +5,11 @@ const CACHE = "microsim-@VERSION@";
 const PROGRAM = location.search.slice(1) || "game.wasm";
 const FILES = ["./", "start.js", "host.js", "mesh.js", "link.js", "restore.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png", "@WORDS@"];
 
+// Not from what the browser has kept by itself, and not used as long as a page of another version is open: parts of two versions do
+// not fit together.
 addEventListener("install", (event) => {
-    skipWaiting();
-    event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)));
+    const requests = FILES.map((file) => new Request(file, { cache: "reload" }));
+    event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(requests)));
 });
 
 addEventListener("activate", (event) => {
@@ -18,6 +20,6 @@ addEventListener("activate", (event) => {
 addEventListener("fetch", (event) => {
     if (event.request.method !== "GET") return;
     event.respondWith(caches.open(CACHE)
-        .then((cache) => cache.match(event.request, { ignoreSearch: true }))
+        .then((cache) => cache.match(event.request.url.replace("/index.html", "/"), { ignoreSearch: true }))
         .then((kept) => kept ?? fetch(event.request)));
 });

@@ -101,10 +101,16 @@ function connectFiles() {
     }, true);
 }
 
-async function copyLink(link) {
-    const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
-    if (!isCopied) history.replaceState(null, "", link);
-    element("told").textContent = say(isCopied ? "The link is copied." : "The link is in the address bar.");
+/** Copies the link that a promise is of, or says why there is none. */
+async function copyLink(promise) {
+    try {
+        const link = await promise;
+        const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
+        if (!isCopied) history.replaceState(null, "", link);
+        element("told").textContent = say(isCopied ? "The link is copied." : "The link is in the address bar.");
+    } catch (error) {
+        element("told").textContent = error.message;
+    }
 }
 
 function connectLinks() {
@@ -114,12 +120,10 @@ function connectLinks() {
         element("share-water").hidden = water === null;
         element("share-scenario").hidden = lastScenario() === undefined;
     };
-    element("share").onclick = async () => {
-        const record = Uint8Array.from(atob(kept("last-game.replay")), (letter) => letter.charCodeAt(0));
-        copyLink(await linkTo("replay", record));
-    };
+    const lastGame = async () => Uint8Array.from(atob(kept("last-game.replay")), (letter) => letter.charCodeAt(0));
+    element("share").onclick = () => copyLink(lastGame().then((record) => linkTo("replay", record)));
     element("share-water").onclick = () => copyLink(`${location.origin}${location.pathname}?${water}`);
-    element("share-scenario").onclick = async () => copyLink(await linkTo("scenario", files.get(lastScenario())));
+    element("share-scenario").onclick = () => copyLink(linkTo("scenario", files.get(lastScenario())));
 }
 
 const lastScenario = () => [...files.keys()].findLast((name) => name.endsWith(".toml"));

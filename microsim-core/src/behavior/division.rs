@@ -47,7 +47,7 @@ fn clear_furrow(organism: &Organism, organisms: &Organisms, p: &Particles, drive
         if side.abs() < size + CLEAR * membrane.rest_length {
             let velocity = axis * engulfer.params.pull_speed.copysign(side);
             let max_acceleration = engulfer.params.pull_acceleration;
-            drives.extend(prey.particles().map(|particle| Drive { particle, velocity, max_acceleration }));
+            drives.extend(prey.particles().map(|particle| Drive::new(particle, velocity, max_acceleration)));
         }
     }
 }

@@ -22,19 +22,19 @@ pub(crate) fn drive(
     let opposite = (front + count / 2) % count;
     if organism.relative_speed < 0.0 {
         let velocity = heading(offset(opposite)) * organism.present_speed();
-        drives.push(Drive { particle: particle(opposite), velocity, max_acceleration: f32::INFINITY });
+        drives.push(Drive::pull(particle(opposite), velocity));
         return front;
     }
     let front = if offset(opposite).length_squared() < offset(front).length_squared() { opposite } else { front };
     let velocity = heading(offset(front)) * organism.present_speed();
-    drives.push(Drive { particle: particle(front), velocity, max_acceleration: f32::INFINITY });
+    drives.push(Drive::pull(particle(front), velocity));
     front
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Placement, RigidCellSpec, World, WorldConfig};
+    use crate::{Inputs, Intent, Placement, RigidCellSpec, World, WorldConfig};
 
     fn drives_to(goal: Vec2) -> (World, Vec<Drive>, u32) {
         let mut world = World::new(WorldConfig::default()).unwrap();
@@ -52,7 +52,25 @@ mod tests {
         assert_eq!((drives.len(), front), (1, 0));
         let at = world.particles.position(drives[0].particle as usize);
         assert!((drives[0].velocity - (goal - at).normalize() * 8.0).length() < 1e-4);
-        assert!(drives[0].max_acceleration.is_infinite(), "set, not approached");
+        assert!(drives[0].max_acceleration.is_infinite() && drives[0].is_pull, "set, not approached");
+    }
+
+    #[test]
+    fn a_rigid_cell_is_as_fast_in_substeps_of_any_length() {
+        let way = |damping: f32, substeps: u32| {
+            let config = WorldConfig { damping, substeps, ..WorldConfig::default() };
+            let mut world = World::new(config).unwrap();
+            let cell = world.spawn(&RigidCellSpec::default().into(), Placement::at(20.0, 45.0)).unwrap();
+            let mut inputs = Inputs::new();
+            inputs.set(cell, Intent::toward(Vec2::new(500.0, 45.0)).unwrap());
+            (0..120).for_each(|_| world.step(&inputs));
+            world.centroid(cell).unwrap().x - 20.0
+        };
+        for damping in [0.5, 2.0] {
+            let ways = [4, 8, 16, 64].map(|substeps| way(damping, substeps));
+            let mean = ways.iter().sum::<f32>() / 4.0;
+            assert!(ways.iter().all(|way| (way / mean - 1.0).abs() < 0.03), "damping {damping}: {ways:?}");
+        }
     }
 
     #[test]

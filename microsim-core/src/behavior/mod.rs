@@ -93,7 +93,7 @@ fn move_towards(
         Locomotion::Propel { max_acceleration } => {
             let Some(goal) = goal else { return };
             let velocity = heading(goal - position_of(organism, particles)) * organism.present_speed();
-            drives.extend(organism.particles().map(|particle| Drive { particle, velocity, max_acceleration }));
+            drives.extend(organism.particles().map(|particle| Drive::new(particle, velocity, max_acceleration)));
         }
     }
 }

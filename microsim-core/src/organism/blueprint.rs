@@ -19,8 +19,9 @@ pub(crate) struct Blueprint {
     pub scale: f32,
     /// ... and masses.
     pub mass: f32,
-    /// Its outline is a membrane, which may grow, rather than a ring that the template's constraints hold together.
-    pub has_membrane: bool,
+    /// Radius of its membrane at rest less that of its content, units, see [`crate::solver::membrane::Membrane::rim`]; none
+    /// if its outline is no membrane, which may grow, but a ring that the template's constraints hold together.
+    pub rim: Option<f32>,
     pub fluid: Option<FluidPlan>,
     pub locomotion: Locomotion,
     /// Speed when it moves, units/s.
@@ -50,7 +51,7 @@ impl Blueprint {
             template: None,
             scale: 1.0,
             mass: 1.0,
-            has_membrane: false,
+            rim: None,
             fluid: None,
             locomotion: Locomotion::None,
             speed: 0.0,
@@ -71,7 +72,7 @@ impl Blueprint {
 
     /// Whether it is fluid or a membrane around fluid.
     pub(crate) fn holds_fluid(&self) -> bool {
-        self.has_membrane || self.fluid.is_some()
+        self.rim.is_some() || self.fluid.is_some()
     }
 
     pub(crate) fn particle_count(&self) -> usize {

@@ -20,6 +20,10 @@ use serde::{Deserialize, Serialize};
 /// Rate at which stretching of a cell is damped, 1/s, times its number of particles of cytoplasm to the power of 3/4.
 const STRETCH_DAMPING: f32 = 450.0;
 
+/// Length of links, in rest lengths, up to which a membrane gives up nodes. Their number goes with the root of the content, but the
+/// circle around the content has a rim besides: links of a smaller cell are longer.
+const LONGEST_AT_REST: f32 = 1.1;
+
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Phagosome {
@@ -160,14 +164,14 @@ impl Organism {
         };
         let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
-        let content = MembraneContent { area, spacing, lobes, folds };
+        let content = MembraneContent { area, lobes, folds };
         let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());
         let stiffness = pseudopods.map_or(Vec::new(), Pseudopods::stiffness);
         let slack = pseudopods.map(|pseudopods| pseudopods.params.slack);
         let flexibility = Flexibility { slack, stiffness: &stiffness };
         membrane.relax(&self.outline, particles, content, is_driven, flexibility, dt);
         for phagosome in &mut self.phagosomes {
-            let content = MembraneContent { area: phagosome.area, spacing: 0.0, lobes: 1.0, folds: 0.0 };
+            let content = MembraneContent { area: phagosome.area, lobes: 1.0, folds: 0.0 };
             phagosome.membrane.relax(&phagosome.ring, particles, content, false, Flexibility::LEAST, dt);
         }
     }
@@ -249,8 +253,11 @@ impl Organism {
 
     /// Whether its membrane is so short that it goes round with a node less.
     pub(crate) fn has_spare_node(&self) -> bool {
-        let wanted = self.body.membrane().map_or(f32::INFINITY, |m| m.rest_perimeter() / m.rest_length);
-        wanted < self.outline.len() as f32
+        let fewest = self
+            .body
+            .membrane()
+            .map_or(f32::INFINITY, |membrane| membrane.rest_perimeter() / (LONGEST_AT_REST * membrane.rest_length));
+        fewest + 1.0 < self.outline.len() as f32
     }
 
     /// The particle of a node, see [`Organism::particles`].

@@ -18,6 +18,7 @@ mod spec;
 mod storage;
 pub(crate) mod table;
 
+pub(crate) use amoeboid_cell::MAX_NODES;
 pub(crate) use blueprint::{Blueprint, FluidPlan};
 pub(crate) use living::{Organism, Phagosome};
 pub use placement::Placement;

@@ -12,6 +12,9 @@ use glam::Vec2;
 /// Time in which a rod turns most of the way to its heading, s.
 const TURN_TIME: f32 = 0.1;
 
+/// Substep in which a particle that pulls a body takes on its whole velocity, s.
+const PULL_SUBSTEP: f32 = 1.0 / 480.0;
+
 /// One particle that is to move with a given velocity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drive {
@@ -20,15 +23,35 @@ pub(crate) struct Drive {
     pub velocity: Vec2,
     /// Largest acceleration towards it, units/s2; infinite sets it at once, as the thesis does.
     pub max_acceleration: f32,
+    /// Whether the particle pulls a body along, by as much momentum as a substep of [`PULL_SUBSTEP`] gives it: with the whole change
+    /// in each substep a body would be the faster, the more substeps there are.
+    pub is_pull: bool,
+}
+
+impl Drive {
+    /// One that is not pulled back.
+    pub(crate) fn new(particle: u32, velocity: Vec2, max_acceleration: f32) -> Self {
+        Self { particle, velocity, max_acceleration, is_pull: false }
+    }
+
+    /// One that pulls its body along.
+    pub(crate) fn pull(particle: u32, velocity: Vec2) -> Self {
+        Self { particle, velocity, max_acceleration: f32::INFINITY, is_pull: true }
+    }
+
+    /// What of a change is made in a substep of `h`.
+    fn limit(&self, change: Vec2, h: f32) -> Vec2 {
+        let change = change * if self.is_pull { h / PULL_SUBSTEP } else { 1.0 };
+        change * super::ratio_limit(change.length_squared(), self.max_acceleration * h)
+    }
 }
 
 pub(crate) fn apply(drives: &[Drive], particles: &mut Particles, h: f32) {
     for drive in drives {
         let i = drive.particle as usize;
-        let change = drive.velocity - particles.velocity(i);
-        let limit = super::ratio_limit(change.length_squared(), drive.max_acceleration * h);
-        particles.vx[i] += change.x * limit;
-        particles.vy[i] += change.y * limit;
+        let change = drive.limit(drive.velocity - particles.velocity(i), h);
+        particles.vx[i] += change.x;
+        particles.vy[i] += change.y;
     }
 }
 
@@ -51,7 +74,7 @@ pub(crate) fn pull(tractions: &[Traction], particles: &mut Particles, h: f32) {
             let i = drive.particle as usize;
             let change = ground + drive.velocity - particles.velocity(i);
             let change = along.map_or(change, |along| along * change.dot(along));
-            let change = change * super::ratio_limit(change.length_squared(), drive.max_acceleration * h);
+            let change = drive.limit(change, h);
             particles.vx[i] += change.x;
             particles.vy[i] += change.y;
             given += change * super::lanes::ratio(1.0, particles.inv_mass[i]);
@@ -143,10 +166,19 @@ mod tests {
     #[test]
     fn unlimited_drive_sets_and_limited_drive_approaches() {
         let mut p = line(1.0, [1.0, 1.0]);
-        let drive = Drive { particle: 0, velocity: Vec2::new(3.0, 4.0), max_acceleration: f32::INFINITY };
+        let drive = Drive::new(0, Vec2::new(3.0, 4.0), f32::INFINITY);
         apply(&[drive], &mut p, 0.01);
         assert_eq!(p.velocity(0), Vec2::new(3.0, 4.0));
         apply(&[Drive { particle: 1, max_acceleration: 100.0, ..drive }], &mut p, 0.01);
         assert!((p.velocity(1).length() - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_pull_gives_as_much_momentum_per_second_in_substeps_of_any_length() {
+        for h in [1.0 / 240.0, 1.0 / 480.0, 1.0 / 3840.0] {
+            let mut p = line(1.0, [1.0, 1.0]);
+            apply(&[Drive::pull(0, Vec2::new(3.0, 4.0))], &mut p, h);
+            assert!((p.velocity(0).length() / h - 2400.0).abs() < 1.0, "substep {h}");
+        }
     }
 }

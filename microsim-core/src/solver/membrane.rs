@@ -21,9 +21,9 @@ pub(crate) const STRAIN_LIMIT: f32 = 1.25;
 const TAUT: f32 = 1.2;
 /// ... and how many sweeps that may take.
 const STRAIN_SWEEPS: usize = 8;
-/// Resting perimeter relative to the circle around the content, and what is added while driven.
-const PERIMETER_AT_REST: f32 = 0.98;
-const PERIMETER_DRIVEN: f32 = 0.22;
+/// Resting perimeter relative to the regular polygon around the content, and what is added while driven.
+const PERIMETER_AT_REST: f32 = 0.995;
+const PERIMETER_DRIVEN: f32 = 0.205;
 /// Share of a driven membrane's excess perimeter that it accepts, up to this multiple of the circle.
 const EXCESS_ACCEPTED: f32 = 0.7;
 const EXCESS_LIMIT: f32 = 1.25;
@@ -33,8 +33,10 @@ const EXCESS_PROTRUDING: f32 = 1.14;
 const ACTIVITY_TIME: f32 = 0.5;
 const STRETCH_TIME: f32 = 0.25;
 const SHRINK_TIME: f32 = 0.6;
-/// Share of the fluid's spacing by which the membrane lies outside the content's equivalent circle, beyond its own radius.
-const CLEARANCE: f32 = 0.1;
+/// Speed at which excess area is taken back at most, in link lengths per second: at rest, and while driven, when the area of a cell
+/// varies by some percent.
+const FASTEST_AT_REST: f32 = 4.0;
+const FASTEST_DRIVEN: f32 = 0.7;
 
 /// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -43,6 +45,8 @@ pub(crate) struct Membrane {
     pub rest_length: f32,
     /// Radius of a node.
     pub node_radius: f32,
+    /// Radius of its circle at rest less that of its content, units.
+    pub rim: f32,
     /// 0 at rest, 1 after being driven for a while.
     activity: f32,
     /// Present total rest length of the links.
@@ -74,8 +78,6 @@ impl Flexibility<'_> {
 pub(crate) struct MembraneContent {
     /// Area at rest, square units.
     pub area: f32,
-    /// Rest spacing of the fluid.
-    pub spacing: f32,
     /// Circles of equal size that it is to fill: 1, or up to 3 while a furrow closes.
     pub lobes: f32,
     /// Length that folds take beside that, units.
@@ -83,11 +85,12 @@ pub(crate) struct MembraneContent {
 }
 
 impl Membrane {
-    pub(crate) fn new(rest_length: f32, node_radius: f32, nodes: usize) -> Self {
+    pub(crate) fn new(rest_length: f32, node_radius: f32, rim: f32, nodes: usize) -> Self {
         let rest_perimeter = rest_length * nodes as f32;
         Self {
             rest_length,
             node_radius,
+            rim,
             activity: 0.0,
             rest_perimeter,
             target_area: f32::INFINITY,
@@ -108,8 +111,8 @@ impl Membrane {
     }
 
     /// Its numbers by the names of their fields: those that are always finite.
-    pub(crate) fn state(&self) -> [f32; 4] {
-        [self.rest_length, self.node_radius, self.activity, self.rest_perimeter]
+    pub(crate) fn state(&self) -> [f32; 5] {
+        [self.rest_length, self.node_radius, self.rim, self.activity, self.rest_perimeter]
     }
 
     /// Finds this step's targets from what the membrane holds and whether it is being driven.
@@ -129,9 +132,9 @@ impl Membrane {
             .map_or((PERIMETER_DRIVEN, EXCESS_LIMIT), |slack| (slack, (1.0 + slack) * EXCESS_PROTRUDING));
         let drive = if is_driven { 1.0 } else { 0.0 };
         self.activity += (drive - self.activity) * share(dt, ACTIVITY_TIME);
-        let radius = (content.area / (PI * content.lobes)).sqrt() + self.node_radius + CLEARANCE * content.spacing;
+        let radius = (content.area / (PI * content.lobes)).sqrt() + self.rim;
         self.target_area = content.lobes * PI * radius * radius;
-        let circle = content.lobes * TAU * radius;
+        let circle = content.lobes * TAU * radius * polygon_over_circle(ring.len() as f32 / content.lobes);
         self.lobes = content.lobes;
         let mut target = (PERIMETER_AT_REST + gain * self.activity) * circle;
         let perimeter = perimeter(ring, particles);
@@ -154,7 +157,8 @@ impl Membrane {
         }
         let radius = 0.5 * length / circle.sine;
         let rises = circle.cosines.map(|cosine| radius * (1.0 - cosine));
-        let fastest = self.rest_perimeter * h * self.rest_length;
+        let speed = FASTEST_AT_REST + (FASTEST_DRIVEN - FASTEST_AT_REST) * self.activity;
+        let fastest = self.rest_perimeter * h * speed * self.rest_length;
         let stiffness = if self.stiffness.len() == ring.len() { self.stiffness.as_slice() } else { &[] };
         RingTarget { ring, length, rises, area: self.target_area, fastest, stiffness }
     }
@@ -215,6 +219,13 @@ pub(crate) fn links(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
+/// Perimeter of a regular polygon of so many sides, at least three, over that of the circle of the same area.
+fn polygon_over_circle(sides: f32) -> f32 {
+    let sides = if sides > 3.0 { sides } else { 3.0 };
+    let half_side = unit_vector(PI / sides);
+    (sides * half_side.y / (PI * half_side.x)).sqrt()
+}
+
 fn perimeter(ring: &[u32], particles: &Particles) -> f32 {
     links(ring).map(|(a, b)| particles.between(a as usize, b as usize).length()).sum()
 }
@@ -241,8 +252,8 @@ mod tests {
 
     fn relax(p: &mut Particles, area: f32) {
         let indices: Vec<u32> = (0..p.len() as u32).collect();
-        let mut membrane = Membrane::new(1.0, 0.5, indices.len());
-        let content = MembraneContent { area, spacing: 0.8, lobes: 1.0, folds: 0.0 };
+        let mut membrane = Membrane::new(1.0, 0.5, 0.58, indices.len());
+        let content = MembraneContent { area, lobes: 1.0, folds: 0.0 };
         for _ in 0..600 {
             membrane.relax(&indices, p, content, false, Flexibility::LEAST, 1.0 / 60.0);
             for _ in 0..8 {
@@ -270,18 +281,20 @@ mod tests {
 
     #[test]
     fn perimeter_and_area_approach_the_circle_around_the_content() {
-        let mut p = ring(40, 6.4);
-        relax(&mut p, 80.0);
-        let radius = (80.0 / PI).sqrt() + 0.5 + 0.08;
-        let area = signed_area(&positions(&p));
-        assert!((area / (PI * radius * radius) - 1.0).abs() < 0.06, "area {area}");
+        for (count, content) in [(40, 80.0), (14, 7.0)] {
+            let mut p = ring(count, 0.16 * count as f32);
+            relax(&mut p, content);
+            let radius = (content / PI).sqrt() + 0.58;
+            let area = signed_area(&positions(&p));
+            assert!((area / (PI * radius * radius) - 1.0).abs() < 0.02, "area {area} of {count} nodes");
+        }
     }
 
     #[test]
     fn t15_stretched_links_return_to_their_rest_length() {
         let mut p = ring(40, 1.15 * 40.0 / TAU);
         let indices: Vec<u32> = (0..40).collect();
-        let membrane = Membrane::new(1.0, 0.5, 40);
+        let membrane = Membrane::new(1.0, 0.5, 0.58, 40);
         for _ in 0..400 {
             project([(&membrane, indices.as_slice())].into_iter(), &mut p, 1.0 / 480.0, Dispatch::default());
         }
@@ -293,14 +306,14 @@ mod tests {
         let mut p = ring(40, 6.4);
         p.x[0] += 2.0;
         let indices: Vec<u32> = (0..40).collect();
-        let membrane = Membrane::new(1.0, 0.5, 40);
+        let membrane = Membrane::new(1.0, 0.5, 0.58, 40);
         (0..40).for_each(|_| membrane.limit_strain(&indices, &mut p));
         assert!(longest_link(&p) < 1.26, "longest {}", longest_link(&p));
     }
 
     #[test]
     fn a_part_of_a_membrane_is_under_the_same_tension() {
-        let mut whole = Membrane::new(1.0, 0.5, 40);
+        let mut whole = Membrane::new(1.0, 0.5, 0.58, 40);
         whole.rest_perimeter = 36.0;
         let [half, more] = [20, 50].map(|nodes| whole.resized(40, nodes).rest_perimeter());
         assert_eq!((half, more), (18.0, 45.0));

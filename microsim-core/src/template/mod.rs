@@ -326,8 +326,9 @@ fn in_order(mut constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constr
 /// The constraints that are rigid links and no muscles, in their order.
 fn rigid_links(constraints: &[Constraint], muscles: &[Muscle]) -> Vec<Constraint> {
     let is_muscle = |k: u32| muscles.binary_search_by_key(&k, |muscle| muscle.constraint).is_ok();
-    let is_rigid =
-        |constraint: &Constraint| matches!(constraint, Constraint::Distance(Distance { compliance: 0.0, .. }));
+    let is_rigid = |constraint: &Constraint| {
+        matches!(constraint, Constraint::Distance(Distance { compliance: 0.0, damping: 0.0, .. }))
+    };
     let rigid = constraints.iter().zip(0..).filter(|&(constraint, k)| is_rigid(constraint) && !is_muscle(k));
     rigid.map(|(constraint, _)| constraint.clone()).collect()
 }

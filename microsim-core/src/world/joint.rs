@@ -40,6 +40,9 @@ pub struct JointView {
     pub force: f32,
 }
 
+/// Speed of a body above which a soft joint keeps it awake, units/s: slower ones are about to turn round, or at rest.
+const LEAST_DRIVEN_SPEED: f32 = 0.001;
+
 impl World {
     /// Joins two things. Bodies that are joined still collide ([`World::set_exempt`]), and wake each other.
     ///
@@ -196,7 +199,7 @@ impl World {
         }
     }
 
-    /// Wakes who is joined to something that moves.
+    /// Wakes who is joined to something that moves, and who a joint drives too slowly to stay awake.
     pub(crate) fn wake_up_joints(&mut self) {
         let is_moving = |organism: &Organism, world: &Self| {
             let lane = organism.body.lane(&world.blocks);
@@ -207,10 +210,24 @@ impl World {
             let organisms = [spec.a, spec.b].into_iter().filter_map(JointEnd::organism);
             let mut obstacles = [spec.a, spec.b].into_iter().filter_map(JointEnd::obstacle);
             let is_carried = obstacles.any(|(id, _)| self.obstacle_target(id).is_some());
-            let mut organisms = organisms.filter_map(|id| self.organisms.get(id));
-            if is_carried || organisms.any(|organism| is_moving(organism, self)) {
+            let organisms = organisms.filter_map(|id| self.organisms.get(id));
+            let moves = |organism: &Organism| is_moving(organism, self) || self.is_driven(organism, spec.kind);
+            if is_carried || organisms.into_iter().any(moves) {
                 self.wake_up_joined(&spec);
             }
+        }
+    }
+
+    /// Whether a joint moves a body that need not be faster than the sleep speed for that.
+    fn is_driven(&self, organism: &Organism, kind: JointKind) -> bool {
+        match kind {
+            JointKind::SpeedMotor { speed, .. } => speed != 0.0,
+            JointKind::Spring { .. } | JointKind::Mouse { .. } | JointKind::LengthMotor { .. } => {
+                let list: Vec<u32> = organism.particles().collect();
+                let speed = MassProperties::of(&self.particles, &list).map_or(0.0, |body| body.velocity.length());
+                speed > LEAST_DRIVEN_SPEED
+            }
+            _ => false,
         }
     }
 

@@ -319,12 +319,18 @@ impl World {
     /// Lets two organisms pass through each other, or collide again.
     ///
     /// # Errors
-    /// When a handle is stale or both name the same organism.
+    /// When a handle is stale, both name the same organism, or one has taken the other in, which would fall out.
     pub fn set_exempt(&mut self, a: OrganismId, b: OrganismId, is_exempt: bool) -> Result<(), Error> {
         self.organism_or_stale(a, "a")?;
         self.organism_or_stale(b, "b")?;
         if a == b {
             return Err(Error::unsupported("b", "another organism: a membrane holds its own cytoplasm"));
+        }
+        if is_exempt && (self.holder_of(a) == Some(b) || self.holder_of(b) == Some(a)) {
+            return Err(Error::unsupported(
+                "b",
+                "neither prey inside `a` nor the cell that holds it: it would fall out",
+            ));
         }
         self.exemptions.set(a.index, b.index, is_exempt);
         self.wake_up(a);
@@ -354,6 +360,10 @@ impl World {
     pub(in crate::world) fn discs_of(&self, id: OrganismId) -> impl Iterator<Item = usize> + '_ {
         let particles = self.organisms.get(id).into_iter().flat_map(Organism::particles).map(|i| i as usize);
         particles.filter(|&i| self.particles.inv_mass[i] > 0.0)
+    }
+
+    fn holder_of(&self, id: OrganismId) -> Option<OrganismId> {
+        self.organisms.get(id)?.prey?.held_by
     }
 
     pub(crate) fn organism_or_stale(&self, id: OrganismId, field: &str) -> Result<(), Error> {

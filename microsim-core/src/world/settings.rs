@@ -9,6 +9,7 @@ use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Storage};
 use crate::particle::CollisionGroups;
+use crate::particle::mass_properties::MassProperties;
 use crate::solver::force::Force;
 use glam::Vec2;
 
@@ -173,12 +174,18 @@ impl World {
 
     /// Adds the forces by which gravity on some organisms differs from that on others; what sleeps has none.
     pub(crate) fn scale_gravity(&mut self) {
-        let Self { organisms, sleep, blocks, scratch, config, .. } = self;
+        let Self { organisms, particles, sleep, blocks, scratch, config, .. } = self;
         for organism in organisms.with_gravity_scale() {
-            let is_asleep = organism.body.lane(blocks).is_some_and(|(block, _)| sleep.is_asleep(block));
-            if !is_asleep {
+            let lane = organism.body.lane(blocks);
+            if !lane.is_some_and(|(block, _)| sleep.is_asleep(block)) {
                 let acceleration = config.gravity * (organism.gravity_scale - 1.0);
                 let list: Vec<u32> = organism.particles().collect();
+                // Slower than the sleep speed it may be on its way down.
+                let slowest = 0.5 * config.fall_speed(organism.gravity_scale);
+                let speed = MassProperties::of(particles, &list).map_or(0.0, |body| body.velocity.length());
+                if let Some((block, lane)) = lane.filter(|_| 0.0 < slowest && slowest < speed) {
+                    sleep.wake_up(block, lane);
+                }
                 scratch.forces.add(&list, Force { acceleration, ..Force::default() });
             }
         }

@@ -11,6 +11,7 @@ use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
+use crate::geometry::polygon::contains_point;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage, TOUCHING};
@@ -28,8 +29,8 @@ impl World {
     /// Puts an organism into the world.
     ///
     /// # Errors
-    /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls or overlap
-    /// what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
+    /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls, inside a membrane
+    /// or overlap what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
     /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
@@ -92,12 +93,12 @@ impl World {
         let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
         let (body, outline, slots) = match blueprint.template {
-            Some(template) if !blueprint.has_membrane => {
+            Some(template) if blueprint.rim.is_none() => {
                 let outline = template.outline().to_vec();
                 (self.add_to_block(template, id.index, scale, body_plan), outline, nodes as u32)
             }
             _ => {
-                let (body, outline) = self.add_loose(body_plan);
+                let (body, outline) = self.add_loose(body_plan, blueprint.rim);
                 (body, outline, 0)
             }
         };
@@ -136,7 +137,7 @@ impl World {
     /// Checks all of a blueprint and its placement but for what is there already.
     fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
         placement.validate()?;
-        if blueprint.has_membrane {
+        if blueprint.rim.is_some() {
             self.config.check_membranes()?;
         }
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
@@ -190,8 +191,19 @@ impl World {
         Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }
 
-    /// Whether an organism overlaps discs within these bounds.
+    /// Whether an organism overlaps discs within these bounds, or has one of them inside its membrane, which would hold it in.
     fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
+        self.touches(organism, discs, bounds, share) || self.encloses(organism, discs)
+    }
+
+    fn encloses(&self, organism: &Organism, discs: &[Particle]) -> bool {
+        let Some(&node) = organism.outline.first().filter(|_| organism.body.membrane().is_some()) else { return false };
+        let groups = self.particles.groups[organism.body.particle(node) as usize];
+        let outline = self.outline_of(organism);
+        discs.iter().any(|disc| disc.groups.meets(groups) && contains_point(&outline, disc.position()))
+    }
+
+    fn touches(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
         let p = &self.particles;
         let share = if organism.outline.is_empty() { share } else { TOUCHING };
         organism.particles().map(|i| i as usize).any(|i| {
@@ -236,12 +248,12 @@ impl World {
     }
 
     /// Adds the nodes of a membrane (or none) as loose particles; the nodes are its outline.
-    fn add_loose(&mut self, planned: &[Particle]) -> (Storage, Vec<u32>) {
+    fn add_loose(&mut self, planned: &[Particle], rim: Option<f32>) -> (Storage, Vec<u32>) {
         let particles: Vec<u32> = planned.iter().map(|particle| self.particles.insert(particle)).collect();
-        let membrane = planned.first().map(|node| {
+        let membrane = planned.first().zip(rim).map(|(node, rim)| {
             let count = planned.len();
             let length = |k: usize| (planned[(k + 1) % count].offset - planned[k].offset).length();
-            Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, count)
+            Membrane::new((0..count).map(length).sum::<f32>() / count as f32, node.radius, rim, count)
         });
         self.particles.link_ring(&particles);
         (Storage::Loose { particles: particles.clone(), membrane }, particles)

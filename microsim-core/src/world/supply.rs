@@ -28,7 +28,7 @@ pub(crate) struct EmitterRecord {
     pub emitter: Emitter,
     /// How many it owes.
     pub owed: f32,
-    rng: Rng,
+    pub rng: Rng,
 }
 
 /// Where an organism, or a particle of fluid, may be drained.
@@ -247,7 +247,7 @@ impl World {
     /// Checks an emitter, and that this world can emit what it emits.
     pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
         emitter.validate()?;
-        if self.blueprint_of(&emitter.recipe)?.has_membrane {
+        if self.blueprint_of(&emitter.recipe)?.rim.is_some() {
             self.config.check_membranes()?;
         }
         Ok(())

@@ -31,10 +31,13 @@ impl Match {
         Some(Self::of(start, Session::new(round, own, Pacing::USUAL), called))
     }
 
-    /// A match that is on, as a member comes to it.
-    pub(super) fn watch(start: Start, member: Member, now: u32) -> Option<Self> {
+    /// A match that is on, as a member comes to it who was invited by `from`; none if that one has no cell in it. Who invites
+    /// leads: those before it have left, or took over from a bot, as its packets say.
+    pub(super) fn watch(start: Start, member: Member, from: Member, now: u32) -> Option<Self> {
+        let first = start.seats.iter().rposition(|&seat| seat == from)?;
         let round = round_of(start.seats.len(), start.seed).ok()?;
         let mut game = Self::of(start, Session::watch(round, member, Pacing::USUAL), now);
+        (0..first).for_each(|seat| game.vacate(seat, now));
         game.part(member, now);
         Some(game)
     }
@@ -55,9 +58,13 @@ impl Match {
     pub(super) fn part(&mut self, member: Member, now: u32) {
         self.session.forget(member);
         if let Some(seat) = self.seat_of(member) {
-            self.session.leave(seat);
-            self.left[seat] = Some(now);
+            self.vacate(seat, now);
         }
+    }
+
+    fn vacate(&mut self, seat: usize, now: u32) {
+        self.session.leave(seat);
+        self.left[seat] = Some(now);
     }
 
     /// Gives a bot's cell to one who has caught up: its own one at once, that of another one who had time to come back.

@@ -12,7 +12,7 @@ pub(super) const LONGEST_RUN: usize = 64;
 pub(super) const LONGEST_HISTORY: usize = 256;
 
 /// No match is that long, frames.
-const LAST_FRAME: u32 = 1 << 20;
+const LAST_FRAME: u32 = 1 << 14;
 
 /// Inputs of one player for frames that follow each other.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,7 +46,7 @@ pub(super) struct Packet {
     pub known: Vec<u32>,
     /// From which frame on a bot steers for a player.
     pub ends: Vec<(u8, u32)>,
-    /// The last takeover of each cell.
+    /// The last takeover of each cell, in the order of the cells.
     pub takeovers: Vec<Takeover>,
     /// Whether the sender has no cell, and is ready to take one.
     pub wants: bool,
@@ -82,7 +82,7 @@ impl Packet {
             && packet.known.len() == players
             && packet.ends.len() <= players
             && packet.ends.iter().all(|(player, _)| is_player(*player))
-            && packet.takeovers.len() <= players
+            && packet.takeovers.is_sorted_by(|a, b| a.player < b.player)
             && packet.takeovers.iter().all(is_takeover)
             && packet.runs.len() <= players
             && packet.runs.iter().all(is_run);
@@ -126,6 +126,8 @@ mod tests {
             let takeovers = vec![Takeover { player, member, end, since }];
             assert_eq!(Packet::read(&Packet { takeovers, ..packet() }.write(), 2), None, "a takeover that cannot be");
         }
+        let twice = vec![Takeover { player: 1, member: 3, end: 4, since: 6 }; 2];
+        assert_eq!(Packet::read(&Packet { takeovers: twice, ..packet() }.write(), 2), None, "one cell twice");
         assert_eq!(Packet::read(&Packet { frame: LAST_FRAME, ..packet() }.write(), 2), None, "too late");
         let runs = vec![Run { player: 1, first: 0, told: vec![Told::default(); LONGEST_HISTORY + 1] }];
         assert_eq!(Packet::read(&Packet { runs, ..packet() }.write(), 2), None, "too long a run");

@@ -127,7 +127,7 @@ impl Room {
             Message::Start(start) if self.first() == Some(from) && self.is_due(&start) => {
                 return self.begin(start, now);
             }
-            Message::Invite(start) if self.may_join(from, &start) => return self.join(start, now),
+            Message::Invite(start) if self.may_join(from, &start) => return self.join(from, start, now),
             Message::Start(_) | Message::Invite(_) => {}
             Message::Packet(number, packet) => {
                 current.filter(|current| current.start.number == number)?.receive(from, &packet, now);
@@ -166,8 +166,8 @@ impl Room {
     }
 
     /// Watches a match that is on, until there is a cell to take.
-    fn join(&mut self, start: Start, now: u32) -> Option<Match> {
-        self.play(Match::watch(start, self.own?, now)?, now)
+    fn join(&mut self, from: Member, start: Start, now: u32) -> Option<Match> {
+        self.play(Match::watch(start, self.own?, from, now)?, now)
     }
 
     fn play(&mut self, mut game: Match, now: u32) -> Option<Match> {

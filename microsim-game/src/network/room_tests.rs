@@ -179,7 +179,7 @@ fn odd_invitations_are_none() {
     run(&mut players, 3..5);
     assert!(players[0].current.is_none(), "not ready");
     players[0].room.set_ready(true);
-    let odd = [vec![], vec![1], vec![0, 4], vec![0, 1, 2, 3, 0]];
+    let odd = [vec![], vec![1], vec![0, 4], vec![0, 2], vec![0, 1, 2, 3, 0]];
     boxes.borrow_mut()[0].extend(odd.map(invite));
     run(&mut players, 5..7);
     assert!(players[0].current.is_none());
@@ -238,4 +238,19 @@ fn a_newcomer_who_is_the_first_begins_the_next_match() {
     }
     run(&mut players, 80..150);
     assert!(players.iter().all(|player| player.frame() > 0 && player.current.as_ref().unwrap().own().is_some()));
+}
+
+#[test]
+fn who_comes_late_finds_the_leader_behind_a_newcomer_who_is_the_first() {
+    let (mut players, boxes) = two_who_play();
+    // Ada goes, another one gets her number and is not ready, and a third one comes.
+    boxes.borrow_mut()[1].push(Notice::Left(0));
+    let mut cid = enter(&mut players, &boxes, 0, Notice::Joined(0));
+    cid.room.set_ready(false);
+    players[0] = cid;
+    let dan = enter(&mut players, &boxes, 2, Notice::Joined(2));
+    players.push(dan);
+    run(&mut players, 50..150);
+    assert!(players[0].current.is_none());
+    assert_eq!(cells(&players), [Some(1), None]);
 }

@@ -136,7 +136,11 @@ impl Session {
         // What is passed on has come to somebody who may be ahead.
         let passed_on = |run: &Run| if usize::from(run.player) == from { 0 } else { self.pacing.horizon() };
         let is_near = |run: &Run| u64::from(run.first) + run.told.len() as u64 <= u64::from(most + passed_on(run));
-        packet.frame <= most && packet.runs.iter().all(is_near) && packet.known[own] <= self.tracks[own].count()
+        let is_soon = |takeover: &Takeover| takeover.since <= most + self.pacing.horizon();
+        packet.frame <= most
+            && packet.takeovers.iter().all(is_soon)
+            && packet.runs.iter().all(is_near)
+            && packet.known[own] <= self.tracks[own].count()
     }
 
     /// A player has left: from now on a bot steers, from the same frame on for all, which the first of the others says.

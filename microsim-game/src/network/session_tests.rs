@@ -119,3 +119,15 @@ fn frames_of_which_no_round_is_kept_are_not_taken_again() {
     assert!(session.desync().is_some());
     assert!(session.tally().repeated <= Pacing::USUAL.kept(), "{}", session.tally().repeated);
 }
+
+#[test]
+fn a_takeover_from_a_far_frame_on_is_refused() {
+    let mut session = session(2);
+    let told = Packet::read(&packet(Vec::new(), Vec::new()), 3).unwrap();
+    let last = 2 * Pacing::USUAL.horizon();
+    for (since, expected) in [(last + 1, (1, None)), (last, (1, Some(3)))] {
+        let takeovers = vec![Takeover { player: 1, member: 3, end: 2, since }];
+        session.receive(0, &Packet { takeovers, ..told.clone() }.write(), 0);
+        assert_eq!((session.tally().refused, session.successor(1)), expected);
+    }
+}

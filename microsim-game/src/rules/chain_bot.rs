@@ -269,6 +269,21 @@ mod tests {
     }
 
     #[test]
+    fn a_division_does_not_still_hunger() {
+        let own = |round: &Round| round.world().view().organisms().map(cytoplasm).sum::<u32>();
+        let rest = |a: &mut Round, b: &mut Round| [a, b].into_iter().for_each(|round| round.step(Intent::REST));
+        let (mut resting, mut dividing) = (room(7.0, ""), room(7.0, ""));
+        dividing.divide();
+        while dividing.world().organisms().count() == 1 && dividing.world().time() < 20.0 {
+            rest(&mut resting, &mut dividing);
+        }
+        rest(&mut resting, &mut dividing);
+        let time = resting.world().time();
+        assert!(time > 0.7 && time < 20.0, "it takes some time to divide: {time}");
+        assert!(own(&dividing).abs_diff(own(&resting)) <= 2, "{} and {}", own(&dividing), own(&resting));
+    }
+
+    #[test]
     fn the_larger_bites_and_the_smaller_is_gone_in_the_end() {
         let mut round = room(
             5.0,

@@ -108,6 +108,10 @@ impl Screen for Lobby {
     fn name(&self) -> String {
         "lobby".to_owned()
     }
+
+    fn is_at_stake(&self) -> bool {
+        true
+    }
 }
 
 /// Who is there, in which colour, and what is to be said of it.

@@ -73,7 +73,7 @@ pub trait Screen: fmt::Debug {
         false
     }
 
-    /// Whether leaving it would lose something: a round that is being played.
+    /// Whether leaving it would lose something: a round that is being played, or the place in a room.
     fn is_at_stake(&self) -> bool {
         false
     }

@@ -52,12 +52,14 @@ struct Seat<O> {
     outbox: O,
 }
 
-/// The place of a member whose connection was cut.
+/// The place of a member whose connection was cut, or who was too slow.
 #[derive(Debug)]
 struct Kept {
     member: u8,
+    ticket: u64,
     key: String,
-    until: Instant,
+    /// None as long as the connection has not ended.
+    until: Option<Instant>,
 }
 
 /// Seats by the numbers of members, and those that are kept.
@@ -103,7 +105,8 @@ impl<O: Outbox> Room<O> {
     }
 
     fn remove(&mut self, member: u8) {
-        self.seats[usize::from(member)] = None;
+        let seat = self.seats[usize::from(member)].take().filter(|seat| !seat.key.is_empty());
+        self.kept.extend(seat.map(|Seat { ticket, key, .. }| Kept { member, ticket, key, until: None }));
         self.send_to_others(member, &frame::left(member));
     }
 }
@@ -132,7 +135,7 @@ impl<O: Outbox> Rooms<O> {
             .rooms
             .entry(code.clone())
             .or_insert_with(|| Room { seats: [const { None }; MEMBERS], kept: Vec::new() });
-        room.kept.retain(|kept| kept.until > now);
+        room.kept.retain(|kept| kept.until.is_none_or(|until| until > now));
         let former = room.number_of(&key);
         let member = former.or_else(|| room.free()).ok_or(Refusal::RoomIsFull)?;
         room.kept.retain(|kept| kept.member != member);
@@ -149,16 +152,15 @@ impl<O: Outbox> Rooms<O> {
         Ok(place)
     }
 
-    /// Gives a seat back, or keeps it for its member's key until then; nothing if that has happened.
+    /// Gives a seat back, or keeps it for its member's key until then; nothing if another connection has it.
     pub(super) fn leave(&mut self, place: &Place, until: Option<Instant>) {
         let Some(room) = self.rooms.get_mut(&place.code) else { return };
         if room.has(place) {
-            let seat = room.seats[usize::from(place.member)].as_ref();
-            let key = seat.map(|seat| seat.key.clone()).filter(|key| !key.is_empty());
-            let kept = key.zip(until).map(|(key, until)| Kept { member: place.member, key, until });
-            room.kept.extend(kept);
             room.remove(place.member);
         }
+        // Whoever was too slow has lost its seat before.
+        room.kept.iter_mut().filter(|kept| kept.ticket == place.ticket).for_each(|kept| kept.until = until);
+        room.kept.retain(|kept| kept.ticket != place.ticket || until.is_some());
         if room.members().next().is_none() {
             self.rooms.remove(&place.code);
         }
@@ -297,6 +299,18 @@ mod tests {
         (0..2).for_each(|_| rooms.relay(&members[0].0, &[2, 1]).unwrap());
         assert_eq!(members[1].1.take(), [[0xff, 1, 2], [0xff, 2, 2]]);
         assert_eq!(rooms.relay(&place, &[0, 1]), Err(Refusal::TooSlow));
+    }
+
+    #[test]
+    fn the_place_of_who_was_too_slow_is_kept() {
+        let (mut rooms, members) = room_of(2);
+        let now = Instant::now();
+        let slow = rooms.join(code("ROOM"), "secret".to_owned(), now, Shelf::new(1)).unwrap();
+        rooms.relay(&members[0].0, &[2, 1]).unwrap();
+        assert_eq!(join(&mut rooms, code("ROOM"), Shelf::new(9)).unwrap().member, 3, "its connection has not ended");
+        rooms.leave(&slow, Some(now + Duration::from_secs(30)));
+        let again = rooms.join(code("ROOM"), "secret".to_owned(), now + Duration::from_secs(29), Shelf::new(9));
+        assert_eq!(again.unwrap().member, 2);
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub(crate) fn drive(organism: &Organism, goal: Vec2, particles: &Particles, driv
             MembraneRegion::LeftWing | MembraneRegion::RightWing => continue,
         };
         let velocity = heading(target - at) * (share * organism.present_speed());
-        drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
+        drives.push(Drive::new(particle, velocity, f32::INFINITY));
     }
     stream(organism, heading(goal - centroid), particles, drives);
     Some(front_centre)
@@ -81,7 +81,7 @@ fn stream(organism: &Organism, direction: Vec2, particles: &Particles, drives: &
     let lag = STREAMING_SPEED * speed - sum.dot(direction) / cytoplasm.len() as f32;
     if lag > 0.0 {
         let (velocity, max_acceleration) = (direction * speed, lag / STREAMING_TIME);
-        drives.extend(cytoplasm.iter().map(|&particle| Drive { particle, velocity, max_acceleration }));
+        drives.extend(cytoplasm.iter().map(|&particle| Drive::new(particle, velocity, max_acceleration)));
     }
 }
 

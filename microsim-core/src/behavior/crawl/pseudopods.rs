@@ -111,7 +111,7 @@ impl Cell<'_> {
         let direction = heading(NORMAL * self.normal(k) + ALONG * along);
         let velocity = direction * (tip_speed * self.speed);
         let max_acceleration = force * self.speed / TIP_TIME;
-        Tip { at: self.nodes[k], drive: Drive { particle: self.organism.outline[k], velocity, max_acceleration } }
+        Tip { at: self.nodes[k], drive: Drive::new(self.organism.outline[k], velocity, max_acceleration) }
     }
 
     /// Unit vector outwards across the links of a node.
@@ -132,7 +132,7 @@ impl Cell<'_> {
             };
             let (distance, velocity) = tips.iter().fold((f32::INFINITY, Vec2::ZERO), nearest);
             if distance < reach * reach {
-                drives.push(Drive { particle, velocity, max_acceleration });
+                drives.push(Drive::new(particle, velocity, max_acceleration));
             }
         }
     }
@@ -146,10 +146,10 @@ impl Cell<'_> {
             let cosine = self.outwards[k].dot(push);
             if cosine < REAR {
                 let velocity = heading(self.centre - self.nodes[k]) * self.speed;
-                drives.push(Drive { particle, velocity, max_acceleration: self.speed / REAR_TIME });
+                drives.push(Drive::new(particle, velocity, self.speed / REAR_TIME));
             } else if cosine > HOLDING {
                 let velocity = push * (HOLD_SPEED * self.speed);
-                drives.push(Drive { particle, velocity, max_acceleration: self.speed / HOLD_TIME });
+                drives.push(Drive::new(particle, velocity, self.speed / HOLD_TIME));
             }
         }
     }

@@ -146,7 +146,7 @@ impl Cup<'_> {
         let inwards = -mouth * self.engulfer.params.pull_speed;
         for k in bottom + ring.len() - before..=bottom + ring.len() + after {
             let particle = ring[k % ring.len()];
-            drives.push(Drive { particle, velocity: inwards, max_acceleration: f32::INFINITY });
+            drives.push(Drive::new(particle, inwards, f32::INFINITY));
         }
         for (is_after, step) in [false, true].into_iter().flat_map(|side| (0..LIP).map(move |step| (side, step))) {
             let particle = self.lip(is_after, step);
@@ -156,7 +156,7 @@ impl Cup<'_> {
             let nearer = gap / self.particles.radius[particle as usize];
             let way = along - away * if nearer < 1.0 { nearer } else { 1.0 };
             let velocity = heading(way) * self.engulfer.params.lip_speed;
-            drives.push(Drive { particle, velocity, max_acceleration: f32::INFINITY });
+            drives.push(Drive::new(particle, velocity, f32::INFINITY));
         }
     }
 

@@ -17,7 +17,7 @@ pub(crate) fn draw_in_prey(organisms: &Organisms, particles: &Particles, drives:
             let Some(prey) = organisms.get(meal.prey) else { continue };
             let inwards = heading(position_of(organism, particles) - position_of(prey, particles));
             let velocity = if meal.is_expelled { -inwards } else { inwards } * engulfer.params.pull_speed;
-            let pull = |particle| Drive { particle, velocity, max_acceleration: engulfer.params.pull_acceleration };
+            let pull = |particle| Drive::new(particle, velocity, engulfer.params.pull_acceleration);
             drives.extend(prey.particles().map(pull));
         }
     }

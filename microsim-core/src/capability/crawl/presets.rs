@@ -64,7 +64,7 @@ impl PseudopodParams {
         width: 0.1,
         coverage: 0.35,
         split_share: 0.7,
-        split_angle: 70.0,
+        split_angle: 78.0,
         split_spread: 14.0,
         alternation: 0.9,
         goal_bias: 0.2,
@@ -76,7 +76,7 @@ impl PseudopodParams {
     /// Dictyostelium discoideum: narrow pseudopods that split at some 60 degrees, mostly on alternating sides (Bosgraaf and
     /// Van Haastert 2009, PLoS ONE 4, e5253).
     pub const DICTYOSTELIUM: Self = Self {
-        start_rate: 10.0,
+        start_rate: 9.5,
         life: 0.35,
         width: 0.12,
         coverage: 0.4,

@@ -30,12 +30,16 @@ use crate::spec_field::{FieldVisitor, check, field, required};
 use crate::template::{Node, Role, Template};
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
+use std::f32::consts::PI;
 
 /// Most nodes of a membrane.
-const MAX_NODES: f32 = 4096.0;
+pub(crate) const MAX_NODES: f32 = 4096.0;
 
 /// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
 const LEAST_CYTOPLASM: usize = 7;
+
+/// Share of the spacing that is between an outline's membrane and its cytoplasm.
+const CLEARANCE: f32 = 0.1;
 
 /// Radius of a membrane node, units, above which a cell looks like an amoeba rather than a blood cell: its daughters have
 /// the same.
@@ -142,9 +146,9 @@ impl Spec for AmoeboidCellSpec {
             return Err(out_of_range(field, cytoplasm.points.len() as f64, accepted));
         }
         Ok(Blueprint {
+            rim: Some(self.rim(&chain, &cytoplasm)),
             fluid: Some(cytoplasm),
             template: Some(self.membrane(&chain)?),
-            has_membrane: true,
             locomotion: self.locomotion(),
             speed: self.speed,
             engulfer: Some(self.phagocytosis),
@@ -189,12 +193,12 @@ impl AmoeboidCellSpec {
 
     fn area(&self) -> f32 {
         match self.outline.as_slice() {
-            [] => std::f32::consts::PI * self.radii.x * self.radii.y,
+            [] => PI * self.radii.x * self.radii.y,
             outline => signed_area(outline).abs(),
         }
     }
 
-    /// Centres of the chain: as many as fit without a gap.
+    /// Centres of the chain: as many as fit without a gap, around the area of the ellipse.
     fn chain(&self) -> Result<Vec<Vec2>, Error> {
         if !self.outline.is_empty() {
             return outline::chain(&self.outline, self.node_radius);
@@ -206,7 +210,21 @@ impl AmoeboidCellSpec {
             let accepted = format!("at most {MAX_NODES} membrane nodes (perimeter over 2 node radii)");
             return Err(out_of_range("radii", f64::from(count), accepted));
         }
-        Ok(ellipse(radii, count as usize))
+        let corners = ellipse(radii, count as usize);
+        // A polygon on an ellipse is smaller.
+        let larger = (PI * radii.x * radii.y / signed_area(&corners)).sqrt();
+        Ok(corners.into_iter().map(|corner| larger * corner).collect())
+    }
+
+    /// Radius of its membrane at rest less that of its content: a cell rounds up to the area that it is spawned with, except that
+    /// the cytoplasm need not fill an outline.
+    fn rim(&self, chain: &[Vec2], cytoplasm: &FluidPlan) -> f32 {
+        let spacing = cytoplasm.params.spacing;
+        let radius = |area: f32| (area / PI).sqrt();
+        match self.outline.is_empty() {
+            true => radius(signed_area(chain)) - radius(rest_area(cytoplasm.points.len(), spacing)),
+            false => self.node_radius + CLEARANCE * spacing,
+        }
     }
 
     fn membrane(&self, chain: &[Vec2]) -> Result<Template, Error> {
@@ -235,7 +253,7 @@ impl AmoeboidCellSpec {
         // The middle of a link is nearer to the centre than its ends.
         let sagitta = self.node_radius * self.node_radius / (2.0 * radii.min_element());
         let inside = radii - Vec2::splat(self.node_radius + sagitta);
-        let count = (std::f32::consts::PI * inside.x * inside.y / rest_area(1, spacing)) as usize;
+        let count = (PI * inside.x * inside.y / rest_area(1, spacing)) as usize;
         let room = inside - Vec2::splat(0.5 * spacing);
         let mut points = even_fill(count, room);
         settle(&mut points, params, |at| {
@@ -285,7 +303,7 @@ mod tests {
         let rest_length = (template.nodes()[1].position - template.nodes()[0].position).length();
         let widest = STRAIN_LIMIT * rest_length - 2.0 * spec.node_radius;
         assert!(radius > 0.5 * widest, "radius {radius}, widest gap {widest}");
-        let cell = std::f32::consts::PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
+        let cell = PI * (spec.radii.x - 2.0 * spec.node_radius).powi(2);
         let share = fluid.points.len() as f32 * 0.866 * fluid.params.spacing.powi(2) / cell;
         assert!((0.75..1.0).contains(&share), "fills {share} of the room");
         assert!(fluid.params.viscosity > 1.0 && fluid.params.viscosity < 100.0);

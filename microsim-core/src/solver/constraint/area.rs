@@ -67,7 +67,7 @@ pub(crate) struct MeasuredRing<'a, const L: usize> {
     /// Enclosed area, positive for a counter-clockwise ring.
     pub area: [f32; L],
     /// Sum of inverse mass times squared gradient over the nodes.
-    weight: [f32; L],
+    pub weight: [f32; L],
 }
 
 impl<'a, const L: usize> MeasuredRing<'a, L> {

@@ -198,15 +198,25 @@ impl Workspace {
                         );
                     }
                 }
-                FluidMode::Granular => for_each_group(
-                    &sorted.groups,
-                    shifts,
-                    dispatch,
-                    #[inline(always)]
-                    |_, group, shifts| {
-                        *shifts = granular::shifts(group, &sorted.neighbours, [viscosity, fluid.params.friction]);
-                    },
-                ),
+                FluidMode::Granular => {
+                    find_shares(sorted, sums, dispatch);
+                    // Enclosed grains are those of a cell that is filled before it is spawned.
+                    let (params, keeps_momentum) = (fluid.params, !fluid.is_enclosed);
+                    for_each_group(
+                        &sorted.groups,
+                        shifts,
+                        dispatch,
+                        #[inline(always)]
+                        |_, group, shifts| {
+                            *shifts = granular::shifts(
+                                group,
+                                &sorted.neighbours,
+                                [viscosity, params.friction],
+                                keeps_momentum,
+                            );
+                        },
+                    );
+                }
             }
             sorted.shift(shifts, support_radius, particles);
         }
@@ -226,6 +236,23 @@ fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], [rest_density, relax
             sums.find_multipliers(rest_density, relaxation);
         },
     );
+    tell_neighbours(sorted, sums);
+}
+
+fn find_shares(sorted: &mut Sorted, sums: &mut [Sums], dispatch: Dispatch) {
+    let Sorted { groups, neighbours, .. } = sorted;
+    for_each_group(
+        groups,
+        sums,
+        dispatch,
+        #[inline(always)]
+        |_, group, sums| sums.multiplier = granular::shares(group, neighbours),
+    );
+    tell_neighbours(sorted, sums);
+}
+
+/// Writes what was found for each particle where its neighbours read it.
+fn tell_neighbours(Sorted { groups, neighbours, .. }: &mut Sorted, sums: &[Sums]) {
     for (group, sums) in groups.iter().zip(sums) {
         for (neighbour, multiplier) in neighbours[group.members.clone()].iter_mut().zip(sums.multiplier) {
             neighbour.multiplier = multiplier;

@@ -35,7 +35,7 @@ pub(super) struct Neighbour {
     /// How far it has moved in this substep.
     pub moved_x: f32,
     pub moved_y: f32,
-    /// Multiplier of its density constraint.
+    /// Multiplier of its density constraint, or share of a grain's contacts.
     pub multiplier: f32,
 }
 

@@ -86,6 +86,22 @@ fn grains_separate_to_their_spacing() {
 }
 
 #[test]
+fn what_one_grain_gains_others_lose() {
+    let (mut fluid, mut particles) = block(FluidMode::Granular, 0.8);
+    fluid.params.viscosity = 100.0;
+    let mut rng = Rng::new(5, 5);
+    for i in 0..200 {
+        particles.prev_x[i] = particles.x[i] - rng.range(-0.1, 0.1);
+        particles.prev_y[i] = particles.y[i] - rng.range(-0.1, 0.1);
+    }
+    let (before, start) = (particles.clone(), centre(&particles));
+    project_in(Vec2::INFINITY, &fluid, &mut particles);
+    let way = |i: u32| (particles.position(i as usize) - before.position(i as usize)).length();
+    assert!((0..200).map(way).sum::<f32>() > 5.0, "they are pushed apart");
+    assert!((centre(&particles) - start).length() < 1e-5, "{}", centre(&particles) - start);
+}
+
+#[test]
 fn viscosity_draws_ways_towards_the_neighbours_mean() {
     for mode in [FluidMode::Density, FluidMode::Granular] {
         let (mut fluid, mut particles) = block(mode, 0.99);

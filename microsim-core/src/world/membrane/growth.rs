@@ -5,8 +5,8 @@ use crate::float_environment::with_default_float_environment;
 use crate::geometry::polygon::{contains_point, signed_area};
 use crate::geometry::ring::{GOLDEN_ANGLE, unit_vector};
 use crate::id::OrganismId;
-use crate::organism::Organism;
 use crate::organism::ring_surgery::{insert_node, remove_node};
+use crate::organism::{MAX_NODES, Organism};
 use crate::particle::{Particle, Particles};
 use crate::solver::fluid::rest_area;
 use crate::solver::membrane::STRAIN_LIMIT;
@@ -27,14 +27,17 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane or is dividing, the membrane could not go round so much
-    /// cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
+    /// When the handle is stale, the organism has no membrane or is dividing, the nodes would be more than 4096 or fill more than the
+    /// present length of the membrane, twice as many as at rest, the membrane could not go round so much cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
     /// many particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
             return Err(Error::unsupported("organism", "an organism that is not dividing"));
         }
-        with_default_float_environment(|| self.enlarge(id, nodes, particles))?;
+        with_default_float_environment(|| {
+            self.check_nodes(id, nodes)?;
+            self.enlarge(id, nodes, particles)
+        })?;
         if let Some(organism) = self.organisms.get_mut(id) {
             with_default_float_environment(|| organism.add_wanted_nodes(nodes, &self.fluids));
         }
@@ -60,6 +63,21 @@ impl World {
         } else if count > wanted && organism.has_spare_node() {
             remove_node(organism, particles);
         }
+    }
+
+    fn check_nodes(&self, id: OrganismId, nodes: u32) -> Result<(), Error> {
+        let organism = self.organisms.get(id).filter(|_| nodes > 0);
+        let Some((organism, membrane)) = organism.and_then(|organism| Some((organism, organism.body.membrane()?)))
+        else {
+            return Ok(());
+        };
+        let outline = self.outline_of(organism);
+        let links = outline.iter().zip(outline.iter().cycle().skip(1));
+        let room = links.map(|(a, b)| (*b - *a).length()).sum::<f32>() / membrane.node_radius;
+        let most = if room < MAX_NODES { room } else { MAX_NODES };
+        let all = outline.len() as f32 + nodes as f32;
+        let accepted = || format!("at most {} nodes in all, now", most as u32);
+        (all <= most).then_some(()).ok_or_else(|| out_of_range("nodes", f64::from(all), accepted()))
     }
 
     /// Adds nodes and cytoplasm; the wanted number of nodes stays.
@@ -192,7 +210,8 @@ mod tests {
         let before = world.digest();
         assert_eq!(world.grow(cell, 0, 400).unwrap_err().field(), "particles");
         assert_eq!(world.digest(), before);
-        assert_eq!(world.grow(cell, 400, 2000).unwrap_err().field(), "particles", "all at once");
+        assert_eq!(world.grow(cell, 40, 2000).unwrap_err().field(), "particles", "all at once");
+        assert_eq!(world.grow(cell, 60, 0).unwrap_err().field(), "nodes", "they would lie over each other");
         assert_eq!(world.digest(), before);
         for step in 0..300 {
             if step % 60 == 0 {

@@ -23,6 +23,7 @@ impl World {
     pub(super) fn move_meals(&mut self, meals: &[Meal], from: OrganismId, to: OrganismId) {
         for meal in meals {
             self.set_held_by(meal.prey, Some(to));
+            self.exemptions.set(meal.prey.index, to.index, false);
         }
         let stays = |meal: &Meal| meals.iter().all(|moved| moved.prey != meal.prey);
         self.update_engulfer(from, |engulfer| engulfer.meals.retain(stays));

@@ -79,7 +79,8 @@ impl World {
         ring.reverse();
         particles.link_ring(&ring);
         if let Some(membrane) = organism.body.membrane_mut() {
-            let inner = membrane.resized(count, ring.len());
+            let mut inner = membrane.resized(count, ring.len());
+            inner.rim = inner.node_radius;
             *membrane = membrane.resized(count, left.len());
             organism.phagosomes.push(Phagosome { prey, ring, membrane: inner, area });
         }

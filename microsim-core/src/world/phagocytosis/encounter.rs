@@ -54,7 +54,8 @@ impl World {
                 (Err(_), Ok(_)) => pair.i,
                 _ => continue,
             };
-            touched.extend(self.organisms.id_at(self.particles.owner[other as usize]).filter(|&other| other != id));
+            let owner = self.organisms.id_at(self.particles.owner[other as usize]);
+            touched.extend(owner.filter(|&other| other != id && !self.exemptions.contains(id.index, other.index)));
         }
         touched.sort_unstable();
         let Some(centre) = self.centroid(id) else { return Vec::new() };

@@ -6,12 +6,14 @@ use crate::network::relay::{BACK, JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
 use crate::network::transport::{Member, Notice};
 use std::fmt;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use str0m::Input;
 use str0m::net::{Protocol, Receive};
 
 /// Most offers of a member; one may have been for who had this number before.
 const MOST_OFFERS: u8 = 3;
+/// Shortest time between two offers to a number, however often somebody comes with it.
+const PAUSE: Duration = Duration::from_secs(2);
 /// Longest signal, bytes.
 const LONGEST_SIGNAL: usize = 8192;
 /// Longest packet, bytes: that of an Ethernet.
@@ -26,6 +28,9 @@ pub(super) struct Mesh {
     ways: [Option<Way>; MEMBERS as usize],
     /// How many offers have come, by member.
     offers: [u8; MEMBERS as usize],
+    /// Who has come and is to be offered a way, and from when on, by member.
+    has_come: [bool; MEMBERS as usize],
+    next: [Instant; MEMBERS as usize],
     attempts: u8,
 }
 
@@ -37,7 +42,8 @@ impl Mesh {
         let socket = UdpSocket::bind((own, 0)).ok()?;
         socket.set_nonblocking(true).ok()?;
         let address = socket.local_addr().ok()?;
-        Some(Self { socket, address, ways: Default::default(), offers: Default::default(), attempts: 0 })
+        let (ways, offers, has_come) = (Default::default(), Default::default(), Default::default());
+        Some(Self { socket, address, ways, offers, has_come, next: [Instant::now(); MEMBERS as usize], attempts: 0 })
     }
 
     /// Takes what the server has sent, and returns a frame that is to be sent to it.
@@ -45,22 +51,33 @@ impl Mesh {
         let (member, signal) = match *frame {
             [NOTICE, kind @ (JOINED | LEFT | BACK), member] if member < MEMBERS => {
                 self.ways[usize::from(member)] = None;
-                self.offers[usize::from(member)] = 0;
                 // Who is there already offers a way to who comes.
-                (member, if kind == LEFT { None } else { self.offer(member) })
+                self.has_come[usize::from(member)] = kind != LEFT;
+                (member, self.offer(member))
             }
             [member, SIGNAL, ref signal @ ..] if member < MEMBERS && signal.len() <= LONGEST_SIGNAL => {
                 (member, self.hear(member, &Signal::read(signal)?))
             }
             _ => return None,
         };
-        Some([&[member, SIGNAL][..], &signal?.write()].concat())
+        Some(signal_to(member, &signal?))
     }
 
+    /// Offers that had to wait, as frames that are to be sent.
+    pub(super) fn late_offers(&mut self) -> Vec<Vec<u8>> {
+        (0..MEMBERS).filter_map(|member| Some(signal_to(member, &self.offer(member)?))).collect()
+    }
+
+    /// Offers a way to a member who has come, if it is time.
     fn offer(&mut self, member: Member) -> Option<Signal> {
+        let (place, now) = (usize::from(member), Instant::now());
+        if !self.has_come[place] || now < self.next[place] {
+            return None;
+        }
+        (self.has_come[place], self.offers[place], self.next[place]) = (false, 0, now + PAUSE);
         self.attempts = self.attempts.wrapping_add(1);
         let (way, offer) = Way::offer(self.attempts, self.address)?;
-        self.ways[usize::from(member)] = Some(way);
+        self.ways[place] = Some(way);
         Some(offer)
     }
 
@@ -75,7 +92,7 @@ impl Mesh {
         if self.offers[place] > MOST_OFFERS {
             return None;
         }
-        self.ways[place] = None;
+        (self.ways[place], self.has_come[place]) = (None, false);
         let (way, answer) = Way::answer(signal, self.address)?;
         self.ways[place] = Some(way);
         Some(answer)
@@ -117,6 +134,10 @@ impl fmt::Debug for Mesh {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Mesh").field("address", &self.address).finish_non_exhaustive()
     }
+}
+
+fn signal_to(member: Member, signal: &Signal) -> Vec<u8> {
+    [&[member, SIGNAL][..], &signal.write()].concat()
 }
 
 /// The address of this machine in its network: the one that it would send from. Nothing is sent; the address to send to is
@@ -186,6 +207,20 @@ mod tests {
         assert!(!two.send(0, &[7; 1101]), "long ones go by the server");
         assert_eq!(one.take(&[NOTICE, LEFT, 1]), None);
         assert!(!one.send(1, b"eat"));
+    }
+
+    #[test]
+    fn who_comes_again_and_again_is_offered_a_way_when_it_is_time() {
+        let (mut one, _) = pair();
+        assert!(one.take(&[NOTICE, JOINED, 1]).is_some());
+        one.offers[1] = MOST_OFFERS;
+        for kind in [LEFT, JOINED, BACK] {
+            assert_eq!(one.take(&[NOTICE, kind, 1]), None);
+        }
+        assert!(one.late_offers().is_empty() && one.offers[1] == MOST_OFFERS);
+        one.next[1] = Instant::now();
+        assert_eq!((one.late_offers().len(), one.offers[1]), (1, 0));
+        assert!(one.late_offers().is_empty());
     }
 
     #[test]

@@ -15,6 +15,10 @@ impl Mesh {
         match *self {}
     }
 
+    pub(super) fn late_offers(&mut self) -> Vec<Vec<u8>> {
+        match *self {}
+    }
+
     pub(super) fn poll(&mut self) -> Vec<Notice> {
         match *self {}
     }

@@ -172,6 +172,12 @@ impl Transport for Room {
             }
             notices.extend(next);
         }
+        if let State::Open(socket) = &mut self.state {
+            for offer in self.mesh.iter_mut().flat_map(Mesh::late_offers) {
+                // As with messages below.
+                let _ = socket.send(Message::binary(offer));
+            }
+        }
         notices.extend(self.mesh.iter_mut().flat_map(Mesh::poll));
         notices
     }

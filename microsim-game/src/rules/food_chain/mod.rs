@@ -105,7 +105,9 @@ impl FoodChain {
             self.owed.len() - 1
         });
         self.owed[place].1 += used;
-        if self.owed[place].1 >= 1.0 {
+        // What hunger asks for while a furrow closes is taken after it.
+        let is_dividing = cell.dividing_for().is_some();
+        while !is_dividing && self.owed[place].1 >= 1.0 {
             self.owed[place].1 -= 1.0;
             // Hunger may take the last particle of a cell that is being eaten.
             self.take(world, id, if self.bites.was_bitten(id) { Fate::Eaten } else { Fate::Starved });

@@ -6,6 +6,7 @@ use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase};
 use crate::config::WorldConfig;
 use crate::organism::Organism;
 use crate::particle::GRID;
+use crate::rng::Rng;
 use crate::solver::fluid::Fluid;
 use crate::solver::membrane::Membrane;
 use crate::world::World;
@@ -82,6 +83,9 @@ fn check_state(organism: &Organism, cell: Subject) -> Check {
     cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
     cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
     cell.must_range("full scale", organism.full_scale, 0.1, 10.0)?;
+    let crawls = organism.locomotion.pseudopods().map(|pseudopods| &pseudopods.rng);
+    let are_sound = crawls.into_iter().chain([&organism.rng]).all(Rng::is_sound);
+    cell.must(are_sound, || "the increment of its random numbers is even".to_owned())?;
     let (goal, home) = (organism.goal, organism.home);
     cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
 }
@@ -96,7 +100,7 @@ fn check_divider(organism: &Organism, cell: Subject) -> Check {
 }
 
 fn check_membrane(membrane: &Membrane, cell: Subject) -> Check {
-    let names = ["rest length", "node radius", "activity", "rest perimeter"];
+    let names = ["rest length", "node radius", "rim", "activity", "rest perimeter"];
     let mut named = names.into_iter().zip(membrane.state());
     named.try_for_each(|(name, value)| cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST))
 }

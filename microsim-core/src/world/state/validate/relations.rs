@@ -63,8 +63,8 @@ fn check_meal(world: &World, id: OrganismId, organism: &Organism, meal: &Meal, c
     let mut gate = meal.gate.iter();
     let is_own = gate.all(|&node| world.particles.owner.get(node as usize) == Some(&id.index));
     cell.must(is_own, || format!("the gate for prey {index} has nodes of another"))?;
-    let is_kept_in = meal.phase.is_inside() && world.config.protects_membranes;
-    if is_kept_in && !world.exemptions.contains(id.index, index) {
+    cell.must(!world.exemptions.contains(id.index, index), || format!("its prey {index} is exempt from its membrane"))?;
+    if meal.phase.is_inside() && world.config.protects_membranes {
         let is_inside = contains_point(&world.outline_of(organism), world.centre_of(prey));
         cell.must(is_inside, || format!("its prey {index} is no longer inside"))?;
     }

@@ -60,6 +60,7 @@ fn check_supplies(world: &World) -> Check {
         let checked = world.check_emitter(&record.emitter);
         checked.map_err(|error| none.violation(format!("emitters[{k}]: {error}")))?;
         none.must_range(&format!("debt of emitter {k}"), record.owed, 0.0, 1.0)?;
+        none.must(record.rng.is_sound(), || format!("the increment of emitter {k}'s random numbers is even"))?;
     }
     for ((k, _), drain) in world.drains.iter() {
         drain.validate().map_err(|error| none.violation(format!("drains[{k}]: {error}")))?;

@@ -110,6 +110,7 @@ fn damage_to_organisms_is_found() {
     finds(|w| organism(w, &|o| _ = o.outline.pop()), "nodes, of which its rings have");
     finds(|w| organism(w, &|o| o.fluid = Some(7)), "fluid");
     finds(|w| organism(w, &|o| o.speed = f32::NAN), "speed is NaN");
+    finds(|w| organism(w, &|o| o.rng.increment = 8), "random numbers is even");
     finds(|w| organism(w, &|o| o.goal = Some(Vec2::NAN)), "goal");
     finds(|w| organism(w, &|o| o.is_quarantined = true), "not frozen");
     finds(|w| organism(w, &|o| o.divider.as_mut().unwrap().lobes = 9.0), "lobes is 9");
@@ -149,6 +150,7 @@ fn damage_to_fields_emitters_and_drains_is_found() {
     };
     finds(|w| emitting(w, &|it| it.emitter.rate = -1.0), "emitters[0]: `rate`");
     finds(|w| emitting(w, &|it| it.owed = f32::NAN), "debt of emitter 0 is NaN");
+    finds(|w| emitting(w, &|it| it.rng.increment = 0), "emitter 0's random numbers is even");
     finds(
         |w| {
             let id = w.add_drain(Drain { region: Region::All, kind: None }).unwrap();
