@@ -64,6 +64,7 @@ impl ImageLook {
             place: [0.0, 0.2],
             matter: Matter { phase: 0.25, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
             shape: SpotShape::Ball,
+            grains: [0, 0],
         }],
         ..RoundLook::PLAIN
     });
@@ -212,6 +213,8 @@ pub(crate) struct Inclusion {
     /// Each at its thickest.
     pub matter: Matter,
     pub shape: SpotShape,
+    /// Fewest and most soft grains inside each.
+    pub grains: [u32; 2],
 }
 
 /// How a small round thing fades outwards.
@@ -316,6 +319,8 @@ pub(crate) struct NucleusLook {
     pub bent: f32,
     pub matter: Matter,
     pub texture: Texture,
+    /// Fewest and most nucleoli of a lobe.
+    pub nucleoli: [u32; 2],
 }
 
 /// One sort of granules.
@@ -327,6 +332,8 @@ pub(crate) struct GranuleLook {
     pub radius: f32,
     pub spread: f32,
     pub limits: [f32; 2],
+    /// How much they keep to the surroundings of the nucleus and to patches, 0 to 1.
+    pub gathered: f32,
     /// Smaller ones that a granule has grown together with, at most.
     pub companions: u32,
     /// Of a granule one micrometre thick.

@@ -6,7 +6,9 @@ use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
 use crate::look::drawn::{DrawnLook, Form, Tint};
-use crate::look::{ImageLook, Look, Matter, OutlineLook, PaintedLook, Profile, RoundLook, Texture};
+use crate::look::{
+    ImageLook, Inclusion, Look, Matter, OutlineLook, PaintedLook, Profile, RoundLook, SpotShape, Texture,
+};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
 use glam::Vec3;
@@ -50,8 +52,17 @@ impl Spec for AgarSpec {
                 profile: Profile::Dome(0.8),
                 matter: Matter { phase: 0.45, haemoglobin: 0.0, cytoplasm: 0.35, nucleus: 0.0 },
                 variation: 0.3,
-                texture: Texture { amount: 0.2, size: 0.35 },
-                outline: const { OutlineLook::uneven(0.10) },
+                texture: Texture { amount: 0.12, size: 0.7 },
+                outline: OutlineLook {
+                    size: 0.08,
+                    waves: [0.10, 0.05],
+                    decay: 1.6,
+                    spread: 0.8,
+                    ovals: 0.2,
+                    bites: 0.15,
+                    ..OutlineLook::EVEN
+                },
+                inclusions: &[LUMPS],
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook { form: Form::Beads, tint: Tint::hex([0xF4CE86, 0xDFA44A, 0xA8732A, 0xFFF3D8]), layer: 2 },
@@ -59,6 +70,16 @@ impl Spec for AgarSpec {
         }
     }
 }
+
+/// Where the gel is denser.
+const LUMPS: Inclusion = Inclusion {
+    count: [1, 4],
+    radius: [0.25, 0.6],
+    place: [0.0, 0.6],
+    matter: Matter { phase: 0.15, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.0 },
+    shape: SpotShape::Bump,
+    grains: [0, 0],
+};
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,7 @@ use crate::capability::phagocytosis::PreyClass;
 use crate::error::Error;
 use crate::kind::Kind;
 use crate::look::drawn::{DrawnLook, Form, Tint};
-use crate::look::{ImageLook, Look, Matter, PaintedLook, RoundLook};
+use crate::look::{ImageLook, Look, Matter, OutlineLook, PaintedLook, RoundLook};
 use crate::spec_field::FieldValue::Number;
 use crate::spec_field::{FieldVisitor, check, field, required};
 use glam::Vec3;
@@ -68,7 +68,8 @@ impl Spec for CoccusSpec {
         Look {
             image: ImageLook::Round(&RoundLook {
                 matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
-                variation: 0.1,
+                variation: 0.25,
+                outline: OutlineLook { size: 0.06, ovals: 0.4, spread: 0.9, ..const { OutlineLook::uneven(0.06) } },
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },

@@ -108,24 +108,18 @@ impl Spec for PlateletSpec {
         Look {
             image: ImageLook::Round(&RoundLook {
                 profile: Profile::Dome(0.3),
-                matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.50, nucleus: 0.16 },
-                variation: 0.15,
-                texture: Texture { amount: 0.25, size: 0.4 },
+                matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: 0.28, nucleus: 0.06 },
+                variation: 0.3,
+                texture: Texture { amount: 0.12, size: 0.7 },
                 outline: OutlineLook {
                     size: 0.05,
-                    waves: [0.10, 0.07],
-                    decay: 2.2,
-                    spread: 0.6,
-                    spikes: [0, 3],
+                    waves: [0.09, 0.06],
+                    decay: 1.9,
+                    spread: 0.8,
+                    spikes: [0, 4],
                     ..OutlineLook::EVEN
                 },
-                inclusions: &[Inclusion {
-                    count: [6, 16],
-                    radius: [0.07, 0.26],
-                    place: [0.0, 0.55],
-                    matter: Matter { phase: 0.16, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
-                    shape: SpotShape::Bump,
-                }],
+                inclusions: &[GRANULOMERE, GRANULES],
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook {
@@ -137,6 +131,25 @@ impl Spec for PlateletSpec {
         }
     }
 }
+
+/// The thick middle.
+const GRANULOMERE: Inclusion = Inclusion {
+    count: [2, 3],
+    radius: [0.30, 0.52],
+    place: [0.0, 0.28],
+    matter: Matter { phase: 0.17, haemoglobin: 0.0, cytoplasm: 0.22, nucleus: 0.12 },
+    shape: SpotShape::Bump,
+    grains: [0, 0],
+};
+
+const GRANULES: Inclusion = Inclusion {
+    count: [10, 30],
+    radius: [0.04, 0.15],
+    place: [0.0, 0.5],
+    matter: Matter { phase: 0.20, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
+    shape: SpotShape::Bump,
+    grains: [0, 0],
+};
 
 impl PlateletSpec {
     /// The platelet of outer radius 1.

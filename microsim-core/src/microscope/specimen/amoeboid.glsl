@@ -34,11 +34,12 @@ float lamella_at(vec2 place) {
     return front.z * rising(lamella.x, lamella.y, along);
 }
 
-float nucleus_at(vec2 place, float softness) {
+// `from_centre` is turned with the cell by `turn`.
+float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
     float neck = NECK * middle.z;
-    vec2 from_centre = place - middle.xy;
     vec2 bends = from_centre / (BENDS * middle.z);
-    vec2 bent = place + nucleus_texture.z * middle.z * vec2(value(bends, shifts[4]), value(bends, shifts[3]));
+    vec2 bend = vec2(value(bends, shifts[4]), value(bends, shifts[3]));
+    vec2 bent = place + nucleus_texture.z * middle.z * (bend * turn);
     float depth = lobes[0].z - length(bent - lobes[0].xy);
     for (int k = 1; k < LOBES; k++) {
         float other = lobes[k].z - length(bent - lobes[k].xy);
@@ -48,9 +49,10 @@ float nucleus_at(vec2 place, float softness) {
     if (depth <= -2.0 * softness - 0.3) {
         return 0.0;
     }
-    depth += 0.025 * middle.z * three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
+    float uneven = three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
+    depth += 0.025 * middle.z * uneven;
     float width = max(softness, 0.12);
-    return rising(-width, width, depth) * (1.0 + ENVELOPE * bell((depth - 0.2) / 0.25));
+    return rising(-width, width, depth) * (1.0 + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
 }
 
 void main() {
@@ -72,8 +74,11 @@ void main() {
     sum.z *= 1.0 + DYED * uneven;
     float ruffle = bell((depth - relief.y) / 0.28) * front_share;
     sum.x += relief.x * ruffle * rising(-0.3, 0.7, two_octaves(own * 0.7 + lamella.w, shifts[1]));
-    float nucleus = nucleus_at(at, softness);
-    float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(own / nucleus_texture.y, shifts[2]));
+    vec2 way = normalize(vec2(own_frame.x + own_frame.w, own_frame.y - own_frame.z));
+    mat2 turn = mat2(way, -way.y, way.x);
+    vec2 turned = turn * from_centre;
+    float nucleus = nucleus_at(at, turn, turned, softness);
+    float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(turned / nucleus_texture.y, shifts[2]));
     sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.35 * dense - 1.0)));
     put(sum * rising(-softness, softness, depth));
 }

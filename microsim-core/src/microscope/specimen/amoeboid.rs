@@ -11,7 +11,7 @@ use super::distance_field::{DistanceField, united};
 use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
-use crate::geometry::{centroid, rotate, signed_area, unit_vector};
+use crate::geometry::{centroid, direction_or, rotate, signed_area, unit_vector};
 use crate::look::{AmoeboidLook, SpotShape};
 use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
@@ -43,7 +43,7 @@ const PULSE: f32 = 2.0;
 const RAGS_BEHIND: f32 = 0.6;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
-const RIM_UNEVEN: f32 = 0.6;
+const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
@@ -232,7 +232,7 @@ impl AmoeboidBody {
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let noise = octaves(own / texture.size, 3, self.seed ^ SALTS[2]);
+            let noise = octaves(self.turned(place) / texture.size, 3, self.seed ^ SALTS[2]);
             let clumps = CLUMPS * texture.amount * (1.35 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
             matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
         }
@@ -265,22 +265,36 @@ impl AmoeboidBody {
         1.0 + 0.25 * unit_vector(TAU * share).y
     }
 
+    /// How the cell is turned.
+    fn turn(&self) -> Vec2 {
+        let (x_axis, y_axis) = (self.from_shape.x_axis, self.from_shape.y_axis);
+        direction_or(Vec2::new(x_axis.x + y_axis.y, y_axis.x - x_axis.y), Vec2::X)
+    }
+
+    /// A place from the centre, turned with the cell, but not stretched.
+    fn turned(&self, place: Vec2) -> Vec2 {
+        let turn = self.turn();
+        rotate(place - self.centre, Vec2::new(turn.x, -turn.y))
+    }
+
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let from_centre = place - self.centre;
+        let from_centre = self.turned(place);
         let bent = self.look.nucleus.bent;
         if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
             return 0.0;
         }
         let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
-        let there = place + Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
+        let bend = Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
+        let there = place + rotate(bend, self.turn());
         let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
         let uneven = 0.025 * self.radius * octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
         let edge = larger(softness, 0.12);
         let depth = depth + uneven;
-        smoothstep(-edge, edge, depth) * (1.0 + ENVELOPE * bell((depth - 0.2) / 0.25))
+        let envelope = ENVELOPE * larger(1.0 + 40.0 * uneven / self.radius, 0.0);
+        smoothstep(-edge, edge, depth) * (1.0 + envelope * bell((depth - 0.2) / 0.25))
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.

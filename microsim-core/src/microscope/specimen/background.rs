@@ -17,7 +17,7 @@ const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.30;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 2.0;
+const CLUMPS: f32 = 2.5;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
 const GRAINS: f32 = 3.0;
@@ -109,7 +109,7 @@ impl BackgroundMatter {
         let strength = smoothstep(DUST_FADES[1], DUST_FADES[0], pixel);
         if strength > 0.0 {
             strewn(bounds, Vec2::ZERO, [DUST_CELL, DUST], self.seed ^ 21, |at, rng| {
-                spots.push(self.speck(at, strength, rng));
+                self.speck(at, strength, rng, &mut spots);
             });
             strewn(bounds, Vec2::ZERO, [CLUMP_CELL, CLUMPS], self.seed ^ 23, |at, rng| {
                 self.clump(at, strength, rng, &mut spots);
@@ -132,28 +132,36 @@ impl BackgroundMatter {
         (spots, threads)
     }
 
-    /// A speck of dust: mostly tiny, some denser than the medium and some less.
-    fn speck(&self, at: Vec2, strength: f32, rng: &mut HashRng) -> Spot {
+    /// A speck of dust: mostly tiny, some denser than the medium and some less, few of them round.
+    fn speck(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let size = rng.unit();
-        let radius = 0.07 + 0.33 * size * size * size;
+        let radius = 0.07 + 0.3 * size * size * size;
         let sign = if rng.unit() < 0.75 { strength } else { -strength };
-        let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.08, 0.32])) };
-        Spot { at, radius, matter, shape: SpotShape::Bump }
+        let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.04, 0.22])) };
+        let chirp = if rng.unit() < 0.2 { rng.range([2.5, 7.0]) } else { 0.0 };
+        let grains = if chirp > 0.0 { 1 } else { 1 + rng.bits() % 3 };
+        let mut at = at;
+        for _ in 0..grains {
+            let spot = Spot { at, radius: radius * rng.range([0.5, 1.0]), matter, shape: SpotShape::Bump };
+            spots.push(if chirp > 0.0 { spot.out_of_focus(chirp) } else { spot });
+            at += rng.direction() * radius;
+        }
     }
 
-    /// Grains that grew on each other, all of a kind, in focus or out of it.
+    /// Grains that grew on each other, more or less along one way, all of a kind, in focus or out of it.
     fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
-        let size = 0.14 * libm::expf(0.55 * rng.normal());
-        let dense = 0.25 * libm::expf(0.4 * rng.normal()) * strength;
+        let size = 0.155 * libm::expf(0.55 * rng.normal());
+        let dense = 0.135 * libm::expf(0.65 * rng.normal()) * strength;
+        let along = rng.direction() * (1.6 * rng.unit());
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
         let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
         let mut tips = [at; TIPS];
         for k in 0..(count as usize).min(MOST_GRAINS) {
             let from = tips[rng.bits() as usize % TIPS];
-            let at = from + rng.direction() * (1.4 * size);
+            let at = from + (rng.direction() + along).normalize_or_zero() * (1.4 * size);
             tips[k % TIPS] = at;
             let radius = size * libm::expf(0.3 * rng.normal());
             let matter = matter * rng.range([0.5, 1.1]);
@@ -172,10 +180,13 @@ impl BackgroundMatter {
         let drift = Vec2::new(wobble(self.time / 25.0, seed), wobble(self.time / 25.0, seed ^ 1)) * 3.0;
         let radius = rng.range([1.6, 4.5]);
         let shape = if rng.unit() < 0.4 { SpotShape::Bump } else { SpotShape::Defocused(rng.range([3.0, 7.5])) };
+        // Some are clumps, others rows.
+        let along = rng.direction() * (1.2 * rng.unit());
+        let mut at = at + drift;
         for _ in 0..1 + rng.bits() % 4 {
-            let at = at + drift + rng.direction() * (0.35 * radius * rng.unit());
             let matter = Matter::phase(rng.range([0.03, 0.11]));
-            spots.push(Spot { at, radius: radius * rng.range([0.7, 1.1]), matter, shape });
+            spots.push(Spot { at, radius: radius * rng.range([0.6, 1.1]), matter, shape });
+            at += (rng.direction() + along) * (0.4 * radius);
         }
     }
 }

@@ -7,10 +7,11 @@ vec4 polymer(vec2 place, float depth) {
     if (depth <= -REACH) {
         return vec4(0.0);
     }
-    float along = value(place / ALONG, room.zw);
+    float along = two_octaves(place / ALONG, room.zw);
     depth -= ROUGH * (0.5 + 0.5 * three_octaves(place / ROUGH_SIZE, room.zw));
-    float fringes = FRINGES * (1.0 - along) * bell(1.6 * depth / REACH) * (1.0 + cos(CHIRP * depth * depth));
-    float rise = rising(0.0, RIM * (1.0 + LEANING * along), depth);
+    float ring = 1.0 + cos(CHIRP * (1.0 + SPREAD * along) * depth * depth);
+    float fringes = FRINGES * max(1.0 - along, 0.0) * bell(1.6 * depth / REACH) * ring;
+    float rise = rising(0.0, RIM * max(1.0 + LEANING * along, 0.2), depth);
     float texture = 1.0 + TEXTURE * three_octaves(place / TEXTURE_SIZE, room.zw);
     return POLYMER * (rise * texture + fringes);
 }

@@ -22,6 +22,8 @@ const CORNER: f32 = 1.5;
 /// add, because a target of bytes holds nothing that is less than nothing.
 const FRINGES: f32 = 0.12;
 const CHIRP: f32 = 1.6;
+/// Share by which the chirp differs along a wall.
+const SPREAD: f32 = 0.45;
 const REACH: f32 = 2.6;
 /// How far moulding leaves its edge rough, and over which size, micrometres.
 const ROUGH: f32 = 0.5;
@@ -42,6 +44,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("CORNER", &[CORNER]),
         ("FRINGES", &[FRINGES]),
         ("CHIRP", &[CHIRP]),
+        ("SPREAD", &[SPREAD]),
         ("REACH", &[REACH]),
         ("ROUGH", &[ROUGH]),
         ("ROUGH_SIZE", &[ROUGH_SIZE]),
@@ -101,10 +104,11 @@ impl Chamber {
         if depth <= -REACH {
             return Matter::NONE;
         }
-        let along = octaves(place / ALONG, 1, self.seed);
+        let along = octaves(place / ALONG, 2, self.seed);
         let depth = depth - ROUGH * (0.5 + 0.5 * octaves(place / ROUGH_SIZE, 3, self.seed));
-        let fringes = FRINGES * (1.0 - along) * bell(1.6 * depth / REACH) * (1.0 + libm::cosf(CHIRP * depth * depth));
-        let rise = smoothstep(0.0, RIM * (1.0 + LEANING * along), depth);
+        let ring = 1.0 + libm::cosf(CHIRP * (1.0 + SPREAD * along) * depth * depth);
+        let fringes = FRINGES * larger(1.0 - along, 0.0) * bell(1.6 * depth / REACH) * ring;
+        let rise = smoothstep(0.0, RIM * larger(1.0 + LEANING * along, 0.2), depth);
         let texture = 1.0 + TEXTURE * octaves(place / TEXTURE_SIZE, 3, self.seed);
         POLYMER * (rise * texture + fringes)
     }

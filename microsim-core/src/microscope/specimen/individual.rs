@@ -22,8 +22,10 @@ const TARGET: f32 = 0.05;
 /// Inverse square of the radius of that knob, in radii of the hollow.
 pub(super) const KNOB: f32 = 6.0;
 
-/// Regions of a body in which inclusions gather.
+/// Regions of a body in which inclusions gather, the share of inclusions that do, and that of regions that are out of focus.
 pub(super) const REGIONS: usize = 3;
+const GATHERED: f32 = 0.65;
+const OUT_OF_FOCUS: f32 = 0.3;
 
 /// A bump of an outline: direction, height in radii, width in radians.
 type Bump = (Vec2, f32, f32);
@@ -162,15 +164,28 @@ pub(super) struct Region {
     pub spread: f32,
     pub size: f32,
     pub dense: f32,
+    /// Chirp of the rings around what lies out of focus there; 0 in focus.
+    pub chirp: f32,
 }
 
 impl Region {
     pub(super) fn of(inclusion: &Inclusion, rng: &mut HashRng) -> Self {
         let at = rng.direction() * (inclusion.place[1] * rng.unit().sqrt());
         // One or two things are what they are said to be.
-        let spread = if inclusion.count[1] > 3 { 0.45 } else { 0.0 };
-        let mut own = |spread: f32| libm::expf(spread * rng.normal());
-        Self { at, spread: spread * own(0.5), size: own(0.5 * spread), dense: smaller(own(0.4 * spread), 1.0) }
+        let many = if inclusion.count[1] > 3 { 1.0 } else { 0.0 };
+        let mut own = |spread: f32| libm::expf(many * spread * rng.normal());
+        let (spread, size, dense) = (0.3 * many * own(0.4), own(0.25), smaller(own(0.25), 1.0));
+        let chirp = if rng.unit() < OUT_OF_FOCUS * many { rng.range([2.0, 5.0]) } else { 0.0 };
+        Self { at, spread, size, dense, chirp }
+    }
+
+    /// A place within bounds: most are near the middle of some region.
+    pub(super) fn place(regions: &[Self], [nearest, farthest]: [f32; 2], rng: &mut HashRng) -> Vec2 {
+        let region = &regions[rng.bits() as usize % regions.len()];
+        let near = region.at + rng.direction() * (region.spread * rng.normal());
+        let anywhere = rng.direction() * rng.range([nearest * nearest, farthest * farthest]).sqrt();
+        let is_near = rng.unit() < GATHERED && (nearest..farthest).contains(&near.length());
+        if is_near { near } else { anywhere }
     }
 }
 

@@ -13,8 +13,9 @@ mod spline;
 pub(super) mod spot;
 pub(super) mod thread;
 
+use super::maths::{bell, larger, mix};
 use super::matter::{Matter, MatterRaster};
-use super::noise::scramble;
+use super::noise::{HashRng, scramble};
 use super::raster::PixelGrid;
 use super::recipe::DrawList;
 use crate::look::{ImageLook, SpotShape};
@@ -29,6 +30,12 @@ use round::RoundBody;
 use spot::Spot;
 use thread::Thread;
 
+/// How far rods are bent, share of their length; how much their width, and how far their ends reach, differ, in radii; share
+/// that are about to divide.
+const ROD_BEND: f32 = 0.05;
+const ROD_WIDTH: f32 = 0.10;
+const ROD_ENDS: f32 = 0.45;
+const ROD_SEPTA: f32 = 0.35;
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
 /// Farthest that anything of an organism reaches beyond its bounds: share of their longer side, and micrometres. Fibres and
@@ -88,7 +95,7 @@ impl Specimen {
                 self.spots.extend(phagosomes(&body, organism, view));
                 self.amoeboid.push(body);
             }
-            ImageLook::Rod(matter) => self.spots.extend(rod(organism, *matter)),
+            ImageLook::Rod(matter) => self.spots.extend(rod(organism, *matter, seed)),
             ImageLook::Drops(matter) => self.spots.extend(drops(organism, *matter)),
         }
     }
@@ -142,15 +149,27 @@ fn meals<'a>(organism: OrganismView<'a>, view: View<'a>) -> impl Iterator<Item =
     prey.filter_map(|prey| Some((prey.particles().next()?.position, scramble(prey.id().index()))))
 }
 
-/// A row of drops so close together that they are one.
-fn rod(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
+/// A row of drops so close together that they are one; rods differ in length, width, bend, and in what lies at their poles.
+fn rod(organism: OrganismView<'_>, matter: Matter, seed: u32) -> Vec<Spot> {
     let ends = organism.particles().next().zip(organism.particles().last());
     let Some((head, tail)) = ends.filter(|(head, _)| head.radius > 0.0) else { return Vec::new() };
-    let parts = ((tail.position - head.position).length() / (ROD_STEP * head.radius)).ceil().clamp(1.0, 64.0);
+    let mut rng = HashRng::new(seed);
+    let way = tail.position - head.position;
+    let cap = head.radius / larger(way.length(), head.radius);
+    let [from, to] = [0.0, 1.0].map(|end| end + ROD_ENDS * cap * rng.range([-1.0, 1.0]));
+    let bend = way.perp() * (ROD_BEND * rng.normal());
+    let width = head.radius * (1.0 + ROD_WIDTH * rng.range([-1.0, 0.6]));
+    let septum = if rng.unit() < ROD_SEPTA { rng.range([0.15, 0.4]) } else { 0.0 };
+    let poles = [rng.range([0.75, 1.25]), rng.range([0.75, 1.25])];
+    let parts = (way.length() / (ROD_STEP * head.radius)).ceil().clamp(1.0, 64.0);
     // Drops reach 1.25 radii; so many of them lie over each other that the rod is as thick as one on its own.
     let spot = |k: u32| {
-        let at = head.position.lerp(tail.position, k as f32 / parts);
-        Spot { at, radius: head.radius, matter: matter * (ROD_STEP * 0.75), shape: SpotShape::Bump }
+        let share = mix(from, to, k as f32 / parts);
+        let from_middle = 2.0 * share - 1.0;
+        let at = head.position + way * share + bend * (1.0 - from_middle * from_middle);
+        let narrow = 1.0 - septum * bell(from_middle / 0.2);
+        let dense = mix(poles[0], poles[1], share) * narrow;
+        Spot { at, radius: width * narrow, matter: matter * (ROD_STEP * 0.75 * dense), shape: SpotShape::Bump }
     };
     (0..=parts as u32).map(spot).collect()
 }

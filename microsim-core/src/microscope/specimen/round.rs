@@ -1,13 +1,15 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
-use super::individual::{self, Hollow, KNOB, REGIONS, Region};
+mod inclusions;
+
+use super::individual::{self, Hollow, KNOB};
 use super::polar_outline::PolarOutline;
 use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
 use crate::geometry::{direction_or, rotate, unit_vector};
-use crate::look::{Cilia, Inclusion, Pellicle, Profile, RoundLook, SpotShape};
+use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
@@ -23,12 +25,12 @@ const THICKEST: f32 = 2.56;
 const EDGE: f32 = 0.06;
 /// Share by which the edge of a body that is out of focus is wider, at most.
 const OUT_OF_FOCUS: f32 = 3.5;
+/// Share by which it is wider on one side of a body than in its middle, at most.
+const STEEPEST: f32 = 0.9;
 /// Micrometres by which an edge is wider for each tier of the slide above the glass.
 const ABOVE: f32 = 0.09;
 /// How much thicker the middle of a red cell that stands up is, micrometres.
 const ON_EDGE: f32 = 1.2;
-/// Share of red cells that have pits from drying.
-const PITTED: f32 = 0.2;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 2.0;
 /// The oral groove's middle line, `y = GROOVE[0] + GROOVE[1] x + GROOVE[2] x^2` in the frame in which the body is a disc of
@@ -36,8 +38,6 @@ const DYED: f32 = 2.0;
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
-/// Share of inclusions that gather in regions.
-const CLUSTERED: f32 = 0.4;
 /// Points of the curve that a cilium is.
 const CILIUM_POINTS: usize = 5;
 /// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
@@ -72,8 +72,10 @@ pub(super) struct RoundBody {
     /// Thickness of a red cell's middle, micrometres.
     middle: f32,
     hollow: Hollow,
-    /// Width over which its edge fades, micrometres: it may lie a little above or below the plane of focus.
+    /// Width over which its edge fades, micrometres: it may lie a little above or below the plane of focus; and the way, of a
+    /// length below 1, in which it is wider, because the body is not level.
     edge: f32,
+    slope: Vec2,
 }
 
 impl RoundBody {
@@ -108,14 +110,20 @@ impl RoundBody {
             matter.haemoglobin *= pose.thickness().sqrt();
         }
         let blur = rng.unit();
-        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
-        Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge })
+        let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
+        let slope = rotate(rng.direction() * (STEEPEST * rng.unit()), facing);
+        Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
+    }
+
+    /// Width over which the edge fades in a direction, micrometres.
+    fn edge_at(&self, direction: Vec2) -> f32 {
+        self.edge * (1.0 + self.slope.dot(direction))
     }
 
     pub(super) fn draw(&self, raster: &mut MatterRaster) {
-        let extent = Vec2::splat(self.polar.farthest + self.edge + raster.grid.pixel);
-        let softness = larger(0.6 * raster.grid.pixel, self.edge);
-        raster.add(self.polar.centre - extent, self.polar.centre + extent, |p| self.at(p, softness));
+        let extent = Vec2::splat(self.polar.farthest + 2.0 * self.edge + raster.grid.pixel);
+        let pixel = raster.grid.pixel;
+        raster.add(self.polar.centre - extent, self.polar.centre + extent, |p| self.at(p, pixel));
     }
 
     /// A fan of triangles for [`GLSL`].
@@ -146,7 +154,7 @@ impl RoundBody {
             vertices.extend([direction.x * radius, direction.y * radius, radius]);
             vertices.extend_from_slice(&constant);
             let in_hollow = self.hollow.turned(rotate(direction * radius, back));
-            vertices.extend([in_hollow.x, in_hollow.y, self.hollow.area, self.edge]);
+            vertices.extend([in_hollow.x, in_hollow.y, self.hollow.area, self.edge_at(direction)]);
         }
         let fan = (0..spokes as u16).flat_map(|k| [spokes as u16, k, (k + 1) % spokes as u16]);
         match self.look.pellicle {
@@ -160,10 +168,11 @@ impl RoundBody {
     }
 
     /// Its matter at a place.
-    fn at(&self, place: Vec2, softness: f32) -> Matter {
+    fn at(&self, place: Vec2, pixel: f32) -> Matter {
         let direction = place - self.polar.centre;
         let radius = self.polar.radius(direction);
         let rho = direction.length() / radius;
+        let softness = larger(0.6 * pixel, self.edge_at(direction / larger(direction.length(), 1e-6)));
         let fade = softness / radius;
         if rho >= 1.0 + fade {
             return Matter::NONE;
@@ -217,46 +226,6 @@ impl RoundBody {
             spots.extend(self.vacuoles(pellicle, time).map(spot));
         }
         spots
-    }
-
-    fn include(&self, inclusion: &Inclusion, rng: &mut HashRng) -> Vec<Spot> {
-        let [fewest, most] = inclusion.count;
-        let count = fewest + rng.bits() % (most - fewest + 1);
-        let regions: [Region; REGIONS] = std::array::from_fn(|_| Region::of(inclusion, rng));
-        let spot = |_| {
-            let [nearest, farthest] = inclusion.place;
-            let region = &regions[rng.bits() as usize % REGIONS];
-            let rho = rng.range([nearest * nearest, farthest * farthest]).sqrt();
-            let anywhere = rng.direction() * rho;
-            let near = region.at + rng.direction() * (region.spread * rng.normal());
-            let at =
-                if rng.unit() < CLUSTERED && (nearest..farthest).contains(&near.length()) { near } else { anywhere };
-            let share = rng.unit();
-            let radius = inclusion.radius[0] + (inclusion.radius[1] - inclusion.radius[0]) * share * share;
-            let at = self.place(at.normalize_or_zero(), at.length());
-            // The groove is clear.
-            let own = rotate(at - self.polar.centre, Vec2::new(self.facing.x, -self.facing.y)) / self.axes;
-            let clear = self.look.pellicle.map_or(0.0, |_| oral_groove(own)[0]);
-            let matter = inclusion.matter * (rng.range([0.6, 1.3]) * region.dense * (1.0 - 0.9 * clear));
-            let radius = radius * region.size * self.polar.mean;
-            Spot { at, radius, matter, shape: inclusion.shape }
-        };
-        (0..count).map(spot).collect()
-    }
-
-    /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
-    fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
-        let count = if rng.unit() < PITTED { 1 + rng.bits() % 3 } else { 0 };
-        let pit = |_| {
-            let at = self.place(rng.direction(), 0.6 * rng.unit());
-            let radius = 0.30 * libm::expf(0.4 * rng.normal());
-            let dense = rng.range([0.3, 0.9]);
-            let clear = Matter { haemoglobin: -dense, ..Matter::phase(-0.10) };
-            let around = Matter { haemoglobin: 0.5 * dense, nucleus: 0.25 * dense, ..Matter::NONE };
-            let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
-            [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring]
-        };
-        (0..count).flat_map(pit).collect()
     }
 
     /// Its two contractile vacuoles, each with its radius and how full it is: they fill slowly and empty at once.

@@ -25,7 +25,16 @@ pub(super) struct Spot {
     pub shape: SpotShape,
 }
 
+/// Micrometres by which what lies out of focus is wider for each unit of the chirp of its rings.
+const WIDER: f32 = 0.08;
+
 impl Spot {
+    /// The same matter above or below the plane of focus.
+    pub(super) fn out_of_focus(self, chirp: f32) -> Self {
+        let radius = self.radius + WIDER * chirp;
+        Self { radius, matter: self.matter * (self.radius / radius), shape: SpotShape::Defocused(chirp), ..self }
+    }
+
     /// A square for [`GLSL`].
     pub(super) fn draw_on(&self, draws: &mut DrawList) {
         if !draws.sees(self.at, 2.0 * self.radius) {

@@ -13,9 +13,10 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         radius: [0.235, 0.235],
         behind: 0.0,
         spread: 0.0,
-        bent: 0.035,
+        bent: 0.06,
         matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
         texture: Texture { amount: 0.2, size: 1.5 },
+        nucleoli: [1, 3],
     },
     granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],
     fibres: 0,
@@ -30,6 +31,7 @@ const DENSER: GranuleLook = GranuleLook {
     radius: 0.9,
     spread: 0.4,
     limits: [0.4, 1.8],
+    gathered: 0.0,
     companions: 0,
     matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.08, nucleus: 0.0 },
     shape: SpotShape::Bump,
@@ -39,20 +41,22 @@ const THINNER: GranuleLook =
     GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.08, nucleus: 0.0 }, ..DENSER };
 
 const FINE: GranuleLook = GranuleLook {
-    density: 0.7,
-    radius: 0.22,
-    spread: 0.35,
-    limits: [0.1, 0.5],
+    density: 1.3,
+    radius: 0.20,
+    spread: 0.45,
+    limits: [0.1, 0.6],
+    gathered: 0.95,
     companions: 0,
     matter: Matter { phase: 0.024 * WAVE, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
 const GRANULES: GranuleLook = GranuleLook {
-    density: 0.22,
-    radius: 0.34,
+    density: 0.32,
+    radius: 0.30,
     spread: 0.60,
     limits: [0.15, 0.9],
+    gathered: 0.9,
     companions: 2,
     matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
     shape: SpotShape::Ball,
@@ -63,7 +67,8 @@ const VACUOLES: GranuleLook = GranuleLook {
     radius: 1.2,
     spread: 0.4,
     limits: [0.5, 2.4],
+    gathered: 0.3,
     companions: 0,
-    matter: Matter { phase: -0.016 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
+    matter: Matter { phase: -0.012 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

@@ -13,9 +13,10 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         radius: [0.24, 0.30],
         behind: 0.16,
         spread: 0.42,
-        bent: 0.13,
+        bent: 0.10,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
         texture: Texture { amount: 0.32, size: 0.8 },
+        nucleoli: [0, 0],
     },
     granules: &[DENSE, CLEAR, VACUOLES],
     fibres: 3,
@@ -25,10 +26,11 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
 };
 
 const DENSE: GranuleLook = GranuleLook {
-    density: 2.3,
+    density: 3.2,
     radius: 0.19,
     spread: 0.36,
     limits: [0.09, 0.45],
+    gathered: 0.75,
     companions: 0,
     matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 2.6, nucleus: 0.0 },
     shape: SpotShape::Ball,
@@ -39,16 +41,18 @@ const CLEAR: GranuleLook = GranuleLook {
     radius: 0.20,
     spread: 0.3,
     limits: [0.1, 0.4],
+    gathered: 0.75,
     companions: 0,
     matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.2, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
 const VACUOLES: GranuleLook = GranuleLook {
-    density: 0.05,
+    density: 0.03,
     radius: 0.5,
     spread: 0.25,
     limits: [0.35, 0.75],
+    gathered: 0.4,
     companions: 0,
     matter: Matter { phase: -0.030 * WAVE, haemoglobin: 0.0, cytoplasm: -0.60, nucleus: 0.0 },
     shape: SpotShape::Ball,

@@ -6,7 +6,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
     profile: Profile::Dome(0.45),
     matter: Matter { phase: 2.5, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     variation: 0.05,
-    texture: Texture { amount: 0.05, size: 0.5 },
+    texture: Texture { amount: 0.03, size: 1.1 },
     outline: OutlineLook::uneven(0.012),
     inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
     cilia: Some(&Cilia { most: 380.0, apart: 0.35, length: 0.16, width: 0.14, phase: 0.26, waves: 9.0, rate: 4.0 }),
@@ -23,11 +23,12 @@ pub(super) const LOOK: RoundLook = RoundLook {
 };
 
 const GRANULES: Inclusion = Inclusion {
-    count: [420, 520],
+    count: [320, 400],
     radius: [0.015, 0.055],
     place: [0.0, 0.93],
     matter: Matter { phase: 0.30, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
     shape: SpotShape::Ball,
+    grains: [0, 0],
 };
 
 const CRYSTALS: Inclusion = Inclusion {
@@ -36,20 +37,23 @@ const CRYSTALS: Inclusion = Inclusion {
     place: [0.0, 0.9],
     matter: Matter { phase: -0.6, haemoglobin: 0.0, cytoplasm: -0.1, nucleus: 0.0 },
     shape: SpotShape::Bump,
+    grains: [0, 0],
 };
 
 const FOOD: Inclusion = Inclusion {
     count: [6, 10],
-    radius: [0.06, 0.10],
+    radius: [0.035, 0.10],
     place: [0.15, 0.72],
-    matter: Matter { phase: 0.7, haemoglobin: 0.12, cytoplasm: 0.7, nucleus: 0.1 },
+    matter: Matter { phase: 0.45, haemoglobin: 0.10, cytoplasm: 0.6, nucleus: 0.1 },
     shape: SpotShape::Ball,
+    grains: [0, 2],
 };
 
 const MACRONUCLEUS: Inclusion = Inclusion {
     count: [1, 1],
-    radius: [0.24, 0.28],
+    radius: [0.21, 0.25],
     place: [0.0, 0.15],
     matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
     shape: SpotShape::Ball,
+    grains: [4, 7],
 };

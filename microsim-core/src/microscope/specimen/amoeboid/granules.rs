@@ -1,10 +1,12 @@
 //! Granules of a crawling cell, which its cytoplasm carries.
 
 use super::super::spot::Spot;
-use super::AmoeboidBody;
+use super::{AmoeboidBody, SALTS};
+use crate::geometry::rotate;
 use crate::look::{GranuleLook, SpotShape};
-use crate::microscope::maths::smoothstep;
-use crate::microscope::noise::{HashRng, wobble};
+use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
+use crate::microscope::matter::Matter;
+use crate::microscope::noise::{HashRng, octaves, wobble};
 use crate::template::Role;
 use crate::world::view::{OrganismView, ParticleView};
 use glam::Vec2;
@@ -12,6 +14,12 @@ use glam::Vec2;
 /// Brownian motion of a granule of 0.2 micrometres: how far it gets, micrometres, and how often it turns back, 1/s.
 const JIGGLE: f32 = 0.09;
 const JIGGLE_RATE: f32 = 3.0;
+/// How far around the nucleus granules gather, and the size of the patches in which they do elsewhere, in the cell's mean
+/// radii.
+const AROUND: f32 = 0.32;
+const PATCHES: f32 = 0.40;
+/// A nucleolus of an otherwise even nucleus.
+const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.35 };
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
@@ -23,6 +31,7 @@ impl AmoeboidBody {
         let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
         let mut spots = Vec::new();
         carriers.for_each(|carrier| self.granules_on(&carrier, &mut spots));
+        self.nucleoli(&mut spots);
         spots
     }
 
@@ -46,6 +55,31 @@ impl AmoeboidBody {
         }
     }
 
+    /// How much granules gather at a place, 0 to 1: around the nucleus, and in patches elsewhere.
+    fn crowd(&self, place: Vec2) -> f32 {
+        let apart = |&(lobe, radius): &(Vec2, f32)| (place - lobe).length() - radius;
+        let nearest = self.lobes.iter().map(apart).fold(f32::INFINITY, smaller);
+        let around = bell(larger(nearest, 0.0) / (AROUND * self.radius));
+        let own = self.from_shape * (place - self.centre);
+        let patch = smoothstep(-0.2, 0.7, octaves(own / (PATCHES * self.radius), 2, self.seed ^ SALTS[2]));
+        mix(0.75 * patch, 1.0, around)
+    }
+
+    /// Nucleoli, in their places in the nucleus. Of a cell that divides the lobes lie over each other at first.
+    fn nucleoli(&self, spots: &mut Vec<Spot>) {
+        let [fewest, most] = self.look.nucleus.nucleoli;
+        for &(lobe, size) in &self.lobes {
+            let mut rng = HashRng::new(self.seed ^ 0x0c1e);
+            let near = |&(other, _): &(Vec2, f32)| bell((other - lobe).length() / (0.5 * size));
+            let share = 1.0 / self.lobes.iter().map(near).sum::<f32>();
+            for _ in 0..fewest + rng.bits() % (most - fewest + 1) {
+                let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
+                let radius = size * rng.range([0.16, 0.36]);
+                spots.push(Spot { at, radius, matter: NUCLEOLUS * share, shape: SpotShape::Bump });
+            }
+        }
+    }
+
     /// A granule of a region where they are larger by a factor, and out of focus by some chirp.
     fn granule(
         &self,
@@ -61,6 +95,7 @@ impl AmoeboidBody {
         let share = rng.unit();
         let dense = 0.2 + 1.2 * share * share;
         let shape = if rng.unit() < 0.5 { SpotShape::Bump } else { look.shape };
+        let threshold = rng.unit();
         let seed = rng.bits();
         let now = self.time * JIGGLE_RATE;
         let jitter = Vec2::new(wobble(now, seed), wobble(now, seed ^ 1)) * (JIGGLE * (0.2 / radius).sqrt());
@@ -68,13 +103,10 @@ impl AmoeboidBody {
         let clear = self.look.ectoplasm * self.rim_share(self.from_shape * (at - self.centre));
         let room = smoothstep(0.0, 0.5, self.field.at(at) - 0.6 * radius - clear);
         let share = room * (1.0 - 0.93 * self.lamella(at)) * (1.0 - 0.8 * self.nucleus(at, 0.1));
+        let share = share * smoothstep(threshold - 0.1, threshold + 0.1, 1.05 - look.gathered * (1.0 - self.crowd(at)));
         let matter = look.matter * (2.0 * radius * share * dense);
-        let shown = if focus > 0.0 && radius < 0.3 {
-            let wide = radius + 0.08 * focus;
-            Spot { at, radius: wide, matter: matter * (radius / wide), shape: SpotShape::Defocused(focus) }
-        } else {
-            Spot { at, radius, matter, shape }
-        };
+        let spot = Spot { at, radius, matter, shape };
+        let shown = if focus > 0.0 && radius < 0.3 { spot.out_of_focus(focus) } else { spot };
         (share > 0.02).then_some(shown)
     }
 }
