@@ -48,15 +48,15 @@ async function title() {
 }
 
 async function digests() {
-    const page = await profile();
-    for (const simd of ["yes", "no"]) {
+    await Promise.all(["yes", "no"].map(async (simd) => {
+        const page = await profile();
         await open(page, `?scenario=empty&optics=drawn&simd=${simd}`);
         for (const [name, expected] of goldenDigests(golden)) {
             const found = await page.evaluate((name) => microsim.digest(name, 300), name);
             check(`digest after 300 steps, simd ${simd}: ${name}`, found === expected, `${found}, golden ${expected}`);
         }
-    }
-    await page.context().close();
+        await page.context().close();
+    }));
 }
 
 /** Presses the key for the next optics until the settings say that it was seen. */

@@ -9,15 +9,17 @@ import { load } from "./index.js";
 const loading = load();
 let world;
 
-// Before the program is there: what came without a receiver would be lost.
-onmessage = async ({ data: { open, goal } }) => {
+async function receive({ open, goal }) {
     const microsim = await loading;
     if (open) {
         world?.close();
         world = microsim.open(open);
     }
     if (goal && world?.player !== undefined) world.steer(world.player, goal);
-};
+}
+
+// Before the program is there: what came without a receiver would be lost. Errors go to the page's `onerror`.
+onmessage = ({ data }) => receive(data).catch(reportError);
 
 setInterval(() => {
     if (!world) return;

@@ -217,11 +217,11 @@ impl WorldConfig {
         (TIME_TO_SLEEP / self.dt) as u16
     }
 
-    /// Speed of its fastest particle below which a body counts as at rest, units/s. At most half of the speed of free fall
-    /// through the medium after the time to sleep, so that nothing falls asleep on its way down.
+    /// Speed of its fastest particle below which a body counts as at rest, units/s. At most a quarter of the speed of free fall
+    /// through the medium after the time to sleep, so that nothing falls asleep on its way down, or where it turns round.
     pub(crate) fn sleep_speed(&self) -> f32 {
         let fall = self.fall_speed(1.0);
-        if fall > 0.0 && 0.5 * fall < SLEEP_SPEED { 0.5 * fall } else { SLEEP_SPEED }
+        if fall > 0.0 && 0.25 * fall < SLEEP_SPEED { 0.25 * fall } else { SLEEP_SPEED }
     }
 
     /// Speed that what was at rest falls with after the time to sleep, with a share of gravity, units/s.

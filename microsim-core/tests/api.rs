@@ -145,8 +145,9 @@ fn contacts_begin_once_and_end_once_even_by_removal() {
 #[test]
 fn nothing_is_spawned_inside_a_membrane() {
     let mut world = room();
-    let cell = AmoeboidCellSpec { radii: Vec2::splat(20.0), node_radius: 1.5, ..AmoeboidCellSpec::default() };
-    world.spawn(&cell.into(), Placement::at(50.0, 50.0)).unwrap();
+    let radii = Vec2::splat(20.0);
+    let cell = OrganismSpec::from(AmoeboidCellSpec { radii, node_radius: 1.5, ..AmoeboidCellSpec::default() });
+    world.spawn(&cell, Placement::at(50.0, 50.0)).unwrap();
     // Small enough for the gaps of the cytoplasm.
     let dust = OrganismSpec::from(ProbeSpec { radius: 0.1, ..ProbeSpec::default() });
     for k in 0..400 {
@@ -155,6 +156,13 @@ fn nothing_is_spawned_inside_a_membrane() {
         assert!(matches!(error.kind(), ErrorKind::Overlap { .. }), "{error}");
     }
     world.spawn(&dust, Placement::at(75.0, 50.0)).unwrap();
+    for k in 0..25 {
+        let at = Placement::at(96.0 + 0.3 * (k % 5) as f32, 30.0 + 0.3 * (k / 5) as f32);
+        let mut world = room();
+        world.spawn(&dust, Placement::at(96.0, 30.0)).unwrap();
+        let error = world.spawn(&cell, at).unwrap_err();
+        assert!(matches!(error.kind(), ErrorKind::Overlap { .. }), "around dust: {error}");
+    }
 }
 
 #[test]

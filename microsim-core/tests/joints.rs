@@ -214,6 +214,25 @@ fn what_a_joint_moves_slowly_does_not_fall_asleep() {
 }
 
 #[test]
+fn a_slow_motor_moves_what_hangs_on_its_body_whatever_the_order_of_joints() {
+    for motor_first in [true, false] {
+        let mut world = room(0.0, 8);
+        let near = disc(&mut world, Vec2::new(70.0, 45.0), 1.0);
+        let far = disc(&mut world, Vec2::new(90.0, 45.0), 2.0);
+        let pull = JointKind::SpeedMotor { speed: -0.01, max_force: 1e6 };
+        let motor = (JointEnd::Point(Vec2::new(50.0, 45.0)), node(near), pull);
+        let link = (node(near), node(far), JointKind::Distance { length: 20.0 });
+        let order = if motor_first { [motor, link] } else { [link, motor] };
+        for (a, b, kind) in order {
+            join(&mut world, a, b, kind);
+        }
+        run(&mut world, 20.0);
+        let moved = [at(&world, near).x - 70.0, at(&world, far).x - 90.0];
+        assert!(moved.iter().all(|moved| (moved + 0.2).abs() < 0.02), "motor first {motor_first}: {moved:?}");
+    }
+}
+
+#[test]
 fn everything_that_cannot_be_joined_is_refused_by_name_and_changes_nothing() {
     let mut world = room(0.0, 8);
     let [a, gone] = [60.0, 80.0].map(|x| disc(&mut world, Vec2::new(x, 45.0), 1.0));

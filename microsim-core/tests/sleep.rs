@@ -122,6 +122,20 @@ fn what_sinks_with_a_share_of_gravity_does_not_fall_asleep() {
     }
 }
 
+#[test]
+fn what_is_thrown_up_does_not_fall_asleep_at_the_top() {
+    for (gravity, scale) in [(1.0, 0.03), (0.03, 1.0)] {
+        let gravity = Vec2::new(0.0, -gravity);
+        let mut world = World::new(WorldConfig { gravity, damping: 0.0, ..WorldConfig::default() }).unwrap();
+        let agar = world.spawn(&AgarSpec::default().into(), Placement::at(50.0, 50.0)).unwrap();
+        world.set_gravity_scale(agar, scale).unwrap();
+        world.push(agar, Vec2::new(0.0, 0.05)).unwrap();
+        run(&mut world, &Inputs::new(), 600);
+        let risen = world.centroid(agar).unwrap().y - 50.0;
+        assert!((risen - (0.05 * 10.0 - 0.5 * 0.03 * 100.0)).abs() < 0.02, "gravity {gravity}, {scale} of it: {risen}");
+    }
+}
+
 // One at a time: an agar and a probe share a block.
 #[test]
 fn a_push_wakes() {

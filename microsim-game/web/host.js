@@ -212,10 +212,12 @@ function showMenu(screen, bytes) {
     return true;
 }
 
-/** Connections to rooms by number, with the frames that came since the game last asked, and how many of them are of whom. */
+/** Connections to rooms by number, with the frames that came since the game last asked, and what those of each member weigh. */
 const rooms = new Map();
 /** Frames of one member that wait for a game that does not ask, as in a hidden tab: 20 s of a match. More are lost. */
 const MOST_FRAMES = 600;
+/** What a frame counts: one, and one for each 2 KiB of it. */
+const weight = ({ length }) => 1 + (length >> 11);
 /** Time after which a game that does not ask leaves the room instead, ms. */
 const PAUSE = 15_000;
 /** Longest frame, bytes. */
@@ -231,7 +233,7 @@ function enterRoom(number, code) {
         const isTooMuch = isLost ? performance.now() - room.asked > PAUSE : frames.length > 5 * MOST_FRAMES;
         if (isTooMuch) return socket.close(4000);
         if (isLost) return;
-        counts[from] += 1;
+        counts[from] += weight(frame);
         frames.push(frame);
     };
     const mesh = address.get("direct") === "no" ? null : new Mesh((frame) => submit(socket, frame), receive);
@@ -251,7 +253,7 @@ function enterRoom(number, code) {
 function nextFrame(number) {
     const room = rooms.get(number), frame = room.frames.shift();
     room.asked = performance.now();
-    if (frame) room.counts[frame[0]] -= 1;
+    if (frame) room.counts[frame[0]] -= weight(frame);
     return frame ?? null;
 }
 

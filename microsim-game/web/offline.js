@@ -5,10 +5,10 @@ const CACHE = "microsim-@VERSION@";
 const PROGRAM = location.search.slice(1) || "game.wasm";
 const FILES = ["./", "start.js", "host.js", "mesh.js", "link.js", "restore.js", "gl.js", "style.css", PROGRAM, "manifest.webmanifest", "icon-192.png", "@WORDS@"];
 
-// Not from what the browser has kept by itself, and not used as long as a page of another version is open: parts of two versions do
+// Nothing older than the server's, whatever the browser has kept by itself, and not used as long as a page of another version is open: parts of two versions do
 // not fit together.
 addEventListener("install", (event) => {
-    const requests = FILES.map((file) => new Request(file, { cache: "reload" }));
+    const requests = FILES.map((file) => new Request(file, { cache: "no-cache" }));
     event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(requests)));
 });
 

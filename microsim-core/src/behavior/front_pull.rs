@@ -74,6 +74,25 @@ mod tests {
     }
 
     #[test]
+    fn a_small_rigid_cell_swims_calmly_in_long_substeps() {
+        for (satellites, substeps) in [(8, 1), (8, 2), (28, 1), (28, 2)] {
+            let config = WorldConfig { substeps, protects_membranes: false, ..WorldConfig::default() };
+            let mut world = World::new(config).unwrap();
+            let spec = RigidCellSpec { satellites, layers: 1, ..RigidCellSpec::default() };
+            let cell = world.spawn(&spec.into(), Placement::at(20.0, 45.0)).unwrap();
+            let mut inputs = Inputs::new();
+            inputs.set(cell, Intent::toward(Vec2::new(500.0, 45.0)).unwrap());
+            let mut fastest = 0.0_f32;
+            for _ in 0..120 {
+                world.step(&inputs);
+                let list: Vec<u32> = world.organisms.get(cell).unwrap().particles().collect();
+                fastest = list.iter().map(|&i| world.particles.velocity(i as usize).length()).fold(fastest, f32::max);
+            }
+            assert!(fastest < 16.0, "{satellites} satellites, {substeps} substeps: {fastest}");
+        }
+    }
+
+    #[test]
     fn t14_front_switches_only_when_the_goal_is_nearer_to_the_opposite_body() {
         assert_eq!(drives_to(Vec2::new(80.5, 200.0)).2, 0);
         assert_eq!(drives_to(Vec2::new(79.5, 200.0)).2, 14);

@@ -15,6 +15,9 @@ const TURN_TIME: f32 = 0.1;
 /// Substep in which a particle that pulls a body takes on its whole velocity, s.
 const PULL_SUBSTEP: f32 = 1.0 / 480.0;
 
+/// Share of its change of velocity that a particle that pulls a body takes on at most: beyond twice the change it swings.
+const MOST_PULL: f32 = 2.0;
+
 /// One particle that is to move with a given velocity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drive {
@@ -24,7 +27,7 @@ pub(crate) struct Drive {
     /// Largest acceleration towards it, units/s2; infinite sets it at once, as the thesis does.
     pub max_acceleration: f32,
     /// Whether the particle pulls a body along, by as much momentum as a substep of [`PULL_SUBSTEP`] gives it: with the whole change
-    /// in each substep a body would be the faster, the more substeps there are.
+    /// in each substep a body would be the faster, the more substeps there are. In substeps longer than 1/240 s it pulls less.
     pub is_pull: bool,
 }
 
@@ -41,7 +44,9 @@ impl Drive {
 
     /// What of a change is made in a substep of `h`.
     fn limit(&self, change: Vec2, h: f32) -> Vec2 {
-        let change = change * if self.is_pull { h / PULL_SUBSTEP } else { 1.0 };
+        let share = h / PULL_SUBSTEP;
+        let share = if share < MOST_PULL { share } else { MOST_PULL };
+        let change = change * if self.is_pull { share } else { 1.0 };
         change * super::ratio_limit(change.length_squared(), self.max_acceleration * h)
     }
 }
@@ -180,5 +185,8 @@ mod tests {
             apply(&[Drive::pull(0, Vec2::new(3.0, 4.0))], &mut p, h);
             assert!((p.velocity(0).length() / h - 2400.0).abs() < 1.0, "substep {h}");
         }
+        let mut p = line(1.0, [1.0, 1.0]);
+        apply(&[Drive::pull(0, Vec2::new(3.0, 4.0))], &mut p, 1.0 / 60.0);
+        assert!((p.velocity(0).length() - 10.0).abs() < 1e-3, "at most twice the change");
     }
 }

@@ -205,15 +205,21 @@ impl World {
             let lane = organism.body.lane(&world.blocks);
             lane.is_none_or(|(block, lane)| world.sleep.is_moving(block as usize, lane))
         };
-        let specs: Vec<JointSpec> = self.joints.iter().map(|(_, record)| record.spec).collect();
-        for spec in specs {
+        let wakes = |spec: &JointSpec, world: &Self| {
             let organisms = [spec.a, spec.b].into_iter().filter_map(JointEnd::organism);
             let mut obstacles = [spec.a, spec.b].into_iter().filter_map(JointEnd::obstacle);
-            let is_carried = obstacles.any(|(id, _)| self.obstacle_target(id).is_some());
-            let organisms = organisms.filter_map(|id| self.organisms.get(id));
-            let moves = |organism: &Organism| is_moving(organism, self) || self.is_driven(organism, spec.kind);
-            if is_carried || organisms.into_iter().any(moves) {
-                self.wake_up_joined(&spec);
+            let is_carried = obstacles.any(|(id, _)| world.obstacle_target(id).is_some());
+            let mut organisms = organisms.filter_map(|id| world.organisms.get(id));
+            is_carried || organisms.any(|organism| is_moving(organism, world) || world.is_driven(organism, spec.kind))
+        };
+        let mut specs: Vec<JointSpec> = self.joints.iter().map(|(_, record)| record.spec).collect();
+        // Until nothing else is woken: a chain of joints wakes from any end, whatever their order.
+        loop {
+            let (waking, others): (Vec<_>, Vec<_>) = specs.into_iter().partition(|spec| wakes(spec, self));
+            waking.iter().for_each(|spec| self.wake_up_joined(spec));
+            specs = others;
+            if waking.is_empty() || specs.is_empty() {
+                break;
             }
         }
     }

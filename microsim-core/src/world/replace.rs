@@ -10,7 +10,7 @@ use crate::supply::Recipe;
 
 impl World {
     /// Puts another organism in the place of one, with its velocity, gravity scale and user data, and a handle of its own. It may lie
-    /// where the other one did. It costs a clone of the world.
+    /// where the other one did, but not inside a membrane. It costs a clone of the world.
     ///
     /// ```
     /// # use microsim_core::{AgarSpec, CoccusSpec, OrganismSpec, Placement, World, WorldConfig};

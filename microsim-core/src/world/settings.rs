@@ -181,7 +181,7 @@ impl World {
                 let acceleration = config.gravity * (organism.gravity_scale - 1.0);
                 let list: Vec<u32> = organism.particles().collect();
                 // Slower than the sleep speed it may be on its way down.
-                let slowest = 0.5 * config.fall_speed(organism.gravity_scale);
+                let slowest = 0.25 * config.fall_speed(organism.gravity_scale);
                 let speed = MassProperties::of(particles, &list).map_or(0.0, |body| body.velocity.length());
                 if let Some((block, lane)) = lane.filter(|_| 0.0 < slowest && slowest < speed) {
                     sleep.wake_up(block, lane);

@@ -87,10 +87,11 @@ impl World {
         let scale = blueprint.scale * placement.scale;
         let id = self.organisms.next_id();
         let planned = plan_particles(&blueprint, &placement, scale, id.index);
-        self.check_place(&planned, if has_outline(&blueprint) { TOUCHING } else { placement.overlap })?;
+        let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
+        let ring = &planned[..if blueprint.rim.is_some() { nodes } else { 0 }];
+        self.check_place(&planned, ring, if has_outline(&blueprint) { TOUCHING } else { placement.overlap })?;
         self.note_place(id.index, bounds_of(discs(&planned)));
 
-        let nodes = blueprint.template.as_ref().map_or(0, |template| template.nodes().len());
         let (body_plan, fluid_plan) = planned.split_at(nodes);
         let (body, outline, slots) = match blueprint.template {
             Some(template) if blueprint.rim.is_none() => {
@@ -150,8 +151,9 @@ impl World {
         Ok(())
     }
 
-    /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share.
-    fn check_place(&mut self, planned: &[Particle], share: f32) -> Result<(), Error> {
+    /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share, and
+    /// that the ring of their membrane, if they have one, holds nothing.
+    fn check_place(&mut self, planned: &[Particle], ring: &[Particle], share: f32) -> Result<(), Error> {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
         for p in planned {
@@ -162,19 +164,25 @@ impl World {
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
             }
         }
-        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>(), share) {
+        if let Some(with) = self.overlap(&planned.iter().filter(colliding).copied().collect::<Vec<_>>(), ring, share) {
             return Err(Error::new(ErrorKind::Overlap { with }, "at"));
         }
         Ok(())
     }
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
-    fn overlap(&mut self, planned: &[Particle], share: f32) -> Option<String> {
+    fn overlap(&mut self, planned: &[Particle], ring: &[Particle], share: f32) -> Option<String> {
         if self.solid_obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
             return Some("an obstacle".to_owned());
         }
         let bounds = bounds_of(discs(planned));
-        let hit = self.first_near(&bounds, |world, organism| world.overlaps(organism, planned, &bounds, share))?;
+        let outline: Vec<Vec2> = ring.iter().map(Particle::position).collect();
+        let groups = ring.first().map_or(CollisionGroups::NONE, |node| node.groups);
+        let hit = self.first_near(&bounds, |world, organism| {
+            world.touches(organism, planned, &bounds, share)
+                || world.encloses(organism, planned)
+                || world.is_enclosed(organism, &outline, groups)
+        })?;
         self.with_its_place(self.organisms.id_at(hit)?)
     }
 
@@ -191,16 +199,21 @@ impl World {
         Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
     }
 
-    /// Whether an organism overlaps discs within these bounds, or has one of them inside its membrane, which would hold it in.
-    fn overlaps(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
-        self.touches(organism, discs, bounds, share) || self.encloses(organism, discs)
-    }
-
+    /// Whether an organism has one of the discs inside its membrane, which would hold it in.
     fn encloses(&self, organism: &Organism, discs: &[Particle]) -> bool {
         let Some(&node) = organism.outline.first().filter(|_| organism.body.membrane().is_some()) else { return false };
         let groups = self.particles.groups[organism.body.particle(node) as usize];
         let outline = self.outline_of(organism);
-        discs.iter().any(|disc| disc.groups.meets(groups) && contains_point(&outline, disc.position()))
+        let bounds = bounds_of(outline.iter().map(|&at| (at, 0.0)));
+        let is_inside = |at: Vec2| bounds.contains_local_point(at) && contains_point(&outline, at);
+        discs.iter().any(|disc| disc.groups.meets(groups) && is_inside(disc.position()))
+    }
+
+    /// Whether a membrane along an outline would hold a part of an organism in.
+    fn is_enclosed(&self, organism: &Organism, outline: &[Vec2], groups: CollisionGroups) -> bool {
+        let p = &self.particles;
+        let is_inside = |i: usize| p.groups[i].meets(groups) && contains_point(outline, p.position(i));
+        !outline.is_empty() && organism.particles().any(|i| is_inside(i as usize))
     }
 
     fn touches(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {

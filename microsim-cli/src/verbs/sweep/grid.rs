@@ -56,9 +56,11 @@ fn range(text: &str) -> Result<Option<Vec<String>>, String> {
         let count = count.trim().parse::<u64>().ok().filter(|count| (2..=MOST).contains(count));
         let ((low, high), count) =
             ends.zip(count).ok_or("expected a..b/n: two numbers in order and 2 or more values")?;
-        let at = |k: u64| low + (high - low) * k as f64 / (count - 1) as f64;
-        let decimals = decimals(low.abs().max(high.abs()));
-        return Ok(Some((0..count).map(|k| shortest(at(k), decimals)).collect()));
+        let at = |k: u64| if k == count - 1 { high } else { low + (high - low) * k as f64 / (count - 1) as f64 };
+        // Ends are what was asked for, however small beside the other one; 0 between them is no rounding error.
+        let common = decimals(low.abs().max(high.abs()));
+        let digits = |k: u64| if k == 0 || k == count - 1 { decimals(at(k).abs()).max(common) } else { common };
+        return Ok(Some((0..count).map(|k| shortest(at(k), digits(k))).collect()));
     }
     let ends = low.trim().parse::<i64>().ok().zip(high.trim().parse::<i64>().ok());
     let (low, high) = ends.filter(|(low, high)| low <= high).ok_or("expected a..b: two whole numbers in order")?;
@@ -122,6 +124,8 @@ mod tests {
         assert_eq!(values("0..1/5"), ["0", "0.25", "0.5", "0.75", "1"]);
         assert_eq!(values("0.1..0.3/3"), ["0.1", "0.2", "0.3"]);
         assert_eq!(values("1e-10..4e-10/4"), ["0.0000000001", "0.0000000002", "0.0000000003", "0.0000000004"]);
+        assert_eq!(values("1e-9..1e6/2"), ["0.000000001", "1000000"]);
+        assert_eq!(values("-1e6..1e-9/2"), ["-1000000", "0.000000001"]);
         assert_eq!(values("0..3e15/4"), ["0", "1000000000000000", "2000000000000000", "3000000000000000"]);
         assert_eq!("3..5".parse(), Ok(Seeds(vec![3, 4, 5])));
     }

@@ -48,7 +48,8 @@ const AMOEBA_NODE: f32 = 0.6;
 /// A membrane filled with cytoplasm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AmoeboidCellSpec {
-    /// Semi-axes at rest, units, each at least three node radii and at most 500.
+    /// Semi-axes at rest, units, each at least three node radii and at most 500. The membrane encloses the area of their ellipse:
+    /// the corners of its polygon lie a little outside.
     pub radii: Vec2,
     /// Corners of its outline when spawned, around it in either direction, units from its place, within ±500; none for the ellipse
     /// of `radii`. The membrane's nodes lie on it. It is as long as its membrane from then on, and rounds up as cells do.

@@ -131,7 +131,9 @@ impl FoodChain {
     /// Time until a cell has nothing left to live on, at its present hunger, s.
     #[must_use]
     pub fn reserve(&self, cell: OrganismView<'_>, time: f32) -> f32 {
-        cytoplasm(cell).saturating_sub(LEAST) as f32 / self.hunger(cell, time)
+        let owed = self.owed.iter().find(|(id, _)| *id == cell.id()).map_or(0.0, |(_, owed)| *owed);
+        let left = cytoplasm(cell).saturating_sub(LEAST) as f32 - owed;
+        if left > 0.0 { left / self.hunger(cell, time) } else { 0.0 }
     }
 
     /// Looks after a step who is played now: the same cell, or a sister if that is gone.
