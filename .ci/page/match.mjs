@@ -28,7 +28,7 @@ const browser = await chromium.launch({
         "--disable-background-timer-throttling", "--disable-renderer-backgrounding", "--disable-backgrounding-occluded-windows"],
 });
 
-/** Times frames, counts what is sent and what comes by either way, without signals, and lets the page be cut off. */
+/** Times frames, counts what is sent and what comes by either way, without signals, and lets the page be cut off or draw nothing. */
 function watch() {
     globalThis.seen = { frames: [], socket: [0, 0], channel: [0, 0], bytes: [0, 0], isCut: false };
     const held = [];
@@ -62,6 +62,9 @@ function watch() {
             for (const act of held.splice(0)) act();
         }, time);
     };
+    const { prototype } = WebGL2RenderingContext;
+    const { drawElementsInstanced } = prototype;
+    globalThis.draw = (isDrawn) => (prototype.drawElementsInstanced = isDrawn ? drawElementsInstanced : () => undefined) && undefined;
     const { requestAnimationFrame } = globalThis;
     globalThis.requestAnimationFrame = (frame) => requestAnimationFrame((time) => {
         const began = performance.now();
@@ -164,11 +167,11 @@ try {
 
     const pages = { laptop, phone, late };
     // Nobody looks meanwhile, and drawing in software is what takes the time.
-    const resize = (size) => Promise.all(Object.values(pages).map((page, k) => page.setViewportSize(size(k))));
-    const sizes = Object.values(pages).map((page) => page.viewportSize());
-    await resize(() => ({ width: 160, height: 90 }));
+    const draw = (isDrawn) => Promise.all(Object.values(pages).map((page) => page.evaluate((isDrawn) => draw(isDrawn), isDrawn)));
+    await draw(false);
     await Promise.all(Object.values(pages).map(isOver));
-    await resize((k) => sizes[k]);
+    await draw(true);
+    await laptop.waitForTimeout(2000);
     for (const [name, page] of Object.entries(pages)) await picture(page, `end-${name}`);
     const [line] = await robot.line(/^match 1 digest .* desync None .*/, 60_000);
     const ofBot = fs.readFileSync(`${pictures}/bot.replay`).toString("base64");
