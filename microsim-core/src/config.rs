@@ -14,6 +14,8 @@ const SHORTEST_SUBSTEP: f32 = 0.0002;
 const LONGEST_SUBSTEP: f32 = 0.017;
 /// The same with a membrane, s: in longer ones prey that goes in stretches links beyond their limit.
 const LONGEST_SUBSTEP_OF_MEMBRANES: f32 = 0.0085;
+/// Largest damping times substep: what moves steadily gets one and this times as far as its speed says.
+const MOST_DAMPED: f32 = 0.05;
 
 /// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
 const SLEEP_SPEED: f32 = 0.02;
@@ -78,7 +80,8 @@ pub struct WorldConfig {
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
-    /// Linear damping, 1/s, the drag of the medium: a free particle keeps exp(-damping t) of its speed. 0 to 100.
+    /// Linear damping, 1/s, the drag of the medium: a free particle keeps exp(-damping t) of its speed. 0 to 100, and at most 0.05
+    /// over the substep: 24 by default.
     pub damping: f32,
     /// Speed limit of every particle, units/s, 0.1 to 1000. Bounds how far anything moves in a step, hence the margin with
     /// which pairs are searched, and is what makes walls and membranes tight (thesis 3.1.2, 4.2.2).
@@ -137,6 +140,7 @@ impl WorldConfig {
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
         in_range("damping", self.damping, 0.0, 100.0)?;
+        self.check_damping()?;
         in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
     }
@@ -194,6 +198,15 @@ impl WorldConfig {
             )
         };
         (least..=most).contains(&self.substeps).then_some(()).ok_or_else(accepted)
+    }
+
+    fn check_damping(&self) -> Result<(), Error> {
+        let (most, damping) = (MOST_DAMPED / self.substep(), self.damping);
+        let accepted = || {
+            let range = format!("0 to {most:.1} with {} substeps of a step of {} s", self.substeps, self.dt);
+            out_of_range("damping", f64::from(damping), range)
+        };
+        (damping <= most).then_some(()).ok_or_else(accepted)
     }
 
     /// Least distance between two walls that face each other, units; infinite if there are none.

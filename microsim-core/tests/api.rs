@@ -35,6 +35,10 @@ fn every_bad_setting_of_a_world_is_refused_by_name() {
     refuse(WorldConfig { max_particles: 0, ..config() }, "max_particles");
     let message = World::new(WorldConfig { substeps: 99, ..config() }).unwrap_err().to_string();
     assert_eq!(message, "`substeps` is 99, accepted: 1 to 64");
+    let damped = |damping| WorldConfig { damping, dt: 0.01, substeps: 10, ..config() };
+    assert!(World::new(damped(49.0)).is_ok());
+    let message = World::new(damped(51.0)).unwrap_err().to_string();
+    assert_eq!(message, "`damping` is 51, accepted: 0 to 50.0 with 10 substeps of a step of 0.01 s");
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn config(dt: f32, substeps: u32, damping: f32, max_speed: f32) -> WorldConfig {
 
 fn worlds() -> [WorldConfig; 4] {
     let (slow, fast) = (config(1.0 / 30.0, 4, 3.0, 50.0), config(1.0 / 240.0, 2, 0.0, 20.0));
-    [WorldConfig::default(), slow, fast, config(0.1, 8, 100.0, 120.0)]
+    [WorldConfig::default(), slow, fast, config(0.1, 8, 4.0, 120.0)]
 }
 
 fn coccus(speed: f32) -> OrganismSpec {

@@ -223,7 +223,7 @@ mod tests {
         let moved = [plain, light, up].map(|id| height(&world, id) - 45.0);
         assert!((moved[0] + 5.0).abs() < 0.05 && moved[1] == 0.0 && (moved[2] - 5.0).abs() < 0.05, "{moved:?}");
         world.set_gravity(Vec2::ZERO).unwrap();
-        world.set_damping(50.0).unwrap();
+        world.set_damping(20.0).unwrap();
         run(&mut world, 120);
         assert!(world.view().organism(plain).unwrap().is_at_rest());
         world.set_gravity(Vec2::new(0.0, 900.0)).unwrap();
