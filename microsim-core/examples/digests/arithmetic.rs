@@ -53,7 +53,9 @@ pub fn run() {
     PORTABLE.iter().for_each(|(name, function)| print(&format!("arithmetic: {name} {:016x}", of(function))));
     PORTABLE_OF_TWO.iter().for_each(|(name, function)| print(&format!("arithmetic: {name} {:016x}", of_two(function))));
     UNPORTABLE.iter().for_each(|(name, function)| print(&format!("unportable: {name} {:016x}", of(function))));
-    UNPORTABLE_OF_TWO.iter().for_each(|(name, function)| print(&format!("unportable: {name} {:016x}", of_two(function))));
+    UNPORTABLE_OF_TWO
+        .iter()
+        .for_each(|(name, function)| print(&format!("unportable: {name} {:016x}", of_two(function))));
 }
 
 /// The special ones, then random ones of all magnitudes, then such as occur.
