@@ -3,6 +3,7 @@
 use crate::error::{Error, count_in_range, in_range, out_of_range};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::f32::consts::TAU;
 
 /// Without protection of its membranes a world lets things move so many times faster than its speed limit.
 const UNPROTECTED: f32 = 15.0;
@@ -12,8 +13,12 @@ const UNPROTECTED: f32 = 15.0;
 const SHORTEST_SUBSTEP: f32 = 0.0002;
 /// Longest substep, s.
 const LONGEST_SUBSTEP: f32 = 0.017;
-/// The same with a membrane, s: in longer ones prey that goes in stretches links beyond their limit.
-const LONGEST_SUBSTEP_OF_MEMBRANES: f32 = 0.0085;
+/// The same with a membrane, s: in longer ones loads stretch links beyond their limit, and crawling cells tear voids open.
+const LONGEST_SUBSTEP_OF_MEMBRANES: f32 = 0.006;
+/// The same with grains, s: in longer ones they make energy, and heaps slide apart.
+const LONGEST_SUBSTEP_OF_GRAINS: f32 = 0.0025;
+/// Largest angular frequency times substep of a spring: beyond, its damping ratio is wrong by more than 0.01.
+const FASTEST_SWING: f32 = 0.25;
 /// Largest damping times substep: what moves steadily gets one and this times as far as its speed says.
 const MOST_DAMPED: f32 = 0.05;
 
@@ -75,8 +80,8 @@ pub struct WorldConfig {
     pub size: Vec2,
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
-    /// Substeps per step, 1 to 64, each 0.0002 to 0.017 s long, with amoeboid cells at most 0.0085 s. More are stiffer and cost
-    /// proportionally; below 6 jams stretch visibly, and with 2 a membrane under an absurd load may leak.
+    /// Substeps per step, 1 to 64, each 0.0002 to 0.017 s long, with amoeboid cells at most 0.006 s, with grains 0.0025 s.
+    /// More are stiffer and cost proportionally; below 6 jams stretch visibly.
     pub substeps: u32,
     /// Acceleration on everything, units/s2. Components within ±1000.
     pub gravity: Vec2,
@@ -185,6 +190,21 @@ impl WorldConfig {
     /// Checks that substeps are short enough for cells with membranes.
     pub(crate) fn check_membranes(&self) -> Result<(), Error> {
         self.check_substeps(LONGEST_SUBSTEP_OF_MEMBRANES, ", with amoeboid cells")
+    }
+
+    /// Checks that substeps are short enough for grains.
+    pub(crate) fn check_grains(&self) -> Result<(), Error> {
+        self.check_substeps(LONGEST_SUBSTEP_OF_GRAINS, ", with grains")
+    }
+
+    /// Checks that substeps are short enough for a spring of this frequency, Hz.
+    pub(crate) fn check_frequency(&self, frequency: f32) -> Result<(), Error> {
+        let most = FASTEST_SWING / (TAU * self.substep());
+        let accepted = || {
+            let range = format!("0.01 to {most:.1} with {} substeps of a step of {} s", self.substeps, self.dt);
+            out_of_range("frequency", f64::from(frequency), range)
+        };
+        (frequency <= most).then_some(()).ok_or_else(accepted)
     }
 
     fn check_substeps(&self, longest: f32, whose: &str) -> Result<(), Error> {

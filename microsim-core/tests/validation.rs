@@ -10,7 +10,10 @@ use experiments::crawl::{self, Figures};
 use experiments::scene::Stepping;
 use experiments::{ALL, angle_of_repose, cell_area, free_fall, granular_energy, refinement, restitution};
 use microsim_core::glam::Vec2;
-use microsim_core::{AmoeboidCellSpec, Crawl, Placement, PlateletSpec, World, WorldConfig};
+use microsim_core::{
+    AmoeboidCellSpec, Crawl, Emitter, FluidBlockSpec, FluidMode, FluidParams, OrganismSpec, Placement, PlateletSpec,
+    Recipe, Region, World, WorldConfig,
+};
 
 /// Steps and substeps in which results are to be the same.
 const STEPPINGS: [Stepping; 4] = [
@@ -98,7 +101,7 @@ fn substeps_that_are_too_short_or_too_long_are_refused_with_field_and_range() {
 #[test]
 fn substeps_that_are_too_long_for_a_membrane_refuse_cells_and_nothing_else() {
     for (dt, substeps, is_accepted) in
-        [(1.0 / 60.0, 1, false), (1.0 / 60.0, 2, true), (1.0 / 30.0, 3, false), (0.0085, 1, true)]
+        [(1.0 / 60.0, 2, false), (1.0 / 60.0, 3, true), (1.0 / 30.0, 5, false), (0.006, 1, true)]
     {
         let mut world = World::new(WorldConfig { dt, substeps, ..WorldConfig::default() }).unwrap();
         world.spawn(&PlateletSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
@@ -106,7 +109,26 @@ fn substeps_that_are_too_long_for_a_membrane_refuse_cells_and_nothing_else() {
         assert_eq!(cell.is_ok(), is_accepted, "{substeps} of {dt} s");
         let Err(refusal) = cell else { continue };
         assert_eq!(refusal.field(), "substeps");
-        assert!(refusal.to_string().contains("0.0002 to 0.0085 s"), "{refusal}");
+        assert!(refusal.to_string().contains("0.0002 to 0.006 s"), "{refusal}");
+    }
+}
+
+#[test]
+fn substeps_that_are_too_long_for_grains_refuse_them_and_no_other_fluid() {
+    for (substeps, is_accepted) in [(6, false), (7, true)] {
+        let mut world = World::new(WorldConfig { substeps, ..WorldConfig::default() }).unwrap();
+        let block = |mode| {
+            let fluid = FluidParams { mode, ..FluidParams::default() };
+            OrganismSpec::from(FluidBlockSpec { size: Vec2::splat(10.0), fluid })
+        };
+        world.spawn(&block(FluidMode::Density), Placement::at(40.0, 45.0)).unwrap();
+        let grains = world.spawn(&block(FluidMode::Granular), Placement::at(80.0, 45.0));
+        let recipe = Recipe::Organism(block(FluidMode::Granular));
+        let emitted = world.add_emitter(Emitter::new(Region::All, recipe, 1.0));
+        assert_eq!((grains.is_ok(), emitted.is_ok()), (is_accepted, is_accepted), "{substeps}");
+        let Err(refusal) = grains else { continue };
+        assert_eq!(refusal.field(), "substeps");
+        assert!(refusal.to_string().contains("7 to 64 of a step of 0.016666668 s, with grains"), "{refusal}");
     }
 }
 

@@ -119,7 +119,7 @@ impl World {
 
     /// Checks a joint and finds what it holds.
     fn joint_record(&self, spec: JointSpec) -> Result<JointRecord, Error> {
-        spec.validate()?;
+        spec.check(&self.config)?;
         let a = self.joined_particle(spec.a).map_err(|error| error.within("a"))?;
         let b = self.joined_particle(spec.b).map_err(|error| error.within("b"))?;
         let mut record = JointRecord { spec, particles: [a, b], length: 0.0, force: 0.0 };

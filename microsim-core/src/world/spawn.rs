@@ -18,7 +18,7 @@ use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, S
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
-use crate::solver::fluid::{Fluid, FluidParams};
+use crate::solver::fluid::{Fluid, FluidMode, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
 use crate::template::{Node, Propulsion, Role, Template};
@@ -138,15 +138,25 @@ impl World {
     /// Checks all of a blueprint and its placement but for what is there already.
     fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
         placement.validate()?;
-        if blueprint.rim.is_some() {
-            self.config.check_membranes()?;
-        }
+        self.check_substeps(blueprint)?;
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
         check_fluid(blueprint, placement)?;
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
         let limit = u64::from(self.config.max_particles);
         if asked > limit {
             return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
+        }
+        Ok(())
+    }
+
+    /// Checks that substeps are short enough for what it is made of.
+    pub(super) fn check_substeps(&self, blueprint: &Blueprint) -> Result<(), Error> {
+        if blueprint.rim.is_some() {
+            self.config.check_membranes()?;
+        }
+        let is_grains = |fluid: &FluidPlan| fluid.params.mode == FluidMode::Granular;
+        if blueprint.fluid.as_ref().is_some_and(is_grains) {
+            self.config.check_grains()?;
         }
         Ok(())
     }

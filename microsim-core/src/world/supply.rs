@@ -247,10 +247,7 @@ impl World {
     /// Checks an emitter, and that this world can emit what it emits.
     pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
         emitter.validate()?;
-        if self.blueprint_of(&emitter.recipe)?.rim.is_some() {
-            self.config.check_membranes()?;
-        }
-        Ok(())
+        self.check_substeps(&self.blueprint_of(&emitter.recipe)?)
     }
 
     /// What a recipe amounts to in this world.

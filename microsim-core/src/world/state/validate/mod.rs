@@ -11,6 +11,7 @@ pub(super) mod structure;
 use crate::error::Error;
 use crate::id::OrganismId;
 use crate::kind::Kind;
+use crate::solver::fluid::FluidMode;
 use crate::world::World;
 use std::fmt;
 
@@ -43,6 +44,9 @@ impl World {
         self.config.validate().map_err(refused)?;
         if self.organisms.with_membrane().next().is_some() {
             self.config.check_membranes().map_err(refused)?;
+        }
+        if self.fluids.iter().any(|fluid| fluid.params.mode == FluidMode::Granular) {
+            self.config.check_grains().map_err(refused)?;
         }
         store::check_columns(&self.particles)?;
         structure::check(self)?;

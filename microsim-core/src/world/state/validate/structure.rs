@@ -73,7 +73,7 @@ fn check_joints(world: &World) -> Check {
     let none = Subject::default();
     none.must(world.joints.is_sound(), || "the free slots of joints are not the empty ones".to_owned())?;
     for ((k, _), joint) in world.joints.iter() {
-        joint.spec.validate().map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
+        joint.spec.check(&world.config).map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
         none.must_range(&format!("length of joint {k}"), joint.length, 0.0, f32::MAX)?;
         none.must_range(&format!("force of joint {k}"), joint.force, 0.0, f32::INFINITY)?;
         let is_node = [joint.spec.a, joint.spec.b].map(|end| matches!(end, JointEnd::Node { .. }));
