@@ -8,6 +8,7 @@ use crate::tally::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Bytes of the checksum at the end.
@@ -31,7 +32,7 @@ pub(crate) struct CheckpointHeader {
     pub digest_at_start: String,
 }
 
-/// Writes the checkpoint in place of the one before. All files that it needs must be on the disk.
+/// Writes the checkpoint in place of the one before. The content of all files that it needs must be on the disk.
 pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
     let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
     let line = serde_json::to_vec(header).map_err(std::io::Error::from)?;
@@ -52,7 +53,7 @@ pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Fail
     let path = folder.join(CHECKPOINT);
     let bytes = match read::whole(&path) {
         Ok(bytes) => bytes,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
             let is_done = folder.join("run.json").exists();
             let why = if is_done { "its run is finished" } else { "there is no checkpoint in it" };
             let accepted = "accepted: the folder of a run with output.checkpoint_every that was stopped";
@@ -90,7 +91,18 @@ pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
     split(bytes).map(|(_, run)| run)
 }
 
-/// Removes the files of an unfinished run: the checkpoint first, which cannot be resumed without the `others`.
+/// Gives up the run that was stopped in a folder, before another one replaces its tables: a checkpoint that a power cut brings
+/// back would continue the tables of the other run.
+pub(crate) fn give_up(outputs: &Outputs) -> Result<(), Failure> {
+    let path = outputs.folder().join(CHECKPOINT);
+    match output::remove(&path) {
+        Ok(()) => outputs.sync(),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(Failure::file("replace", &path, &error)),
+    }
+}
+
+/// Removes the files that only an unfinished run needs: the checkpoint first, which cannot be resumed without the `others`.
 pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
     for path in std::iter::once(folder.join(CHECKPOINT)).chain(others) {
         // It does no harm where it cannot be removed: `run.json` says that the run is finished.

@@ -38,8 +38,7 @@ impl<'o> Session<'o> {
         record: &'o RecordArgs,
     ) -> Result<Self, Failure> {
         if let Some(outputs) = outputs {
-            // The tables of a run that was stopped here are about to be replaced.
-            checkpoint::remove(outputs.folder(), Vec::new());
+            checkpoint::give_up(outputs)?;
         }
         let start = |outputs| RunWriter::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let writer = outputs.map(start).transpose()?;
