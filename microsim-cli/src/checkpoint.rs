@@ -73,7 +73,12 @@ fn parse(bytes: &[u8]) -> Result<(CheckpointHeader, Checkpoint), String> {
     if header.tally.steps != run.run.world.step_index() {
         return Err("its line and its run are of different steps".to_owned());
     }
-    Ok((header, run))
+    let built = run.origin.scenario().and_then(|scenario| scenario.build());
+    if built.is_ok_and(|built| built.named == run.run.named) {
+        Ok((header, run))
+    } else {
+        Err("its organisms have other names than those of its scenario".to_owned())
+    }
 }
 
 /// The line and the run of a checkpoint whose checksum is right.
@@ -113,12 +118,15 @@ pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prepared::prepare;
+    use crate::prepared::{Prepared, apart, prepare};
     use crate::scenario_args::{Changes, ScenarioArgs};
 
     fn bytes_at(steps: u64) -> Vec<u8> {
         let args = ScenarioArgs { scenario: "empty".to_owned(), changes: Changes::default() };
-        let prepared = prepare(&args).ok().unwrap();
+        bytes_of(prepare(&args).ok().unwrap(), steps)
+    }
+
+    fn bytes_of(prepared: Prepared, steps: u64) -> Vec<u8> {
         let header = CheckpointHeader {
             source: "empty".to_owned(),
             steps: 9,
@@ -142,6 +150,14 @@ mod tests {
             bytes[bit / 8] ^= 1 << (bit % 8);
         }
         assert!((0..bytes.len()).all(|end| parse(&bytes[..end]).is_err()));
+    }
+
+    #[test]
+    fn organisms_have_the_names_of_the_scenario() {
+        let mut prepared = apart("");
+        assert!(parse(&bytes_of(apart(""), 0)).is_ok());
+        "a,b".clone_into(&mut prepared.built.named[0].0);
+        assert!(parse(&bytes_of(prepared, 0)).is_err_and(|why| why.contains("other names")));
     }
 
     #[test]
