@@ -2,6 +2,7 @@
 //! both.
 
 use crate::failure::Failure;
+use crate::json;
 use crate::output::{self, CHECKPOINT, FileProgress, Outputs};
 use crate::read;
 use crate::tally::Tally;
@@ -35,9 +36,9 @@ pub(crate) struct CheckpointHeader {
 /// Writes the checkpoint in place of the one before. The content of all files that it needs must be on the disk.
 pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
     let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
-    let line = serde_json::to_vec(header).map_err(std::io::Error::from)?;
+    let line = json::line(header)?;
     outputs.sync()?;
-    outputs.replace(CHECKPOINT, &sealed(&line, &run))?;
+    outputs.replace(CHECKPOINT, &sealed(line.trim_end().as_bytes(), &run))?;
     outputs.sync()
 }
 

@@ -8,7 +8,6 @@ use crate::interrupt;
 use crate::output::{FileProgress, Outputs, RunWriter, write_description};
 use crate::prepared::Prepared;
 use crate::record_args::{RecordArgs, ReplayWriter};
-use crate::sanitize;
 use crate::summary::RunReport;
 use crate::tally::Tally;
 use microsim_core::World;
@@ -188,7 +187,6 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     if report.failures.is_empty() {
         return Ok(());
     }
-    let name = sanitize::line(name);
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
 }
