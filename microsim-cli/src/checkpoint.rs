@@ -2,12 +2,14 @@
 //! both.
 
 use crate::failure::Failure;
+use crate::json;
 use crate::output::{self, CHECKPOINT, FileProgress, Outputs};
 use crate::read;
 use crate::tally::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Bytes of the checksum at the end.
@@ -31,12 +33,12 @@ pub(crate) struct CheckpointHeader {
     pub digest_at_start: String,
 }
 
-/// Writes the checkpoint in place of the one before. All files that it needs must be on the disk.
+/// Writes the checkpoint in place of the one before. The content of all files that it needs must be on the disk.
 pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoint) -> Result<(), Failure> {
     let run = run.to_bytes().map_err(|error| Failure::Message(format!("cannot write a checkpoint: {error}")))?;
-    let line = serde_json::to_vec(header).map_err(std::io::Error::from)?;
+    let line = json::line(header)?;
     outputs.sync()?;
-    outputs.replace(CHECKPOINT, &sealed(&line, &run))?;
+    outputs.replace(CHECKPOINT, &sealed(line.trim_end().as_bytes(), &run))?;
     outputs.sync()
 }
 
@@ -52,7 +54,7 @@ pub(crate) fn read(folder: &Path) -> Result<(CheckpointHeader, Checkpoint), Fail
     let path = folder.join(CHECKPOINT);
     let bytes = match read::whole(&path) {
         Ok(bytes) => bytes,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
             let is_done = folder.join("run.json").exists();
             let why = if is_done { "its run is finished" } else { "there is no checkpoint in it" };
             let accepted = "accepted: the folder of a run with output.checkpoint_every that was stopped";
@@ -72,7 +74,12 @@ fn parse(bytes: &[u8]) -> Result<(CheckpointHeader, Checkpoint), String> {
     if header.tally.steps != run.run.world.step_index() {
         return Err("its line and its run are of different steps".to_owned());
     }
-    Ok((header, run))
+    let built = run.origin.scenario().and_then(|scenario| scenario.build());
+    if built.is_ok_and(|built| built.named == run.run.named) {
+        Ok((header, run))
+    } else {
+        Err("its organisms have other names than those of its scenario".to_owned())
+    }
 }
 
 /// The line and the run of a checkpoint whose checksum is right.
@@ -90,7 +97,18 @@ pub(crate) fn run_of(bytes: &[u8]) -> Option<&[u8]> {
     split(bytes).map(|(_, run)| run)
 }
 
-/// Removes the files of an unfinished run: the checkpoint first, which cannot be resumed without the `others`.
+/// Gives up the run that was stopped in a folder, before another one replaces its tables: a checkpoint that a power cut brings
+/// back would continue the tables of the other run.
+pub(crate) fn give_up(outputs: &Outputs) -> Result<(), Failure> {
+    let path = outputs.folder().join(CHECKPOINT);
+    match output::remove(&path) {
+        Ok(()) => outputs.sync(),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(Failure::file("replace", &path, &error)),
+    }
+}
+
+/// Removes the files that only an unfinished run needs: the checkpoint first, which cannot be resumed without the `others`.
 pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
     for path in std::iter::once(folder.join(CHECKPOINT)).chain(others) {
         // It does no harm where it cannot be removed: `run.json` says that the run is finished.
@@ -101,12 +119,15 @@ pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prepared::prepare;
+    use crate::prepared::{Prepared, apart, prepare};
     use crate::scenario_args::{Changes, ScenarioArgs};
 
     fn bytes_at(steps: u64) -> Vec<u8> {
         let args = ScenarioArgs { scenario: "empty".to_owned(), changes: Changes::default() };
-        let prepared = prepare(&args).ok().unwrap();
+        bytes_of(prepare(&args).ok().unwrap(), steps)
+    }
+
+    fn bytes_of(prepared: Prepared, steps: u64) -> Vec<u8> {
         let header = CheckpointHeader {
             source: "empty".to_owned(),
             steps: 9,
@@ -130,6 +151,14 @@ mod tests {
             bytes[bit / 8] ^= 1 << (bit % 8);
         }
         assert!((0..bytes.len()).all(|end| parse(&bytes[..end]).is_err()));
+    }
+
+    #[test]
+    fn organisms_have_the_names_of_the_scenario() {
+        let mut prepared = apart("");
+        assert!(parse(&bytes_of(apart(""), 0)).is_ok());
+        "a,b".clone_into(&mut prepared.built.named[0].0);
+        assert!(parse(&bytes_of(prepared, 0)).is_err_and(|why| why.contains("other names")));
     }
 
     #[test]

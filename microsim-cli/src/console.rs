@@ -1,6 +1,6 @@
 //! Stdout for results, stderr for notes, errors and progress, and whether to use colour.
 
-use crate::sanitize;
+use crate::{json, sanitize};
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -28,25 +28,25 @@ impl Console {
     /// One line for the user. That stderr is closed is no reason to fail.
     pub(crate) fn note(self, text: &str) {
         if !self.is_quiet {
-            let _ = writeln!(io::stderr(), "{}", sanitize::lines(text));
+            let _ = writeln!(io::stderr(), "{}", sanitize::line(text));
         }
     }
 
     /// One line for `--verbose`.
     pub(crate) fn detail(self, text: impl FnOnce() -> String) {
         if self.is_verbose {
-            let _ = writeln!(io::stderr(), "{}", sanitize::lines(&text()));
+            let _ = writeln!(io::stderr(), "{}", sanitize::line(&text()));
         }
     }
 
-    /// One line or report about what went wrong; also when quiet.
+    /// One line about what went wrong; also when quiet.
     pub(crate) fn complain(self, text: &str) {
-        self.complain_styled(&sanitize::lines(text));
+        let _ = writeln!(io::stderr(), "{}", sanitize::line(text.trim_end()));
     }
 
-    /// The same of a text that is clean and may have colours.
+    /// A report about what went wrong, of several lines and with colours.
     pub(crate) fn complain_styled(self, text: &str) {
-        let _ = writeln!(io::stderr(), "{}", text.trim_end());
+        let _ = writeln!(io::stderr(), "{}", sanitize::coloured(text.trim_end()));
     }
 
     /// A bar on stderr, hidden unless that is a terminal.
@@ -71,7 +71,5 @@ pub(crate) fn print(content: impl AsRef<[u8]>) -> io::Result<()> {
 
 /// Writes a value to stdout as one line of JSON.
 pub(crate) fn print_json(value: &impl Serialize) -> io::Result<()> {
-    let mut line = serde_json::to_vec(value)?;
-    line.push(b'\n');
-    print(&line)
+    print(json::line(value)?)
 }

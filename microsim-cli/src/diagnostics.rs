@@ -27,7 +27,7 @@ pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured:
     let shown = problems.iter().map(|problem| renderer.render(&[group(source, problem)]));
     let mut text = shown.collect::<Vec<_>>().join("\n\n");
     for more in problems.left_out() {
-        text.push_str(&format!("\n\n{more}"));
+        text.push_str(&format!("\n\n{}", sanitize::line(&more.to_string())));
     }
     let count = problems.len() + problems.left_out().iter().map(|more| more.count).sum::<usize>();
     let plural = if count == 1 { "" } else { "s" };

@@ -3,7 +3,6 @@
 use crate::console::Console;
 use crate::diagnostics::{self, ScenarioText};
 use crate::interrupt;
-use crate::sanitize;
 use microsim_core::scenario::Diagnostics;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -12,8 +11,10 @@ use std::process::ExitCode;
 /// A reason to stop without success.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// An error message.
+    /// An error message of one line.
     Message(String),
+    /// The same, and lines of advice.
+    Advised(String, Vec<String>),
     /// The scenario is refused.
     Scenario(ScenarioText, Diagnostics),
     /// The scenario is refused; its problems are on stdout.
@@ -33,8 +34,7 @@ pub(crate) enum Failure {
 impl Failure {
     /// A file or folder that cannot be read or written.
     pub(crate) fn file(verb: &str, path: &Path, error: &std::io::Error) -> Self {
-        let path = path.display().to_string();
-        Self::Message(format!("cannot {verb} {}: {error}{}", sanitize::line(&path), remedy(error.kind())))
+        Self::Message(format!("cannot {verb} {}: {error}{}", path.display(), remedy(error.kind())))
     }
 
     /// Tells the user, and says which code to exit with.
@@ -42,11 +42,15 @@ impl Failure {
         let code = match self {
             Self::PipeClosed => ExitCode::SUCCESS,
             Self::Broken(_) | Self::Negative => ExitCode::from(1),
-            Self::Message(_) | Self::Scenario(..) | Self::Reported => ExitCode::from(2),
+            Self::Message(_) | Self::Advised(..) | Self::Scenario(..) | Self::Reported => ExitCode::from(2),
             Self::Interrupted | Self::Stopped(_) => ExitCode::from(interrupt::exit_code()),
         };
         match self {
             Self::Message(text) => console.complain(&format!("error: {text}")),
+            Self::Advised(text, advice) => {
+                console.complain(&format!("error: {text}"));
+                advice.iter().for_each(|line| console.complain(line));
+            }
             Self::Scenario(source, problems) => {
                 console.complain_styled(&diagnostics::render(&source, &problems, console.is_coloured));
             }

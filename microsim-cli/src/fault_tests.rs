@@ -1,7 +1,8 @@
 //! Every call that changes a file fails once, in each way: afterwards the old state or the new one is whole.
 //!
 //! The method is SQLite's (<https://www.sqlite.org/testing.html>, I/O error and crash testing): the work is repeated with the
-//! next call failing until none is left, and a power cut loses what was written since the last sync.
+//! next call failing until none is left, and a power cut loses what was written since the last sync: of a file its content, of a
+//! folder its names.
 //! `cargo test -p microsim-cli --lib fault_tests -- --nocapture` prints how many calls failed.
 
 use crate::args::Args;
@@ -23,13 +24,14 @@ use std::io::ErrorKind;
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-const FAULTS: [Fault; 5] = [
+const FAULTS: [Fault; 6] = [
     // EIO has no kind of its own.
     Fault::Once(ErrorKind::Other),
     Fault::Once(ErrorKind::StorageFull),
     Fault::Once(ErrorKind::Interrupted),
     Fault::Crash,
     Fault::PowerCut,
+    Fault::LostNames,
 ];
 
 const SCENARIO: &str = r#"
@@ -94,7 +96,12 @@ fn prepared(seed: u64, set: Vec<(String, String)>) -> Prepared {
 }
 
 fn run(folder: &Path, has_pictures: bool, steps: u64) -> Result<(), Failure> {
-    let prepared = prepared(0, vec![("output.pictures".to_owned(), has_pictures.to_string())]);
+    run_with(folder, steps, "output.pictures", &has_pictures.to_string())
+}
+
+fn run_with(folder: &Path, steps: u64, key: &str, value: &str) -> Result<(), Failure> {
+    let set = [("output.pictures", "false"), (key, value)].map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let prepared = prepared(0, set.into());
     let record = RecordArgs { record: None, digest_every: NonZeroU32::MIN, save: None };
     let outputs = Outputs::open(folder, true)?;
     Session::start(prepared, steps, Some(&outputs), false, &record)?.complete(&quiet()).map(drop)
@@ -178,7 +185,20 @@ fn a_run_survives_every_fault() {
 
 #[test]
 fn pictures_survive_every_power_cut() {
-    a_run_survives("pictures", &[Fault::PowerCut], true, 2);
+    a_run_survives("pictures", &[Fault::PowerCut, Fault::LostNames], true, 2);
+}
+
+#[test]
+fn a_finished_run_is_on_the_disk() {
+    let scratch = Scratch::new("finished");
+    let folder = scratch.cleared("run");
+    fault::with(None, || run(&folder, true, 5)).0.ok().unwrap();
+    let finished = results(&folder);
+    fault::cut_power(Fault::LostNames);
+    let mut left = results(&folder);
+    // The removal of the checkpoint is taken back too, which does no harm.
+    left.remove(Path::new(CHECKPOINT));
+    assert!(left == finished);
 }
 
 #[test]
@@ -204,6 +224,31 @@ fn a_stopped_run_survives_every_fault_of_its_resumption() {
             assert!(results(&folder) == reference, "{what}");
         });
     }
+}
+
+#[test]
+fn a_stopped_run_or_the_one_in_its_place_survives_every_fault() {
+    let scratch = Scratch::new("forced");
+    let (old, new) = (scratch.cleared("old"), scratch.cleared("new"));
+    let wider = |folder: &Path| run_with(folder, 5, "platelet.stone.radius", "3.0");
+    let (_, calls) = fault::with(None, || wider(&old));
+    run(&new, false, 5).ok().unwrap();
+    let (old, new) = (results(&old), results(&new));
+    assert!(old != new);
+    let stopped = scratch.cleared("stopped");
+    let _ = fault::with(Some((calls / 2, Fault::Crash)), || wider(&stopped));
+    assert!(stopped.join(CHECKPOINT).exists());
+    let work = || {
+        let folder = scratch.cleared("run");
+        copy(&stopped, &folder);
+        run(&folder, false, 5)
+    };
+    try_all(&FAULTS, work, |what| {
+        let folder = scratch.0.join("run");
+        complete(&folder, false, 5);
+        let left = results(&folder);
+        assert!(left == old || left == new, "{what}");
+    });
 }
 
 /// Does what a command line says.

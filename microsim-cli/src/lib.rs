@@ -16,6 +16,7 @@ mod fault_tests;
 #[doc(hidden)]
 pub mod hostile;
 mod interrupt;
+mod json;
 mod output;
 mod prepared;
 mod read;

@@ -101,10 +101,11 @@ fn not_text(origin: &str, error: &std::string::FromUtf8Error) -> Failure {
 fn unknown(name: &str) -> Failure {
     let names: Vec<&str> = builtins().iter().map(|known| known.name).collect();
     let hint = nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
-    Failure::Message(format!(
-        "there is no scenario {name:?}{hint}\nbuilt-in scenarios: {}\na file needs a name that ends in .toml or contains a separator",
-        names.join(", ")
-    ))
+    let advice = [
+        format!("built-in scenarios: {}", names.join(", ")),
+        "a file needs a name that ends in .toml or contains a separator".to_owned(),
+    ];
+    Failure::Advised(format!("there is no scenario {name:?}{hint}"), advice.into())
 }
 
 /// The name that was probably meant.

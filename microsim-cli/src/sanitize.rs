@@ -7,9 +7,23 @@ pub(crate) fn line(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c.is_control() || is_invisible(c))
 }
 
-/// Text of several lines.
-pub(crate) fn lines(text: &str) -> Cow<'_, str> {
-    escaped(text, |c| c != '\n' && c.is_control() || is_invisible(c))
+/// Several lines with colours, in which nothing else has an escape character.
+pub(crate) fn coloured(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| !matches!(c, '\n' | '\u{1b}') && c.is_control() || is_invisible(c))
+}
+
+/// JSON that means the same: only its strings have such characters.
+pub(crate) fn json(text: &str) -> String {
+    let is_harmful = |c: char| c != '\n' && c.is_control() || is_invisible(c);
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_harmful(c) {
+            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| safe += &format!("\\u{unit:04x}"));
+        } else {
+            safe.push(c);
+        }
+    }
+    safe
 }
 
 /// A cell of a table: text that a spreadsheet would take for a formula begins with an apostrophe.
@@ -34,12 +48,12 @@ fn is_invisible(c: char) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{cell, line, lines};
+    use super::{cell, coloured, line};
 
     #[test]
     fn nothing_controls_a_terminal() {
         assert_eq!(line("a\u{1b}[2Jb\nok\u{202e}\u{9b}"), "a\\u{1b}[2Jb\\u{a}ok\\u{202e}\\u{9b}");
-        assert_eq!(lines("a\n\rµ\u{2028}"), "a\n\\u{d}µ\\u{2028}");
+        assert_eq!(coloured("\u{1b}[1ma\n\rµ\u{2028}"), "\u{1b}[1ma\n\\u{d}µ\\u{2028}");
         let harmful = "\u{7f}\u{85}\u{90}\u{9d}\u{ad}\u{61c}\u{200b}\u{200d}\u{200f}\u{2029}\u{2060}\u{2069}\u{feff}\u{fffa}\u{e0041}";
         assert!(harmful.chars().all(|c| line(&c.to_string()) == c.escape_unicode().to_string()));
         assert!(["naïve", "日本", "µm², Ω"].iter().all(|text| line(text) == *text));

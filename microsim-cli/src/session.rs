@@ -8,7 +8,6 @@ use crate::interrupt;
 use crate::output::{FileProgress, Outputs, RunWriter, write_description};
 use crate::prepared::Prepared;
 use crate::record_args::{RecordArgs, ReplayWriter};
-use crate::sanitize;
 use crate::summary::RunReport;
 use crate::tally::Tally;
 use microsim_core::World;
@@ -38,8 +37,7 @@ impl<'o> Session<'o> {
         record: &'o RecordArgs,
     ) -> Result<Self, Failure> {
         if let Some(outputs) = outputs {
-            // The tables of a run that was stopped here are about to be replaced.
-            checkpoint::remove(outputs.folder(), Vec::new());
+            checkpoint::give_up(outputs)?;
         }
         let start = |outputs| RunWriter::start(outputs, prepared.scenario.output(), &prepared.built, steps);
         let writer = outputs.map(start).transpose()?;
@@ -189,7 +187,6 @@ fn verdict(report: &RunReport, name: &str) -> Result<(), Failure> {
     if report.failures.is_empty() {
         return Ok(());
     }
-    let name = sanitize::line(name);
     let line = |failure: &String| format!("{name} with seed {}: {failure}", report.seed);
     Err(Failure::Broken(report.failures.iter().map(line).collect()))
 }

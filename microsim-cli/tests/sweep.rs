@@ -142,11 +142,15 @@ fn a_hyperqueue_cluster_comes_to_the_same_although_it_is_killed_in_the_middle() 
         return;
     }
     let trial = Trial::new("hyperqueue");
+    // The first task breaks an invariant; all others are run nevertheless.
+    let broken = success(&["sweep", "plan", "empty", "--steps", "3", "--set", "invariants.bodies=[5, 9]"]);
+    let tasks = [broken.stdout, fs::read(&trial.plan).unwrap()].concat();
+    let plan = trial.folder.file("with-broken.jsonl", &tasks);
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/common/hyperqueue_sweep.py");
     let store = trial.folder.path("cluster");
     let cluster = || {
         let mut command = Command::new(python());
-        command.arg(&script).args([env!("CARGO_BIN_EXE_microsim"), &trial.plan, &store]).arg(trial.folder.path("hq"));
+        command.arg(&script).args([env!("CARGO_BIN_EXE_microsim"), &plan, &store]).arg(trial.folder.path("hq"));
         // Every task leaves its output where the cluster was started.
         command.stdout(Stdio::null()).stderr(Stdio::null()).current_dir(trial.folder.root());
         command
@@ -161,6 +165,7 @@ fn a_hyperqueue_cluster_comes_to_the_same_although_it_is_killed_in_the_middle() 
     let done = trial.done("cluster");
     assert!((10..TASKS).contains(&done), "{done} done when the cluster was killed");
     assert!(cluster().status().unwrap().success());
+    assert_eq!(trial.done("cluster"), TASKS + 1);
     assert!(trial.merge("cluster") == trial.reference);
 }
 

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Folder, refused, run, stderr, stdout, success};
+use common::{Folder, read_json, refused, run, stderr, stdout, success};
+use std::fs;
 
 /// A name that clears the screen, forges a line and turns the direction of writing.
 const NAME: &str = r"x\u001B[2J\nok: forged\u202E\u009B";
@@ -49,6 +50,77 @@ fn a_refusal_is_printed_without_what_controls_a_terminal() {
 }
 
 #[test]
+fn json_has_no_character_that_controls_a_terminal() {
+    let folder = Folder::new("terminal-json");
+    let name = "x\u{9b}2J\u{202e}";
+    let text = r#"schema = 1
+        name = "x\u009B2J\u202E"
+        duration = 0.05
+        [world]
+        size = [80.0, 60.0]
+    "#;
+    let scenario = folder.file("name.toml", text.as_bytes());
+    let [out, replay, store, table] = ["out", "a.replay", "store", "table.jsonl"].map(|name| folder.path(name));
+    let is_clean = |text: &str| assert!(text.contains(r"x\u009b2J\u202e") && !text.contains(HARMFUL), "{text:?}");
+    let told = |arguments: &[&str]| stdout(&success(arguments));
+    is_clean(&told(&["run", &scenario, "--out", &out, "--record", &replay, "--json"]));
+    is_clean(&told(&["check", &scenario, "--format", "json"]));
+    is_clean(&told(&["replay", &replay, "--json"]));
+    let plan = told(&["sweep", "plan", &scenario]);
+    is_clean(&plan);
+    let plan = folder.file("plan.jsonl", plan.as_bytes());
+    success(&["sweep", "run", &plan, "--store", &store]);
+    success(&["sweep", "merge", &plan, "--store", &store, "-o", &table]);
+    is_clean(&fs::read_to_string(table).unwrap());
+    fs::read_dir(store).unwrap().for_each(|file| is_clean(&fs::read_to_string(file.unwrap().path()).unwrap()));
+    is_clean(&fs::read_to_string(format!("{out}/run.json")).unwrap());
+    assert_eq!(read_json(format!("{out}/run.json"))["scenario"], name);
+    let wrong = folder.file("wrong.toml", text.replace("duration", "\"x\\u009B2J\\u202E\"").as_bytes());
+    let refused = run(&["check", &wrong, "--format", "json"]);
+    assert_eq!(refused.status.code(), Some(2));
+    is_clean(&stdout(&refused));
+}
+
+#[test]
+fn a_line_of_a_scenario_is_shown_without_what_controls_a_terminal() {
+    let folder = Folder::new("terminal-source");
+    let text = "schema = 1\n[world]\nsize = \"a\u{9b}2J\u{1b}[2J\u{202e}\u{200b}\"\n";
+    let scenario = folder.file("a.toml", text.as_bytes());
+    for colour in ["never", "always"] {
+        let said = stderr(&refused(&["check", &scenario, "--color", colour], "size = "));
+        assert!(!said.contains(['\u{9b}', '\u{202e}', '\u{200b}']) && !said.contains("\u{1b}[2J"), "{said:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_of_a_file_forges_no_line() {
+    let folder = Folder::new("forged");
+    fs::create_dir(folder.path("d\nok: forged")).unwrap();
+    let here = folder.path("d\nok: forged");
+    let file = folder.file("d\nok: forged/n.toml", b"no scenario");
+    let view = "follow:a\nok: forged";
+    for arguments in [
+        &["inspect", &file][..],
+        &["replay", &file],
+        &["resume", &here],
+        &["check", &here],
+        &["run", "empty", "--out", &file],
+        &["run", "empty", "--record", &here],
+        &["sweep", "run", &file, "--store", &folder.path("store")],
+        &["sweep", "merge", &file, "--store", &here, "-o", &file],
+        &["report", &here, "-o", &folder.path("a.html")],
+        &["render", "empty", "-o", &file],
+        &["render", "empty", "-o", &folder.path("a.png"), "--view", view],
+    ] {
+        let said = stderr(&refused(arguments, "forged"));
+        assert!(!said.lines().any(|line| line.starts_with("ok: forged")), "{arguments:?}: {said}");
+    }
+    let said = stderr(&success(&["render", "empty", "--size", "16x16", "-o", &format!("{here}/a.png")]));
+    assert!(said.contains("forged") && said.lines().count() == 1, "{said}");
+}
+
+#[test]
 fn an_argument_is_quoted_without_what_controls_a_terminal() {
     // Sequences of one byte (C1) and of two, the clipboard (OSC 52), a forged line, a name that runs backwards.
     let name = "a\u{9d}0;t\u{9c}\u{1b}]52;c;eA==\u{7}\r\nok: forged\u{2067}b\u{200b}";
@@ -82,6 +154,6 @@ fn no_cell_of_a_merged_table_is_a_formula() {
     let (plan, store, table) = (folder.file("p.jsonl", &plan.stdout), folder.path("s"), folder.path("t.csv"));
     success(&["sweep", "run", &plan, "--store", &store]);
     success(&["sweep", "merge", &plan, "--store", &store, "-o", &table]);
-    let text = std::fs::read_to_string(&table).unwrap();
+    let text = fs::read_to_string(&table).unwrap();
     assert!(text.contains(",'=cmd,") && !text.contains(",=cmd"), "{text}");
 }

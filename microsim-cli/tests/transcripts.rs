@@ -105,14 +105,21 @@ fn examples(help: &str) -> Vec<String> {
         .collect()
 }
 
+/// All verbs, and none for the program: each has a manual page.
+fn verbs(folder: &Folder) -> Vec<String> {
+    common::success(&["man", "--out", &folder.path("man")]);
+    let names = fs::read_dir(folder.path("man")).unwrap().map(|page| page.unwrap().file_name().into_string().unwrap());
+    names.map(|name| name.trim_start_matches("microsim").trim_end_matches(".1").replace('-', " ")).collect()
+}
+
 #[test]
 fn every_example_in_a_help_can_be_run() {
     let folder = Folder::new("examples");
     let setup = "export HOME=$PWD SLURM_ARRAY_TASK_ID=1\nmkdir -p .config/fish/completions \
         .local/share/bash-completion/completions\nmicrosim sweep plan empty --steps 1 --seeds 0..9 > plan.jsonl 2> /dev/null\n\
-        microsim sweep run plan.jsonl --store results 2> /dev/null\n";
+        microsim sweep run plan.jsonl --store results 2> /dev/null\ncommand -v man > /dev/null || man() { cat; }\n";
     let mut count = 0;
-    for verb in ["sweep plan", "sweep run", "report", "completions"] {
+    for verb in verbs(&folder) {
         let help = transcript(&format!("microsim {verb} --help"), folder.root());
         // `fpath` is of another shell.
         for example in examples(&help).iter().filter(|example| !example.contains("fpath")) {
@@ -122,7 +129,7 @@ fn every_example_in_a_help_can_be_run() {
             count += 1;
         }
     }
-    assert_eq!(count, 7, "as many as there are");
+    assert_eq!(count, 8, "as many as there are");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::folder::{Outputs, sha256};
 use crate::failure::Failure;
+use crate::json;
 use crate::prepared::Prepared;
 use crate::summary::RunReport;
 use serde::Serialize;
@@ -42,7 +43,5 @@ pub(crate) fn write_description(
         effective_scenario: prepared.scenario.effective(),
         files: outputs.written(sha256)?.into_iter().collect(),
     };
-    let mut text = serde_json::to_string_pretty(&description).map_err(std::io::Error::from)?;
-    text.push('\n');
-    outputs.write("run.json", text.as_bytes())
+    outputs.write("run.json", json::pretty(&description)?.as_bytes())
 }

@@ -2,6 +2,7 @@
 
 use super::pending::PendingFile;
 use crate::failure::Failure;
+use crate::json;
 use crate::summary::{handle, rounded};
 use microsim_core::World;
 use serde::Serialize;
@@ -26,8 +27,7 @@ impl Events {
             let (step, time, kind) = (world.step_index(), rounded(world.time()), event.name());
             let organisms = event.organisms().into_iter().flatten().map(handle).collect();
             let line = Line { step, time, kind, organisms };
-            let written = serde_json::to_writer(&mut self.0, &line).map_err(std::io::Error::from);
-            let written = written.and_then(|()| self.0.write_all(b"\n"));
+            let written = json::line(&line).and_then(|line| self.0.write_all(line.as_bytes()));
             written.map_err(|error| Failure::file("write", &self.0.path, &error))?;
         }
         Ok(())

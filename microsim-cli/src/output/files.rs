@@ -25,6 +25,8 @@ impl Written {
 
     /// A new, empty file, in place of any that has its name. A link of that name is replaced, not followed.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
+        #[cfg(test)]
+        super::fault::renames(&[path]);
         let made = attempt(|| match File::create_new(path) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                 fs::remove_file(path).and_then(|()| File::create_new(path))
@@ -105,21 +107,34 @@ impl Write for Written {
     }
 }
 
+/// Creates a folder where it is missing, and those above it. Their names are on the disk then.
 pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
-    attempt(|| fs::create_dir_all(path))
+    let missing: Vec<&Path> = path.ancestors().take_while(|folder| !folder.exists()).collect();
+    #[cfg(test)]
+    super::fault::renames(&missing);
+    attempt(|| fs::create_dir_all(path))?;
+    missing.iter().filter_map(|folder| folder.parent()).try_for_each(sync_folder)
 }
 
 /// Gives a file another name, in place of any file that has it.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    super::fault::renames(&[from, to]);
     attempt(|| fs::rename(from, to))
 }
 
 /// Waits until the names in a folder are on the disk. Only Unix opens folders.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
-    if cfg!(unix) { attempt(|| File::open(path)?.sync_all()) } else { Ok(()) }
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    attempt(|| if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) })?;
+    #[cfg(test)]
+    super::fault::synced(path);
+    Ok(())
 }
 
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    super::fault::renames(&[path]);
     attempt(|| fs::remove_file(path))
 }
 

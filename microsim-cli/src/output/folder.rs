@@ -5,6 +5,7 @@ use super::pending::PendingFile;
 use crate::failure::Failure;
 use crate::read;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -129,9 +130,13 @@ impl Outputs {
         if last == *b"\n" { Ok(()) } else { Err(refuse("has no end of a row where its checkpoint says")) }
     }
 
-    /// Waits until the names of all files are on the disk.
+    /// Waits until the names of all files are on the disk, in the folder and in those in it.
     pub(crate) fn sync(&self) -> Result<(), Failure> {
-        files::sync_folder(&self.folder).map_err(|error| Failure::file("write to", &self.folder, &error))
+        let paths: Vec<PathBuf> = self.names().iter().map(|name| self.folder.join(name)).collect();
+        let mut folders: BTreeSet<&Path> = paths.iter().filter_map(|path| path.parent()).collect();
+        folders.insert(&self.folder);
+        let sync = |folder| files::sync_folder(folder).map_err(|error| Failure::file("write to", folder, &error));
+        folders.into_iter().try_for_each(sync)
     }
 
     fn names(&self) -> MutexGuard<'_, Vec<String>> {

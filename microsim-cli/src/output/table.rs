@@ -3,7 +3,7 @@
 use super::folder::Outputs;
 use super::pending::PendingFile;
 use crate::failure::Failure;
-use crate::sanitize;
+use crate::{json, sanitize};
 use microsim_core::scenario::TableFormat;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
@@ -121,9 +121,17 @@ fn write_csv(file: &mut PendingFile, cells: &[Cell<'_>]) -> io::Result<()> {
     file.write_all(b"\n")
 }
 
+/// The cells of a row under the names of its columns.
+struct Row<'a>(&'a [&'a str], &'a [Cell<'a>]);
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().zip(self.1))
+    }
+}
+
 fn write_line(file: &mut PendingFile, columns: &[&str], cells: &[Cell<'_>]) -> io::Result<()> {
-    serde_json::Serializer::new(&mut *file).collect_map(columns.iter().zip(cells))?;
-    file.write_all(b"\n")
+    file.write_all(json::line(&Row(columns, cells))?.as_bytes())
 }
 
 #[cfg(feature = "parquet")]

@@ -4,8 +4,8 @@ use crate::console::print;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::prepared::{Prepared, prepare};
-use crate::sanitize;
 use crate::scenario_args::ScenarioArgs;
+use crate::{json, sanitize};
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
 use microsim_core::{Census, World};
@@ -34,9 +34,9 @@ pub(crate) enum AnswerFormat {
 pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     match (prepare(&args.scenario), args.format) {
         (Ok(prepared), AnswerFormat::Text) => print_summary(&prepared),
-        (Ok(prepared), AnswerFormat::Json) => print_json(&Answer::sound(&prepared)),
+        (Ok(prepared), AnswerFormat::Json) => Ok(print(json::pretty(&Answer::sound(&prepared))?)?),
         (Err(Failure::Scenario(source, problems)), AnswerFormat::Json) => {
-            print_json(&Answer::refused(&source, &problems))?;
+            print(json::pretty(&Answer::refused(&source, &problems))?)?;
             Err(Failure::Reported)
         }
         (Err(failure), _) => Err(failure),
@@ -68,11 +68,6 @@ fn notes(world: &World) -> Vec<String> {
         (thickness < safe).then(note)
     });
     thin.collect()
-}
-
-fn print_json(answer: &Answer<'_>) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(answer).map_err(std::io::Error::from)?;
-    Ok(print(text + "\n")?)
 }
 
 /// The JSON of `--format json`.

@@ -59,7 +59,7 @@ pub(crate) fn diff(args: &DiffArgs, console: &Console) -> Result<(), Failure> {
         return told;
     }
     // Where they differ, that is the answer; the damage may be why.
-    let text = damage.join("\n");
+    let text = damage.join("; ");
     told.inspect_err(|_| console.complain(&format!("error: {text}")))?;
     Err(Failure::Message(text))
 }

@@ -21,5 +21,5 @@ with LocalCluster() as cluster:
         task = tempfile.NamedTemporaryFile("w", dir=folder, suffix=".jsonl", delete=False)
         task.write(line)
         task.close()
-        job.program([microsim, "run", "--task", task.name, "--store", store])
+        job.program([microsim, "run", "--task", task.name, "--store", store, "--keep-going"])
     client.wait_for_jobs([client.submit(job)])

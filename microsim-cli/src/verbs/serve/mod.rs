@@ -101,7 +101,7 @@ fn announce(scheme: &str, at: SocketAddr, console: &Console) -> Result<(), Failu
     if let Ok(picture) = QrCode::new(&address) {
         // Terminals are dark: what is drawn is what is light in the code.
         let picture = picture.render().dark_color(Dense1x2::Light).light_color(Dense1x2::Dark).build();
-        console.note(&picture);
+        picture.lines().for_each(|line| console.note(line));
     }
     console.note(&format!("On this machine: {scheme}://localhost:{}/?room={code}. Ctrl-C ends.", at.port()));
     Ok(())

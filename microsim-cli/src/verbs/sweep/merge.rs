@@ -6,7 +6,7 @@ use super::{MergeArgs, StatusArgs, plan};
 use crate::console::{Console, print};
 use crate::failure::Failure;
 use crate::output::Outputs;
-use crate::sanitize;
+use crate::{json, sanitize};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -33,13 +33,13 @@ pub(super) fn merge(args: &MergeArgs, console: &Console) -> Result<(), Failure> 
     let tasks = plan::read(&args.from.plan)?;
     let (outcomes, missing) = gather(&tasks, &ResultStore::open(&args.from.store)?)?;
     if !missing.is_empty() {
-        let keys: Vec<&str> = missing.iter().map(|task| task.key.as_str()).collect();
-        let what = format!("{} of {} results are missing:\n{}", missing.len(), tasks.len(), keys.join("\n"));
+        let mut told = vec![format!("{} of {} results are missing:", missing.len(), tasks.len())];
+        told.extend(missing.iter().map(|task| task.key.clone()));
         if !args.partial {
-            let hint = "run `microsim sweep run` again, or write the others with --partial";
-            return Err(Failure::Broken(vec![what, hint.to_owned()]));
+            told.push("run `microsim sweep run` again, or write the others with --partial".to_owned());
+            return Err(Failure::Broken(told));
         }
-        console.note(&what);
+        told.iter().for_each(|line| console.note(line));
     }
     let text = if is_csv { csv(&outcomes)? } else { lines(&outcomes)? };
     if args.output == Path::new("-") {
@@ -67,8 +67,7 @@ fn gather<'a>(tasks: &'a [Task], store: &ResultStore) -> Result<(Vec<TaskOutcome
 pub(crate) fn lines(outcomes: &[TaskOutcome]) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
     for outcome in outcomes {
-        serde_json::to_writer(&mut text, outcome).map_err(std::io::Error::from)?;
-        text.push(b'\n');
+        text.extend(json::line(outcome)?.into_bytes());
     }
     Ok(text)
 }

@@ -4,6 +4,7 @@ use super::task::Task;
 use super::{Axis, PlanArgs};
 use crate::console::{Console, print};
 use crate::failure::Failure;
+use crate::json;
 use crate::prepared::{Prepared, load};
 use crate::read as file;
 use crate::scenario_args::Changes;
@@ -31,8 +32,7 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<(), Failure> {
             let prepared = Prepared::new(source.clone(), &Changes { seed, set })?;
             let steps = args.steps.unwrap_or_else(|| prepared.steps_in(args.seconds));
             let varied: BTreeMap<_, _> = combination.iter().cloned().collect();
-            lines += &serde_json::to_string(&Task::new(&prepared, varied, steps)).map_err(io::Error::from)?;
-            lines.push('\n');
+            lines += &json::line(&Task::new(&prepared, varied, steps))?;
             bar.inc(1);
         }
     }

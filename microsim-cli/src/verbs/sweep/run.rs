@@ -6,7 +6,6 @@ use super::{SweepRunArgs, plan};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::sanitize;
 use indicatif::ProgressBar;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -122,9 +121,7 @@ impl Pool<'_> {
         self.note(|done| {
             done.found += usize::from(is_found);
             done.run += usize::from(!is_found);
-            let name = |failure| {
-                format!("{} with seed {} ({}): {failure}", sanitize::line(&task.scenario), task.seed, task.key)
-            };
+            let name = |failure| format!("{} with seed {} ({}): {failure}", task.scenario, task.seed, task.key);
             done.broken.extend(outcome.failures.first().map(name));
         });
         Ok(())

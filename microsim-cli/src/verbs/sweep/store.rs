@@ -2,6 +2,7 @@
 
 use super::task::{Task, TaskOutcome};
 use crate::failure::Failure;
+use crate::json;
 use crate::output::Outputs;
 use crate::read;
 use std::io::ErrorKind;
@@ -36,8 +37,7 @@ impl ResultStore {
 
     /// Keeps the result of a task.
     pub(crate) fn put(&self, outcome: &TaskOutcome) -> Result<(), Failure> {
-        let text = serde_json::to_string(outcome).map_err(std::io::Error::from)?;
-        self.outputs.write(&format!("{}.json", outcome.key), format!("{text}\n").as_bytes())
+        self.outputs.write(&format!("{}.json", outcome.key), json::line(outcome)?.as_bytes())
     }
 }
 

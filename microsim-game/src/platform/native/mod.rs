@@ -86,10 +86,16 @@ pub fn print(text: &str) {
     eprintln!("{}", clean(text));
 }
 
-/// Text without what controls a terminal, for it may have names from files in it.
+/// Text without what controls a terminal, for it may have names from files in it: all lines but the first are indented, so that
+/// no name passes for a line of its own.
 fn clean(text: &str) -> String {
-    let is_plain = |c: char| matches!(c, '\n' | '"' | '\'' | '\\') || c.escape_debug().len() == 1;
-    text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_unicode().to_string() }).collect()
+    let is_plain = |c: char| matches!(c, '"' | '\'' | '\\') || c.escape_debug().len() == 1;
+    let shown = |c: char| match c {
+        '\n' => "\n  ".to_owned(),
+        c if is_plain(c) => c.to_string(),
+        c => c.escape_unicode().to_string(),
+    };
+    text.chars().map(shown).collect()
 }
 
 /// Time since some moment; it never goes back.
@@ -181,7 +187,7 @@ mod tests {
     #[test]
     fn nothing_that_is_said_controls_a_terminal() {
         let said = clean("a\u{1b}]52;c;eA==\u{7}\r\u{9b}2J\u{202e}\u{200b}\nµ \"b\" 'c' \\");
-        let expected = "a\\u{1b}]52;c;eA==\\u{7}\\u{d}\\u{9b}2J\\u{202e}\\u{200b}\nµ \"b\" 'c' \\";
+        let expected = "a\\u{1b}]52;c;eA==\\u{7}\\u{d}\\u{9b}2J\\u{202e}\\u{200b}\n  µ \"b\" 'c' \\";
         assert_eq!(said, expected);
     }
 
