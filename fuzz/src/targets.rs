@@ -50,12 +50,10 @@ pub(crate) fn replay(bytes: &[u8]) {
     }
 }
 
-/// What is accepted can be used: whatever it says, nothing panics.
+/// What is accepted can be used: whatever it says, nothing panics, and what becomes of it can be written and read.
 fn world(accepted: Option<World>) {
     let Some(mut world) = accepted else { return };
-    let bytes = world.to_snapshot().expect("what was read can be written");
-    let again = World::from_snapshot(&bytes).expect("what was written can be read");
-    assert_eq!(again.digest(), world.digest());
+    read_back(&world);
     let handles: Vec<_> = world.organisms().collect();
     let mut inputs = Inputs::new();
     for &organism in &handles {
@@ -63,12 +61,20 @@ fn world(accepted: Option<World>) {
     }
     for _ in 0..STEPS {
         world.step(&inputs);
+        read_back(&world);
     }
     let _ = (world.census(), world.quality(), world.validate(), world.view().organisms().count());
     for organism in handles {
         let _ = (world.divide(organism), world.grow(organism, 1, 1), world.remove(organism));
     }
     world.step(&inputs);
+    read_back(&world);
+}
+
+fn read_back(world: &World) {
+    let bytes = world.to_snapshot().expect("a world can be written");
+    let again = World::from_snapshot(&bytes).expect("what was written can be read");
+    assert_eq!(again.digest(), world.digest());
 }
 
 fn run(accepted: Option<Checkpoint>) {

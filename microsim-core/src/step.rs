@@ -13,7 +13,7 @@ use crate::solver::membrane::{self, Membrane};
 use crate::solver::{
     block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, stretch_damping, untangle,
 };
-use crate::world::{Scratch, World};
+use crate::world::{Scratch, World, count};
 use glam::Vec2;
 
 /// One phase of the step, in their order. Those from `PredictPositions` to `UpdateVelocities` run once per substep.
@@ -141,7 +141,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     conclude(world);
     finished(Phase::Conclude);
     world.changes.end_step();
-    world.step_index += 1;
+    count(&mut world.step_index, 1);
 }
 
 /// Runs a phase on one thread.
@@ -253,7 +253,7 @@ fn project_contacts(world: &mut World) {
     let World { config, particles, obstacles, organisms, guard, scratch, dispatch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;
     let (rings, recorder) = (&mut broad_phase.ring_contacts, &mut scratch.contact_records);
-    guard.wrong_side += u64::from(ring_contact::project(rings, particles, recorder, *dispatch));
+    count(&mut guard.wrong_side, ring_contact::project(rings, particles, recorder, *dispatch));
     for (membrane, ring) in membranes(organisms).filter(|_| config.protects_membranes) {
         membrane.limit_strain(ring, particles);
     }
@@ -289,7 +289,7 @@ fn update_velocities(world: &mut World, h: f32) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
     let rings = &scratch.broad_phase.ring_contacts;
-    guard.wrong_side += u64::from(ring_contact::keep_sides(rings, particles, *dispatch));
+    count(&mut guard.wrong_side, ring_contact::keep_sides(rings, particles, *dispatch));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
 
@@ -308,10 +308,10 @@ fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
     let (mut outline, mut midpoints) = (Vec::new(), untangle::Midpoints::default());
     for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
-        guard.net_fired += u64::from(untangle::untangle(ring.nodes, particles, &mut outline, &mut midpoints));
+        count(&mut guard.net_fired, untangle::untangle(ring.nodes, particles, &mut outline, &mut midpoints));
         let contacts = &scratch.broad_phase.ring_contacts;
         let caught = strays::catch_strays(ring, place, &outline, contacts, particles);
-        guard.net_fired += u64::from(caught);
+        count(&mut guard.net_fired, caught);
     }
 }
 

@@ -110,6 +110,9 @@ fn type_schema(value_type: &ValueType, range: Option<[f64; 2]>) -> Value {
         ValueType::Array(of, Some(length)) => {
             json!({ "type": "array", "items": type_schema(of, range), "minItems": length, "maxItems": length })
         }
+        ValueType::List(of, [least, most]) => {
+            json!({ "type": "array", "items": type_schema(of, range), "minItems": least, "maxItems": most })
+        }
         ValueType::Table(of) => json!({ "type": "object", "additionalProperties": type_schema(of, range) }),
         ValueType::Either(types) => {
             json!({ "anyOf": types.iter().map(|of| type_schema(of, range)).collect::<Vec<_>>() })

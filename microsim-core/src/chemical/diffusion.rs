@@ -2,6 +2,7 @@
 //! next one, so nothing is lost, and no round makes anything negative or a peak higher.
 
 use glam::Vec2;
+use std::ops::Range;
 
 /// Largest share of a cell's content that crosses one of its faces in a round. 1/4 is the limit of stability; with 1/6 a
 /// third of the finest ripple is left after a round.
@@ -15,6 +16,11 @@ pub(super) fn rounds(cell: Vec2, diffusion: f32, dt: f32) -> Result<u32, f32> {
     let each = dt / (SHARE * shorter * shorter);
     let rounds = (diffusion * each).ceil();
     if rounds > MAX_ROUNDS { Err(MAX_ROUNDS / each) } else { Ok((rounds as u32).max(1)) }
+}
+
+/// The cells from one place to another along a side of so many, with one more at each end.
+fn within(first: f32, last: f32, count: usize) -> Range<usize> {
+    (first as usize).saturating_sub(1)..(last as usize).saturating_add(2).min(count)
 }
 
 /// The cells of a room and the faces between them.
@@ -51,22 +57,24 @@ impl DiffusionGrid {
         self.cell.x * self.cell.y
     }
 
-    /// Closes cells whose centre is inside of something, and the faces of which the middle is.
-    pub(super) fn close(&mut self, is_inside: impl Fn(Vec2) -> bool) {
+    /// Closes and empties cells whose centre is inside of something within a box, and closes the faces of which the middle is.
+    pub(super) fn close(&mut self, values: &mut [f32], [low, high]: [Vec2; 2], is_inside: impl Fn(Vec2) -> bool) {
         let [columns, rows] = self.count;
         let corner = |x: f32, y: f32| is_inside(Vec2::new(x, y) * self.cell);
-        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let (first, last) = (low / self.cell, high / self.cell);
+        let (columns_in, rows_in) = (within(first.x, last.x, columns), within(first.y, last.y, rows));
+        for (row, column) in rows_in.flat_map(|row| columns_in.clone().map(move |column| (row, column))) {
             let (x, y, at) = (column as f32, row as f32, row * columns + column);
             let (left, below) = (at + row, at);
-            if corner(x + 0.5, y + 0.5) {
-                self.is_open[at] = false;
+            if self.is_open[at] && corner(x + 0.5, y + 0.5) {
+                (self.is_open[at], values[at]) = (false, 0.0);
                 self.across[left..=left + 1].fill(0.0);
                 (self.upwards[below], self.upwards[below + columns]) = (0.0, 0.0);
             }
-            if corner(x, y + 0.5) {
+            if self.across[left] > 0.0 && corner(x, y + 0.5) {
                 self.across[left] = 0.0;
             }
-            if corner(x + 0.5, y) {
+            if self.upwards[below] > 0.0 && corner(x + 0.5, y) {
                 self.upwards[below] = 0.0;
             }
         }
@@ -118,5 +126,32 @@ impl DiffusionGrid {
         let sum: f32 = cells.iter().map(|(_, share)| share).sum();
         cells.iter_mut().for_each(|(_, share)| *share = if sum > 0.0 { *share / sum } else { 0.0 });
         cells
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    #[test]
+    fn only_cells_near_an_obstacle_are_looked_at_and_the_same_are_closed() {
+        let size = Vec2::new(400.0, 300.0);
+        for at in [[200.0, 150.0], [0.5, 299.0], [-3.0, 7.0], [405.0, 310.0], [-90.0, 20.0]].map(Vec2::from) {
+            let looks = Cell::new(0);
+            let is_inside = |point: Vec2| {
+                looks.set(looks.get() + 1);
+                (point - at).length() < 7.3
+            };
+            let closed = |bounds: [Vec2; 2]| {
+                let (mut grid, mut values) = (DiffusionGrid::new([400, 300], size), vec![1.0; 120_000]);
+                grid.close(&mut values, bounds, is_inside);
+                (grid.is_open, grid.across, grid.upwards, values)
+            };
+            let all = closed([Vec2::ZERO, size]);
+            looks.set(0);
+            assert!(closed([at - 7.3, at + 7.3]) == all, "{at}");
+            assert!(looks.get() < 1000, "{} at {at}", looks.get());
+        }
     }
 }

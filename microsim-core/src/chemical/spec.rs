@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Most cells of one grid.
 const MAX_CELLS: usize = 1_000_000;
+/// Most cells of all grids of a world.
+const MAX_CELLS_TOGETHER: usize = 4_000_000;
 
 /// How a chemical spreads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +45,19 @@ impl ChemicalSpec {
     /// Names the first field out of its range.
     pub fn validate(&self, config: &WorldConfig) -> Result<(), Error> {
         self.plan(config).map(drop)
+    }
+
+    /// Checks every field for a world of these settings in which other chemicals have so many cells; returns its own number of them.
+    ///
+    /// # Errors
+    /// Names the first field out of its range.
+    pub(crate) fn cells_beside(&self, others: usize, config: &WorldConfig) -> Result<usize, Error> {
+        let ([columns, rows], _) = self.plan(config)?;
+        let left = MAX_CELLS_TOGETHER.saturating_sub(others);
+        let accepted =
+            || format!("so large that {left} cells fill the room: {MAX_CELLS_TOGETHER} for all chemicals together");
+        let fits = columns * rows <= left;
+        fits.then_some(columns * rows).ok_or_else(|| out_of_range("spacing", self.spacing.into(), accepted()))
     }
 
     /// Columns and rows of its grid, and the rounds of diffusion that a step takes.
@@ -82,6 +97,15 @@ mod tests {
         let fine = ChemicalSpec { spacing: 0.1, ..spec() };
         assert_eq!(fine.validate(&room(2e4, 2e4)).unwrap_err().field(), "spacing");
         refuse(ChemicalSpec { initial: f32::INFINITY, ..spec() }, "initial");
+    }
+
+    #[test]
+    fn chemicals_share_a_number_of_cells() {
+        let spec = ChemicalSpec { spacing: 1.0, ..ChemicalSpec::default() };
+        assert_eq!(spec.cells_beside(3_000_000, &room(1000.0, 1000.0)), Ok(1_000_000));
+        let refused = spec.cells_beside(3_000_001, &room(1000.0, 1000.0)).unwrap_err();
+        assert!(refused.to_string().contains("`spacing` is 1, accepted: so large that 999999 cells"), "{refused}");
+        assert!(spec.cells_beside(usize::MAX, &room(1.0, 1.0)).is_err());
     }
 
     fn room(width: f32, height: f32) -> WorldConfig {

@@ -24,6 +24,13 @@ const STRETCH_DAMPING: f32 = 450.0;
 /// circle around the content has a rim besides: links of a smaller cell are longer.
 const LONGEST_AT_REST: f32 = 1.1;
 
+/// Largest area, length, time or count in the state of an organism.
+pub(crate) const MOST: f32 = 1e9;
+/// Most nodes that a membrane is on its way to.
+pub(crate) const MOST_WANTED_NODES: u32 = (1 << 30) - 1;
+/// Largest speed that an organism is capable of, units/s.
+pub(crate) const MAX_SPEED: f32 = 1000.0;
+
 /// A ring of membrane around prey inside a cell. Its nodes belong to the cell.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Phagosome {
@@ -210,7 +217,7 @@ impl Organism {
     /// Takes nodes that it was given for more than its content asks for.
     pub(crate) fn add_wanted_nodes(&mut self, added: u32, fluids: &[Fluid]) {
         let Some(divider) = self.divider.as_mut().filter(|divider| divider.nodes_per_root.is_some()) else { return };
-        divider.wanted_nodes = divider.wanted_nodes.map(|wanted| wanted + added);
+        divider.wanted_nodes = divider.wanted_nodes.map(|wanted| (wanted + added).min(MOST_WANTED_NODES));
         let nodes = divider.wanted_nodes.unwrap_or(self.outline.len() as u32);
         self.set_nodes_per_root((nodes as f32 / self.unfolding()) as u32, fluids);
     }
@@ -218,7 +225,7 @@ impl Organism {
     fn set_nodes_per_root(&mut self, nodes: u32, fluids: &[Fluid]) {
         let nodes_per_root = nodes as f32 / self.content(fluids).sqrt();
         if let Some(divider) = &mut self.divider {
-            divider.nodes_per_root = Some(nodes_per_root);
+            divider.nodes_per_root = Some(at_most(nodes_per_root));
         }
     }
 
@@ -240,7 +247,7 @@ impl Organism {
     pub(crate) fn update_wanted_nodes(&mut self, fluids: &[Fluid]) {
         let root = self.content(fluids).sqrt() * self.unfolding();
         if let Some(divider) = &mut self.divider {
-            divider.wanted_nodes = divider.nodes_per_root.map(|per_root| (per_root * root + 0.5) as u32);
+            divider.wanted_nodes = divider.nodes_per_root.map(|per_root| wanted(per_root * root));
         }
     }
 
@@ -274,4 +281,14 @@ impl Organism {
         let in_lane = (0..self.slots).map(|slot| self.body.particle(slot));
         in_lane.chain(loose.iter().copied()).chain(self.fluid_particles.iter().copied())
     }
+}
+
+/// What is kept of a number that grows: at most [`MOST`].
+pub(crate) fn at_most(value: f32) -> f32 {
+    if value < MOST { value } else { MOST }
+}
+
+/// So many nodes, rounded.
+fn wanted(nodes: f32) -> u32 {
+    ((nodes + 0.5) as u32).min(MOST_WANTED_NODES)
 }

@@ -20,9 +20,9 @@ pub(crate) mod table;
 
 pub(crate) use amoeboid_cell::MAX_NODES;
 pub(crate) use blueprint::{Blueprint, FluidPlan};
-pub(crate) use living::{Organism, Phagosome};
+pub(crate) use living::{MAX_SPEED, MOST, MOST_WANTED_NODES, Organism, Phagosome, at_most};
 pub use placement::Placement;
-pub(crate) use placement::TOUCHING;
+pub(crate) use placement::{FARTHEST, TOUCHING};
 pub use spec::SpecTable;
 pub(crate) use storage::Storage;
 

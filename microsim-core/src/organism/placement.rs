@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 /// Overlap of two discs that always is allowed, as a share of the sum of their radii: neighbours may touch.
 pub(crate) const TOUCHING: f32 = 0.02;
 
+/// Farthest that a coordinate of a centre is from the room's lower left corner, units.
+pub(crate) const FARTHEST: f32 = 1e5;
+
 /// Where and how an organism is put into the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
@@ -74,8 +77,8 @@ impl Placement {
     }
 
     pub(crate) fn validate(&self) -> Result<(), Error> {
-        in_range("at.x", self.at.x, -1e5, 1e5)?;
-        in_range("at.y", self.at.y, -1e5, 1e5)?;
+        in_range("at.x", self.at.x, -FARTHEST, FARTHEST)?;
+        in_range("at.y", self.at.y, -FARTHEST, FARTHEST)?;
         in_range("angle", self.angle, -1000.0, 1000.0)?;
         in_range("scale", self.scale, 0.01, 100.0)?;
         in_range("overlap", self.overlap, 0.0, 0.5)?;

@@ -69,7 +69,7 @@ impl Scenario {
         let context = ReadContext::new(&self.document);
         let world = World::new(self.file.config.clone());
         let mut built = Built {
-            world: world.map_err(|error| context.diagnostic("world", &error))?,
+            world: world.map_err(|error| context.refusal("world", &error))?,
             player: None,
             named: Vec::new(),
             chemicals: Vec::new(),

@@ -25,6 +25,14 @@ pub struct Diagnostic {
     pub column: Option<usize>,
 }
 
+impl Diagnostic {
+    /// Finds line and column of its span.
+    fn place(&mut self, places: &mut Places<'_>) {
+        let place = self.span.as_ref().map(|span| places.at(span.start));
+        (self.line, self.column) = (place.map(|(line, _)| line), place.map(|(_, column)| column));
+    }
+}
+
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let (Some(line), Some(column)) = (self.line, self.column) {
@@ -88,6 +96,14 @@ impl Diagnostics {
     }
 }
 
+impl Diagnostics {
+    /// The only one, placed in the text.
+    pub(super) fn only(mut diagnostic: Diagnostic, text: &str) -> Self {
+        diagnostic.place(&mut Places::of(text));
+        diagnostic.into()
+    }
+}
+
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Self {
         Self { listed: vec![diagnostic], left_out: Vec::new() }
@@ -112,7 +128,7 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// What has been found to be wrong so far.
+/// What has been found to be wrong so far; lines and columns are found at the end, of what is listed.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     listed: Vec<Diagnostic>,
@@ -131,13 +147,16 @@ impl Findings {
 
     /// The same; the message says the kind.
     pub(super) fn add_diagnostic(&mut self, diagnostic: Diagnostic) {
-        self.add(&kind_of(&diagnostic.message), diagnostic.to_string(), || diagnostic);
+        let start = diagnostic.span.as_ref().map(|span| span.start);
+        self.add(&kind_of(&diagnostic.message), format!("{start:?} {diagnostic}"), || diagnostic);
     }
 
-    /// An error unless nothing was found.
-    pub(super) fn check(self) -> Result<(), Diagnostics> {
+    /// An error unless nothing was found in this text.
+    pub(super) fn check(self, text: &str) -> Result<(), Diagnostics> {
         let Self { mut listed, kinds } = self;
         listed.sort_by_key(|diagnostic| (diagnostic.span.is_none(), diagnostic.span.as_ref().map(|span| span.start)));
+        let mut places = Places::of(text);
+        listed.iter_mut().for_each(|diagnostic| diagnostic.place(&mut places));
         let left_out = |(kind, cases): (String, BTreeSet<String>)| {
             let count = cases.len().saturating_sub(MAX_OF_A_KIND);
             (count > 0).then_some(LeftOut { kind, count })
@@ -195,22 +214,37 @@ pub(super) fn in_words(error: &Error) -> (String, Option<String>) {
     (message, Some(accepted))
 }
 
-/// Where the lines of a text begin.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Lines(Vec<usize>);
+/// A walk through a text that counts lines and columns.
+#[derive(Debug)]
+pub(super) struct Places<'t> {
+    text: &'t [u8],
+    offset: usize,
+    line: usize,
+    column: usize,
+}
 
-impl Lines {
-    pub(super) fn of(text: &str) -> Self {
-        Self(text.match_indices('\n').map(|(at, _)| at + 1).collect())
+impl<'t> Places<'t> {
+    /// From the beginning.
+    pub(super) fn of(text: &'t str) -> Self {
+        Self { text: text.as_bytes(), offset: 0, line: 1, column: 1 }
     }
 
-    /// Line and column of a byte of the text, from 1, the column in characters.
-    pub(super) fn place(&self, text: &str, offset: usize) -> (usize, usize) {
-        let offset = offset.min(text.len());
-        let line = self.0.partition_point(|&start| start <= offset);
-        let start = if line == 0 { 0 } else { self.0[line - 1] };
-        let column = text.get(start..offset).map_or(offset - start, |part| part.chars().count()) + 1;
-        (line + 1, column)
+    /// Line and column of a byte of the text, from 1, the column in characters. It goes on from the byte before, or from the
+    /// beginning if this one comes earlier.
+    pub(super) fn at(&mut self, offset: usize) -> (usize, usize) {
+        let offset = offset.min(self.text.len());
+        if offset < self.offset {
+            (self.offset, self.line, self.column) = (0, 1, 1);
+        }
+        for &byte in &self.text[self.offset..offset] {
+            let begins_character = byte & 0xc0 != 0x80;
+            (self.line, self.column) = match byte {
+                b'\n' => (self.line + 1, 1),
+                _ => (self.line, self.column + usize::from(begins_character)),
+            };
+        }
+        self.offset = offset;
+        (self.line, self.column)
     }
 }
 
@@ -221,12 +255,12 @@ mod tests {
     #[test]
     fn places_count_characters_from_one() {
         let text = "a\nµµb\n";
-        let place = |offset| Lines::of(text).place(text, offset);
-        assert_eq!(place(0), (1, 1));
-        assert_eq!(place(text.find('b').unwrap()), (2, 3));
-        assert_eq!(place(text.len()), (3, 1));
-        assert_eq!(place(3), (2, 2), "inside a character");
-        assert_eq!(Lines::of("").place("", 7), (1, 1));
+        let mut places = Places::of(text);
+        assert_eq!(places.at(0), (1, 1));
+        assert_eq!(places.at(text.find('b').unwrap()), (2, 3));
+        assert_eq!(places.at(text.len()), (3, 1));
+        assert_eq!(places.at(3), (2, 2), "inside a character, and back");
+        assert_eq!(Places::of("").at(7), (1, 1));
     }
 
     #[test]
@@ -251,13 +285,12 @@ mod tests {
             for case in 0..200_000 / (turn + 1) {
                 findings.add("unknown field", case.to_string(), || {
                     described += 1;
-                    let (message, place) = (format!("unknown field `{case}`"), Some(case));
-                    let span = Some(case..case + 1);
-                    Diagnostic { field: String::new(), message, accepted: None, span, line: place, column: place }
+                    let (message, span) = (format!("unknown field `{case}`"), Some(case..case + 1));
+                    Diagnostic { field: String::new(), message, accepted: None, span, line: None, column: None }
                 });
             }
         }
-        let found = findings.check().unwrap_err();
+        let found = findings.check(&"x".repeat(200_000)).unwrap_err();
         assert_eq!((described, found.len()), (MAX_OF_A_KIND, MAX_OF_A_KIND));
         assert_eq!(found.left_out(), [LeftOut { kind: "unknown field".into(), count: 199_980 }]);
         assert!(found.to_string().ends_with("\nand 199,980 more: unknown field"));

@@ -89,6 +89,7 @@ mod diagnostic;
 mod explanations;
 mod file;
 mod grid;
+mod nearby;
 mod origin;
 mod placing;
 mod reader;

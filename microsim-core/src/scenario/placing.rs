@@ -1,5 +1,6 @@
 //! Finding a place for every organism, from the seed alone.
 
+use super::nearby::Nearby;
 use super::reader::ReadContext;
 use super::sections::group::{Angle, Group, Positions};
 use crate::CollisionGroups;
@@ -40,9 +41,7 @@ pub(super) fn place_all(
     if groups.iter().all(|group| group.random_count() == 0) {
         return fixed;
     }
-    let extents = groups.iter().map(|group| group.prototype.extent(group.scale[1]));
-    let largest = extents.fold(0.0, |largest, extent| if extent > largest { extent } else { largest });
-    let mut taken = Taken::new(largest, obstacles);
+    let mut taken = Taken::new(obstacles);
     fixed.iter().flatten().for_each(|placed| taken.add(placed));
     let mut lay_out = |layout: usize| {
         let (mut placed, mut taken) = (fixed.clone(), taken.clone());
@@ -123,38 +122,86 @@ pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
     Placed { spec, placement, extent }
 }
 
-/// Circles that are taken, in cells of a square grid so that few are looked at.
+/// What is taken: circles around organisms, by what they collide with, and obstacles.
 #[derive(Clone)]
 struct Taken<'a> {
-    cell: f32,
-    largest_radius: f32,
-    circles: BTreeMap<[i32; 2], Vec<(Vec2, f32, CollisionGroups)>>,
-    obstacles: &'a [Obstacle],
+    circles: BTreeMap<[u32; 2], Nearby<(Vec2, f32)>>,
+    obstacles: Nearby<&'a Obstacle>,
 }
 
 impl<'a> Taken<'a> {
-    fn new(largest_radius: f32, obstacles: &'a [Obstacle]) -> Self {
-        Self { cell: 2.0 * largest_radius + 0.1, largest_radius, circles: BTreeMap::new(), obstacles }
-    }
-
-    fn cell_of(&self, at: Vec2) -> [i32; 2] {
-        (at / self.cell).floor().as_ivec2().to_array()
+    fn new(obstacles: &'a [Obstacle]) -> Self {
+        let mut taken = Self { circles: BTreeMap::new(), obstacles: Nearby::default() };
+        for obstacle in obstacles {
+            let bounds = obstacle.aabb();
+            taken.obstacles.add(bounds.center(), 0.5 * (bounds.maxs - bounds.mins).length(), obstacle);
+        }
+        taken
     }
 
     fn add(&mut self, placed: &Placed) {
-        let at = placed.placement.at;
-        self.circles.entry(self.cell_of(at)).or_default().push((at, placed.extent, placed.placement.groups));
+        let CollisionGroups { memberships, filter } = placed.placement.groups;
+        let circles = self.circles.entry([memberships, filter]).or_default();
+        circles.add(placed.placement.at, placed.extent, (placed.placement.at, placed.extent));
     }
 
     fn is_free(&self, at: Vec2, radius: f32, groups: CollisionGroups) -> bool {
-        let blocked = |obstacle: &Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
-        let [left, bottom] = self.cell_of(at - (radius + self.largest_radius));
-        let [right, top] = self.cell_of(at + (radius + self.largest_radius));
-        let cells = (left..=right).flat_map(|i| (bottom..=top).map(move |j| [i, j]));
-        let mut circles = cells.filter_map(|cell| self.circles.get(&cell)).flatten();
-        let is_apart = |&(other, other_radius, others): &(Vec2, f32, CollisionGroups)| {
-            !others.meets(groups) || (other - at).length() >= other_radius + radius
-        };
-        circles.all(is_apart) && !self.obstacles.iter().any(blocked)
+        let others = self
+            .circles
+            .iter()
+            .filter(|&(&[memberships, filter], _)| CollisionGroups { memberships, filter }.meets(groups));
+        let mut circles = others.flat_map(|(_, circles)| circles.around(at, radius));
+        let blocked = |obstacle: &&Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
+        circles.all(|&(other, other_radius)| (other - at).length() >= other_radius + radius)
+            && !self.obstacles.around(at, radius).any(blocked)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+
+    /// Obstacles of all kinds, and a large cell and pellets of many sizes, some in tiers.
+    const CROWD: &str = r#"
+        schema = 1
+        world = { size = [200.0, 100.0] }
+        agar.pellet.radius = 1.0
+        spawn = [
+            { of = "pellet", scale = [0.01, 0.5] },
+            { of = "pellet", scale = [0.5, 3.0], tier = 1 },
+            { of = "pellet", scale = [10.0, 30.0], tier = 2 },
+        ]
+        disc = [{ at = [20.0, 20.0], radius = 6.0 }, { at = [60.0, 50.0], radius = 0.01 }]
+        wall = [{ from = [0.0, 90.0], to = [200.0, 80.0], thickness = 0.5 }]
+        block = [{ at = [150.0, 20.0], size = [60.0, 4.0], angle = 20.0 }]
+        polygon = [{ points = [[100, 40], [130, 42], [120, 70], [115, 55]] }]
+    "#;
+
+    #[test]
+    fn a_place_is_free_if_it_is_when_all_is_looked_at() {
+        let file = Scenario::parse(CROWD, &[]).unwrap().file;
+        let (mut rng, mut taken, mut all) = (Rng::new(1, 1), Taken::new(&file.obstacles), Vec::<Placed>::new());
+        let mut counts = [0, 0];
+        for k in 0..6000 {
+            let group = &file.groups[k % 3];
+            let at = Vec2::new(rng.range(-5.0, 205.0), rng.range(-5.0, 105.0));
+            let (scale, angle) = draw(group, &mut rng);
+            let placed = place(group, at, scale, angle);
+            let radius = placed.extent + if k % 2 == 0 { 0.3 } else { 0.0 };
+            let is_apart = |other: &Placed| {
+                let meets = other.placement.groups.meets(group.groups);
+                !meets || (other.placement.at - at).length() >= other.extent + radius
+            };
+            let blocks = |obstacle: &Obstacle| obstacle.shape.distance_to_point(&obstacle.pose, at, true) < radius;
+            let is_free = all.iter().all(is_apart) && !file.obstacles.iter().any(blocks);
+            assert_eq!(taken.is_free(at, radius, group.groups), is_free, "{at}, radius {radius}");
+            counts[usize::from(is_free)] += 1;
+            if is_free {
+                taken.add(&placed);
+                all.push(placed);
+            }
+        }
+        assert!(counts.into_iter().all(|count| count > 500), "{counts:?}");
     }
 }

@@ -102,12 +102,22 @@ fn forge(content: &[u8]) -> Result<World, SnapshotError> {
     let handles: Vec<_> = world.organisms().collect();
     let mut inputs = Inputs::new();
     handles.iter().for_each(|&id| inputs.set(id, Intent::toward(Vec2::ONE).unwrap().digesting(true)));
-    (0..2).for_each(|_| world.step(&inputs));
-    let _ = (world.census(), world.quality(), world.view().organisms().count(), world.to_snapshot());
+    for _ in 0..2 {
+        world.step(&inputs);
+        read_back(&world);
+    }
+    let _ = (world.census(), world.quality(), world.view().organisms().count());
     handles.into_iter().for_each(|id| drop(world.remove(id)));
     world.step(&inputs);
+    read_back(&world);
     assert_eq!(World::from_snapshot(&WORLD.seal(content)).unwrap().digest(), digest);
     World::from_snapshot(&WORLD.seal(content))
+}
+
+/// What becomes of a world that was accepted is accepted.
+fn read_back(world: &World) {
+    let again = World::from_snapshot(&world.to_snapshot().unwrap());
+    assert_eq!(again.map(|again| again.digest()), Ok(world.digest()));
 }
 
 #[test]
@@ -161,13 +171,59 @@ fn content_of_any_other_length_is_refused() {
 
 #[test]
 fn forged_numbers_never_panic() {
-    let content = content(&menagerie());
-    proptest!(ProptestConfig::with_cases(300), |(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4))| {
-        let mut forged = content.clone();
-        for (at, value) in changes {
-            forged[at.index(content.len())] = value;
+    let contents = worlds().map(|world| content(&world));
+    let bytes =
+        prop_oneof![any::<u8>().prop_map(|byte| vec![byte]), extreme().prop_map(|it| it.to_le_bytes().to_vec())];
+    let changes = prop::collection::vec((any::<prop::sample::Index>(), bytes), 1..4);
+    proptest!(ProptestConfig::with_cases(400), |(which in 0..2_usize, changes in changes)| {
+        let mut forged = contents[which].clone();
+        for (at, bytes) in changes {
+            let at = at.index(forged.len() - bytes.len());
+            forged[at..at + bytes.len()].copy_from_slice(&bytes);
         }
         let _ = forge(&forged);
+    });
+}
+
+/// Numbers at the ends of ranges.
+fn extreme() -> impl Strategy<Value = f32> {
+    let numbers = vec![0.0, 1e-38, 1e-6, 0.1, 1.0, 3.0, 10.0, 999.0, 2e4, 5e4, 6e4, 1e5, 1e6, 9e8, 1e9, 1e30, f32::MAX];
+    (prop::sample::select(numbers), any::<bool>())
+        .prop_map(|(number, is_negative)| if is_negative { -number } else { number })
+}
+
+/// Steps a damaged world that is accepted, and reads what becomes of it.
+fn goes_on(damage: impl Fn(&mut World)) -> World {
+    let mut world = menagerie();
+    damage(&mut world);
+    let mut world = World::from_snapshot(&world.to_snapshot().unwrap()).unwrap();
+    for _ in 0..3 {
+        world.step(&Inputs::new());
+        read_back(&world);
+    }
+    world
+}
+
+#[test]
+fn what_is_accepted_is_accepted_again_after_any_steps() {
+    let late = goes_on(|w| w.step_index = crate::world::MOST_COUNTED);
+    assert_eq!(late.step_index(), crate::world::MOST_COUNTED);
+    goes_on(|w| (w.guard.wrong_side, w.guard.net_fired) = (crate::world::MOST_COUNTED, crate::world::MOST_COUNTED));
+    let far = goes_on(|w| {
+        let id = w.organisms().next().unwrap();
+        let organism = w.organisms.get_mut(id).unwrap();
+        organism.home = Vec2::new(-99_000.0, 99_000.0);
+        let node = organism.outline[0] as usize;
+        w.particles.x[node] = 50_000.0;
+    });
+    assert_eq!(far.census().quarantined, 1);
+    goes_on(|w| {
+        let id = w.organisms().next().unwrap();
+        let engulfer = w.organisms.get_mut(id).unwrap().engulfer.as_mut().unwrap();
+        engulfer.digests = true;
+        (engulfer.pending_growth, engulfer.held_area, engulfer.fold_length) = (1e9, 1e9, 1e9);
+        let prey = engulfer.meals[0].prey;
+        w.organisms.get_mut(prey).unwrap().spawn_area = 1e9;
     });
 }
 
@@ -183,6 +239,21 @@ fn numbers_out_of_their_range_are_refused() {
     refuse(&|w| w.particles.vx[7] = f32::NAN, "velocity x is NaN");
     refuse(&|w| w.particles.inv_mass[7] = -1.0, "inverse mass is -1");
     refuse(&|w| w.organisms.get_mut(first).unwrap().spawn_scale = -3.4e38, "spawn scale is -3");
+    refuse(&|w| w.organisms.get_mut(first).unwrap().home.x = 1e30, "home x is 1000000000000000");
+    refuse(&|w| w.organisms.get_mut(first).unwrap().speed = 1001.0, "speed is 1001, must be 0 to 1000");
+    refuse(&|w| w.organisms.get_mut(first).unwrap().is_quarantined = true, "in quarantine and not frozen");
+    refuse(&|w| w.step_index = 1 << 53, "a counter is too large");
+    let dead = |w: &World| w.blocks[0].particle(0, w.blocks[0].free_lane().unwrap()) as usize;
+    refuse(
+        &|w| {
+            _ = {
+                let i = dead(w);
+                w.particles.vx[i] = 1.0
+            }
+        },
+        "it has no owner, but mass, speed",
+    );
+    refuse(&|w| w.chemicals[0].fill(3.4e38), "chemicals[0]: the concentration in cell 0 is 34000000000");
     refuse(
         &|w| {
             let drop_of = w.fluids[0].particles[0] as usize;

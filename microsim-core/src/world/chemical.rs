@@ -4,6 +4,7 @@ use super::World;
 use super::change::WorldChange;
 use crate::capability::exchange::Exchange;
 use crate::chemical::{Chemical, ChemicalSpec};
+use crate::collision::obstacle::Obstacle;
 use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
 use crate::id::{ChemicalId, OrganismId};
@@ -12,7 +13,7 @@ impl World {
     /// Adds a chemical, in the concentration that its spec says.
     ///
     /// # Errors
-    /// Names the field out of its range, which may depend on the room and the time step.
+    /// Names the field out of its range, which may depend on the room, the time step and the other chemicals.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let id = with_default_float_environment(|| self.insert_chemical(spec))?;
         self.changed(|| WorldChange::AddChemical(spec));
@@ -20,10 +21,10 @@ impl World {
     }
 
     fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
+        spec.cells_beside(self.chemicals.iter().map(|other| other.values().len()).sum(), &self.config)?;
         let mut chemical = Chemical::new(spec, &self.config)?;
-        for obstacle in self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals()) {
-            chemical.close(|at| obstacle.nearest(at).1);
-        }
+        let shut = self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals());
+        shut.for_each(|obstacle| keep_out(&mut chemical, obstacle));
         self.chemicals.push(chemical);
         Ok(ChemicalId(self.chemicals.len() as u32 - 1))
     }
@@ -45,5 +46,30 @@ impl World {
     pub(super) fn check_chemical(&self, id: ChemicalId, field: &str) -> Result<(), Error> {
         let is_known = (id.0 as usize) < self.chemicals.len();
         is_known.then_some(()).ok_or_else(|| Error::reference(field, "a chemical of this world"))
+    }
+}
+
+/// Keeps a chemical out of an obstacle.
+pub(super) fn keep_out(chemical: &mut Chemical, obstacle: &Obstacle) {
+    let bounds = obstacle.aabb();
+    chemical.close([bounds.mins, bounds.maxs], |at| obstacle.nearest(at).1);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WorldConfig;
+    use glam::Vec2;
+
+    #[test]
+    fn all_chemicals_together_have_a_limited_number_of_cells() {
+        let mut world = World::new(WorldConfig { size: Vec2::splat(1000.0), ..WorldConfig::default() }).unwrap();
+        let spec = ChemicalSpec { spacing: 1.0, ..ChemicalSpec::default() };
+        (0..4).for_each(|_| _ = world.add_chemical(spec).unwrap());
+        let coarse = ChemicalSpec { spacing: 1000.0, ..spec };
+        for refused in [spec, coarse] {
+            assert_eq!(world.add_chemical(refused).unwrap_err().field(), "spacing");
+        }
+        assert_eq!(world.chemicals.len(), 4);
     }
 }

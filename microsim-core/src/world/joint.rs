@@ -294,7 +294,7 @@ impl World {
     pub(crate) fn conclude_joints(&mut self) {
         for (handle, solved) in self.scratch.joined.iter().zip(&self.scratch.joints.list) {
             if let Some(record) = self.joints.get_mut(*handle) {
-                record.force = solved.force;
+                record.force = if solved.force < f32::MAX { solved.force } else { f32::MAX };
             }
             if solved.is_broken
                 && let Some(record) = self.joints.remove(*handle)

@@ -9,6 +9,7 @@ pub(crate) mod contacts;
 mod controller;
 mod force_field;
 mod grip;
+mod guard;
 mod inputs;
 pub(crate) mod joint;
 pub(crate) mod measure;
@@ -64,12 +65,13 @@ use change::{Changes, WorldChange};
 use contact_report::ContactReports;
 use contacts::Touching;
 use glam::Vec2;
+pub(crate) use guard::{Guard, MOST_COUNTED, count};
 use joint::JointRecord;
 use obstacle::sensor::Presences;
 use obstacle::table::ObstacleTable;
 use occupancy::Occupancy;
 use query::QueryIndex;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use supply::EmitterRecord;
 use vacancies::Vacancies;
 
@@ -125,15 +127,6 @@ pub struct World {
     pub(crate) scratch: Scratch,
     #[serde(skip)]
     pub(crate) dispatch: Dispatch,
-}
-
-/// Counts of discs that crossed a membrane since the world was made. Both should stay 0.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Guard {
-    /// A disc was found on the wrong side of the link nearest to it.
-    pub wrong_side: u64,
-    /// A ray cast found a disc on the wrong side of a whole membrane, or links of one crossed.
-    pub net_fired: u64,
 }
 
 /// Buffers of a step, which the next one does not need, and what spares spawning a search. Of them, a clone has the pairs that

@@ -54,7 +54,8 @@ impl World {
     /// Freezes all organisms with an invalid particle or a flat membrane and returns them.
     fn freeze_invalid(&mut self) -> Vec<OrganismId> {
         let Self { particles, organisms, events, config, fluids, .. } = self;
-        let is_valid = |i: u32| is_valid(particles, i as usize, config.particle_bounds());
+        let [low, high] = config.particle_bounds();
+        let is_valid = |i: u32| is_valid(particles, i as usize, [low, high]);
         let is_flat = |organism: &Organism| config.protects_membranes && is_flat(organism, particles, &mut Vec::new());
         let (mut lost, mut frozen) = (Vec::new(), Vec::new());
         let is_lost = |organism: &Organism| {
@@ -66,7 +67,9 @@ impl World {
             organism.goal = None;
             frozen.push(id);
             events.push(Event::Quarantined { organism: id });
-            lost.extend(organism.particles().map(|i| (i, organism.home)));
+            // A body may have its centre far from the room.
+            let home = organism.home.clamp(low, high);
+            lost.extend(organism.particles().map(|i| (i, home)));
         }
         for (i, home) in lost {
             let last = particles.last_position(i as usize);

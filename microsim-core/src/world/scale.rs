@@ -9,7 +9,9 @@ use crate::organism::{Organism, Storage};
 use crate::solver::lanes::LANES;
 
 /// Largest radius of a disc that is scaled, units: of a template's node times the scale of its placement.
-const LARGEST: f32 = 1e5;
+pub(in crate::world) const LARGEST: f32 = 1e5;
+/// Least and greatest scale of a body.
+pub(in crate::world) const SCALES: [f32; 2] = [1e-6, 1e6];
 
 impl World {
     /// Sets the size of a body of a template, single discs among them, relative to its size when it was spawned: its radii, lengths
@@ -69,10 +71,11 @@ impl World {
         let Storage::Lane { block: index, first } = organism.body else { return };
         let block = &mut self.blocks[index as usize];
         let lane = (first - block.base) as usize;
-        block.scale[lane] = organism.spawn_scale * factor;
+        let (scale, [least, most]) = (organism.spawn_scale * factor, SCALES);
+        block.scale[lane] = if scale < least { least } else { smaller(scale, most) };
         self.sleep.wake_up(index, lane);
         for (slot, node) in self.templates[block.template as usize].nodes().iter().enumerate() {
-            self.particles.radius[first as usize + slot * LANES] = node.radius * block.scale[lane];
+            self.particles.radius[first as usize + slot * LANES] = smaller(node.radius * block.scale[lane], LARGEST);
         }
     }
 
@@ -81,6 +84,10 @@ impl World {
         let scale = self.present_scale(id);
         self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * (scale * scale))
     }
+}
+
+fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
 }
 
 #[cfg(test)]

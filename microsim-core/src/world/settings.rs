@@ -7,7 +7,7 @@ use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
 use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
-use crate::organism::{Organism, Storage};
+use crate::organism::{MAX_SPEED, Organism, Storage};
 use crate::particle::CollisionGroups;
 use crate::particle::mass_properties::MassProperties;
 use crate::solver::force::Force;
@@ -99,7 +99,7 @@ impl World {
     /// # Errors
     /// When the handle is stale, the speed is out of its range, or the organism's controller could not follow its law with it.
     pub fn set_speed(&mut self, id: OrganismId, speed: f32) -> Result<(), Error> {
-        in_range("speed", speed, 0.0, 1000.0)?;
+        in_range("speed", speed, 0.0, MAX_SPEED)?;
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::stale("organism"))?;
         organism.controller.check_body(&organism.locomotion, speed, &self.config)?;
         organism.speed = speed;

@@ -9,6 +9,7 @@ use crate::capability::division::Divider;
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
+use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
 use crate::float_environment::with_default_float_environment;
 use crate::geometry::polygon::contains_point;
@@ -182,10 +183,14 @@ impl World {
 
     /// Describes an obstacle or organism that overlaps the discs, if there is one.
     fn overlap(&mut self, planned: &[Particle], ring: &[Particle], share: f32) -> Option<String> {
-        if self.solid_obstacles().any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
-            return Some("an obstacle".to_owned());
+        if planned.is_empty() {
+            return None;
         }
         let bounds = bounds_of(discs(planned));
+        let mut near = self.obstacles_near(&bounds).into_iter();
+        if near.any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
+            return Some("an obstacle".to_owned());
+        }
         let outline: Vec<Vec2> = ring.iter().map(Particle::position).collect();
         let groups = ring.first().map_or(CollisionGroups::NONE, |node| node.groups);
         let hit = self.first_near(&bounds, |world, organism| {
@@ -327,7 +332,8 @@ impl Blueprint {
 /// The particles of a blueprint in the world: nodes first, then fluid.
 fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owner: u32) -> Vec<Particle> {
     let nodes = blueprint.template.iter().flat_map(Template::nodes);
-    let origin = placement.at.round();
+    // The centre of a body may lie far from the room.
+    let origin = placement.at.clamp(Vec2::splat(-WorldConfig::MAX_SIZE), Vec2::splat(WorldConfig::MAX_SIZE)).round();
     let body = nodes.map(|node: &Node| Particle {
         origin,
         offset: placement.place(node.position, scale, origin),

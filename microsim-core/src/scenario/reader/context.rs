@@ -42,7 +42,7 @@ impl<'s> ReadContext<'s> {
 
     /// An error unless nothing is wrong.
     pub(crate) fn finish(self) -> Result<(), Diagnostics> {
-        self.found.into_inner().check()
+        self.found.into_inner().check(&self.document.text)
     }
 
     /// Refuses the value at a path.
@@ -122,8 +122,13 @@ impl<'s> ReadContext<'s> {
         refused.contains(path) || refused.range(within.clone()..).next().is_some_and(|next| next.starts_with(&within))
     }
 
-    /// What the library says of a value in the table at `path`.
-    pub(crate) fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
+    /// An error: what the library says of a value in the table at `path`.
+    pub(crate) fn refusal(&self, path: &str, error: &Error) -> Diagnostics {
+        Diagnostics::only(self.diagnostic(path, error), &self.document.text)
+    }
+
+    /// What the library says of a value in the table at `path`, not yet placed.
+    fn diagnostic(&self, path: &str, error: &Error) -> Diagnostic {
         let (message, accepted) = in_words(error);
         // The parameters of a fluid are fields of its table.
         let field = error.field().strip_prefix("fluid.").unwrap_or(error.field());

@@ -2,11 +2,16 @@
 
 use super::value::{SpannedValue, join};
 use super::{overrides, parameters};
-use crate::scenario::diagnostic::{Diagnostic, Diagnostics, Findings, Lines};
+use crate::scenario::diagnostic::{Diagnostic, Diagnostics, Findings, Places};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Most bytes of a text.
+const MAX_BYTES: usize = 1_000_000;
+/// Most values of a file, tables and arrays among them.
+const MAX_VALUES: usize = 200_000;
 
 /// The text and the spans of every value in it, by dotted path.
 ///
@@ -17,7 +22,6 @@ pub(crate) struct Document {
     pub text: String,
     pub overrides: Vec<(String, String)>,
     spans: BTreeMap<String, Spans>,
-    lines: Lines,
 }
 
 /// Where a value and its key stand, bytes of the text.
@@ -32,11 +36,17 @@ impl Document {
     fn parse<'a>(&self, text: &'a str) -> Result<SpannedValue<'a>, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(text);
         // One syntax error for each line: others there are consequences of it.
-        let mut broken: Vec<Diagnostic> = errors.iter().map(|error| self.syntax_error(error)).collect();
-        broken.dedup_by_key(|diagnostic| diagnostic.line);
+        let mut places = Places::of(text);
+        let mut last = None;
         let mut found = Findings::default();
-        broken.into_iter().for_each(|diagnostic| found.add_diagnostic(diagnostic));
-        found.check()?;
+        for diagnostic in errors.iter().map(|error| self.syntax_error(error)) {
+            let line = diagnostic.span.as_ref().map(|span| places.at(span.start).0);
+            if line != last {
+                found.add_diagnostic(diagnostic);
+            }
+            last = line;
+        }
+        found.check(text)?;
         Ok(Spanned::new(root.span(), DeValue::Table(root.into_inner())))
     }
 
@@ -45,8 +55,8 @@ impl Document {
         text: &'a str,
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
-        let (spans, lines) = (BTreeMap::new(), Lines::of(text));
-        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans, lines };
+        check_length(text, overrides)?;
+        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans: BTreeMap::new() };
         let mut root = document.parse(text)?;
         let mut found = Findings::default();
         for (index, (key, value)) in overrides.iter().enumerate() {
@@ -61,8 +71,11 @@ impl Document {
                 document.diagnostic_at(span, field.to_owned(), message, Some(accepted))
             });
         });
-        document.record("", 0..0, &root);
-        found.check()?;
+        if let Err(path) = document.record("", 0..0, &root) {
+            let accepted = format!("at most {MAX_VALUES} values in a file");
+            found.add_diagnostic(document.diagnostic(&path, "one value too many", Some(accepted)));
+        }
+        found.check(text)?;
         match root.into_inner() {
             DeValue::Table(table) => Ok((table, document)),
             _ => Ok((DeTable::new(), document)),
@@ -97,16 +110,8 @@ impl Document {
         if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
             message = format!("{message}, as set by `{key}={value}`");
         }
-        let (line, column) = self.lines.place(&self.text, span.start);
-        let is_in_text = beyond.is_none();
-        Diagnostic {
-            field,
-            message,
-            accepted,
-            span: is_in_text.then_some(span),
-            line: is_in_text.then_some(line),
-            column: is_in_text.then_some(column),
-        }
+        let span = beyond.is_none().then_some(span);
+        Diagnostic { field, message, accepted, span, line: None, column: None }
     }
 
     fn syntax_error(&self, error: &toml::de::Error) -> Diagnostic {
@@ -151,21 +156,39 @@ impl Document {
         }
     }
 
-    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) {
+    /// Records a value and all that it holds; an error with the path of the first value that is one too many.
+    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) -> Result<(), String> {
+        if self.spans.len() == MAX_VALUES {
+            return Err(path.to_owned());
+        }
         let spans = Spans { key, value: value.span() };
         self.spans.insert(path.to_owned(), spans);
         match value.get_ref() {
             DeValue::Table(table) => {
                 for (key, child) in table {
-                    self.record(&join(path, key.get_ref()), key.span(), child);
+                    self.record(&join(path, key.get_ref()), key.span(), child)?;
                 }
             }
             DeValue::Array(array) => {
                 for (index, child) in array.iter().enumerate() {
-                    self.record(&join(path, &index.to_string()), child.span(), child);
+                    self.record(&join(path, &index.to_string()), child.span(), child)?;
                 }
             }
             _ => {}
         }
+        Ok(())
     }
+}
+
+/// Refuses texts before they are parsed that are so long that parsing would take much memory.
+fn check_length(text: &str, overrides: &[(String, String)]) -> Result<(), Diagnostics> {
+    let bytes = text.len() + overrides.iter().map(|(key, value)| key.len() + value.len()).sum::<usize>();
+    if bytes <= MAX_BYTES {
+        return Ok(());
+    }
+    let message = format!("the file and what is set have {bytes} bytes");
+    let end = text.len().min(MAX_BYTES);
+    let (accepted, span) = (Some(format!("at most {MAX_BYTES} bytes")), Some(end..end));
+    let refused = Diagnostic { field: String::new(), message, accepted, span, line: None, column: None };
+    Err(Diagnostics::only(refused, text))
 }

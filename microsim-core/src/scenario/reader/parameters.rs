@@ -3,11 +3,13 @@
 use super::name::{NAME, is_name};
 use super::unknown_name::unknown;
 use super::value::{SpannedValue, join};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
+
+/// Most characters of a parameter that is a string: it may stand in many places.
+const MAX_LENGTH: usize = 400;
 
 /// Takes a refused value or key: where it stands, its path, the kind of problem, and what says what is wrong with it and what is
 /// accepted.
@@ -29,19 +31,31 @@ fn parameters<'a>(root: &SpannedValue<'a>, refuse: Refuse<'_>) -> BTreeMap<Strin
         refuse(parameters.span(), "parameters", message, &|| (message.to_owned(), "a [parameters] table".to_owned()));
         return BTreeMap::new();
     };
+    let mut parameters = BTreeMap::new();
     for (key, value) in table {
         let path = join("parameters", key.get_ref());
         if !is_name(key.get_ref()) {
             let message = "not a usable name";
             refuse(key.span(), &path, message, &|| (message.to_owned(), NAME.to_owned()));
         }
-        if value.get_ref().is_table() || value.get_ref().is_array() {
-            let (message, accepted) = ("not a single value", "a number, a string or a boolean");
-            refuse(value.span(), &path, message, &|| (message.to_owned(), accepted.to_owned()));
+        let flaw = flaw(value);
+        if let Some((message, accepted)) = &flaw {
+            refuse(value.span(), &path, message, &|| (message.clone(), accepted.clone()));
         }
+        let nothing = || Spanned::new(value.span(), DeValue::Boolean(false));
+        let value = if flaw.is_some() { nothing() } else { value.clone() };
+        parameters.insert(key.get_ref().to_string(), value);
     }
-    let entry = |(key, value): (&Spanned<Cow<'_, str>>, &SpannedValue<'a>)| (key.get_ref().to_string(), value.clone());
-    table.iter().map(entry).collect()
+    parameters
+}
+
+/// Why a value cannot be a parameter, and what can.
+fn flaw(value: &SpannedValue<'_>) -> Option<(String, String)> {
+    if value.get_ref().is_table() || value.get_ref().is_array() {
+        return Some(("not a single value".to_owned(), "a number, a string or a boolean".to_owned()));
+    }
+    let length = value.get_ref().as_str().map_or(0, |text| text.chars().count());
+    (length > MAX_LENGTH).then(|| (format!("{length} characters"), format!("at most {MAX_LENGTH} characters")))
 }
 
 fn substitute_in<'a>(

@@ -15,6 +15,8 @@ pub enum ValueType {
     Word(Vec<&'static str>),
     /// An array of so many values of one type; of any number without it.
     Array(Box<Self>, Option<usize>),
+    /// An array of at least and at most so many values of one type.
+    List(Box<Self>, [usize; 2]),
     /// A table of any names, with a value of one type each.
     Table(Box<Self>),
     /// Any of these.

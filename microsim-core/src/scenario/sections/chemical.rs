@@ -8,7 +8,7 @@ pub(crate) type Chemicals = Vec<(String, ChemicalSpec)>;
 
 /// Reads all chemicals of a file.
 pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
-    let mut chemicals = Chemicals::new();
+    let (mut chemicals, mut cells) = (Chemicals::new(), 0);
     for (name, mut fields) in root.named("chemical") {
         let default = ChemicalSpec::default();
         let spec = ChemicalSpec {
@@ -17,7 +17,7 @@ pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
             spacing: fields.or("spacing", default.spacing),
             initial: fields.or("initial", default.initial),
         };
-        fields.context.check(&fields.path, spec.validate(config));
+        cells += fields.context.check(&fields.path, spec.cells_beside(cells, config)).unwrap_or_default();
         fields.finish();
         chemicals.push((name, spec));
     }

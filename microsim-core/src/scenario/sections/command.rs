@@ -6,6 +6,7 @@ use crate::scenario::sections::controller::{self, Controllers};
 use crate::scenario::sections::group::Group;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// One table.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -46,7 +47,7 @@ pub(crate) enum Goal {
 }
 
 /// Organisms that commands may name.
-type Named<'a> = Vec<(String, &'a Group)>;
+type Named<'a> = BTreeMap<String, &'a Group>;
 
 type ReadAction = fn(&mut Fields<'_>) -> Option<Action>;
 
@@ -76,14 +77,18 @@ impl Command {
 
 /// Reads the `[[command]]` tables.
 pub(crate) fn read(root: &mut Fields<'_>, groups: &[Group], controllers: &Controllers, duration: f32) -> Vec<Command> {
-    let mut named: Named<'_> = groups.iter().filter_map(|group| Some((group.name.clone()?, group))).collect();
+    let mut named = Named::new();
+    for group in groups {
+        group.name.iter().for_each(|name| _ = named.entry(name.clone()).or_insert(group));
+    }
     let mut commands = Vec::new();
     for mut fields in root.list("command") {
         let command = read_command(&mut fields, &named, duration);
         controller::read_named(&mut fields, "controller", controllers);
         fields.finish();
-        let daughter = command.as_ref().and_then(|command| daughter(command, &named));
-        named.extend(daughter);
+        if let Some((name, group)) = command.as_ref().and_then(|command| daughter(command, &named)) {
+            named.entry(name).or_insert(group);
+        }
         commands.extend(command);
     }
     commands
@@ -99,7 +104,7 @@ fn daughter<'a>(command: &Command, named: &Named<'a>) -> Option<(String, &'a Gro
 }
 
 fn find<'a>(name: &str, named: &Named<'a>) -> Option<&'a Group> {
-    named.iter().find(|(known, _)| known == name).map(|(_, group)| *group)
+    named.get(name).copied()
 }
 
 fn read_command(fields: &mut Fields<'_>, named: &Named<'_>, duration: f32) -> Option<Command> {
@@ -144,7 +149,7 @@ fn check_names(fields: &Fields<'_>, actions: &[Action], named: &Named<'_>) {
 }
 
 fn refuse_unknown(fields: &Fields<'_>, field: &str, name: &str, named: &Named<'_>) {
-    fields.refuse_unknown(field, "organism", name, named.iter().map(|(known, _)| known.as_str()));
+    fields.refuse_unknown(field, "organism", name, named.keys().map(String::as_str));
 }
 
 /// Checks that an organism can do what is asked of it.

@@ -4,7 +4,7 @@ use crate::WorldConfig;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{is_simple, signed_area, triangulate};
 use crate::particle::Material;
-use crate::scenario::reader::{DEGREE, Fields};
+use crate::scenario::reader::{DEGREE, Fields, Read, ReadContext, SpannedValue, ValueType, mismatch};
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 use parry2d::math::Pose;
@@ -12,6 +12,7 @@ use parry2d::shape::SharedShape;
 
 /// Most corners of a polygon: cutting it into triangles takes up to the third power of their number.
 const MAX_CORNERS: usize = 200;
+const LEAST_CORNERS: usize = 3;
 /// Lengths and coordinates that make sense.
 const LENGTH: [f32; 2] = [0.01, WorldConfig::MAX_SIZE];
 const NEAR: [f32; 2] = [-WorldConfig::MAX_SIZE, WorldConfig::MAX_SIZE];
@@ -89,23 +90,42 @@ fn disc(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
 
 /// A simple polygon, convex or not, as triangles.
 fn polygon(fields: &mut Fields<'_>) -> Option<(SharedShape, Pose)> {
-    let points: Vec<Vec2> = fields.required("points")?;
-    let refuse = |message: &str, accepted: String| fields.refuse("points", message, accepted);
-    if !(3..=MAX_CORNERS).contains(&points.len()) {
-        refuse(&format!("{} corners", points.len()), format!("3 to {MAX_CORNERS} corners"));
-        return None;
-    }
+    let Corners(points) = fields.required("points")?;
     let is_near = |point: &Vec2| point.abs().cmple(Vec2::splat(WorldConfig::MAX_SIZE)).all();
     if !points.iter().all(is_near) || !is_simple(&points) || signed_area(&points).abs() < LENGTH[0] {
         let accepted =
             format!("corners in order around an area, edges that do not cross, within ±{}", WorldConfig::MAX_SIZE);
-        refuse("no usable outline", accepted);
+        fields.refuse("points", "no usable outline", accepted);
         return None;
     }
     let corner = |k: u32| points[k as usize];
     let triangles = triangulate(&points).into_iter();
     let triangle = |[a, b, c]: [u32; 3]| (Pose::IDENTITY, SharedShape::triangle(corner(a), corner(b), corner(c)));
     Some((SharedShape::compound(triangles.map(triangle).collect()), Pose::IDENTITY))
+}
+
+/// Corners of a polygon.
+struct Corners(Vec<Vec2>);
+
+impl Read for Corners {
+    fn accepted() -> String {
+        format!("{LEAST_CORNERS} to {MAX_CORNERS} corners, each [x, y]")
+    }
+
+    fn value_type() -> ValueType {
+        ValueType::List(Box::new(Vec2::value_type()), [LEAST_CORNERS, MAX_CORNERS])
+    }
+
+    fn written(&self) -> String {
+        self.0.written()
+    }
+
+    fn read(value: &SpannedValue<'_>, path: &str, context: &ReadContext<'_>) -> Option<Self> {
+        match value.get_ref().as_array().map(|corners| corners.len()) {
+            Some(LEAST_CORNERS..=MAX_CORNERS) => Vec::read(value, path, context).map(Self),
+            _ => mismatch(value, path, context),
+        }
+    }
 }
 
 fn point(fields: &mut Fields<'_>, field: &'static str) -> Option<Vec2> {

@@ -8,7 +8,7 @@ use crate::event::{Event, Refusal};
 use crate::geometry::polygon::{contains_point, is_simple};
 use crate::id::OrganismId;
 use crate::organism::ring_surgery::{Swap, set_outline};
-use crate::organism::{Organism, Storage};
+use crate::organism::{Organism, Storage, at_most};
 use crate::world::World;
 
 impl World {
@@ -80,7 +80,7 @@ impl World {
         let Self { organisms, fluids, events, .. } = self;
         let Some(larger) = organisms.get_mut(into) else { return };
         if let Some(divider) = &mut larger.divider {
-            divider.nodes_per_root = Some(if a > b { a } else { b });
+            divider.nodes_per_root = Some(at_most(if a > b { a } else { b }));
             divider.lobes = 2.0;
         }
         larger.update_wanted_nodes(fluids);
@@ -102,9 +102,9 @@ impl World {
         }
         cell.fluid_particles.extend(&other.fluid_particles);
         cell.phagosomes.extend(other.phagosomes);
-        cell.spawn_area += other.spawn_area;
+        cell.spawn_area = at_most(cell.spawn_area + other.spawn_area);
         if let (Some(engulfer), Some(other)) = (&mut cell.engulfer, &other.engulfer) {
-            engulfer.pending_growth += other.pending_growth;
+            engulfer.pending_growth = at_most(engulfer.pending_growth + other.pending_growth);
         }
         set_outline(cell, outline, particles);
     }

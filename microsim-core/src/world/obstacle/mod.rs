@@ -10,6 +10,7 @@ mod walls;
 
 use super::World;
 use super::change::WorldChange;
+use super::chemical::keep_out;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_record::ObstacleRecord;
 use crate::error::{Error, ErrorKind, in_range, out_of_range};
@@ -39,7 +40,7 @@ impl World {
         check(&obstacle)?;
         self.check_clear(&obstacle)?;
         for chemical in self.chemicals.iter_mut().filter(|_| obstacle.stops_chemicals()) {
-            chemical.close(|at| obstacle.nearest(at).1);
+            keep_out(chemical, &obstacle);
         }
         if obstacle.is_sensor {
             self.wake_up_near(&obstacle);
@@ -141,7 +142,7 @@ impl World {
         for chemical in chemicals {
             chemical.open(config.size);
             let shut = obstacles.iter().skip(WALLS).filter(|obstacle| obstacle.stops_chemicals());
-            shut.for_each(|obstacle| chemical.close(|at| obstacle.nearest(at).1));
+            shut.for_each(|obstacle| keep_out(chemical, obstacle));
         }
     }
 

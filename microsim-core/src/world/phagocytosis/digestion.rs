@@ -3,7 +3,7 @@
 use crate::capability::phagocytosis::{Engulfer, MealPhase};
 use crate::event::Event;
 use crate::id::OrganismId;
-use crate::organism::Organism;
+use crate::organism::{Organism, at_most};
 use crate::solver::fluid::rest_area;
 use crate::world::World;
 
@@ -35,7 +35,7 @@ impl World {
             }
         }
         engulfer.meals.retain(|meal| !matches!(meal.phase, MealPhase::Digesting(progress) if progress >= 1.0));
-        engulfer.pending_growth += eaten * params.growth_yield;
+        engulfer.pending_growth = at_most(engulfer.pending_growth + eaten * params.growth_yield);
     }
 
     /// Removes digested prey and returns its area.

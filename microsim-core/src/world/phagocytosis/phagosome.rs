@@ -2,6 +2,7 @@
 
 use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase};
 use crate::id::OrganismId;
+use crate::organism::at_most;
 use crate::organism::ring_surgery::{free_nodes, take_out};
 use crate::world::World;
 use std::f32::consts::{PI, TAU};
@@ -19,7 +20,7 @@ impl World {
         let changes = self.membrane_changes();
         let mut phagosomes = self.organisms.get_mut(id).map_or(Vec::new(), |o| std::mem::take(&mut o.phagosomes));
         for phagosome in &mut phagosomes {
-            phagosome.area = AREA_RATIO * self.area_of(phagosome.prey);
+            phagosome.area = at_most(AREA_RATIO * self.area_of(phagosome.prey));
         }
         let Self { organisms, particles, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return false };
@@ -50,7 +51,7 @@ impl World {
             let radius = (area / PI).sqrt() + 2.0 * node_radius;
             if meal.way == IngestionWay::Gate { area } else { PI * radius * radius }
         };
-        engulfer.meals.iter().filter(takes_room).map(area).sum()
+        at_most(engulfer.meals.iter().filter(takes_room).map(area).sum())
     }
 
     /// Length of membrane that the cups around prey need now.
@@ -62,6 +63,6 @@ impl World {
             let part = if elapsed < FOLDING_TIME { elapsed / FOLDING_TIME } else { 1.0 };
             part * TAU * ((self.area_of(meal.prey) / PI).sqrt() + 2.0 * node_radius)
         };
-        engulfer.meals.iter().filter(|meal| meal.is_in_cup()).map(length).sum()
+        at_most(engulfer.meals.iter().filter(|meal| meal.is_in_cup()).map(length).sum())
     }
 }

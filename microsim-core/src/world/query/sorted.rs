@@ -1,7 +1,8 @@
 //! What is sorted for queries: made for the first one that needs it, kept until it changes.
 
-use super::entry::{Bounds, Disc};
+use super::entry::{Bounds, Disc, Entry};
 use super::index::Index;
+use crate::collision::obstacle::Obstacle;
 use crate::world::World;
 use crate::world::obstacle::WALLS;
 use parry2d::bounding_volume::Aabb;
@@ -73,6 +74,13 @@ impl World {
             let boxes = boxes.into_iter().zip(0..).filter(|(aabb, _)| aabb.mins.x <= aabb.maxs.x);
             Index::new(boxes.map(|(aabb, slot)| Bounds::new(aabb, slot)), self.config.size)
         })
+    }
+
+    /// Added obstacles that can be touched and whose boxes may reach into a box.
+    pub(in crate::world) fn obstacles_near(&self, bounds: &Aabb) -> Vec<&Obstacle> {
+        let index = self.sorted_obstacles();
+        let near = index.in_box(bounds.mins, bounds.maxs).map(|entry| &self.obstacles[entry.index() as usize]);
+        near.filter(|obstacle| obstacle.is_solid()).collect()
     }
 
     /// Boxes around the enabled obstacles, without walls.

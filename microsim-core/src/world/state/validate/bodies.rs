@@ -3,7 +3,7 @@
 use super::{Check, Subject};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::organism::{Organism, Storage};
-use crate::particle::{CollisionGroups, NO_OWNER};
+use crate::particle::NO_OWNER;
 use crate::solver::membrane::links;
 use crate::world::World;
 use glam::Vec2;
@@ -11,24 +11,12 @@ use glam::Vec2;
 pub(super) fn check(world: &World) -> Check {
     for (id, organism) in world.organisms.iter() {
         let cell = Subject::organism(id, organism.kind);
-        check_particles(world, organism, cell)?;
         check_outline(world, organism, cell)?;
         check_rings(world, organism, cell)?;
         check_fluid(world, organism, cell)?;
         check_furrow(organism, cell)?;
     }
     check_links(world)
-}
-
-/// Frozen particles are at rest.
-fn check_particles(world: &World, organism: &Organism, cell: Subject) -> Check {
-    let p = &world.particles;
-    for i in organism.particles() {
-        let (disc, i) = (Subject { particle: Some(i), ..cell }, i as usize);
-        let is_frozen = p.inv_mass[i] == 0.0 && p.velocity(i) == Vec2::ZERO && p.groups[i] == CollisionGroups::NONE;
-        disc.must(is_frozen || !organism.is_quarantined, || "it is in quarantine and not frozen".to_owned())?;
-    }
-    Ok(())
 }
 
 /// The outline is the template's, or that of its own membrane.

@@ -4,22 +4,21 @@
 use super::{Check, Subject};
 use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase};
 use crate::config::WorldConfig;
-use crate::organism::Organism;
-use crate::particle::GRID;
+use crate::organism::{self, MAX_SPEED, MOST, Organism};
+use crate::particle::{CollisionGroups, GRID};
 use crate::rng::Rng;
 use crate::solver::fluid::Fluid;
 use crate::solver::membrane::Membrane;
 use crate::world::World;
+use crate::world::scale::{LARGEST, SCALES};
 use glam::Vec2;
 
 /// Largest coordinate, units: quarantine freezes organisms farther from the room than the room's size.
 const FARTHEST: f32 = 3.0 * WorldConfig::MAX_SIZE;
-/// Largest radius: of a template's node times the scale of its placement.
-const LARGEST: f32 = 1e5;
 /// Largest speed over the speed limit: impacts may exceed the limit until the next substep.
 const TIMES_SPEED_LIMIT: f32 = 10.0;
-/// Largest length, area, time or count in an organism.
-const MOST: f32 = 1e9;
+/// Largest length of a link, radius of a node and rim of a membrane, units.
+const LONGEST: f32 = 1e5;
 /// Largest length of a membrane, in circles around its content.
 const MOST_LOBES: f32 = 3.0;
 
@@ -28,7 +27,9 @@ pub(in crate::world) fn check(world: &World) -> Check {
     (0..world.particles.len()).try_for_each(|i| check_particle(world, i))?;
     world.fluids.iter().try_for_each(|fluid| check_fluid(world, fluid))?;
     for (id, organism) in world.organisms.iter() {
-        check_organism(organism, Subject::organism(id, organism.kind))?;
+        let cell = Subject::organism(id, organism.kind);
+        check_frozen(world, organism, cell)?;
+        check_organism(organism, cell)?;
     }
     for (k, chemical) in world.chemicals.iter().enumerate() {
         let flaw = chemical.check(&world.config);
@@ -67,6 +68,17 @@ fn check_fluid(world: &World, fluid: &Fluid) -> Check {
         .try_for_each(|i| Subject::particle(world, i).must_range("radius", world.particles.radius[i], radius, radius))
 }
 
+/// Frozen particles are at rest.
+fn check_frozen(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let p = &world.particles;
+    for i in organism.particles() {
+        let (disc, i) = (Subject { particle: Some(i), ..cell }, i as usize);
+        let is_frozen = p.inv_mass[i] == 0.0 && p.velocity(i) == Vec2::ZERO && p.groups[i] == CollisionGroups::NONE;
+        disc.must(is_frozen || !organism.is_quarantined, || "it is in quarantine and not frozen".to_owned())?;
+    }
+    Ok(())
+}
+
 fn check_organism(organism: &Organism, cell: Subject) -> Check {
     check_state(organism, cell)?;
     check_divider(organism, cell)?;
@@ -79,15 +91,20 @@ fn check_organism(organism: &Organism, cell: Subject) -> Check {
 }
 
 fn check_state(organism: &Organism, cell: Subject) -> Check {
-    cell.must_range("speed", organism.speed, 0.0, MOST)?;
-    cell.must_range("spawn area", organism.spawn_area, -MOST, MOST)?;
-    cell.must_range("spawn scale", organism.spawn_scale, 1e-6, 1e6)?;
+    let [least, most] = SCALES;
+    cell.must_range("speed", organism.speed, 0.0, MAX_SPEED)?;
+    // Only of a template of the embedder's own the outline may turn the other way.
+    let is_sized = organism.prey.is_some() || organism.divider.is_some();
+    cell.must_range("spawn area", organism.spawn_area, if is_sized { 0.0 } else { -MOST }, MOST)?;
+    cell.must_range("spawn scale", organism.spawn_scale, least, most)?;
+    cell.must_range("home x", organism.home.x, -organism::FARTHEST, organism::FARTHEST)?;
+    cell.must_range("home y", organism.home.y, -organism::FARTHEST, organism::FARTHEST)?;
     cell.must_range("full scale", organism.full_scale, 0.1, 10.0)?;
     let crawls = organism.locomotion.pseudopods().map(|pseudopods| &pseudopods.rng);
     let are_sound = crawls.into_iter().chain([&organism.rng]).all(Rng::is_sound);
     cell.must(are_sound, || "the increment of its random numbers is even".to_owned())?;
-    let (goal, home) = (organism.goal, organism.home);
-    cell.must(goal.is_none_or(Vec2::is_finite) && home.is_finite(), || format!("goal {goal:?}, home {home}"))
+    let goal = organism.goal;
+    cell.must(goal.is_none_or(Vec2::is_finite), || format!("goal {goal:?}"))
 }
 
 fn check_divider(organism: &Organism, cell: Subject) -> Check {
@@ -101,8 +118,8 @@ fn check_divider(organism: &Organism, cell: Subject) -> Check {
 
 fn check_membrane(membrane: &Membrane, cell: Subject) -> Check {
     let names = ["rest length", "node radius", "rim", "activity", "rest perimeter"];
-    let mut named = names.into_iter().zip(membrane.state());
-    named.try_for_each(|(name, value)| cell.must_range(&format!("{name} of its membrane"), value, 0.0, MOST))
+    let mut named = names.into_iter().zip(membrane.state()).zip([LONGEST, LONGEST, LONGEST, 1.0, MOST]);
+    named.try_for_each(|((name, value), most)| cell.must_range(&format!("{name} of its membrane"), value, 0.0, most))
 }
 
 fn check_engulfer(engulfer: &Engulfer, cell: Subject) -> Check {

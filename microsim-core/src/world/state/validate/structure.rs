@@ -6,22 +6,21 @@ use crate::capability::Locomotion;
 use crate::error::Error;
 use crate::joint::JointEnd;
 use crate::organism::ring_surgery::LEAST_NODES;
-use crate::organism::{Organism, Phagosome, Storage};
-use crate::particle::NO_OWNER;
+use crate::organism::{MOST_WANTED_NODES, Organism, Phagosome, Storage};
+use crate::particle::{CollisionGroups, NO_OWNER};
 use crate::solver::block::Block;
 use crate::solver::lanes::LANES;
-use crate::world::{Guard, World};
+use crate::world::scale::SCALES;
+use crate::world::{Guard, MOST_COUNTED, World};
+use glam::Vec2;
 
-/// Largest value of a counter, far from overflow.
-const MOST: u64 = 1 << 53;
-const MOST_NODES: u32 = 1 << 30;
 /// Owner of an empty lane, as opposed to a free index.
 const EMPTY_LANE: u32 = NO_OWNER - 1;
 
 /// Checks the structure of a world whose columns have equal lengths.
 pub(in crate::world) fn check(world: &World) -> Check {
     let Guard { wrong_side, net_fired } = world.guard;
-    let is_counter = |count: u64| count < MOST;
+    let is_counter = |count: u64| count <= MOST_COUNTED;
     let none = Subject::default();
     none.must([world.step_index, wrong_side, net_fired].into_iter().all(is_counter), || {
         "a counter is too large".to_owned()
@@ -122,7 +121,8 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
 /// A lane has numbers in their ranges and an owner that lies in it, or none.
 fn check_lane(world: &World, k: usize, block: &Block, lane: usize) -> Check {
     let (organisms, none, owner) = (&world.organisms, Subject::default(), block.owner[lane]);
-    none.must_range(&format!("scale of lane {lane} of block {k}"), block.scale[lane], 1e-6, 1e6)?;
+    let [least, most] = SCALES;
+    none.must_range(&format!("scale of lane {lane} of block {k}"), block.scale[lane], least, most)?;
     for contraction in &block.contraction {
         none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
     }
@@ -158,7 +158,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
     cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;
     let wanted = organism.divider.as_ref().and_then(|divider| divider.wanted_nodes);
-    cell.must(wanted.is_none_or(|nodes| nodes < MOST_NODES), || format!("it wants {wanted:?} nodes"))?;
+    cell.must(wanted.is_none_or(|nodes| nodes <= MOST_WANTED_NODES), || format!("it wants {wanted:?} nodes"))?;
     check_parameters(world, organism, nodes > 0).map_err(|error| cell.violation(error.to_string()))
 }
 
@@ -249,6 +249,14 @@ fn check_particles(world: &World, owned: &[u32]) -> Check {
     for (i, &owner) in owned.iter().enumerate() {
         let disc = Subject::particle(world, i);
         let owner = if owner == EMPTY_LANE { NO_OWNER } else { owner };
+        let is_dead = p.inv_mass[i] == 0.0
+            && p.groups[i] == CollisionGroups::NONE
+            && p.next_in_ring[i] == NO_OWNER
+            && p.fluid[i] == 0
+            && p.velocity(i) == Vec2::ZERO;
+        disc.must(is_dead || owner != NO_OWNER, || {
+            "it has no owner, but mass, speed, a fluid, a ring or collisions".to_owned()
+        })?;
         disc.must(p.owner[i] == owner, || format!("its owner is {}, but {owner} has it", p.owner[i]))?;
         let next = p.next_in_ring[i];
         disc.must(next == NO_OWNER || (next as usize) < owned.len(), || format!("{next} follows it in its ring"))?;
