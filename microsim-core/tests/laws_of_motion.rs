@@ -5,7 +5,7 @@ use microsim_core::geometry::ellipse;
 use microsim_core::glam::Vec2;
 use microsim_core::{
     BacillusSpec, BrownianParams, ChemicalSpec, ChemotaxisParams, CoccusSpec, Controller, Exchange, FleeParams, Inputs,
-    OrganismId, OrganismSpec, PersistentWalkParams, Placement, PlateletSpec, ProbeSpec, RigidCellSpec,
+    Intent, OrganismId, OrganismSpec, PersistentWalkParams, Placement, PlateletSpec, ProbeSpec, RigidCellSpec,
     RunAndTumbleParams, World, WorldConfig,
 };
 
@@ -180,6 +180,24 @@ fn what_a_body_cannot_follow_is_refused() {
     assert_eq!(error.field(), "controller.persistence");
     let coccus = world.spawn(&coccus(1.0), Placement::at(80.0, 45.0)).unwrap();
     assert_eq!(world.set_controller(coccus, kicks(10.0, 0.1)).unwrap_err().field(), "controller.diffusion");
+}
+
+#[test]
+fn what_nothing_steers_falls_and_coasts_as_mechanics_has_it() {
+    let gravity = Vec2::new(0.0, -10.0);
+    for spec in [coccus(3.0), bacillus(3.0), probe(3.0)] {
+        let room = WorldConfig { gravity, ..config(1.0 / 60.0, 8, 0.0, 50.0) };
+        let mut world = World::new(room).unwrap();
+        let [left, braked] = [40.0, 80.0].map(|x| world.spawn(&spec, Placement::at(x, 60.0)).unwrap());
+        world.push(left, Vec2::new(4.0, 0.0)).unwrap();
+        let mut inputs = Inputs::new();
+        inputs.set(braked, Intent::REST);
+        (0..60).for_each(|_| world.step(&inputs));
+        let moved = world.centroid(left).unwrap() - Vec2::new(40.0, 60.0);
+        assert!((moved - Vec2::new(4.0, -5.0)).length() < 0.05, "{moved}");
+        let moved = world.centroid(braked).unwrap() - Vec2::new(80.0, 60.0);
+        assert!(moved.length() < 0.1, "{moved}: who is told to rest brakes");
+    }
 }
 
 /// How straight cells go to a source from all sides: the way that they have made towards it over the way that they went.

@@ -10,6 +10,7 @@ pub(crate) mod sensing;
 mod tow;
 
 use crate::capability::Locomotion;
+use crate::capability::controller::Controller;
 use crate::capability::controller::senses::{Environment, Senses, Steering};
 use crate::event::Event;
 use crate::id::OrganismId;
@@ -47,7 +48,8 @@ pub(crate) fn steer_organisms(
         if let Locomotion::Tow { max_acceleration } = organism.locomotion {
             let is_hindered = !tow::follows(senses.velocity, before);
             organism.progress.note(organism.goal.is_some() && is_hindered, &senses);
-            tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration));
+            let is_steered = intent.is_some() || organism.controller != Controller::Still;
+            tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration).filter(|_| is_steered));
         } else {
             organism.progress.note(organism.goal.is_some(), &senses);
             move_towards(id, organism, particles, environment.dt, drives, events);

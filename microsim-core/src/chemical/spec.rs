@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 const MAX_CELLS: usize = 1_000_000;
 /// Most cells of all grids of a world.
 const MAX_CELLS_TOGETHER: usize = 4_000_000;
+/// Largest decay times step: with more the amount that a source keeps up is more than 2 % too small.
+const MOST_DECAY: f32 = 0.05;
 
 /// How a chemical spreads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,7 +19,7 @@ pub struct ChemicalSpec {
     /// Diffusion coefficient, square units/s, 0 to 100 000, and at most what 256 rounds of diffusion in a step carry: about
     /// 40 `spacing`² over the time of a step.
     pub diffusion: f32,
-    /// Share that decays in a second where little of it does, 1/s, 0 to 100.
+    /// Share that decays in a second where little of it does, 1/s, 0 to 100, and at most 0.05 over the step: 3 by default.
     pub decay: f32,
     /// Side of a cell of the grid, units, 0.1 to 1000; made a little smaller or larger so that cells fill the room.
     pub spacing: f32,
@@ -64,6 +66,7 @@ impl ChemicalSpec {
     pub(super) fn plan(&self, config: &WorldConfig) -> Result<([usize; 2], u32), Error> {
         in_range("diffusion", self.diffusion, 0.0, 1e5)?;
         in_range("decay", self.decay, 0.0, 100.0)?;
+        self.check_decay(config.dt)?;
         in_range("spacing", self.spacing, 0.1, 1000.0)?;
         in_range("initial", self.initial, 0.0, 1e6)?;
         let count = config.size.to_array().map(|side| ((side / self.spacing + 0.5) as usize).max(1));
@@ -77,6 +80,12 @@ impl ChemicalSpec {
             out_of_range("diffusion", self.diffusion.into(), accepted)
         })?;
         Ok((count, rounds))
+    }
+
+    fn check_decay(&self, dt: f32) -> Result<(), Error> {
+        let most = MOST_DECAY / dt;
+        let accepted = || out_of_range("decay", self.decay.into(), format!("0 to {most:.1} with a step of {dt} s"));
+        (self.decay <= most).then_some(()).ok_or_else(accepted)
     }
 }
 
@@ -93,6 +102,8 @@ mod tests {
         refuse(ChemicalSpec { diffusion: -1.0, ..spec() }, "diffusion");
         refuse(ChemicalSpec { diffusion: 1e5, spacing: 0.5, ..spec() }, "diffusion");
         refuse(ChemicalSpec { decay: f32::NAN, ..spec() }, "decay");
+        refuse(ChemicalSpec { decay: 3.1, ..spec() }, "decay");
+        assert!(ChemicalSpec { decay: 2.9, ..spec() }.validate(&room(80.0, 60.0)).is_ok());
         refuse(ChemicalSpec { spacing: 0.0, ..spec() }, "spacing");
         let fine = ChemicalSpec { spacing: 0.1, ..spec() };
         assert_eq!(fine.validate(&room(2e4, 2e4)).unwrap_err().field(), "spacing");

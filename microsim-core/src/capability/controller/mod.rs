@@ -48,7 +48,7 @@ const DEEPEST: usize = 8;
 #[serde(remote = "Self")]
 #[non_exhaustive]
 pub enum Controller {
-    /// Nothing: it rests.
+    /// Nothing: it rests, and moves as anything does that is pushed.
     #[default]
     Still,
     /// See [`Controller::wander`].
