@@ -1,6 +1,7 @@
 //! A small scenario file takes little memory and time to read and build, whatever it asks for: what would take much is refused
 //! with its place, and what is there many times costs no more than its number.
 #![cfg(feature = "scenario")]
+#![allow(clippy::disallowed_types, reason = "this test measures time")]
 
 use cap::Cap;
 use microsim_core::scenario::Scenario;
@@ -35,7 +36,8 @@ fn time(text: &str) -> f64 {
         let _ = Scenario::parse(text, &[]).and_then(|scenario| scenario.build());
         start.elapsed().as_secs_f64()
     };
-    once().min(once())
+    let [first, second] = [once(), once()];
+    if first < second { first } else { second }
 }
 
 #[test]
@@ -76,23 +78,11 @@ fn what_takes_much_memory_is_refused_with_its_place() {
 }
 
 #[test]
-fn no_text_takes_much_memory() {
+fn values_in_each_other_take_no_more_memory() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let times = |count: usize, of: fn(usize) -> String| (0..count).map(of).collect::<String>();
-    for text in [
-        format!("x = [{}]", "[],".repeat(333_000)),
-        format!("x = [{}]", "1,".repeat(499_000)),
-        format!("x = [{}]", "{a={}},".repeat(142_000)),
-        times(45_000, |k| format!("[a{k}.b.c.d.e.f.g.h]\n")),
-        times(38_000, |k| format!("a{k}.b.c.d.e.f.g.h.i.j=1\n")),
-        times(100_000, |k| format!("f{k}=1\n")),
-        times(75_000, |k| format!("agar.a{k}=1\n")),
-        "=\n".repeat(499_000),
-        "[[spawn]]\n".repeat(99_000),
-        format!("{ROOM}{}", "[[spawn]]\nof='b'\n".repeat(50_000)),
-    ] {
-        let begin: String = text.chars().take(30).collect();
-        assert!(refused(&text, &[]).len() < 100_000, "{begin}");
+    for values in ["[],".repeat(333_000), "1,".repeat(499_000), "{a={}},".repeat(142_000)] {
+        let begin: String = values.chars().take(30).collect();
+        assert!(refused(&format!("x = [{values}]"), &[]).contains("one value too many"), "{begin}");
     }
 }
 
@@ -117,9 +107,9 @@ fn one_large_organism_does_not_make_the_places_of_small_ones_dear() {
 fn obstacles_far_away_cost_a_place_and_a_chemical_nothing() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut discs = String::new();
-    (0..4000).for_each(|k| {
-        write!(discs, "[[disc]]\nat = [{}, {}]\nradius = 1\n", 15 * (k % 64) + 9, 15 * (k / 64) + 9).unwrap()
-    });
+    for k in 0..4000 {
+        write!(discs, "[[disc]]\nat = [{}, {}]\nradius = 1\n", 15 * (k % 64) + 9, 15 * (k / 64) + 9).unwrap();
+    }
     let pellets = "[[spawn]]\nof = 'pellet'\ncount = 8000\n";
     let chemical = "[chemical.scent]\nspacing = 1.0\n";
     for thing in [pellets, chemical] {
