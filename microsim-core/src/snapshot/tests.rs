@@ -246,12 +246,17 @@ fn numbers_out_of_their_range_are_refused() {
     let dead = |w: &World| w.blocks[0].particle(0, w.blocks[0].free_lane().unwrap()) as usize;
     refuse(
         &|w| {
-            _ = {
-                let i = dead(w);
-                w.particles.vx[i] = 1.0
-            }
+            let i = dead(w);
+            w.particles.vx[i] = 1.0;
         },
         "it has no owner, but mass, speed",
+    );
+    refuse(
+        &|w| {
+            let i = dead(w);
+            w.particles.y[i] = 6e4;
+        },
+        "its place y is 6",
     );
     refuse(&|w| w.chemicals[0].fill(3.4e38), "chemicals[0]: the concentration in cell 0 is 34000000000");
     refuse(

@@ -49,6 +49,10 @@ fn check_particle(world: &World, i: usize) -> Check {
     for (name, column) in [("x", &p.x), ("y", &p.y), ("previous x", &p.prev_x), ("previous y", &p.prev_y)] {
         disc.must_range(name, column[i], -FARTHEST, FARTHEST)?;
     }
+    // A step moves the origin there, also of what is frozen or dead.
+    let (at, farthest) = (p.position(i), FARTHEST - 1.0);
+    disc.must_range("its place x", at.x, -farthest, farthest)?;
+    disc.must_range("its place y", at.y, -farthest, farthest)?;
     let fastest = TIMES_SPEED_LIMIT * world.config.speed_limit();
     disc.must_range("velocity x", p.vx[i], -fastest, fastest)?;
     disc.must_range("velocity y", p.vy[i], -fastest, fastest)?;
