@@ -78,23 +78,11 @@ fn what_takes_much_memory_is_refused_with_its_place() {
 }
 
 #[test]
-fn no_text_takes_much_memory() {
+fn values_in_each_other_take_no_more_memory() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let times = |count: usize, of: fn(usize) -> String| (0..count).map(of).collect::<String>();
-    for text in [
-        format!("x = [{}]", "[],".repeat(333_000)),
-        format!("x = [{}]", "1,".repeat(499_000)),
-        format!("x = [{}]", "{a={}},".repeat(142_000)),
-        times(45_000, |k| format!("[a{k}.b.c.d.e.f.g.h]\n")),
-        times(38_000, |k| format!("a{k}.b.c.d.e.f.g.h.i.j=1\n")),
-        times(100_000, |k| format!("f{k}=1\n")),
-        times(75_000, |k| format!("agar.a{k}=1\n")),
-        "=\n".repeat(499_000),
-        "[[spawn]]\n".repeat(99_000),
-        format!("{ROOM}{}", "[[spawn]]\nof='b'\n".repeat(50_000)),
-    ] {
-        let begin: String = text.chars().take(30).collect();
-        assert!(refused(&text, &[]).len() < 100_000, "{begin}");
+    for values in ["[],".repeat(333_000), "1,".repeat(499_000), "{a={}},".repeat(142_000)] {
+        let begin: String = values.chars().take(30).collect();
+        assert!(refused(&format!("x = [{values}]"), &[]).contains("one value too many"), "{begin}");
     }
 }
 
