@@ -43,7 +43,7 @@ const UNPORTABLE_OF_TWO: [(&str, Binary); 5] = [
     ("atan2", f32::atan2),
 ];
 
-pub fn run() {
+pub(crate) fn run() {
     let numbers = numbers();
     let of = |function: &Unary| digest(numbers.iter().map(|&a| function(black_box(a))));
     let of_two = |function: &Binary| {
