@@ -71,7 +71,7 @@ schema = 1
 [world]
 size = [40.0, 30.0]
 [step]
-substeps = 2
+substeps = 3
 [amoeboid_cell.cell]
 radii = [6.0, 6.0]
 [agar.pellet]

@@ -18,7 +18,7 @@ const LAYERS: &[(&str, &str)] = &[
     ("actuation", "error"),
     ("id", "arena"),
     ("inputs", "actuation error float_environment id"),
-    ("joint", "error id"),
+    ("joint", "config error id"),
     ("force_field", "error"),
     ("collider", "id"),
     ("event", "collider id kind"),

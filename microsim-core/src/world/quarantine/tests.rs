@@ -311,7 +311,7 @@ fn a_membrane_that_encloses_no_area_is_frozen_where_membranes_are_protected() {
 #[test]
 fn a_cell_that_a_load_presses_flat_is_frozen() {
     let size = Vec2::new(60.0, 30.0);
-    let config = WorldConfig { size, substeps: 2, max_speed: 500.0, ..WorldConfig::default() };
+    let config = WorldConfig { size, substeps: 3, max_speed: 500.0, ..WorldConfig::default() };
     let mut world = World::new(config).unwrap();
     let small = AmoeboidCellSpec { radii: Vec2::splat(4.0), ..AmoeboidCellSpec::default() };
     let cell = world.spawn(&small.into(), Placement::at(30.0, 15.0)).unwrap();
