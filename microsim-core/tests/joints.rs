@@ -90,15 +90,13 @@ fn a_frequency_that_substeps_are_too_long_for_is_refused_and_those_below_keep_th
     let refusal = world.set_joint(joint, JointSpec::new(place, node(body), spring(19.2))).unwrap_err();
     assert_eq!(refusal.field(), "kind.frequency");
     assert!(refusal.to_string().contains("0.01 to 19.1 with 8 substeps"), "{refusal}");
-    let swing = |world: &World| (at(world, body).x - 82.0).abs();
-    let mut largest = 0.0f32;
     (0..60).for_each(|_| world.step(&Inputs::new()));
-    for _ in 0..6 {
+    // Of 0.5 nineteen periods with a damping ratio of 0.01 leave 0.15.
+    let swings = (0..6).any(|_| {
         world.step(&Inputs::new());
-        largest = largest.max(swing(&world));
-    }
-    // Nineteen periods with a damping ratio of 0.01.
-    assert!(largest > 0.5 * (-0.01 * 19.0 * TAU).exp(), "{largest}");
+        (at(&world, body).x - 82.0).abs() > 0.15
+    });
+    assert!(swings);
 }
 
 #[test]
