@@ -145,7 +145,7 @@ impl WorldConfig {
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
         in_range("damping", self.damping, 0.0, 100.0)?;
-        self.check_damping()?;
+        self.check_rate("damping", self.damping, [0.0, MOST_DAMPED / self.substep()])?;
         in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
     }
@@ -199,12 +199,7 @@ impl WorldConfig {
 
     /// Checks that substeps are short enough for a spring of this frequency, Hz.
     pub(crate) fn check_frequency(&self, frequency: f32) -> Result<(), Error> {
-        let most = FASTEST_SWING / (TAU * self.substep());
-        let accepted = || {
-            let range = format!("0.01 to {most:.1} with {} substeps of a step of {} s", self.substeps, self.dt);
-            out_of_range("frequency", f64::from(frequency), range)
-        };
-        (frequency <= most).then_some(()).ok_or_else(accepted)
+        self.check_rate("frequency", frequency, [0.01, FASTEST_SWING / (TAU * self.substep())])
     }
 
     fn check_substeps(&self, longest: f32, whose: &str) -> Result<(), Error> {
@@ -220,13 +215,13 @@ impl WorldConfig {
         (least..=most).contains(&self.substeps).then_some(()).ok_or_else(accepted)
     }
 
-    fn check_damping(&self) -> Result<(), Error> {
-        let (most, damping) = (MOST_DAMPED / self.substep(), self.damping);
+    /// Checks a number whose range depends on the substep.
+    fn check_rate(&self, field: &str, rate: f32, [least, most]: [f32; 2]) -> Result<(), Error> {
         let accepted = || {
-            let range = format!("0 to {most:.1} with {} substeps of a step of {} s", self.substeps, self.dt);
-            out_of_range("damping", f64::from(damping), range)
+            let range = format!("{least} to {most:.1} with {} substeps of a step of {} s", self.substeps, self.dt);
+            out_of_range(field, f64::from(rate), range)
         };
-        (damping <= most).then_some(()).ok_or_else(accepted)
+        (least..=most).contains(&rate).then_some(()).ok_or_else(accepted)
     }
 
     /// Least distance between two walls that face each other, units; infinite if there are none.

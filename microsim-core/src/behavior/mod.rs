@@ -48,8 +48,10 @@ pub(crate) fn steer_organisms(
         if let Locomotion::Tow { max_acceleration } = organism.locomotion {
             let is_hindered = !tow::follows(senses.velocity, before);
             organism.progress.note(organism.goal.is_some() && is_hindered, &senses);
-            let is_steered = intent.is_some() || organism.controller != Controller::Still;
-            tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration).filter(|_| is_steered));
+            // What nobody steers is moved by others only, and does not brake.
+            if intent.is_some() || organism.controller != Controller::Still {
+                tows.extend(tow::tow(organism, senses.at, steering, before, max_acceleration));
+            }
         } else {
             organism.progress.note(organism.goal.is_some(), &senses);
             move_towards(id, organism, particles, environment.dt, drives, events);
