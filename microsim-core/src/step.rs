@@ -11,7 +11,8 @@ use crate::particle::outside_of;
 use crate::solver::block::Block;
 use crate::solver::membrane::{self, Membrane};
 use crate::solver::{
-    block, contact, contraction, drive, integrate, obstacle, ring_contact, strays, stretch_damping, untangle,
+    block, contact, contraction, drive, integrate, obstacle, ring_contact, speed_limit, strays, stretch_damping,
+    untangle,
 };
 use crate::world::{Scratch, World, count};
 use glam::Vec2;
@@ -262,19 +263,22 @@ fn project_contacts(world: &mut World) {
     obstacle::project(&broad_phase.obstacle_contacts, obstacles, paths, particles, impacts, recorder, h);
 }
 
-/// Discs push each other apart; in long substeps the bodies that they press on get their links back.
+/// Discs push each other apart; in long substeps and under heavy discs, what they press on gets its links back.
 fn project_discs(world: &mut World) {
     let World { config, particles, templates, blocks, exemptions, sleep, scratch, dispatch, .. } = world;
     let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     pressed.begin(config.substep());
     for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, impacts, contact_records, |contact| pressed.note(contact));
+        contact::project(contacts, particles, impacts, contact_records, |contact, particles| {
+            pressed.note(contact, particles)
+        });
     }
     pressed.relink(blocks, |template| templates[template].rigid_links(), particles, contact_records, *dispatch);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
+    limit_ways_of_cells(world, h);
     let World { config, particles, blocks, sleep, organisms, guard, scratch, dispatch, .. } = world;
     let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
     integrate::for_each_chunk(
@@ -291,6 +295,25 @@ fn update_velocities(world: &mut World, h: f32) {
     let rings = &scratch.broad_phase.ring_contacts;
     count(&mut guard.wrong_side, ring_contact::keep_sides(rings, particles, *dispatch));
     contact::apply_restitution(&mut scratch.impacts, particles);
+}
+
+/// Cells keep their momentum at the speed limit; seldom anything comes to it.
+fn limit_ways_of_cells(world: &mut World, h: f32) {
+    let World { config, particles, blocks, organisms, dispatch, .. } = world;
+    let outside = outside_of(blocks.iter().map(Block::range), particles.len()).filter(|loose| !loose.is_empty());
+    let (limit, mut columns) = (config.speed_limit(), particles.columns());
+    let mut exceeds = |loose| {
+        let mut loose = columns.part(loose);
+        dispatch.run(
+            #[inline(always)]
+            || integrate::exceeds_speed_limit(&mut loose, limit, h),
+        )
+    };
+    if outside.map(&mut exceeds).any(|exceeds| exceeds) {
+        for (_, cell) in organisms.with_membrane() {
+            speed_limit::limit_ways(|| cell.particles(), particles, limit * h);
+        }
+    }
 }
 
 /// Cells at rest do not overshoot when they become round. Once per step is enough, and costs less than in each substep.

@@ -3,10 +3,11 @@
 
 mod common;
 
-use common::run;
+use common::{room_with, run};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    Controller, Inputs, Material, Node, OrganismId, Placement, PlateletSpec, ProbeSpec, Template, World, WorldConfig,
+    AmoeboidCellSpec, Controller, Inputs, Material, Node, OrganismId, Placement, PlateletSpec, ProbeSpec, RedCellSpec,
+    Template, World, WorldConfig,
 };
 
 fn space() -> World {
@@ -44,6 +45,47 @@ fn an_impact_keeps_momentum_at_every_ratio_of_masses() {
                 assert!((velocity(&world, light).x - light_speed).abs() > 0.1, "{what}: they have met");
             }
         }
+    }
+}
+
+#[test]
+fn an_impact_on_linked_discs_keeps_momentum() {
+    for substeps in [4, 8] {
+        for mass in [1.0, 10.0, 29.0, 240.0, 1e3] {
+            let config =
+                WorldConfig { damping: 0.0, gravity: Vec2::ZERO, sleeps: false, substeps, ..WorldConfig::default() };
+            let mut world = World::new(config).unwrap();
+            let striker = disc(&mut world, mass, 0.0, Vec2::new(40.0, 45.6));
+            let struck = world.spawn(&RedCellSpec::default().into(), Placement::at(46.0, 45.0)).unwrap();
+            world.push(striker, Vec2::new(10.0, 0.0)).unwrap();
+            let mut stretch: f32 = 0.0;
+            for _ in 0..120 {
+                run(&mut world, &Inputs::new(), 1);
+                stretch = stretch.max(world.quality().edge_stretch_max);
+            }
+            let momentum = |id| {
+                let view = world.view().organism(id).unwrap();
+                view.velocity() * view.mass()
+            };
+            let kept = (momentum(striker) + momentum(struck)) / (10.0 * mass);
+            assert!(momentum(struck).x > 1.0, "they have met");
+            assert!((kept - Vec2::X).length() < 2e-3, "{substeps} substeps, mass {mass}: {kept}");
+            assert!(stretch < 0.1, "{substeps} substeps, mass {mass}: stretch {stretch}");
+        }
+    }
+}
+
+/// The speed limit takes no momentum from a cell that becomes round in a hurry.
+#[test]
+fn a_cell_that_nothing_drives_stays_where_it_is() {
+    for (radii, node_radius) in [((10.0, 4.0), 0.78), ((20.0, 5.0), 0.78), ((30.0, 30.0), 4.0)] {
+        let spec = AmoeboidCellSpec { radii: radii.into(), node_radius, ..AmoeboidCellSpec::default() };
+        let (mut world, cell) = room_with(spec, 80.0, 45.0);
+        let centre = |world: &World| world.view().organism(cell).unwrap().centre_of_mass();
+        let before = centre(&world);
+        run(&mut world, &Inputs::new(), 600);
+        let way = centre(&world).distance(before);
+        assert!(way < 0.1, "{radii:?}, nodes of {node_radius}: {way}");
     }
 }
 

@@ -10,11 +10,6 @@ use crate::collision::{Contact, Mobility};
 use crate::particle::Particles;
 use glam::Vec2;
 
-/// On a disc that is linked to others another one counts as at most so many times as heavy: a heavier disc would stretch the links
-/// faster than a substep's iterations can pass the load on. Momentum is kept below this ratio; above it the heavy side
-/// feels more than it should. What cannot move at all stays so.
-const HEAVIEST: f32 = 30.0;
-
 /// An impact of this substep that has to bounce.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Impact {
@@ -35,7 +30,7 @@ pub(crate) fn project(
     particles: &mut Particles,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
-    mut projected: impl FnMut(&Contact),
+    mut projected: impl FnMut(&Contact, &Particles),
 ) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
@@ -44,7 +39,7 @@ pub(crate) fn project(
         if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
             separate(contact, between, squared, particles, impacts, recorder);
-            projected(contact);
+            projected(contact, particles);
         }
     }
 }
@@ -89,18 +84,8 @@ fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
     match c.mobility {
         [Mobility::Asleep, _] => (0.0, wj),
         [_, Mobility::Asleep] => (wi, 0.0),
-        [a, b] => (
-            if b == Mobility::Linked { no_heavier(wi, wj) } else { wi },
-            if a == Mobility::Linked { no_heavier(wj, wi) } else { wj },
-        ),
+        _ => (wi, wj),
     }
-}
-
-/// Inverse mass with which something presses on something of inverse mass `other`, see [`HEAVIEST`].
-#[inline(always)]
-pub(crate) fn no_heavier(inv_mass: f32, other: f32) -> f32 {
-    let least = other / HEAVIEST;
-    if inv_mass > 0.0 && inv_mass < least { least } else { inv_mass }
 }
 
 /// The move that takes back slip along a surface, by at most `most`.
@@ -173,15 +158,13 @@ mod tests {
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
         });
     }
 
     #[test]
-    fn a_heavy_disc_presses_with_all_its_mass_unless_on_a_linked_one() {
-        for (ratio, mobility, counted) in
-            [(10.0, Mobility::Linked, 10.0), (1e3, Mobility::Single, 1e3), (1e3, Mobility::Linked, 30.0)]
-        {
+    fn a_heavy_disc_presses_with_all_its_mass_whether_or_not_discs_are_linked() {
+        for (ratio, mobility) in [(10.0, Mobility::Linked), (1e3, Mobility::Single), (1e3, Mobility::Linked)] {
             let mut p = line(0.6, [1.0, 1.0 / ratio]);
             let before = momentum(&p);
             let mut contact = Contact { mobility: [mobility, Mobility::Single], ..touching(0.0, 0.0) };
@@ -190,11 +173,11 @@ mod tests {
                 &mut p,
                 &mut Vec::new(),
                 &mut ContactRecorder::default(),
-                |_| {},
+                |_, _| {},
             );
-            assert!((p.x[0] + 0.4 * counted / (1.0 + counted)).abs() < 1e-6, "ratio {ratio}, {mobility:?}: {}", p.x[0]);
+            assert!((p.x[0] + 0.4 * ratio / (1.0 + ratio)).abs() < 1e-6, "ratio {ratio}, {mobility:?}: {}", p.x[0]);
             let error = (momentum(&p) - before).length();
-            assert_eq!(error < 1e-6 * ratio, counted == ratio, "ratio {ratio}, {mobility:?}: {error}");
+            assert!(error < 1e-6 * ratio, "ratio {ratio}, {mobility:?}: {error}");
         }
     }
 
@@ -202,7 +185,13 @@ mod tests {
     fn discs_apart_are_left_alone_and_not_touched() {
         let mut p = line(1.2, [1.0, 1.0]);
         let mut contact = touching(0.5, 0.0);
-        project(std::slice::from_mut(&mut contact), &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
+        project(
+            std::slice::from_mut(&mut contact),
+            &mut p,
+            &mut Vec::new(),
+            &mut ContactRecorder::default(),
+            |_, _| {},
+        );
         assert!(!contact.touched && p.x[1] == 1.2);
     }
 
@@ -214,7 +203,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_| {});
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
@@ -225,7 +214,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_| {});
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
@@ -237,7 +226,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 0.25]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_| {});
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
         p.vx = vec![0.5, 0.25];
         let before = momentum(&p);
         apply_restitution(&mut impacts, &mut p);

@@ -93,6 +93,22 @@ fn update<const L: usize>(p: &mut Columns<'_>, at: usize, max_speed: f32, keep: 
     store(p.vy, at, each::<L>(|l| vy[l] * keep));
 }
 
+/// Whether [`update_velocities`] is going to move anything back.
+#[inline(always)]
+pub(crate) fn exceeds_speed_limit(particles: &mut Columns<'_>, max_speed: f32, h: f32) -> bool {
+    let particles = &mut particles.even();
+    let (whole, end) = in_lanes(particles);
+    (0..whole).step_by(LANES).any(|at| exceeds::<LANES>(particles, at, max_speed * h))
+        || (whole..end).any(|at| exceeds::<1>(particles, at, max_speed * h))
+}
+
+#[inline(always)]
+fn exceeds<const L: usize>(p: &Columns<'_>, at: usize, longest: f32) -> bool {
+    let (x, y, from_x, from_y) =
+        (load::<L>(p.x, at), load::<L>(p.y, at), load::<L>(p.prev_x, at), load::<L>(p.prev_y, at));
+    limits(&each::<L>(|l| x[l] - from_x[l]), &each::<L>(|l| y[l] - from_y[l]), longest).is_some()
+}
+
 /// Moves origins to the places on their grid that are nearest to the particles, which stay where they are: all differences are
 /// exact.
 #[inline(always)]

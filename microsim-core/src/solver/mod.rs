@@ -21,6 +21,7 @@ pub(crate) mod relink;
 pub(crate) mod ring_contact;
 mod ring_lanes;
 mod ring_relation;
+pub(crate) mod speed_limit;
 pub(crate) mod strays;
 pub(crate) mod stretch_damping;
 #[cfg(test)]
