@@ -78,8 +78,8 @@ fn an_impact_on_linked_discs_keeps_momentum() {
 /// The speed limit takes no momentum from a cell that becomes round in a hurry.
 #[test]
 fn a_cell_that_nothing_drives_stays_where_it_is() {
-    for (radii, node_radius) in [((10.0, 4.0), 0.78), ((20.0, 5.0), 0.78), ((30.0, 30.0), 4.0)] {
-        let spec = AmoeboidCellSpec { radii: radii.into(), node_radius, ..AmoeboidCellSpec::default() };
+    for (radii, node_radius) in [((10.0, 5.2), 0.78), ((20.0, 6.0), 0.78), ((14.0, 14.0), 2.0), ((30.0, 30.0), 4.0)] {
+        let spec = AmoeboidCellSpec { radii: Vec2::from(radii), node_radius, ..AmoeboidCellSpec::default() };
         let (mut world, cell) = room_with(spec, 80.0, 45.0);
         let centre = |world: &World| world.view().organism(cell).unwrap().centre_of_mass();
         let before = centre(&world);

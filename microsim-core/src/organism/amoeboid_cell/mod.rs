@@ -38,6 +38,12 @@ pub(crate) const MAX_NODES: f32 = 4096.0;
 /// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
 const LEAST_CYTOPLASM: usize = 7;
 
+/// An ellipse with a semi-axis below this, in node radii, is nearly round: a narrower one becomes round in such a hurry that
+/// cytoplasm is pushed through its membrane and put back, by which the cell moves.
+const NARROW: f32 = 6.5;
+/// Largest aspect of a narrow one.
+const NEARLY_ROUND: f32 = 1.25;
+
 /// Share of the spacing that is between an outline's membrane and its cytoplasm.
 const CLEARANCE: f32 = 0.1;
 
@@ -48,8 +54,8 @@ const AMOEBA_NODE: f32 = 0.6;
 /// A membrane filled with cytoplasm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AmoeboidCellSpec {
-    /// Semi-axes at rest, units, each at least three node radii and at most 500. The membrane encloses the area of their ellipse:
-    /// the corners of its polygon lie a little outside.
+    /// Semi-axes at rest, units, each at least three node radii and at most 500; at least 6.5 node radii if one is more than 1.25
+    /// times the other. The membrane encloses the area of their ellipse: the corners of its polygon lie a little outside.
     pub radii: Vec2,
     /// Corners of its outline when spawned, around it in either direction, units from its place, within ±500; none for the ellipse
     /// of `radii`. The membrane's nodes lie on it. It is as long as its membrane from then on, and rounds up as cells do.
@@ -204,6 +210,11 @@ impl AmoeboidCellSpec {
         if !self.outline.is_empty() {
             return outline::chain(&self.outline, self.node_radius);
         }
+        let (wide, narrow) = (self.radii.max_element(), self.radii.min_element());
+        if narrow < NARROW * self.node_radius && wide > NEARLY_ROUND * narrow {
+            let accepted = format!("at least {NARROW} node radii, or an ellipse of an aspect of at most {NEARLY_ROUND}");
+            return Err(out_of_range("radii", f64::from(narrow), accepted));
+        }
         let radii = self.radii - Vec2::splat(self.node_radius);
         let around = perimeter(&ellipse(radii, 256));
         let count = around / (2.0 * self.node_radius);
@@ -316,6 +327,7 @@ mod tests {
         let spec = AmoeboidCellSpec::default;
         refuse(AmoeboidCellSpec { radii: Vec2::new(1.0, 10.0), ..spec() }, "radii.x");
         refuse(AmoeboidCellSpec { node_radius: f32::INFINITY, ..spec() }, "node_radius");
+        refuse(AmoeboidCellSpec { radii: Vec2::new(8.0, 4.0), ..spec() }, "radii");
         refuse(AmoeboidCellSpec { radii: Vec2::splat(500.0), node_radius: 0.1, ..spec() }, "radii");
         refuse(AmoeboidCellSpec { radii: Vec2::splat(3.0), cytoplasm_spacing: 3.0, ..spec() }, "radii");
         refuse(AmoeboidCellSpec { cytoplasm_spacing: 0.1, ..spec() }, "cytoplasm_spacing");
