@@ -10,8 +10,8 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     title: "Hydrostatic rest",
     source: "Stevin 1586, De Beghinselen des Waterwichts: still water is level, and its density is that of rest at any depth",
     words: "A column as in the dam break collapses in a closed room of twice its width and comes to rest, with a viscosity of \
-            8 1/s and little drag. A pool is a block of 19 x 19 spacings of the default fluid in a room of a width of 20, after 30 s; \
-            with default drag; speeds are root mean squares over its particles.",
+            8 1/s and little drag. A pool is a block of 19 x 19 spacings of the default fluid in a room 20 wide with the default \
+            drag, after 30 s; speeds are root mean squares over its particles.",
     run: measure,
 };
 
