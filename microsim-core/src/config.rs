@@ -21,6 +21,9 @@ const LONGEST_SUBSTEP_OF_GRAINS: f32 = 0.0025;
 const FASTEST_SWING: f32 = 0.25;
 /// Largest damping times substep: what moves steadily gets one and this times as far as its speed says.
 const MOST_DAMPED: f32 = 0.05;
+/// Largest viscosity times substep: differences between nearest neighbours decay faster than they should, here by an eighth. With
+/// room for the rounding of the substep.
+const MOST_VISCOUS: f32 = 0.5 + f32::EPSILON;
 
 /// Sleep speed, units/s: on a screen with ten pixels to a unit a pixel in five seconds.
 const SLEEP_SPEED: f32 = 0.02;
@@ -195,6 +198,11 @@ impl WorldConfig {
     /// Checks that substeps are short enough for grains.
     pub(crate) fn check_grains(&self) -> Result<(), Error> {
         self.check_substeps(LONGEST_SUBSTEP_OF_GRAINS, ", with grains")
+    }
+
+    /// Checks that substeps are short enough for a fluid of this viscosity, 1/s.
+    pub(crate) fn check_viscosity(&self, viscosity: f32) -> Result<(), Error> {
+        self.check_rate("viscosity", viscosity, [0.0, MOST_VISCOUS / self.substep()])
     }
 
     /// Checks that substeps are short enough for a spring of this frequency, Hz.

@@ -7,12 +7,14 @@
 mod experiments;
 
 use experiments::crawl::{self, Figures};
-use experiments::scene::Stepping;
-use experiments::{ALL, angle_of_repose, cell_area, free_fall, granular_energy, refinement, restitution};
+use experiments::scene::{Stepping, particles};
+use experiments::{
+    ALL, angle_of_repose, cell_area, free_fall, granular_energy, hydrostatic_rest, refinement, restitution,
+};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Crawl, Emitter, FluidBlockSpec, FluidMode, FluidParams, OrganismSpec, Placement, PlateletSpec,
-    Recipe, Region, World, WorldConfig,
+    AmoeboidCellSpec, Crawl, Emitter, FluidBlockSpec, FluidMode, FluidParams, Inputs, OrganismSpec, Placement,
+    PlateletSpec, Recipe, Region, World, WorldConfig,
 };
 
 /// Steps and substeps in which results are to be the same.
@@ -129,6 +131,54 @@ fn substeps_that_are_too_long_for_grains_refuse_them_and_no_other_fluid() {
         let Err(refusal) = grains else { continue };
         assert_eq!(refusal.field(), "substeps");
         assert!(refusal.to_string().contains("7 to 64 of a step of 0.016666668 s, with grains"), "{refusal}");
+    }
+}
+
+#[test]
+fn viscosity_that_is_too_high_for_the_substep_is_refused_with_field_and_range() {
+    for (substeps, viscosity, is_accepted) in [(2, 60.0, true), (2, 61.0, false), (8, 240.0, true), (8, 241.0, false)] {
+        let mut world = World::new(WorldConfig { substeps, ..WorldConfig::default() }).unwrap();
+        let block = FluidBlockSpec { fluid: FluidParams { viscosity, ..FluidParams::default() }, ..Default::default() };
+        let fluid = world.spawn(&block.clone().into(), Placement::at(80.0, 45.0));
+        let emitted = world.add_emitter(Emitter::new(Region::All, Recipe::Organism(block.into()), 1.0));
+        assert_eq!((fluid.is_ok(), emitted.is_ok()), (is_accepted, is_accepted), "{viscosity}, {substeps} substeps");
+        let Err(refusal) = fluid else { continue };
+        assert_eq!(refusal.field(), "viscosity");
+        assert!(refusal.to_string().contains(&format!("0 to {}.0 with {substeps}", 30 * substeps)), "{refusal}");
+    }
+}
+
+#[test]
+fn viscosity_is_a_rate() {
+    // Two particles half a support radius apart: of their weights, 1 and 1/8, each counts over the rest density, 1.764.
+    for (viscosity, Stepping { dt, substeps }) in [
+        (10.0, Stepping { dt: 1.0 / 60.0, substeps: 1 }),
+        (29.0, Stepping { dt: 1.0 / 60.0, substeps: 1 }),
+        (240.0, Stepping::DEFAULT),
+        (500.0, Stepping { dt: 0.001, substeps: 1 }),
+        (1000.0, Stepping { dt: 0.001, substeps: 5 }),
+    ] {
+        let config = WorldConfig { dt, substeps, damping: 0.0, ..WorldConfig::default() };
+        let mut world = World::new(config).unwrap();
+        let fluid = FluidParams { viscosity, ..FluidParams::default() };
+        let drop = OrganismSpec::from(FluidBlockSpec { size: Vec2::ONE, fluid });
+        let [low, high] = [45.0, 46.0].map(|y| world.spawn(&drop, Placement::at(80.0, y)).unwrap());
+        world.push(low, Vec2::new(0.1, 0.0)).unwrap();
+        let steps = (4.0 / viscosity / dt).ceil();
+        (0..steps as u32).for_each(|_| world.step(&Inputs::new()));
+        let [low, high] = [low, high].map(|id| f64::from(particles(&world, id)[0].velocity.x));
+        let rate = -((low - high) / 0.1).ln() / f64::from(steps * dt);
+        let law = f64::from(viscosity) * 2.0 * 0.125 / 1.764;
+        assert!((rate / law - 1.0).abs() < 0.05, "{viscosity} 1/s, {substeps} substeps of {dt} s: {rate}, law {law}");
+    }
+}
+
+#[test]
+fn still_water_comes_to_rest_whatever_the_step() {
+    // Walls whose push was no gradient kept it boiling at 0.10, 0.14, 0.43 and 0.43 units/s.
+    for substeps in [4, 8, 12, 16] {
+        let speed = hydrostatic_rest::speed_of_pool(Stepping::of_substeps(substeps), 20.0).unwrap();
+        assert!(speed < 0.03, "{speed} units/s with {substeps} substeps");
     }
 }
 

@@ -155,11 +155,14 @@ impl World {
         if blueprint.rim.is_some() {
             self.config.check_membranes()?;
         }
-        let is_grains = |fluid: &FluidPlan| fluid.params.mode == FluidMode::Granular;
-        if blueprint.fluid.as_ref().is_some_and(is_grains) {
+        blueprint.fluid.as_ref().map_or(Ok(()), |plan| self.check_fluid_substeps(&plan.params))
+    }
+
+    pub(in crate::world) fn check_fluid_substeps(&self, params: &FluidParams) -> Result<(), Error> {
+        if params.mode == FluidMode::Granular {
             self.config.check_grains()?;
         }
-        Ok(())
+        self.config.check_viscosity(params.viscosity)
     }
 
     /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share, and

@@ -13,7 +13,8 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     title: "Angle of repose",
     source: "Coulomb 1776, Mém. math. phys. Acad. R. Sci. 7: a slope of dry grains stands up to the angle of their friction, \
              `atan mu`; after a collapse, which has inertia, it is flatter",
-    words: "Columns of aspect 1 collapse to heaps; the angle is that of the line through the surface between a fifth and four \
+    words: "Columns of aspect 1, 40 spacings wide, collapse to heaps; they begin as a lattice, a crystal, of which other widths \
+            slide otherwise ([limits](physics.md#limits)). The angle is that of the line through the surface between a fifth and four \
             fifths of the heap's length. Without friction nothing stands. The bounds, half to 1.1 `atan mu`, are ours.",
     run: measure,
 };

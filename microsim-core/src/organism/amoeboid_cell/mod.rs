@@ -65,7 +65,7 @@ pub struct AmoeboidCellSpec {
     /// Rest spacing of the cytoplasm in node radii, 1.2 to 3: particles are wider than half a gap (T17) and narrower than
     /// would keep the cell from deforming.
     pub cytoplasm_spacing: f32,
-    /// Viscosity of the cytoplasm, 1/s, 0 to 1000, see [`FluidParams::viscosity`].
+    /// Viscosity of the cytoplasm, 1/s, 0 to 1000 and at most 0.5 over the substep, see [`FluidParams::viscosity`].
     pub viscosity: f32,
     /// Speed of its front and rear when it moves, units/s, 0 to 1000.
     pub speed: f32,

@@ -20,9 +20,10 @@ const MIN_SPACING: f32 = 0.85;
 const SPACING_SHARE: f32 = 0.25;
 
 /// A wall stands for the mirror image of the fluid before it, or else fluid would crowd there: this many particles ...
-const WALL_WEIGHT: f32 = 1.45;
-/// ... this far behind its surface. Fitted to a mirrored hexagonal lattice.
-const WALL_DEPTH: f32 = 0.5 / SUPPORT;
+const WALL_WEIGHT: f32 = 11.6;
+/// ... this far behind its surface. In a mirrored hexagonal lattice a particle at half a spacing gets that density, and that push,
+/// from its own multiplier and that of its image. Here its own alone gives it, so that the push is a gradient and makes no energy.
+const WALL_DEPTH: f32 = 1.0 / SUPPORT;
 
 /// Kernel sums of a group's members, themselves included, and what follows from them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -141,8 +142,8 @@ pub(super) fn shifts(
     let share = viscosity / rest_density;
     let toward = |drift: &Lanes, moved: Lanes, l: usize| share * (drift[l] - sums.density[l] * moved[l]);
     [
-        each(|l| shift_x[l] + 2.0 * own[l] * sums.wall_x[l] + toward(&sums.drift_x, moved_x, l)),
-        each(|l| shift_y[l] + 2.0 * own[l] * sums.wall_y[l] + toward(&sums.drift_y, moved_y, l)),
+        each(|l| shift_x[l] + own[l] * sums.wall_x[l] + toward(&sums.drift_x, moved_x, l)),
+        each(|l| shift_y[l] + own[l] * sums.wall_y[l] + toward(&sums.drift_y, moved_y, l)),
     ]
 }
 

@@ -45,7 +45,8 @@ pub struct FluidParams {
     pub spacing: f32,
     /// Mass of a particle, 0.001 to 1000.
     pub particle_mass: f32,
-    /// Rate at which velocity differences between neighbours decay, 1/s, 0 to 1000.
+    /// Rate at which velocity differences between neighbours decay, 1/s, 0 to 1000, and at most 0.5 over the substep: 240 by
+    /// default.
     pub viscosity: f32,
     /// How particles keep apart.
     pub mode: FluidMode,
@@ -173,7 +174,7 @@ impl Workspace {
             sorted.read(particles, support_radius);
             sums.resize(sorted.groups.len(), Sums::default());
             shifts.resize(sorted.groups.len(), Default::default());
-            let viscosity = fluid.params.viscosity * h / (1.0 + fluid.params.viscosity * h);
+            let viscosity = fluid.params.viscosity * h;
             match fluid.params.mode {
                 FluidMode::Density => {
                     find_multipliers(sorted, sums, [*rest_density, density::relaxation(h)], dispatch);

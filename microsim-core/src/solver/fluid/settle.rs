@@ -9,6 +9,8 @@ use glam::Vec2;
 const ITERATIONS: usize = 60;
 /// Substep of an iteration, s: long, so that viscosity evens out what the constraints do.
 const SUBSTEP: f32 = 0.01;
+/// This viscosity, 1/s, whatever that of the fluid is.
+const VISCOSITY: f32 = 20.0;
 /// Share of its last displacement that a particle makes once more: without it the fluid jams before it is at rest.
 const INERTIA: f32 = 0.9;
 /// Least spacing at the end, relative to the rest spacing: a little more than what is enforced later.
@@ -19,6 +21,7 @@ pub(crate) fn settle(points: &mut [Vec2], params: FluidParams, confine: impl Fn(
     // Far from the walls at 0.
     let far = points.iter().fold(Vec2::ZERO, |far, point| far.max(point.abs())) + Vec2::splat(4.0 * params.spacing);
     let mut particles = Particles::default();
+    let params = FluidParams { viscosity: VISCOSITY, ..params };
     let spacing = LEAST_SPACING * params.spacing;
     let grains = FluidParams { spacing, mode: FluidMode::Granular, friction: 0.0, ..params };
     let mut fluids = [Fluid::new(params, true), Fluid::new(grains, true)];

@@ -11,7 +11,6 @@ pub(super) mod structure;
 use crate::error::Error;
 use crate::id::OrganismId;
 use crate::kind::Kind;
-use crate::solver::fluid::FluidMode;
 use crate::world::World;
 use std::fmt;
 
@@ -45,9 +44,7 @@ impl World {
         if self.organisms.with_membrane().next().is_some() {
             self.config.check_membranes().map_err(refused)?;
         }
-        if self.fluids.iter().any(|fluid| fluid.params.mode == FluidMode::Granular) {
-            self.config.check_grains().map_err(refused)?;
-        }
+        self.fluids.iter().try_for_each(|fluid| self.check_fluid_substeps(&fluid.params)).map_err(refused)?;
         store::check_columns(&self.particles)?;
         structure::check(self)?;
         numbers::check(self)?;
