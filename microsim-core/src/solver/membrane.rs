@@ -33,6 +33,8 @@ const EXCESS_PROTRUDING: f32 = 1.14;
 const ACTIVITY_TIME: f32 = 0.5;
 const STRETCH_TIME: f32 = 0.25;
 const SHRINK_TIME: f32 = 0.6;
+/// Activity above which a membrane was driven lately: it falls below 1.5 s after the drive.
+const ACTIVE: f32 = 0.05;
 /// Speed at which excess area is taken back at most, in link lengths per second: at rest, and while driven, when the area of a cell
 /// varies by some percent.
 const FASTEST_AT_REST: f32 = 4.0;
@@ -102,6 +104,11 @@ impl Membrane {
     /// Present total rest length of its links.
     pub(crate) fn rest_perimeter(&self) -> f32 {
         self.rest_perimeter
+    }
+
+    /// Whether it has been driven lately.
+    pub(crate) fn is_active(&self) -> bool {
+        self.activity > ACTIVE
     }
 
     /// The same for a part of its ring, or for more: `nodes` instead of `before`, under the same tension.
