@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
 /// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
-/// membrane nodes use a gate whatever is asked, for prey with a radius below 1.2 of a node's or above 0.45 of the cell's (soft prey: when
+/// membrane nodes use a gate whatever is asked, for prey with a radius below a node's or above 0.45 of the cell's (soft prey: when
 /// it has shrunk) all do, and for all prey in substeps longer than 1/360 s. A cup that has not closed in three quarters of the time
 /// limit becomes a gate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

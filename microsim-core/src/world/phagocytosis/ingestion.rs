@@ -19,7 +19,7 @@ const CUP_NODES: usize = 36;
 const CUP_SUBSTEP: f32 = 1.0 / 360.0 + 1e-5;
 /// Least radius of prey in a cup, in node radii, and largest one, in radii of the cell: round less a fold of membrane does not bend,
 /// and round more it is not long enough.
-const SMALLEST_IN_CUP: f32 = 1.2;
+const SMALLEST_IN_CUP: f32 = 1.0;
 const LARGEST_IN_CUP: f32 = 0.45;
 /// Length of links, in rest lengths, above which a membrane gets a node for prey that a gate lets in.
 const MOST_STRETCHED: f32 = 1.15;
