@@ -7,8 +7,8 @@ use common::{outline, room_with, run};
 use microsim_core::geometry::polygon::{contains_point, signed_area};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Controller, ErrorKind, Inputs, MembraneRegion, OrganismId, Placement, PlateletSpec, ProbeSpec,
-    Rng, Role, World, WorldConfig,
+    AmoeboidCellSpec, Controller, Crawl, ErrorKind, Inputs, MembraneRegion, OrganismId, Placement, PlateletSpec,
+    ProbeSpec, Rng, Role, World, WorldConfig,
 };
 
 fn a_cell() -> (World, OrganismId) {
@@ -286,4 +286,29 @@ fn a_deformed_cell_becomes_round_without_overshoot() {
     probes.into_iter().for_each(|probe| pressed.remove(probe).unwrap());
     let [left, rise] = relaxed(&mut pressed, cell, 3.0);
     assert!(left < 1.05 && rise < 0.03, "pressed: aspect {left}, rose by {rise}");
+}
+
+#[test]
+fn a_driven_cell_has_the_area_of_its_radii() {
+    for (crawl, radius, speed, substeps) in [
+        (Crawl::FrontAndRear, 4.5, 8.0, 8),
+        (Crawl::FrontAndRear, 5.0, 8.0, 8),
+        (Crawl::FrontAndRear, 6.0, 8.0, 3),
+        (Crawl::FrontAndRear, 5.5, 20.0, 3),
+        (Crawl::Neutrophil, 6.0, 8.0, 8),
+        (Crawl::Dictyostelium, 8.0, 8.0, 4),
+    ] {
+        let config = WorldConfig { size: Vec2::splat(500.0), substeps, ..WorldConfig::default() };
+        let mut world = World::new(config).unwrap();
+        let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), speed, crawl, ..AmoeboidCellSpec::default() };
+        let cell = world.spawn(&spec.into(), Placement::at(100.0, 250.0)).unwrap();
+        let inputs = toward(cell, 1e4, 250.0);
+        run(&mut world, &inputs, 120);
+        let area = std::f32::consts::PI * (radius - 0.78).powi(2);
+        let share = |world: &World| signed_area(&outline(world, cell)) / area - 1.0;
+        let shares: Vec<f32> = (0..300).map(|_| (world.step(&inputs), share(&world)).1).collect();
+        let mean = shares.iter().sum::<f32>() / 300.0;
+        assert!(mean.abs() < 0.02, "{crawl:?}, radius {radius}, speed {speed}: {mean} in the mean, {shares:?}");
+        assert!(shares.iter().all(|share| *share < 0.025), "{crawl:?}, radius {radius}, speed {speed}: {shares:?}");
+    }
 }

@@ -4,14 +4,14 @@
 mod common;
 
 use common::chase::{WAYS, agar_of, begins, by, chase, digesting, ingests, small_rigid};
-use common::lobes::{CENTRE, cell_in_room, divide, finish, fuse, run_checked};
+use common::lobes::{CENTRE, cell_in_room, count, divide, finish, fuse, run_checked};
 use common::{distances_from_centre, outline, room_with, run, toward};
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::geometry::ring::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
-    OrganismSpec, Placement, Refusal, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Crawl, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
+    OrganismSpec, Placement, Refusal, Role, World, WorldConfig,
 };
 
 /// Why a cell refuses to divide; the refusal leaves the counts as they are.
@@ -226,5 +226,44 @@ fn cells_do_not_divide_or_fuse_while_they_take_in() {
         // A cup's fold may get a node in the same step.
         let reason = if way == IngestionWay::Gate { refusal } else { reason_not_to_divide };
         assert_eq!(reason(&mut world, cell), Refusal::Ingesting);
+    }
+}
+
+/// The larger share of the cytoplasm after the division of a cell that is told to crawl throughout.
+fn larger_share(spec: AmoeboidCellSpec, seed: u64) -> f32 {
+    let config = WorldConfig { size: Vec2::splat(300.0), seed, ..WorldConfig::default() };
+    let (mut world, middle) = (World::new(config).unwrap(), Vec2::splat(150.0));
+    let cell = world.spawn(&spec.into(), Placement::at(middle.x, middle.y)).unwrap();
+    let inputs = toward(cell, middle + 130.0 * unit_vector(2.1 * seed as f32));
+    run(&mut world, &inputs, 100 + 40 * seed as u32);
+    world.divide(cell).unwrap();
+    run(&mut world, &inputs, 60);
+    assert_eq!(world.view().organism(cell).unwrap().dividing_for(), Some(0.0), "it rounds up first");
+    let particles = |world: &World, cell| count(world, cell, Role::Cytoplasm) as f32;
+    let all = particles(&world, cell);
+    for _ in 0..900 {
+        run_checked(&mut world, &inputs, 1, "crawling");
+        if let Some(Event::Divided { daughter, .. }) = world.events().first() {
+            let daughter = particles(&world, *daughter);
+            return daughter.max(all - daughter) / all;
+        }
+    }
+    panic!("it does not divide");
+}
+
+#[test]
+fn a_cell_that_crawls_rounds_up_and_divides_into_halves() {
+    for (crawl, radius) in [
+        (Crawl::FrontAndRear, 6.0),
+        (Crawl::Neutrophil, 8.0),
+        (Crawl::Neutrophil, 12.0),
+        (Crawl::Dictyostelium, 8.0),
+        (Crawl::Dictyostelium, 11.0),
+    ] {
+        for seed in 0..3 {
+            let spec = AmoeboidCellSpec { crawl, radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() };
+            let share = larger_share(spec, seed);
+            assert!(share <= 0.55, "{crawl:?} of radius {radius}, seed {seed}: {share} of the cytoplasm");
+        }
     }
 }

@@ -25,7 +25,9 @@ pub(crate) fn draw_furrows(
     contractions: &mut Vec<Contraction>,
 ) {
     for (_, organism) in organisms.with_membrane().filter(|(_, organism)| !organism.is_quarantined) {
-        draw_furrow(organism, particles, contractions);
+        if !organism.rounds_up() {
+            draw_furrow(organism, particles, contractions);
+        }
         clear_furrow(organism, organisms, particles, drives);
     }
 }

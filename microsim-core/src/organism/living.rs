@@ -134,6 +134,12 @@ impl Organism {
         self.divider.as_ref().and_then(|divider| divider.furrow)
     }
 
+    /// Whether it becomes round before its furrow begins to close: it has crawled until now.
+    pub(crate) fn rounds_up(&self) -> bool {
+        let waits = self.furrow().is_some_and(|furrow| furrow.elapsed == 0.0) && !self.is_quarantined;
+        waits && self.body.membrane().is_some_and(Membrane::is_active)
+    }
+
     /// Speed that it wants to move with, units/s; negative: backwards.
     pub(crate) fn present_speed(&self) -> f32 {
         self.relative_speed * self.own_speed()

@@ -33,10 +33,13 @@ const EXCESS_PROTRUDING: f32 = 1.14;
 const ACTIVITY_TIME: f32 = 0.5;
 const STRETCH_TIME: f32 = 0.25;
 const SHRINK_TIME: f32 = 0.6;
-/// Speed at which excess area is taken back at most, in link lengths per second: at rest, and while driven, when the area of a cell
-/// varies by some percent.
+/// Activity above which a membrane was driven lately: it falls below 1.5 s after the drive.
+const ACTIVE: f32 = 0.05;
+/// Speed at which excess area is taken back at most, in link lengths per second: at rest and beyond the slack, and while driven, ...
 const FASTEST_AT_REST: f32 = 4.0;
 const FASTEST_DRIVEN: f32 = 0.7;
+/// ... when the area may be larger by this share.
+const AREA_SLACK: f32 = 0.01;
 
 /// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -104,6 +107,11 @@ impl Membrane {
         self.rest_perimeter
     }
 
+    /// Whether it has been driven lately.
+    pub(crate) fn is_active(&self) -> bool {
+        self.activity > ACTIVE
+    }
+
     /// The same for a part of its ring, or for more: `nodes` instead of `before`, under the same tension.
     pub(crate) fn resized(&self, before: usize, nodes: usize) -> Self {
         let rest_perimeter = self.rest_perimeter * nodes as f32 / before as f32;
@@ -158,9 +166,11 @@ impl Membrane {
         let radius = 0.5 * length / circle.sine;
         let rises = circle.cosines.map(|cosine| radius * (1.0 - cosine));
         let speed = FASTEST_AT_REST + (FASTEST_DRIVEN - FASTEST_AT_REST) * self.activity;
-        let fastest = self.rest_perimeter * h * speed * self.rest_length;
+        let at = |speed: f32| self.rest_perimeter * h * speed * self.rest_length;
+        let (fastest, faster) = (at(speed), at(FASTEST_AT_REST - speed));
+        let slack = AREA_SLACK * self.target_area;
         let stiffness = if self.stiffness.len() == ring.len() { self.stiffness.as_slice() } else { &[] };
-        RingTarget { ring, length, rises, area: self.target_area, fastest, stiffness }
+        RingTarget { ring, length, rises, area: self.target_area, fastest, faster, slack, stiffness }
     }
 
     /// Shortens every link that is longer than [`STRAIN_LIMIT`] allows, in sweeps forwards and backwards.

@@ -6,7 +6,7 @@
 //!   does not buckle under its own compression;
 //! - bending: `C = x_i - (x_{i-s} + x_{i+s}) / 2 - n h_s`, `h_s = R (1 - cos(2 pi s / M))` the sagitta of the circle, for
 //!   strides `s = 2` and `1` (Mueller et al. 2007, section 4, a stretch of the midpoint);
-//! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed.
+//! - area: `C = A - A_t <= 0`, see [`super::constraint::Area`], limited in speed, less so beyond a slack.
 
 use super::constraint::MeasuredRing;
 use super::lanes::{LANES, Pair, Span, add, load, ratio};
@@ -41,8 +41,12 @@ pub(super) struct RingTarget<'a> {
     pub rises: [f32; 2],
     /// Most that it encloses.
     pub area: f32,
-    /// Most of the excess area that a substep takes back.
+    /// Most of the excess area that a substep takes back, ...
     pub fastest: f32,
+    /// ... and how much more of what is beyond `slack`.
+    pub faster: f32,
+    /// Excess area that a driven membrane may have for a while.
+    pub slack: f32,
     /// Share of the bending stiffness at each node; empty: all of it.
     pub stiffness: &'a [f32],
 }
@@ -53,6 +57,8 @@ struct Targets<const L: usize> {
     rises: [[f32; L]; 2],
     area: [f32; L],
     fastest: [f32; L],
+    faster: [f32; L],
+    slack: [f32; L],
 }
 
 /// Rings side by side in a block of its own.
@@ -107,6 +113,8 @@ impl<const L: usize> Targets<L> {
             rises: [each_of(&|ring| ring.rises[0]), each_of(&|ring| ring.rises[1])],
             area: each_of(&|ring| ring.area),
             fastest: each_of(&|ring| ring.fastest),
+            faster: each_of(&|ring| ring.faster),
+            slack: each_of(&|ring| ring.slack),
         }
     }
 
@@ -130,8 +138,9 @@ impl<const L: usize> Targets<L> {
         let measured = MeasuredRing::measure(ring, span, p);
         let alpha = AREA_COMPLIANCE / (h * h);
         let excess = each::<L>(|l| measured.area[l] - self.area[l]);
+        let beyond = each::<L>(|l| clamp(excess[l] - self.slack[l], self.faster[l]));
         // The compliance takes back a share only of the error that it is given.
-        let most = each::<L>(|l| self.fastest[l] * (1.0 + ratio(alpha, measured.weight[l])));
+        let most = each::<L>(|l| (self.fastest[l] + beyond[l]) * (1.0 + ratio(alpha, measured.weight[l])));
         let error = each::<L>(|l| if excess[l] < most[l] { excess[l] } else { most[l] });
         let mut acts = [false; L];
         acts.iter_mut().zip(excess).for_each(|(acts, excess)| *acts = excess > 0.0);
@@ -161,6 +170,13 @@ impl<const L: usize> Targets<L> {
             pair.push(p, share);
         }
     }
+}
+
+/// A value limited to the range from 0 to `most`.
+#[inline(always)]
+fn clamp(value: f32, most: f32) -> f32 {
+    let value = if value < most { value } else { most };
+    if value > 0.0 { value } else { 0.0 }
 }
 
 /// Moves each node towards the sagitta `rise` over the nodes `stride` before and after it. Gradient 1 for the node and -1/2 for
@@ -286,7 +302,16 @@ mod tests {
             let before = area(&p);
             let (length, fastest) = (12.8 * unit_vector(0.5 * TAU / 40.0).y, 10.0 * h);
             let rises = STRIDES.map(|stride| 6.4 * (1.0 - unit_vector(TAU * stride as f32 / 40.0).x));
-            let target = RingTarget { ring: &nodes, length, rises, area: 0.9 * before, fastest, stiffness: &[] };
+            let target = RingTarget {
+                ring: &nodes,
+                length,
+                rises,
+                area: 0.9 * before,
+                fastest,
+                faster: 0.0,
+                slack: 0.0,
+                stiffness: &[],
+            };
             project(vec![target], &mut p, h, Dispatch::default());
             let speed = (before - area(&p)) / h;
             assert!((speed / 10.0 - 1.0).abs() < 0.1, "{speed} units2/s in a substep of {h} s");
@@ -304,7 +329,16 @@ mod tests {
                 .zip(&stiffness)
                 .map(|(ring, stiffness)| {
                     let (length, fastest) = (rng.range(0.5, 1.5), rng.range(0.0, 0.1));
-                    RingTarget { ring, length, rises: [0.3, 0.1], area: rng.range(0.0, 20.0), fastest, stiffness }
+                    RingTarget {
+                        ring,
+                        length,
+                        rises: [0.3, 0.1],
+                        area: rng.range(0.0, 20.0),
+                        fastest,
+                        faster: 0.5 * fastest,
+                        slack: 1.0,
+                        stiffness,
+                    }
                 })
                 .collect();
             for h in [1.0 / 480.0, 1.0 / 2000.0] {

@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// How prey gets through the membrane. Default: the cup. It never opens the outline, relaxes without a void behind the prey,
 /// and leaves a phagosome; it takes two to four times as long as the gate, and room for the fold: cells with fewer than 36
-/// membrane nodes use a gate whatever is asked, and so do all in substeps longer than 1/360 s.
+/// membrane nodes use a gate whatever is asked, for prey with a radius below a node's or above 0.45 of the cell's (soft prey: when
+/// it has shrunk) all do, and for all prey in substeps longer than 1/360 s. A cup that has not closed in three quarters of the time
+/// limit becomes a gate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IngestionWay {
     /// The membrane next to the prey ignores it until it is inside, as in the thesis.
@@ -28,8 +30,8 @@ pub struct PhagocytosisParams {
     pub heading_cosine: f32,
     /// Contacts of soft prey with the front that are needed at once, 1 to 100.
     pub soft_prey_contacts: u32,
-    /// Area of the engulfer's cytoplasm over the prey's area when spawned, at least, for prey of every kind, 0.1
-    /// to 1000.
+    /// Area of the engulfer's cytoplasm over the prey's area when spawned, at least, for prey of every kind, 1
+    /// to 1000: a cell does not go round what is larger than itself.
     pub size_ratio: f32,
     /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn to
     /// the side where its centre is, and after as much time again put there. Soft prey has shrunk to its scale after a fixed
@@ -92,7 +94,7 @@ impl PhagocytosisParams {
         let words = "Contacts of soft prey with the front that are needed at once.";
         visit(field("soft_prey_contacts", words), Count(&mut self.soft_prey_contacts, [1, 100]));
         let words = "Least area of its cytoplasm over the area of its prey.";
-        visit(field("size_ratio", words), Number(&mut self.size_ratio, [0.1, 1000.0]));
+        visit(field("size_ratio", words), Number(&mut self.size_ratio, [1.0, 1000.0]));
         let words = "Time after which prey that is still outside is let go, s.";
         visit(field("time_limit", words), Number(&mut self.time_limit, [0.1, 60.0]));
         let words = "Speed at which prey is drawn in, micrometres/s.";

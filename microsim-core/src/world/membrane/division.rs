@@ -29,6 +29,7 @@ struct Lobe {
 impl World {
     /// Tells an amoeboid cell to divide across its longest axis. In the next step [`Event::DivisionBegan`] happens, or
     /// [`Event::DivisionRefused`] says why not; the cell rests until [`Event::Divided`] or [`Event::DivisionAbandoned`].
+    /// One that has crawled in the last 1.5 s becomes round before its furrow begins to close.
     ///
     /// Cytoplasm is conserved. The membrane gets the nodes that two cells need, some 1.41 times as many.
     ///

@@ -5,7 +5,9 @@ use crate::capability::phagocytosis::PreyClass;
 use crate::event::Refusal;
 use crate::geometry::polygon::centroid;
 use crate::geometry::ring::direction_or;
+use crate::id::OrganismId;
 use crate::organism::Organism;
+use crate::solver::membrane::Membrane;
 use crate::world::World;
 use glam::Vec2;
 use std::ops::Range;
@@ -17,19 +19,28 @@ impl World {
     /// The furrow across `axis`, or across the longest axis, or the reason why the cell cannot divide.
     pub(super) fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
         Self::refusal(organism).map_or(Ok(()), Err)?;
+        let outline = self.outline_of(organism);
+        let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
+        let slack = (SLACK * outline.len() as f32) as u64;
+        if self.particles.live_count() as u64 + slack > u64::from(self.config.max_particles) {
+            return Err(Refusal::WorldFull);
+        }
+        self.lay_furrow(organism, axis.unwrap_or_else(|| long_axis(&outline, centre)))
+    }
+
+    /// The furrow across `axis` through the centroid, or the reason why it cannot be there.
+    fn lay_furrow(&self, organism: &Organism, axis: Vec2) -> Result<Furrow, Refusal> {
         let Some(params) = organism.divider.as_ref().map(|divider| divider.params) else {
             return Err(Refusal::TooSmall);
         };
         let outline = self.outline_of(organism);
         let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
-        let axis = axis.unwrap_or_else(|| long_axis(&outline, centre));
-        let slack = (SLACK * outline.len() as f32) as u64;
-        if self.particles.live_count() as u64 + slack > u64::from(self.config.max_particles) {
-            return Err(Refusal::WorldFull);
-        }
         let ahead = |at: Vec2| (at - centre).dot(axis) > 0.0;
         let fluid = organism.fluid_particles.iter().map(|&i| self.particles.position(i as usize));
-        let is_small = |count: usize, all: usize, least: u32| count.min(all - count) < least as usize;
+        // What rounds up first is divided evenly then.
+        let is_even = organism.body.membrane().is_some_and(Membrane::is_active);
+        let smaller = |count: usize, all: usize| if is_even { all / 2 } else { count.min(all - count) };
+        let is_small = |count: usize, all: usize, least: u32| smaller(count, all) < least as usize;
         if is_small(fluid.filter(|&at| ahead(at)).count(), organism.fluid_particles.len(), params.least_particles)
             || is_small(outline.iter().filter(|&&at| ahead(at)).count(), outline.len(), params.least_nodes)
         {
@@ -41,6 +52,19 @@ impl World {
         let nodes = bottom_nodes(organism, &outline, centre, axis).ok_or(Refusal::TooSmall)?;
         let width = self.particles.between(nodes[0] as usize, nodes[1] as usize).length();
         Ok(Furrow { nodes, width, elapsed: 0.0 })
+    }
+
+    /// Lays the furrow of a cell that rounds up across the middle that it has now, along the same axis, if it can be there.
+    pub(super) fn centre_furrow(&mut self, id: OrganismId) {
+        let Some((organism, furrow)) = self.organisms.get(id).and_then(|cell| Some((cell, cell.furrow()?))) else {
+            return;
+        };
+        let [a, b] = furrow.nodes.map(|node| node as usize);
+        let axis = direction_or(self.particles.between(a, b).perp(), Vec2::X);
+        let Ok(furrow) = self.lay_furrow(organism, axis) else { return };
+        if let Some(divider) = self.divider_mut(id) {
+            divider.furrow = Some(furrow);
+        }
     }
 
     /// Whether soft prey inside a cell lies on the line across `axis` through a point, or closer than the membrane of the

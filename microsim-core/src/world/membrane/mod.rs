@@ -40,10 +40,14 @@ impl World {
                 Some(Order::Fuse { with }) => self.try_fusion(id, with),
                 None => {}
             }
-            if let Some(divider) = self.divider_mut(id) {
-                divider.relax(dt);
+            if self.organisms.get(id).is_some_and(Organism::rounds_up) {
+                self.centre_furrow(id);
+            } else {
+                if let Some(divider) = self.divider_mut(id) {
+                    divider.relax(dt);
+                }
+                self.advance_furrow(id);
             }
-            self.advance_furrow(id);
             (0..self.membrane_changes()).for_each(|_| self.adapt_membrane(id));
         }
     }

@@ -32,15 +32,18 @@ impl World {
             let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
             self.remove_lost_meals(&mut engulfer);
             for k in engulfer.advance_touching(&self.encounters(id, &near_prey), self.config.dt) {
-                self.begin_ingestion(id, &mut engulfer.meals[k]);
+                self.begin_ingestion(id, &mut engulfer.meals[k], &engulfer.params);
             }
+            (0..self.membrane_changes()).for_each(|_| self.lengthen_gate(id, &engulfer));
+            let held = engulfer.meals.len();
             self.advance_ingestion(id, &mut engulfer);
             self.advance_digestion(id, &mut engulfer);
             let is_folded = engulfer.fold_length > 0.0;
             let has_removed = self.advance_phagosomes(id, &engulfer);
             engulfer.held_area = self.held_area(id, &engulfer);
             engulfer.fold_length = self.fold_length(id, &engulfer);
-            let has_spare_nodes = has_removed || (is_folded && engulfer.fold_length == 0.0);
+            let has_spare_nodes =
+                has_removed || engulfer.meals.len() < held || (is_folded && engulfer.fold_length == 0.0);
             if let Some(organism) = self.organisms.get_mut(id) {
                 organism.engulfer = Some(engulfer);
                 if has_spare_nodes {

@@ -86,7 +86,7 @@ impl Change {
                 params.digestion_speed = 1.0 - 0.75 * (1.0 - params.digestion_speed);
                 params.growth_yield = (1.1 * params.growth_yield).min(4.0);
             }
-            _ => params.size_ratio = (0.75 * params.size_ratio).max(0.1),
+            _ => params.size_ratio = (0.75 * params.size_ratio).max(1.0),
         }
         params
     }
