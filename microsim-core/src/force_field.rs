@@ -60,7 +60,8 @@ pub enum FieldKind {
     /// 530). A body with the area of a disc of radius `a` and its centre in the region diffuses with `D = mobility / a` (Stokes
     /// and Einstein: `k T / (6 pi eta)` is 0.215 cubic micrometres/s in water of 20 degrees) and turns with `3 D / (4 a^2)`, once
     /// the time `1 / damping` has passed. What has a membrane, is fluid, follows a goal or is held by a cell is not kicked;
-    /// neither is anything without [`crate::WorldConfig::damping`]. The speed limit must be some times the speed `sqrt(D damping)`.
+    /// neither is anything without [`crate::WorldConfig::damping`]. A quarter of the speed limit must be at least the speed
+    /// `sqrt(D damping)` of every body of the world, as if it were in the hottest place: otherwise the field, or the body, is refused.
     Thermal {
         /// Diffusion coefficient times radius, cubic units/s, 0 to 10 000.
         mobility: f32,
@@ -122,13 +123,19 @@ impl Region {
         }
     }
 
-    /// Least and largest x of its points.
-    pub(crate) fn span_x(&self) -> [f32; 2] {
+    /// Lower left and upper right corner of the box around it.
+    pub(crate) fn bounds(&self) -> [Vec2; 2] {
         match *self {
-            Self::All => [f32::NEG_INFINITY, f32::INFINITY],
-            Self::Circle { centre, radius } => [centre.x - radius, centre.x + radius],
-            Self::Box { low, high } => [low.x, high.x],
+            Self::All => [Vec2::NEG_INFINITY, Vec2::INFINITY],
+            Self::Circle { centre, radius } => [centre - radius, centre + radius],
+            Self::Box { low, high } => [low, high],
         }
+    }
+
+    /// Whether the boxes around it and another one meet.
+    pub(crate) fn may_meet(&self, other: &Self) -> bool {
+        let ([low, high], [others_low, others_high]) = (self.bounds(), other.bounds());
+        low.cmple(others_high).all() && others_low.cmple(high).all()
     }
 
     pub(crate) fn validate(&self) -> Result<(), Error> {

@@ -7,14 +7,17 @@
 mod experiments;
 
 use experiments::crawl::{self, Figures};
+use experiments::order::Order;
 use experiments::scene::{Stepping, particles};
 use experiments::{
-    ALL, angle_of_repose, cell_area, free_fall, granular_energy, hydrostatic_rest, refinement, restitution,
+    ALL, angle_of_repose, cell_area, chemotactic_index, constriction, diffusion, division, engulfment, free_fall,
+    granular_column, granular_energy, hydrostatic_rest, packing, refinement, relaxation, restitution, scene,
 };
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AmoeboidCellSpec, Crawl, Emitter, FluidBlockSpec, FluidMode, FluidParams, Inputs, OrganismSpec, Placement,
-    PlateletSpec, Recipe, Region, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, BacillusSpec, BrownianParams, CoccusSpec, Controller, Crawl, Emitter, FluidBlockSpec,
+    FluidMode, FluidParams, Inputs, OrganismSpec, PersistentWalkParams, Placement, PlateletSpec, Recipe, Region,
+    RunAndTumbleParams, World, WorldConfig,
 };
 
 /// Steps and substeps in which results are to be the same.
@@ -44,6 +47,95 @@ fn what_takes_little_time_agrees_with_what_is_published() {
             assert!(row.agrees(), "{name}, {}: {} is not in {:?}", row.what, row.ours, row.accepted);
         }
     }
+}
+
+#[test]
+fn what_has_no_order_says_why() {
+    for experiment in &ALL {
+        assert!(!matches!(experiment.order, Order::None(why) if why.is_empty()), "{}", experiment.name);
+    }
+}
+
+#[test]
+fn brownian_bodies_diffuse_by_what_they_are_told_or_by_their_radius() {
+    let brownian = Controller::brownian(BrownianParams::default());
+    let tracks = diffusion::tracks(&CoccusSpec::default().into(), &brownian, 10.0, 12).unwrap();
+    let ours = diffusion::mean_squared_displacement(&tracks, 1.0, 1.0) / 4.0;
+    assert!((ours / 0.46 - 1.0).abs() < 0.1, "{ours}");
+    for radius in [0.25, 1.0] {
+        let mobility = diffusion::mobility(25.0, 0.89);
+        let ours = diffusion::diffusion_of_beads(radius, mobility, 15.1, 12).unwrap();
+        let expected = mobility / f64::from(radius);
+        assert!((ours / expected - 1.0).abs() < 0.12, "radius {radius}: {ours} instead of {expected}");
+    }
+}
+
+#[test]
+fn bacilli_walk_as_fuerth_and_tumble_as_berg_say() {
+    let bacillus = OrganismSpec::from(BacillusSpec { speed: 10.0, ..BacillusSpec::default() });
+    let walk = Controller::persistent_walk(PersistentWalkParams { persistence: 0.3 });
+    let tracks = diffusion::tracks(&bacillus, &walk, 14.0, 10).unwrap();
+    let ours = diffusion::mean_squared_displacement(&tracks, 2.0, 0.3);
+    let fuerth = 2.0 * 100.0 * 0.09 * (-1.0f64).exp();
+    assert!((ours / fuerth - 1.0).abs() < 0.06, "{ours} instead of {fuerth}");
+    let berg = Controller::run_and_tumble(RunAndTumbleParams::default());
+    let tracks = diffusion::tracks(&BacillusSpec::default().into(), &berg, 62.5, 10).unwrap();
+    let [short, long] = [5.0, 10.0].map(|time| diffusion::mean_squared_displacement(&tracks, 2.0, time));
+    let ours = (long - short) / 20.0;
+    assert!((ours / 104.7 - 1.0).abs() < 0.3, "{ours}");
+}
+
+#[test]
+fn a_cell_finds_its_way_near_k_and_neither_far_above_nor_far_below() {
+    let world = chemotactic_index::gradient(172.0).unwrap();
+    let index = |relative: f32| chemotactic_index::index(&world, relative, 1).unwrap();
+    let (near, above, below) = (index(1.0), index(1e4), index(1e-4));
+    assert!(near > 0.7 && above < 0.6 && below < 0.6, "{near} at K, {above} above, {below} below");
+}
+
+#[test]
+fn still_water_is_level() {
+    let (world, column) = hydrostatic_rest::settle(20.0, 20.0).unwrap();
+    let particles = scene::particles(&world, column);
+    let speed = hydrostatic_rest::speed(&particles);
+    assert!(speed < 0.15, "{speed} units/s");
+    let compression = world.quality().fluid_compression_mean;
+    assert!(compression < 0.03, "{compression}");
+}
+
+#[test]
+fn discs_on_a_lattice_stay_as_dense_as_it_is() {
+    let [covered, overlap] = packing::hexagonal(12, 2.0).unwrap();
+    assert!((covered / 0.9069 - 1.0).abs() < 0.01 && overlap < 0.05, "{covered}, overlap {overlap}");
+}
+
+#[test]
+fn a_column_of_grains_runs_out_as_far_as_published() {
+    let run_out = granular_column::run_out(10.0, &granular_column::collapse([10.0, 3.0], 0.5, 6.0).unwrap());
+    assert!((2.0..7.9).contains(&run_out), "{run_out}");
+}
+
+#[test]
+fn a_narrow_gap_slows_a_cell_down() {
+    let [open, half] = [2.0, 0.5].map(|gap| constriction::speed(gap).unwrap());
+    assert!(half > 0.0 && half < 0.99 * open, "{half} after {open}");
+}
+
+#[test]
+fn a_deformed_cell_rounds_up_without_oscillation() {
+    let aspects = relaxation::relaxation(8.0, Stepping::DEFAULT).unwrap();
+    let (overshoot, left) = (relaxation::overshoot(&aspects), aspects[aspects.len() - 1][1]);
+    assert!(overshoot < 0.03 && left < 1.1, "rises by {overshoot}, ends at {left}");
+}
+
+#[test]
+fn large_prey_takes_longer_and_daughters_are_equal() {
+    let time =
+        |radius| engulfment::time(&AgarSpec { radius, ..AgarSpec::default() }.into(), Vec2::X, Stepping::DEFAULT);
+    let [small, large] = [1.0, 3.0].map(|radius| time(radius).unwrap());
+    assert!(small < large && large < 15.0, "{small} s, {large} s");
+    let (before, [a, b]) = division::divide(9.0).unwrap();
+    assert!((a / (a + b) - 0.5).abs() < 0.05 && ((a + b) / before - 1.0).abs() < 1e-5, "{a} and {b} of {before}");
 }
 
 #[test]

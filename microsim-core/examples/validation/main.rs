@@ -40,7 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     if names.is_empty() {
         println!("{}\n{}", page::INTRODUCTION, page::summary(&sections));
     }
-    sections.iter().for_each(|(experiment, outcome)| println!("{}", page::section(experiment, outcome)));
+    for (experiment, outcome) in &sections {
+        println!("{}", page::section(experiment, outcome, &experiment.order.words()?));
+    }
     if is_asked(REFINEMENT) {
         println!("{}{}", page::REFINEMENT, refinement::table(2).join("\n"));
     }

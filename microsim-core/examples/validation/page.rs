@@ -8,14 +8,15 @@ pub(crate) const INTRODUCTION: &str = "\
 # Validation
 
 The core against published results. Each row is run on the committed code, at the default step of 1/60 s and 8 substeps where
-nothing else is said; short forms of most are in `microsim-core/tests/validation.rs`. The page and its plots are written by
+nothing else is said; short forms are in `microsim-core/tests/validation.rs`. The page and its plots are written by
 
 ```sh
 cargo run --release -p microsim-core --features scenario --example validation -- docs/validation > docs/validation.md
 ```
 
 and a section by the same command with the experiment's name behind the folder, for example `docs/validation pendulum`. *Accepted*
-is what counts as agreement; where a result is missed, the section says why.
+is what counts as agreement; where a result is missed, the section says why. *Order* is by which power of the substep the error
+falls; [convergence](#convergence-in-the-step-and-in-substeps) has all of them.
 ";
 
 pub(crate) const REFINEMENT: &str = "\
@@ -41,8 +42,8 @@ pub(crate) fn summary(sections: &[(&Experiment, Outcome)]) -> String {
     text + "| [Refinement](#refinement), `refinement` | | |\n"
 }
 
-/// A section: what is done, and its rows.
-pub(crate) fn section(experiment: &Experiment, outcome: &Outcome) -> String {
+/// A section: what is done, its rows, and how its error goes with the substep.
+pub(crate) fn section(experiment: &Experiment, outcome: &Outcome, order: &str) -> String {
     let Experiment { name, title, source, words, .. } = experiment;
     let mut text = format!("## {title}\n\n`{name}`. {words}\n\nSource: {source}.\n\n");
     text += "| what | published | ours | accepted | |\n|---|---|---|---|---|\n";
@@ -55,6 +56,7 @@ pub(crate) fn section(experiment: &Experiment, outcome: &Outcome) -> String {
     if !outcome.cause.is_empty() && !outcome.rows.iter().all(Row::agrees) {
         let _ = writeln!(text, "\nMissed: {}", outcome.cause);
     }
+    let _ = writeln!(text, "\nOrder {order}.");
     if outcome.plot.is_some() {
         let _ = writeln!(text, "\n![{title}](validation/{name}.svg)");
     }

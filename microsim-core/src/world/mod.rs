@@ -27,6 +27,7 @@ mod settings;
 mod spawn;
 pub(crate) mod state;
 pub(crate) mod supply;
+mod thermal;
 mod vacancies;
 pub(crate) mod view;
 mod wake;

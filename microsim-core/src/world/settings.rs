@@ -39,7 +39,7 @@ impl World {
     /// Sets the drag of the medium, see [`WorldConfig::damping`]. Wakes nothing: what rests has no drag.
     ///
     /// # Errors
-    /// When it is not finite or out of its range.
+    /// When it is not finite or out of its range, or a thermal field would kick a body beyond the speed limit.
     pub fn set_damping(&mut self, damping: f32) -> Result<(), Error> {
         self.change_config(|config| config.damping = damping)?;
         self.changed(|| WorldChange::SetDamping(damping));
@@ -49,7 +49,8 @@ impl World {
     /// Sets the speed limit, see [`WorldConfig::max_speed`]. What is faster is slowed down at once. Wakes nothing.
     ///
     /// # Errors
-    /// When it is not finite or out of its range, or an organism that walks at random could not follow its law.
+    /// When it is not finite or out of its range, or an organism that walks at random or is in a thermal field could not follow
+    /// its law.
     pub fn set_max_speed(&mut self, max_speed: f32) -> Result<(), Error> {
         self.change_config(|config| config.max_speed = max_speed)?;
         with_default_float_environment(|| self.enforce_speed_limit());
@@ -75,6 +76,7 @@ impl World {
         config.validate()?;
         let mut organisms = self.organisms.iter().map(|(_, organism)| organism);
         organisms.try_for_each(|o| o.controller.check_body(&o.locomotion, o.speed, &config))?;
+        self.check_all_kicks(&config)?;
         self.config = config;
         Ok(())
     }

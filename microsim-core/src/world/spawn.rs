@@ -31,7 +31,8 @@ impl World {
     ///
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls, inside a membrane
-    /// or overlap what is already there, when substeps are too long for its membrane, or when the world would hold too many particles.
+    /// or overlap what is already there, when substeps are too long for its membrane, when a thermal field would kick it beyond the
+    /// speed limit, or when the world would hold too many particles.
     /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
@@ -140,6 +141,7 @@ impl World {
     fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
         placement.validate()?;
         self.check_substeps(blueprint)?;
+        self.check_kicks(blueprint, placement.scale)?;
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
         check_fluid(blueprint, placement)?;
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;

@@ -155,7 +155,7 @@ impl World {
         let mut is_taken = vec![false; places.len()];
         let mut fluid = Vec::new();
         for (id, drain) in drains {
-            let [low, high] = drain.region.span_x();
+            let [low, high] = drain.region.bounds().map(|corner| corner.x);
             let from = places.partition_point(|place| place.at.x < low);
             let until = places.partition_point(|place| place.at.x <= high);
             let takes = |&k: &usize| !is_taken[k] && drain.region.contains(places[k].at) && places[k].is_a(drain.kind);
@@ -247,7 +247,9 @@ impl World {
     /// Checks an emitter, and that this world can emit what it emits.
     pub(in crate::world) fn check_emitter(&self, emitter: &Emitter) -> Result<(), Error> {
         emitter.validate()?;
-        self.check_substeps(&self.blueprint_of(&emitter.recipe)?)
+        let blueprint = self.blueprint_of(&emitter.recipe)?;
+        self.check_substeps(&blueprint)?;
+        self.check_kicks(&blueprint, 1.0)
     }
 
     /// What a recipe amounts to in this world.

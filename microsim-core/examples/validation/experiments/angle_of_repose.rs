@@ -3,7 +3,7 @@
 use super::granular_column::collapse;
 use super::plot::{Curve, Plot};
 use super::scene::fit;
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::Error;
 use microsim_core::glam::Vec2;
 use std::f64::consts::PI;
@@ -17,6 +17,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             slide otherwise ([limits](physics.md#limits)). The angle is that of the line through the surface between a fifth and four \
             fifths of the heap's length. Without friction nothing stands. The bounds, half to 1.1 `atan mu`, are ours.",
     run: measure,
+    order: Order::None("where grains come to rest depends on every contact on the way"),
 };
 
 const WIDTH: f32 = 40.0;

@@ -1,5 +1,7 @@
 //! A hanging chain.
 
+use super::order::{Falling, Order};
+use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, particles, run};
 use super::{Experiment, Outcome, Row};
 use microsim_core::glam::Vec2;
@@ -12,6 +14,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "A chain of 40 rigid links hangs between two points at 0.6 of its length, and comes to rest by drag. A rigid link \
             gives way by `h²` times its load: shorter substeps are stiffer.",
     run: measure,
+    order: Order::Of(Falling { accepted: [1.0, 2.2], theory: "1 to 2", ..Falling::first("the length", stretch) }),
 };
 
 const LINKS: u32 = 40;
@@ -62,6 +65,8 @@ fn measure() -> Result<Outcome, Error> {
     let a = parameter(f64::from(LINKS));
     let height = |x: f64| a * ((x / a).cosh() - (0.5 * f64::from(SPAN) / a).cosh());
     let mut rows = Vec::new();
+    let curve = (-48..=48).map(|k| 0.25 * f64::from(k)).map(|x| [x, height(x)]).collect();
+    let mut curves = vec![Curve::line("a cosh(x / a)", curve)];
     for substeps in [8, 64] {
         let nodes = hang(Stepping::of_substeps(substeps))?;
         let off = |node: &Vec2| (f64::from(node.y) - height(f64::from(node.x))).abs();
@@ -73,6 +78,9 @@ fn measure() -> Result<Outcome, Error> {
         rows.push(Row::between(what("largest distance from the curve, share of the sag"), "0", [0.0, 0.01], share));
         let stretch = length(&nodes) / f64::from(LINKS) - 1.0;
         rows.push(Row::between(what("stretch of the chain"), "0", [0.0, 0.005], stretch));
+        let places = nodes.iter().map(|node| [node.x, node.y].map(f64::from)).collect();
+        curves.push(Curve::dots(format!("nodes, {substeps} substeps"), places));
     }
-    Ok(Outcome { rows, ..Outcome::default() })
+    let plot = Plot { axes: ["x, units", "y, units"], is_logarithmic: false, curves };
+    Ok(Outcome { rows, plot: Some(plot), ..Outcome::default() })
 }

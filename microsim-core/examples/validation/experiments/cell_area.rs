@@ -1,7 +1,8 @@
 //! Area of cells that nobody drives.
 
+use super::plot::{Curve, Plot};
 use super::scene::{self, Stepping};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::geometry::polygon::signed_area;
 use microsim_core::glam::Vec2;
 use microsim_core::{AmoeboidCellSpec, Error, OrganismId, Placement, World, WorldConfig};
@@ -13,6 +14,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "Cells are left alone for 20 s. The least and the largest difference of the polygon of the nodes from the ellipse on \
             which they are spawned, percent, over 1/60 s and 3, 4, 8 and 64 substeps and 1/1000 s and 1 and 5.",
     run: measure,
+    order: Order::None("a bound, not a value; the rows are over all steps"),
 };
 
 const STEPS: [Stepping; 6] = [
@@ -60,7 +62,7 @@ fn area(world: &World, cell: OrganismId) -> f32 {
 }
 
 fn measure() -> Result<Outcome, Error> {
-    let mut rows = Vec::new();
+    let (mut rows, mut lows, mut highs) = (Vec::new(), Vec::new(), Vec::new());
     for radii in RADII {
         let mut all = Vec::new();
         for stepping in STEPS {
@@ -68,8 +70,19 @@ fn measure() -> Result<Outcome, Error> {
         }
         let [low, high] = [all.iter().copied().fold(0.0, f64::min), all.iter().copied().fold(0.0, f64::max)];
         let [x, y] = radii;
+        if x == y {
+            lows.push([x.into(), low]);
+            highs.push([x.into(), high]);
+        }
         rows.push(Row::between(format!("least, radii {x} x {y}"), "0", [-2.0, 0.0], low));
         rows.push(Row::between(format!("largest, radii {x} x {y}"), "0", [0.0, 2.0], high));
     }
-    Ok(Outcome { rows, ..Outcome::default() })
+    let curves = vec![
+        Curve::dots("least", lows),
+        Curve::dots("largest", highs),
+        Curve::line("accepted", vec![[5.0, 2.0], [25.0, 2.0]]),
+        Curve::line("accepted", vec![[5.0, -2.0], [25.0, -2.0]]),
+    ];
+    let plot = Plot { axes: ["radius, units", "difference of the area, %"], is_logarithmic: false, curves };
+    Ok(Outcome { rows, plot: Some(plot), ..Outcome::default() })
 }

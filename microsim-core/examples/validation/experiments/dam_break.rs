@@ -2,26 +2,28 @@
 
 use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, particles, run_observed, value_at};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{Error, FluidBlockSpec, FluidParams, Placement, World};
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "dam_break",
     title: "Dam break",
-    source: "Martin and Moyce 1952, Phil. Trans. R. Soc. A 244, 312, columns twice as high as wide; numbers of the wider one as \
-             they are tabulated in later work, of the narrower one readings of figure 3",
-    words: "A column of 20 x 40 spacings without viscosity, default step. Times are `T = t sqrt(2 g / a)` for the front and \
-            `t sqrt(g / a)` for the height at the wall, lengths in widths `a` and heights `2 a`. The front is where 99.5 % of \
-            the particles are behind.",
+    source: "Martin and Moyce 1952, Phil. Trans. R. Soc. A 244, 312, columns as high as wide and twice as high, 2.25 inches wide (tables of \
+             fronts and heights; of the column twice as high tables 2 and 6), and the front of one 1.125 inches wide (readings of figure 3), \
+             all as they are given in later work",
+    words: "Columns of 20 x 20 and 20 x 40 spacings without viscosity, default step. Lengths are in widths `a` and in first heights `n² a`; \
+            times are `n t sqrt(g / a)` for the front and `t sqrt(g / a)` for the height at the wall. The front is where 99.5 % of the \
+            particles are behind.",
     run: measure,
+    order: Order::None("what is compared is an experiment; the difference is that of particles of a finite size"),
 };
 
 /// Width of the column, units.
 const WIDTH: f32 = 20.0;
 
-/// Front over width at `t sqrt(2 g / a)`, of a column 2.25 inches wide.
-const FRONT_WIDE: [[f64; 2]; 14] = [
+/// Front over width at `n t sqrt(g / a)`, of a column 2.25 inches wide and twice as high.
+const FRONT_TALL: [[f64; 2]; 14] = [
     [0.84, 1.22],
     [1.19, 1.44],
     [1.43, 1.67],
@@ -39,8 +41,27 @@ const FRONT_WIDE: [[f64; 2]; 14] = [
 ];
 /// The same of one 1.125 inches wide.
 const FRONT_NARROW: [[f64; 2]; 5] = [[0.85, 1.25], [1.21, 1.44], [1.60, 1.88], [2.28, 2.69], [2.95, 3.73]];
-/// Height at the wall over that of the column at `t sqrt(g / a)`.
-const HEIGHT: [[f64; 2]; 12] = [
+/// The same of one 2.25 inches wide and as high.
+const FRONT_SQUARE: [[f64; 2]; 16] = [
+    [0.62, 1.22],
+    [0.80, 1.44],
+    [0.97, 1.67],
+    [1.14, 1.89],
+    [1.29, 2.11],
+    [1.45, 2.33],
+    [1.62, 2.56],
+    [1.76, 2.78],
+    [1.93, 3.00],
+    [2.07, 3.22],
+    [2.24, 3.44],
+    [2.40, 3.67],
+    [2.54, 3.89],
+    [2.71, 4.11],
+    [2.87, 4.33],
+    [3.04, 4.56],
+];
+/// Height at the wall over that of the column at `t sqrt(g / a)`, of the tall one 2.25 inches wide.
+const HEIGHT_TALL: [[f64; 2]; 12] = [
     [0.56, 0.94],
     [0.77, 0.89],
     [0.93, 0.83],
@@ -54,10 +75,14 @@ const HEIGHT: [[f64; 2]; 12] = [
     [2.45, 0.39],
     [2.70, 0.33],
 ];
+/// The same of the square one.
+const HEIGHT_SQUARE: [[f64; 2]; 6] =
+    [[0.80, 0.89], [1.29, 0.78], [1.74, 0.67], [2.15, 0.56], [2.57, 0.44], [3.08, 0.33]];
 
-/// Front over width, and height at the wall over that of the column, both over `t sqrt(g / a)`.
-fn collapse(stepping: Stepping) -> Result<[Vec<[f64; 2]>; 2], Error> {
-    let size = Vec2::new(WIDTH, 2.0 * WIDTH);
+/// Front over width at `n t sqrt(g / a)`, and height at the wall over that of the column at `t sqrt(g / a)`, of a column so many
+/// times as high as wide.
+fn collapse(stepping: Stepping, aspect: f32) -> Result<[Vec<[f64; 2]>; 2], Error> {
+    let size = Vec2::new(WIDTH, aspect * WIDTH);
     let mut world = World::new(stepping.room(Vec2::new(9.0 * WIDTH, 3.0 * WIDTH), GRAVITY))?;
     let fluid = FluidParams { viscosity: 0.0, ..FluidParams::default() };
     let column = world.spawn(&FluidBlockSpec { size, fluid }.into(), Placement::at(0.5 * size.x, 0.5 * size.y))?;
@@ -70,7 +95,7 @@ fn collapse(stepping: Stepping) -> Result<[Vec<[f64; 2]>; 2], Error> {
         let at_wall = particles(world, column).into_iter().filter(|p| p.position.x < 2.0);
         let height = at_wall.map(|p| p.position.y + 0.5).fold(0.0, f32::max);
         let time = world.time() * unit;
-        fronts.push([time, f64::from(front / size.x)]);
+        fronts.push([time * f64::from(aspect).sqrt(), f64::from(front / size.x)]);
         heights.push([time, f64::from(height / size.y)]);
     });
     Ok([fronts, heights])
@@ -83,26 +108,31 @@ fn differences(curve: &[[f64; 2]], published: &[[f64; 2]]) -> [f64; 2] {
 }
 
 fn measure() -> Result<Outcome, Error> {
-    let [fronts, heights] = collapse(Stepping::DEFAULT)?;
-    let fronts: Vec<[f64; 2]> = fronts.iter().map(|[t, z]| [t * 2f64.sqrt(), *z]).collect();
+    let [square_fronts, square_heights] = collapse(Stepping::DEFAULT, 1.0)?;
+    let [fronts, heights] = collapse(Stepping::DEFAULT, 2.0)?;
     let mut rows = Vec::new();
+    let mut curves = Vec::new();
     for (name, curve, published) in [
-        ("front, a = 57 mm", &fronts, &FRONT_WIDE[..]),
-        ("front, a = 29 mm", &fronts, &FRONT_NARROW[..]),
-        ("height", &heights, &HEIGHT[..]),
+        ("front, n² 2, a 57 mm", &fronts, &FRONT_TALL[..]),
+        ("front, n² 2, a 29 mm", &fronts, &FRONT_NARROW[..]),
+        ("height, n² 2, a 57 mm", &heights, &HEIGHT_TALL[..]),
+        ("front, n² 1, a 57 mm", &square_fronts, &FRONT_SQUARE[..]),
+        ("height, n² 1, a 57 mm", &square_heights, &HEIGHT_SQUARE[..]),
     ] {
         let [mean, largest] = differences(curve, published);
         rows.push(Row::between(format!("{name}: mean difference, share"), "0", [0.0, 0.08], mean));
         rows.push(Row::between(format!("{name}: largest difference, share"), "0", [0.0, 0.15], largest));
+        curves.push(Curve::dots(name, published.to_vec()));
     }
     let until = |curve: Vec<[f64; 2]>, end: f64| curve.into_iter().filter(|point| point[0] < end).collect();
-    let curves = vec![
-        Curve::line("front over width, ours", until(fronts, 3.5)),
-        Curve::dots("front, 57 mm", FRONT_WIDE.to_vec()),
-        Curve::dots("front, 29 mm", FRONT_NARROW.to_vec()),
-        Curve::line("height over first height, ours", until(heights, 3.5)),
-        Curve::dots("height", HEIGHT.to_vec()),
-    ];
-    let axes = ["time: t sqrt(2 g / a) for fronts, t sqrt(g / a) for heights", "front, height"];
+    for (name, curve) in [
+        ("front, n² 2, ours", fronts),
+        ("height, n² 2, ours", heights),
+        ("front, n² 1, ours", square_fronts),
+        ("height, n² 1, ours", square_heights),
+    ] {
+        curves.push(Curve::line(name, until(curve, 3.5)));
+    }
+    let axes = ["time: n t sqrt(g / a) for fronts, t sqrt(g / a) for heights", "front, height"];
     Ok(Outcome { rows, plot: Some(Plot { axes, is_logarithmic: false, curves }), ..Outcome::default() })
 }

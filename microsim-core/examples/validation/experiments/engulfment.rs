@@ -1,7 +1,8 @@
 //! Time of engulfment.
 
+use super::plot::{Curve, Plot};
 use super::scene::Stepping;
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Error, Event, Inputs, Intent, OrganismSpec, Placement, RigidCellSpec, World,
@@ -16,6 +17,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "A cell of radius 16.8 takes in agar by a cup; time from the moment in which it begins, mean of four directions. \
             What is published is the order: a game's cell eats in seconds what a neutrophil eats in minutes.",
     run: measure,
+    order: Order::None("no exact value is known. The section on refinement has more and shorter steps"),
 };
 
 /// Time from the beginning of an ingestion to its end, s, for prey in a direction; infinite if it was not taken in.
@@ -52,12 +54,13 @@ fn mean_time(prey: &OrganismSpec) -> Result<f64, Error> {
 }
 
 fn measure() -> Result<Outcome, Error> {
-    let mut rows = Vec::new();
+    let (mut rows, mut points) = (Vec::new(), Vec::new());
     let mut before = 0.0;
     for radius in [1.0, 1.5, 2.0, 3.0, 4.0f32] {
         let ours = mean_time(&AgarSpec { radius, ..AgarSpec::default() }.into())?;
         let published = if before == 0.0 { "more than 0" } else { "more than of the size before" };
         rows.push(Row::between(format!("time of agar of radius {radius}, s"), published, [before, 15.0], ours));
+        points.push([f64::from(radius), ours]);
         before = ours;
     }
     let rigid = RigidCellSpec { radii: Vec2::new(5.0, 3.2), ..RigidCellSpec::default() };
@@ -69,5 +72,7 @@ fn measure() -> Result<Outcome, Error> {
     ));
     let cause =
         "agar of radius 3 and of 4 takes about as long; which of the two takes longer depends on the four directions.";
-    Ok(Outcome { rows, cause, ..Outcome::default() })
+    let curves = vec![Curve::dots("agar", points)];
+    let plot = Plot { axes: ["radius of the prey, units", "time, s"], is_logarithmic: false, curves };
+    Ok(Outcome { rows, plot: Some(plot), cause })
 }

@@ -1,5 +1,6 @@
 //! Free fall.
 
+use super::order::{Falling, Order};
 use super::scene::{GRAVITY, Stepping, last_particle, run};
 use super::{Experiment, Outcome, Row};
 use microsim_core::glam::Vec2;
@@ -11,6 +12,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     source: "Galilei 1638, Discorsi, third day: speed `g t`, way `g t² / 2`",
     words: "A disc falls for a second at 10 units/s² without drag. Its way is that of implicit Euler, `g t (t + h) / 2`.",
     run: measure,
+    order: Order::Of(Falling::first("the way", |stepping| Ok(fall(stepping)?[1] / 5.0 - 1.0))),
 };
 
 /// Speed, units/s, and way, units, after a second.

@@ -2,7 +2,7 @@
 
 use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, add_floor, exponent, particles, run};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{Error, FluidBlockSpec, FluidMode, FluidParams, Material, Placement, World};
 
@@ -16,6 +16,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             The run-out is that of 99 % of the grains. The bounds are the exponents of both papers with their errors, and half \
             to twice Lube's run-out, because coefficients depend on the material; our discs do not rotate.",
     run: measure,
+    order: Order::None("where grains come to rest depends on every contact on the way"),
 };
 
 /// Height of the floor, units.

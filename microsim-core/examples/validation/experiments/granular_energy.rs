@@ -2,7 +2,7 @@
 
 use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, particles, run_observed};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{Error, FluidBlockSpec, FluidMode, FluidParams, Placement, World};
 
@@ -13,6 +13,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "A block of 40 x 300 spacings collapses for a minute at 10 units/s², without drag; kinetic and potential energy, \
             from the floor, over that of the start.",
     run: measure,
+    order: Order::None("a bound, not a value"),
 };
 
 /// Energy over that of the start after each step.

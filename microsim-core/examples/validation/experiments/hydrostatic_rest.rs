@@ -1,9 +1,10 @@
 //! Fluid that comes to rest.
 
+use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, particles, run, value_at};
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
-use microsim_core::{Error, FluidBlockSpec, FluidParams, ParticleView, Placement, World, WorldConfig};
+use microsim_core::{Error, FluidBlockSpec, FluidParams, OrganismId, ParticleView, Placement, World, WorldConfig};
 
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "hydrostatic_rest",
@@ -13,6 +14,10 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             8 1/s and little drag. A pool is a block of 19 x 19 spacings of the default fluid in a room 20 wide with the default \
             drag, after 30 s; speeds are root mean squares over its particles.",
     run: measure,
+    order: Order::None(
+        "the level is that of particles of a finite size, and in substeps below 1/480 s fluid has the compressibility of a substep of that \
+         length, by choice",
+    ),
 };
 
 /// Level of the fluid in a strip of width 4: most of its particles lie below.
@@ -35,39 +40,56 @@ pub(crate) fn speed_of_pool(stepping: Stepping, seconds: f32) -> Result<f64, Err
     let block = FluidBlockSpec { size: Vec2::splat(19.0), fluid: FluidParams::default() };
     let pool = world.spawn(&block.into(), Placement::at(10.0, 9.5))?;
     run(&mut world, seconds);
-    let squares: Vec<f64> = particles(&world, pool).iter().map(|p| f64::from(p.velocity.length_squared())).collect();
-    Ok((squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+    Ok(speed(&particles(&world, pool)))
+}
+
+/// A column of this height, half as wide, in a room twice as wide as it, after so many seconds.
+pub(crate) fn settle(height: f32, seconds: f32) -> Result<(World, OrganismId), Error> {
+    let room = Stepping::DEFAULT.room(Vec2::new(height, 1.5 * height), GRAVITY);
+    let mut world = World::new(WorldConfig { damping: 0.2, ..room })?;
+    let fluid = FluidParams { viscosity: 8.0, ..FluidParams::default() };
+    let size = Vec2::new(0.5 * height, height);
+    let column = world.spawn(&FluidBlockSpec { size, fluid }.into(), Placement::at(0.25 * height, 0.5 * height))?;
+    run(&mut world, seconds);
+    Ok((world, column))
+}
+
+/// Root mean square of the speed of some particles.
+pub(crate) fn speed(particles: &[ParticleView]) -> f64 {
+    let squares = particles.iter().map(|p| f64::from(p.velocity.length_squared()));
+    (squares.sum::<f64>() / particles.len() as f64).sqrt()
 }
 
 fn measure() -> Result<Outcome, Error> {
-    let room = Stepping::DEFAULT.room(Vec2::new(40.0, 60.0), GRAVITY);
-    let mut world = World::new(WorldConfig { damping: 0.2, ..room })?;
-    let fluid = FluidParams { viscosity: 8.0, ..FluidParams::default() };
-    let size = Vec2::new(20.0, 40.0);
-    let column = world.spawn(&FluidBlockSpec { size, fluid }.into(), Placement::at(10.0, 20.0))?;
-    run(&mut world, 40.0);
+    let (world, column) = settle(40.0, 40.0)?;
     let at_rest = particles(&world, column);
     let count = at_rest.len() as f64;
     let levels: Vec<f64> = (0..10u8).map(|k| level(&at_rest, 4.0 * f32::from(k))).collect();
     let mean = levels.iter().sum::<f64>() / 10.0;
     let spread = levels.iter().map(|level| (level - mean).abs()).fold(0.0, f64::max);
-    let speed = at_rest.iter().map(|p| f64::from(p.velocity.length_squared())).sum::<f64>() / count;
     let compression = f64::from(world.quality().fluid_compression_mean);
     let free_fall = f64::from(2.0 * GRAVITY * 20.0).sqrt();
+    let lies = count * 0.75f64.sqrt() / 40.0;
+    let profile = levels.iter().enumerate().map(|(k, level)| [4.0 * k as f64 + 2.0, *level]).collect();
+    let curves = vec![
+        Curve::line("area over width", vec![[0.0, lies], [40.0, lies]]),
+        Curve::dots("level, ours", profile),
+        Curve::line("floor", vec![[0.0, 0.0], [40.0, 0.0]]),
+    ];
     let mut rows = vec![
-        Row::near("mean level: area over width, units", count * 0.75f64.sqrt() / 40.0, 0.05, mean),
+        Row::near("mean level: area over width, units", lies, 0.05, mean),
         Row::between("largest difference of the level, units of one spacing", "0", [0.0, 1.0], spread),
-        Row::between("speed at rest over that of a fall from the level", "0", [0.0, 0.01], speed.sqrt() / free_fall),
+        Row::between("speed at rest over that of a fall from the level", "0", [0.0, 0.01], speed(&at_rest) / free_fall),
         Row::between("mean compression", "0", [0.0, 0.03], compression),
     ];
     for (dt, substeps) in [(60.0, 4), (60.0, 8), (60.0, 12), (60.0, 16), (60.0, 32), (240.0, 8), (1000.0, 5)] {
         let speed = speed_of_pool(Stepping { dt: 1.0 / dt, substeps }, 30.0)?;
-        rows.push(Row::between(
-            format!("speed in a pool, {substeps} substeps of 1/{dt} s, units/s"),
-            "0",
-            [0.0, 0.02],
-            speed,
-        ));
+        let name = format!("speed in a pool, {substeps} substeps of 1/{dt} s, units/s");
+        rows.push(Row::between(name, "0", [0.0, 0.02], speed));
     }
-    Ok(Outcome { rows, ..Outcome::default() })
+    Ok(Outcome {
+        plot: Some(Plot { axes: ["x, units", "level, units"], is_logarithmic: false, curves }),
+        rows,
+        ..Outcome::default()
+    })
 }

@@ -17,6 +17,7 @@ pub(crate) mod free_fall;
 pub(crate) mod granular_column;
 pub(crate) mod granular_energy;
 pub(crate) mod hydrostatic_rest;
+pub(crate) mod order;
 pub(crate) mod oscillations;
 pub(crate) mod packing;
 pub(crate) mod pendulum;
@@ -31,6 +32,7 @@ pub(crate) mod scene;
 pub(crate) mod spring;
 
 use microsim_core::Error;
+use order::Order;
 use plot::Plot;
 
 /// What is compared with a published result.
@@ -43,6 +45,8 @@ pub(crate) struct Experiment {
     /// What is done.
     pub words: &'static str,
     pub run: fn() -> Result<Outcome, Error>,
+    /// How its error goes with the substep.
+    pub order: Order,
 }
 
 /// In the order of the page.

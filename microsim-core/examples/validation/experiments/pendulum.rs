@@ -1,5 +1,6 @@
 //! A rigid pendulum.
 
+use super::order::{Falling, Order};
 use super::plot::{Curve, Plot};
 use super::scene::{GRAVITY, Stepping, last_particle, run_observed};
 use super::{Experiment, Outcome, Row};
@@ -15,6 +16,9 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             `exp(-omega² h t / 2)` of a small amplitude. Shorter substeps damp less, in proportion. For less, see the section of \
             oscillations that last.",
     run: measure,
+    order: Order::Of(Falling::first("the logarithm of the amplitude after 30 s", |stepping| {
+        Ok(amplitude_kept(&swing(stepping, 0.1, 30.0)?).ln())
+    })),
 };
 
 const LENGTH: f32 = 2.5;

@@ -2,7 +2,7 @@
 
 use super::plot::{Curve, Plot};
 use super::scene::Stepping;
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{AmoeboidCellSpec, Error, Inputs, OrganismId, Placement, World, WorldConfig};
 
@@ -14,6 +14,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "A cell that is 1.78 times as long as wide is left alone for 6 s. The aspect is that of an ellipse with the second moments of \
             its outline; its overshoot is the most by which it rises again.",
     run: measure,
+    order: Order::None("a bound, not a value; the rows are of five steps"),
 };
 
 /// The name of a step, its length and its substeps.
@@ -36,7 +37,7 @@ fn aspect(world: &World, cell: OrganismId) -> f64 {
 }
 
 /// Time and aspect of a cell that is left alone.
-fn relaxation(radius: f32, stepping: Stepping) -> Result<Vec<[f64; 2]>, Error> {
+pub(crate) fn relaxation(radius: f32, stepping: Stepping) -> Result<Vec<[f64; 2]>, Error> {
     let Stepping { dt, substeps } = stepping;
     let mut world = World::new(WorldConfig { dt, substeps, ..WorldConfig::default() })?;
     let spec = AmoeboidCellSpec { radii: Vec2::new(4.0 / 3.0, 0.75) * radius, ..AmoeboidCellSpec::default() };
@@ -50,7 +51,7 @@ fn relaxation(radius: f32, stepping: Stepping) -> Result<Vec<[f64; 2]>, Error> {
 }
 
 /// The most by which a curve rises again.
-fn overshoot(curve: &[[f64; 2]]) -> f64 {
+pub(crate) fn overshoot(curve: &[[f64; 2]]) -> f64 {
     let rise = |(least, rise): (f64, f64), [_, aspect]: &[f64; 2]| (least.min(*aspect), rise.max(aspect - least));
     curve.iter().fold((f64::INFINITY, 0.0), rise).1
 }

@@ -1,5 +1,7 @@
 //! A spring of 1 Hz.
 
+use super::order::{Falling, Order};
+use super::plot::{Curve, Plot};
 use super::scene::{Stepping, last_particle, run_observed};
 use super::{Experiment, Outcome, Row, pendulum};
 use microsim_core::glam::Vec2;
@@ -13,6 +15,9 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "A mass on an undamped spring, stretched by a tenth, for ten periods. The integrator keeps `exp(-omega² h t / 2)` \
             of the amplitude.",
     run: measure,
+    order: Order::Of(Falling::first("the logarithm of the amplitude after 3 s", |stepping| {
+        Ok(amplitude_kept(Constraint::from, stepping, 3.0)?.ln())
+    })),
 };
 
 /// Angular frequency, 1/s.
@@ -59,13 +64,15 @@ pub(crate) fn law(stepping: Stepping, periods: f64) -> f64 {
 }
 
 fn measure() -> Result<Outcome, Error> {
-    let mut rows = Vec::new();
+    let (mut rows, mut curves) = (Vec::new(), Vec::new());
     for substeps in [8, 16, 64] {
         let stepping = Stepping::of_substeps(substeps);
         let what = format!("share of the amplitude kept, {substeps} substeps");
         let period = pendulum::period(&oscillation(Constraint::from, stepping, 3.0)?);
         rows.push(Row::near(format!("period, {substeps} substeps, s"), 1.0, 0.005, period));
         rows.push(Row::near(what, law(stepping, 10.0), 0.02, amplitude_kept(Constraint::from, stepping, 10.0)?));
+        curves.push(Curve::line(format!("{substeps} substeps"), oscillation(Constraint::from, stepping, 5.0)?));
     }
-    Ok(Outcome { rows, ..Outcome::default() })
+    let plot = Plot { axes: ["time, s", "stretch, units"], is_logarithmic: false, curves };
+    Ok(Outcome { rows, plot: Some(plot), ..Outcome::default() })
 }

@@ -2,7 +2,9 @@
 //! compare its two ends, it compares now with before, and runs on while things get better.
 //!
 //! Times and angles: Berg and Brown 1972 (Nature 239, 500), *Escherichia coli* AW405. Memory of a few seconds: Segall, Block
-//! and Berg 1986 (PNAS 83, 8987). In an even field it diffuses with `v^2 tau^2 / (2 (1 - a) (tau + T))`, `a` being the mean
+//! and Berg 1986 (PNAS 83, 8987). What sets the lower limit is that receptors are counted: of `N` about `N q` are occupied, from one
+//! reading to the next with the variance `N q (1 - q)` (Berg and Purcell 1977, Biophys. J. 20, 193), and the rate of tumbles is the
+//! mean over that. Where nothing changes it is the same at any concentration (Barkai and Leibler 1997, Nature 387, 913). In an even field it diffuses with `v^2 tau^2 / (2 (1 - a) (tau + T))`, `a` being the mean
 //! cosine of a turn and `T` the time of a tumble (Lovely and Dahlquist 1975, J. Theor. Biol. 50, 477, in two dimensions).
 
 use super::check_time;
@@ -16,8 +18,10 @@ use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
 /// Receptors of a bacterium, about those of *Escherichia coli* (Li and Hazelbauer 2004, J. Bacteriol. 186, 3687): what it
-/// remembers counts as one of them at least, which bounds what it can notice from below.
+/// remembers counts as one of them at least.
 const RECEPTORS: f32 = 15_000.0;
+/// Medians of the quarters of a half of the standard normal distribution.
+const DEVIATIONS: [f32; 4] = [0.157, 0.489, 0.887, 1.534];
 
 /// Parameters of run and tumble, see [`super::Controller::run_and_tumble`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -122,7 +126,7 @@ impl RunAndTumble {
         (self.run_left, self.tumble_left) = (rng.exponential(), 0.0);
     }
 
-    /// By how much runs are longer than on average now: only what gets better counts.
+    /// By how much runs are longer than on average now: only what gets better counts, as far as it can be told from chance.
     fn stretch(&mut self, senses: &Senses<'_>) -> f32 {
         let Some(chemical) = self.params.chemical else { return 1.0 };
         let concentration = senses.concentration(chemical, senses.at);
@@ -130,10 +134,20 @@ impl RunAndTumble {
         if self.remembered < 0.0 {
             self.remembered = occupancy;
         }
-        let rise = (occupancy - self.remembered) / larger(self.remembered, 1.0 / RECEPTORS);
+        let before = larger(self.remembered, 1.0 / RECEPTORS);
+        let rise = (occupancy - self.remembered) / before;
+        let deviation = (occupancy * (1.0 - occupancy) / RECEPTORS).sqrt() / before;
         let part = senses.around.dt / (self.params.memory + senses.around.dt);
         self.remembered += (occupancy - self.remembered) * part;
-        1.0 + self.params.gain * larger(rise, 0.0)
+        self.tumbles(0.0, deviation) / self.tumbles(rise, deviation)
+    }
+
+    /// Rate of tumbles over that of one that notices nothing, for a rise of the occupancy with this standard deviation, both over what it
+    /// remembers.
+    fn tumbles(&self, rise: f32, deviation: f32) -> f32 {
+        let rate = |rise: f32| 1.0 / (1.0 + self.params.gain * larger(rise, 0.0));
+        let both = |off: &f32| rate(rise + off * deviation) + rate(rise - off * deviation);
+        DEVIATIONS.iter().map(both).sum::<f32>() / 8.0
     }
 }
 
@@ -160,22 +174,39 @@ mod tests {
         assert!((measured / expected - 1.0).abs() < 0.05, "{measured} instead of {expected}");
     }
 
+    /// Mean way up a slope in 20 s, with a saturation relative to the concentration at the start.
+    fn drift(chemical: Option<ChemicalId>, saturation: f32) -> f32 {
+        let params = RunAndTumbleParams { chemical, saturation: 1.5 * saturation, ..RunAndTumbleParams::default() };
+        let mut total = 0.0;
+        for seed in 0..200 {
+            let mut bench = Bench::new(Controller::run_and_tumble(params), 0.05);
+            bench.chemicals = vec![slope(0.1)];
+            bench.rng = Rng::new(seed, 1);
+            bench.at = Vec2::new(15.0, 10.0);
+            (0..400).for_each(|_| bench.walk(1.0));
+            total += bench.at.x - 15.0;
+        }
+        total / 200.0
+    }
+
     #[test]
     fn it_drifts_up_a_slope_and_not_without_a_sense_of_it() {
-        let drift = |chemical| {
-            let params = RunAndTumbleParams { chemical, ..RunAndTumbleParams::default() };
-            let mut total = 0.0;
-            for seed in 0..200 {
-                let mut bench = Bench::new(Controller::run_and_tumble(params), 0.05);
-                bench.chemicals = vec![slope(0.1)];
-                bench.rng = Rng::new(seed, 1);
-                bench.at = Vec2::new(15.0, 10.0);
-                (0..400).for_each(|_| bench.walk(1.0));
-                total += bench.at.x - 15.0;
-            }
-            total / 200.0
-        };
-        let (blind, seeing) = (drift(None), drift(Some(ChemicalId(0))));
+        let (blind, seeing) = (drift(None, 1.0), drift(Some(ChemicalId(0)), 1.0));
         assert!(blind.abs() < 1.0 && seeing > 1.5, "blind {blind}, seeing {seeing}");
+    }
+
+    #[test]
+    fn it_loses_its_way_with_the_number_of_occupied_receptors() {
+        let drifts = [1.0, 10.0, 1e2, 1e3, 1e4, 1e6].map(|saturation| drift(Some(ChemicalId(0)), saturation));
+        println!("drift at c / K of 1, 0.1, 1e-2, 1e-3, 1e-4, 1e-6: {drifts:?}");
+        assert!(drifts[0] > 1.5 && drifts[1] > 1.5 && drifts[3] < 0.5 * drifts[1], "{drifts:?}");
+        assert!(drifts[4].abs() < 0.7 && drifts[5].abs() < 0.7, "{drifts:?}");
+    }
+
+    #[test]
+    fn a_rise_counts_the_less_the_more_of_it_may_be_chance() {
+        let walk = RunAndTumble::new(RunAndTumbleParams::default());
+        let rates = [0.0, 0.01, 0.1, 1.0, 100.0].map(|off| walk.tumbles(0.1, off) / walk.tumbles(0.0, off));
+        assert!(rates[0] == 0.25 && rates[4] < 1.0 && rates.is_sorted(), "{rates:?}");
     }
 }

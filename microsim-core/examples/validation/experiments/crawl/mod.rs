@@ -4,7 +4,7 @@ mod pseudopods;
 mod silhouette;
 
 use super::scene::Stepping;
-use super::{Experiment, Outcome, Row};
+use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AmoeboidCellSpec, Controller, Crawl, Error, Inputs, Intent, OrganismId, PersistentWalkParams, Placement, World,
@@ -24,6 +24,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             followed from where its part of the membrane begins to protrude to where it ends; that is its direction. A split \
             is within 100° of the last one. Angles, shares and sides at the start are parameters of the type.",
     run: measure,
+    order: Order::None("statistical, and no exact value is known"),
 };
 
 /// Speed of the cell, units/s, and its radius.
