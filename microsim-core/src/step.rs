@@ -111,6 +111,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.find_grips();
     world.gather_joints();
     world.scale_gravity();
+    world.damp_organisms();
     world.kick_bodies();
     finished(Phase::FindPairs);
     let h = world.config.substep();
@@ -190,6 +191,7 @@ fn stop_sleepers(world: &mut World) {
 
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
+    scratch.forces.apply_damping(particles, h);
     drive::apply_tows(&scratch.tows, particles, config, h);
     drive::apply(&scratch.drives, particles, h);
     drive::pull(&scratch.tractions, particles, h);

@@ -93,14 +93,16 @@ impl World {
     }
 
     /// Kicks the bodies in thermal fields, once per step. A kick `v` moves a body by `v (1 + g h) / g` in all, with a damping of
-    /// `g` and substeps of `h`; its variance is such that the kicks of a second add up to `2 D` along each axis.
+    /// `g`, its own included, and substeps of `h`; its variance is such that the kicks of a second add up to `2 D` along each axis.
     pub(crate) fn kick_bodies(&mut self) {
         if !self.fields.iter().any(|(_, field)| matches!(field.kind, FieldKind::Thermal { .. })) {
             return;
         }
         let Self { config, fields, organisms, particles, sleep, step_index, .. } = self;
         let step = u64::wrapping_mul(*step_index + 1, SCRAMBLE);
-        let per_root = config.damping * (2.0 * config.dt).sqrt() / (1.0 + config.damping * config.substep());
+        let (g, h) = (config.damping, config.substep());
+        // Of a body whose own damping comes before that of the medium in each substep.
+        let kick_by = |own: f32| (g + own + g * own * h) * (2.0 * config.dt).sqrt() / (1.0 + g * h);
         for (id, organism) in organisms.iter() {
             let sleeps = matches!(organism.body, Storage::Lane { block, .. } if sleep.is_asleep(block));
             if sleeps || organism.slots == 0 || organism.goal.is_some() || organism.is_held() || organism.is_quarantined
@@ -115,10 +117,11 @@ impl World {
             if mobility <= 0.0 || radius <= 0.0 {
                 continue;
             }
-            let kick = per_root * (mobility / radius).sqrt();
+            let root = (mobility / radius).sqrt();
+            let [kick, spin] = [organism.linear_damping, organism.angular_damping].map(|own| kick_by(own) * root);
             let mut rng = Rng::new(config.seed ^ step, id.thermal_stream());
             let velocity = Vec2::new(rng.normal(), rng.normal()) * kick;
-            let turn = 0.75_f32.sqrt() * kick * rng.normal() / radius;
+            let turn = 0.75_f32.sqrt() * spin * rng.normal() / radius;
             for i in list.into_iter().map(|i| i as usize).filter(|&i| particles.inv_mass[i] > 0.0) {
                 let change = velocity + body.arm(particles, i).perp() * turn;
                 particles.vx[i] += change.x;
