@@ -18,7 +18,11 @@ const STEPS: [u64; 2] = [1, 60];
 #[test]
 fn the_scene_ends_in_its_golden_digests_and_shows_everything() {
     let mut scene = Commanded::build().unwrap();
-    assert!(scene.world.census().particles > 8192, "{} particles: threads share no work", scene.world.census().particles);
+    assert!(
+        scene.world.census().particles > 8192,
+        "{} particles: threads share no work",
+        scene.world.census().particles
+    );
     let (mut lines, mut events) = (String::new(), BTreeSet::new());
     for steps in STEPS {
         while scene.world.step_index() < steps {

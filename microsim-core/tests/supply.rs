@@ -225,7 +225,8 @@ fn a_body_longer_than_the_room_leaves_by_an_open_side() {
         world.validate().unwrap();
         events.extend(world.events().iter().copied());
     }
-    let gone = Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom(template), particles: 2 };
+    let gone =
+        Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom(template), particles: 2 };
     assert_eq!(events, [gone]);
 }
 

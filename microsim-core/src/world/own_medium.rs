@@ -174,8 +174,8 @@ mod tests {
         let [falling, lying] = [200.0, 1.0].map(|y| ball(&mut world, y));
         (0..1200).for_each(|_| world.step(&Inputs::new()));
         let fallen = 200.0 - world.centroid(falling).unwrap().y;
-        // 0.1 / 20 units/s for 20 s.
-        assert!((fallen / 0.1 - 1.0).abs() < 0.02, "{fallen}");
+        // 0.1 / 20 units/s for 20 s, and a share of damping times substep more, as with that of the medium.
+        assert!((fallen / 0.1 - 1.0 - 20.0 / 480.0).abs() < 0.01, "{fallen}");
         assert!(world.view().organism(lying).unwrap().is_at_rest());
     }
 
@@ -183,14 +183,15 @@ mod tests {
     fn who_follows_a_law_of_motion_follows_it_with_damping_too() {
         let spread = |own: f32| {
             let mut world = room(0.0, 0.5);
-            let walk = Controller::brownian(BrownianParams { diffusion: 20.0, ..BrownianParams::default() });
+            let walk = Controller::brownian(BrownianParams { diffusion: 2.0, ..BrownianParams::default() });
             let place = |k: u32| Placement::at(10.0 + 16.0 * (k % 24) as f32, 10.0 + 16.0 * (k / 24) as f32);
             let coccus = CoccusSpec { radius: 0.4, ..CoccusSpec::default() }.into();
             let spawn = |k: u32| world.spawn(&coccus, place(k).steered_by(walk.clone()).damped(own, own)).unwrap();
             let walkers: Vec<_> = (0..480).map(spawn).collect();
             let from: Vec<Vec2> = walkers.iter().map(|&id| world.centroid(id).unwrap()).collect();
             (0..60).for_each(|_| world.step(&Inputs::new()));
-            let squares = walkers.iter().zip(&from).map(|(&id, &at)| (world.centroid(id).unwrap() - at).length_squared());
+            let squares =
+                walkers.iter().zip(&from).map(|(&id, &at)| (world.centroid(id).unwrap() - at).length_squared());
             squares.sum::<f32>() / walkers.len() as f32
         };
         let (free, damped) = (spread(0.0), spread(20.0));

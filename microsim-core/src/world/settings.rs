@@ -1,7 +1,7 @@
 //! Settings that change while the world runs: the world's own, and those of single organisms.
 
-use super::change::WorldChange;
 use super::World;
+use super::change::WorldChange;
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};

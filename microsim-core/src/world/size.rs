@@ -1,7 +1,7 @@
 //! The size of the room, which may change while the world runs.
 
-use super::change::WorldChange;
 use super::World;
+use super::change::WorldChange;
 use crate::chemical::Chemical;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind};
@@ -97,7 +97,8 @@ mod tests {
 
     #[test]
     fn walls_stand_where_the_new_size_says_and_what_slept_wakes() {
-        let config = WorldConfig { gravity: Vec2::new(10.0, 0.0), damping: 0.1, max_speed: 60.0, ..WorldConfig::default() };
+        let config =
+            WorldConfig { gravity: Vec2::new(10.0, 0.0), damping: 0.1, max_speed: 60.0, ..WorldConfig::default() };
         let mut world = World::new(config).unwrap();
         let ball = world.spawn(&AgarSpec::default().into(), Placement::at(158.0, 40.0)).unwrap();
         run(&mut world, 240);

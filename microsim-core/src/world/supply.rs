@@ -256,7 +256,9 @@ impl World {
             Recipe::Organism(spec) => spec.blueprint(),
             Recipe::Template(id) => {
                 let template = self.templates.get(id.0 as usize).cloned();
-                template.map(|template| Blueprint::custom(*id, template)).ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
+                template
+                    .map(|template| Blueprint::custom(*id, template))
+                    .ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
             }
         }
     }

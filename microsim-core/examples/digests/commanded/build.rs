@@ -5,10 +5,10 @@ use microsim_core::geometry::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, EmitterId, Emitter, Error, FieldId,
-    FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd, JointId, JointKind, JointSpec, Node,
-    Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, Recipe, Region,
-    RigidCellSpec, Side, Sides, Template, World, WorldConfig,
+    AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, Emitter, EmitterId, Error,
+    FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd, JointId, JointKind,
+    JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, Recipe,
+    Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig,
 };
 use std::f32::consts::TAU;
 
@@ -56,7 +56,8 @@ fn add_obstacles(world: &mut World) -> Result<[ObstacleId; 3], Error> {
     let bar = |half: [f32; 2], x, y| Obstacle::new(SharedShape::cuboid(half[0], half[1]), Pose::translation(x, y));
     let lift = Obstacle { motion: ObstacleMotion::Push, ..bar([5.0, 1.0], 125.0, 4.0) };
     let piston = Obstacle { motion: ObstacleMotion::Stop, ..bar([2.0, 1.0], 140.0, 4.0) };
-    let ids = [world.add_obstacle(lift)?, world.add_obstacle(piston)?, world.add_obstacle(bar([1.0, 6.0], 170.0, 8.0))?];
+    let ids =
+        [world.add_obstacle(lift)?, world.add_obstacle(piston)?, world.add_obstacle(bar([1.0, 6.0], 170.0, 8.0))?];
     world.add_obstacle(bar([1.0, 25.0], 70.0, 25.0))?;
     world.add_obstacle(Obstacle { one_way: Some(Vec2::Y), ..bar([6.0, 0.5], 155.0, 12.0) })?;
     world.add_obstacle(Obstacle { is_sensor: true, ..bar([4.0, 4.0], 155.0, 18.0) })?;
@@ -101,7 +102,12 @@ fn spawn_balls(world: &mut World) -> Result<Vec<OrganismId>, Error> {
 }
 
 /// A joint of each kind in a pair, each pair on a rope; one of them breaks.
-fn join(world: &mut World, balls: &[OrganismId], slimes: &[OrganismId], lift: ObstacleId) -> Result<Vec<JointId>, Error> {
+fn join(
+    world: &mut World,
+    balls: &[OrganismId],
+    slimes: &[OrganismId],
+    lift: ObstacleId,
+) -> Result<Vec<JointId>, Error> {
     let (length, max_force, frequency, damping_ratio) = (3.5, 200.0, 5.0, 0.2);
     let kinds = [
         JointKind::Distance { length },
@@ -124,7 +130,8 @@ fn join(world: &mut World, balls: &[OrganismId], slimes: &[OrganismId], lift: Ob
     let load = JointEnd::Obstacle { obstacle: lift, at: Vec2::Y };
     specs.push(JointSpec::new(load, JointEnd::Centre(balls[16]), JointKind::Rope { max_length: 3.0 }));
     let nail = JointEnd::Point(Vec2::new(70.0, 74.0));
-    specs.push(JointSpec::new(nail, JointEnd::Centre(balls[18]), JointKind::Rope { max_length: 4.2 }).breaking_at(10.0));
+    specs
+        .push(JointSpec::new(nail, JointEnd::Centre(balls[18]), JointKind::Rope { max_length: 4.2 }).breaking_at(10.0));
     let nodes = [(slimes[0], 0), (slimes[1], 8)].map(|(organism, node)| JointEnd::Node { organism, node });
     specs.push(JointSpec::new(nodes[0], nodes[1], JointKind::Rope { max_length: 2.5 }));
     specs.into_iter().map(|spec| world.add_joint(spec)).collect()
@@ -154,7 +161,8 @@ fn blow_and_emit(world: &mut World) -> Result<(FieldId, EmitterId), Error> {
         world.add_field(ForceField { region, kind })?;
     }
     let cocci = Recipe::Organism(CoccusSpec::default().into());
-    let inlet = Emitter { velocity: Vec2::new(0.0, -5.0), ..Emitter::new(within([76.0, 76.0], [112.0, 92.0]), cocci, 40.0) };
+    let inlet =
+        Emitter { velocity: Vec2::new(0.0, -5.0), ..Emitter::new(within([76.0, 76.0], [112.0, 92.0]), cocci, 40.0) };
     world.add_drain(Drain { region: within([100.0, 0.0], [110.0, 25.0]), kind: None })?;
     Ok((wind, world.add_emitter(inlet)?))
 }

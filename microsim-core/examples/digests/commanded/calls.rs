@@ -4,7 +4,7 @@ use super::Commanded;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, CoccusSpec, CollisionGroups, Collider, Controller, Emitter, Error, FieldKind, ForceField, JointKind,
+    AgarSpec, CoccusSpec, Collider, CollisionGroups, Controller, Emitter, Error, FieldKind, ForceField, JointKind,
     JointSpec, Obstacle, OrganismSpec, Placement, QueryFilter, Recipe, Region,
 };
 
