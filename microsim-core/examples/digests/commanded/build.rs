@@ -82,7 +82,7 @@ fn slime() -> Result<Template, Error> {
     let ring: Vec<u32> = (0..16).map(|k| builder.node(Node::disc(corner(k), 0.25, 0.6))).collect();
     builder.ring(&ring, 0.0).outline(&ring);
     builder.constraint(Area { ring, rest_area: 27.0, compliance: 1e-4, is_upper_bound: false });
-    let channel = builder.channel([1.0, 0.6]);
+    let channel = builder.name("slime").channel([1.0, 0.6]);
     builder.muscle(channel, Distance { a: 0, b: 8, rest_length: 6.0, compliance: 1e-4, damping: 0.0 });
     builder.build()
 }
@@ -90,13 +90,13 @@ fn slime() -> Result<Template, Error> {
 fn spawn_slimes(world: &mut World) -> Result<Vec<OrganismId>, Error> {
     let template = world.add_template(slime()?);
     let places = grid(SLIMES, Vec2::new(120.0, 30.0), Vec2::splat(8.0));
-    places.map(|at| world.spawn_template(template, at)).collect()
+    places.map(|at| world.spawn_template(template, at.damped(0.2, 0.1))).collect()
 }
 
-/// Eight pairs, one on the lift, one below the platform, one that hangs on a thread.
+/// Eight pairs, one on the lift, one below the platform, one that hangs on a thread, one above the drain.
 fn spawn_balls(world: &mut World) -> Result<Vec<OrganismId>, Error> {
     let pairs = (0..8u8).flat_map(|k| [0.0, 3.0].map(|x| Vec2::new(6.0 + 8.0 * f32::from(k) + x, 58.0)));
-    let places = pairs.chain([[125.0, 6.1], [155.0, 8.0], [70.0, 70.0]].map(Vec2::from));
+    let places = pairs.chain([[125.0, 6.1], [155.0, 8.0], [70.0, 70.0], [105.0, 26.5]].map(Vec2::from));
     let ball = OrganismSpec::from(AgarSpec::default());
     places.map(|at| world.spawn(&ball, Placement::at(at.x, at.y))).collect()
 }

@@ -98,6 +98,8 @@ impl Commanded {
             25 => world.grow(self.cell, 1, 4),
             27 => world.shrink(self.cell, 2),
             29 => world.divide_along(self.cell, Vec2::X),
+            31 => world.set_linear_damping(id, 2.0),
+            33 => world.set_angular_damping(id, 3.0),
             _ => Ok(()),
         }
     }
@@ -117,6 +119,7 @@ impl Commanded {
                 world.set_emitter(self.inlet, Emitter { angle: Some(1.0), ..Emitter::new(region, ball, 60.0) })
             }
             34 => world.set_contact_reporting(None),
+            38 => world.set_size(Vec2::new(244.0, 121.0)),
             _ => Ok(()),
         }
     }

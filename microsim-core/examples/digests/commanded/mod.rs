@@ -65,6 +65,6 @@ impl Commanded {
             }
         }
         let aim = Vec2::new(66.0, 62.0 + (step % 10) as f32 * 0.1);
-        inputs.actuate(balls[balls.len() - 1], Actuation::target(aim))
+        inputs.actuate(balls[18], Actuation::target(aim))
     }
 }
