@@ -7,10 +7,13 @@
 #[path = "../examples/digests/commanded/mod.rs"]
 mod commanded;
 
-use commanded::{ALL_CALLED, Commanded};
+use commanded::Commanded;
 use microsim_core::{Event, InstructionSet, World};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+
+/// Steps after which every call of the scene was made.
+const ALL_CALLED: u64 = 40;
 
 /// Also of the lines that the example prints.
 const STEPS: [u64; 2] = [1, 60];

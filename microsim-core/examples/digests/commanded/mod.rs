@@ -8,9 +8,6 @@ use microsim_core::{
     Actuation, EmitterId, Error, FieldId, Inputs, Intent, JointId, ObstacleId, OrganismId, World, glam::Vec2,
 };
 
-/// Steps after which every call of the scene was made.
-pub(crate) const ALL_CALLED: u64 = 40;
-
 /// The world of the scene, and what its program knows of it.
 #[derive(Clone)]
 pub(crate) struct Commanded {

@@ -33,7 +33,7 @@ pub(crate) struct Limits {
 
 impl Limits {
     pub(crate) const SHORT: Self = Self { calls: 60, steps: 120, checks_steps: false };
-    pub(crate) const LONG: Self = Self { calls: 2500, steps: 1500, checks_steps: true };
+    pub(crate) const LONG: Self = Self { calls: 2500, steps: 800, checks_steps: true };
 }
 
 /// What a sequence did.
