@@ -4,7 +4,7 @@
 mod sequence;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    if let Err(wrong) = sequence::run(bytes) {
+    if let Err(wrong) = sequence::run(bytes, sequence::Limits::SHORT) {
         panic!("{wrong}");
     }
 });

@@ -79,7 +79,8 @@ impl Sides {
 /// Settings of a [`crate::World`]. The length unit is the micrometre of the picture, the time unit the second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldConfig {
-    /// Width and height of the walled room; its lower left corner is the origin. 1 to 20 000 each.
+    /// Width and height of the walled room; its lower left corner is the origin. 1 to 20 000 each. [`crate::World::set_size`]
+    /// changes it.
     pub size: Vec2,
     /// Time of one step, s. 0.001 to 0.1.
     pub dt: f32,
@@ -147,8 +148,7 @@ impl WorldConfig {
         self.check_substeps(LONGEST_SUBSTEP, "")?;
         in_range("gravity.x", self.gravity.x, -1000.0, 1000.0)?;
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
-        in_range("damping", self.damping, 0.0, 100.0)?;
-        self.check_rate("damping", self.damping, [0.0, MOST_DAMPED / self.substep()])?;
+        self.check_damping("damping", self.damping)?;
         in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
     }
@@ -188,6 +188,12 @@ impl WorldConfig {
         let low = Vec2::new(beyond(left, self.size.x), beyond(bottom, self.size.y));
         let high = Vec2::new(beyond(right, self.size.x), beyond(top, self.size.y));
         [-low, self.size + high]
+    }
+
+    /// Checks that substeps are short enough for a damping of everything, or of one organism.
+    pub(crate) fn check_damping(&self, field: &str, damping: f32) -> Result<(), Error> {
+        in_range(field, damping, 0.0, 100.0)?;
+        self.check_rate(field, damping, [0.0, MOST_DAMPED / self.substep()])
     }
 
     /// Checks that substeps are short enough for cells with membranes.
@@ -256,13 +262,14 @@ impl WorldConfig {
     /// Speed of its fastest particle below which a body counts as at rest, units/s. At most a quarter of the speed of free fall
     /// through the medium after the time to sleep, so that nothing falls asleep on its way down, or where it turns round.
     pub(crate) fn sleep_speed(&self) -> f32 {
-        let fall = self.fall_speed(1.0);
+        let fall = self.fall_speed(1.0, 0.0);
         if fall > 0.0 && 0.25 * fall < SLEEP_SPEED { 0.25 * fall } else { SLEEP_SPEED }
     }
 
-    /// Speed that what was at rest falls with after the time to sleep, with a share of gravity, units/s.
-    pub(crate) fn fall_speed(&self, gravity_scale: f32) -> f32 {
-        gravity_scale.abs() * self.gravity.length() * TIME_TO_SLEEP / (1.0 + self.damping * TIME_TO_SLEEP)
+    /// Speed that what was at rest falls with after the time to sleep, with a share of gravity and a damping of its own, units/s.
+    pub(crate) fn fall_speed(&self, gravity_scale: f32, own_damping: f32) -> f32 {
+        let damping = self.damping + own_damping;
+        gravity_scale.abs() * self.gravity.length() * TIME_TO_SLEEP / (1.0 + damping * TIME_TO_SLEEP)
     }
 
     /// Largest displacement of a particle in a step, units.

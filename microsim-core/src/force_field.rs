@@ -56,11 +56,11 @@ pub enum FieldKind {
         /// Size of the acceleration.
         acceleration: f32,
     },
-    /// Brownian motion of bodies, by their size: Langevin's equation with the world's drag (Langevin 1908, C. R. Acad. Sci. 146,
+    /// Brownian motion of bodies, by their size: Langevin's equation with the world's drag and the body's own (Langevin 1908, C. R. Acad. Sci. 146,
     /// 530). A body with the area of a disc of radius `a` and its centre in the region diffuses with `D = mobility / a` (Stokes
     /// and Einstein: `k T / (6 pi eta)` is 0.215 cubic micrometres/s in water of 20 degrees) and turns with `3 D / (4 a^2)`, once
     /// the time `1 / damping` has passed. What has a membrane, is fluid, follows a goal or is held by a cell is not kicked;
-    /// neither is anything without [`crate::WorldConfig::damping`]. A quarter of the speed limit must be at least the speed
+    /// neither is anything without damping, of the world or its own. A quarter of the speed limit must be at least the speed
     /// `sqrt(D damping)` of every body of the world, as if it were in the hottest place: otherwise the field, or the body, is refused.
     Thermal {
         /// Diffusion coefficient times radius, cubic units/s, 0 to 10 000.

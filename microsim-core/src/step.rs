@@ -112,6 +112,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     world.find_grips();
     world.gather_joints();
     world.scale_gravity();
+    world.damp_organisms();
     world.kick_bodies();
     finished(Phase::FindPairs);
     let h = world.config.substep();
@@ -191,6 +192,7 @@ fn stop_sleepers(world: &mut World) {
 
 fn predict_positions(world: &mut World, h: f32) {
     let World { config, particles, blocks, scratch, dispatch, .. } = world;
+    scratch.forces.apply_damping(particles, h);
     drive::apply_tows(&scratch.tows, particles, config, h);
     drive::apply(&scratch.drives, particles, h);
     drive::pull(&scratch.tractions, particles, h);
@@ -271,9 +273,10 @@ fn project_discs(world: &mut World) {
     pressed.begin(config.substep());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, impacts, contact_records, |contact, particles| {
-            pressed.note(contact, particles)
+            pressed.note(contact, particles);
         });
     }
+    broad_phase.contacts.lists_mut().for_each(|contacts| pressed.note_neighbours(contacts));
     pressed.relink(blocks, |template| templates[template].rigid_links(), particles, contact_records, *dispatch);
 }
 
@@ -300,16 +303,16 @@ fn update_velocities(world: &mut World, h: f32) {
 /// Cells keep their momentum at the speed limit; seldom anything comes to it.
 fn limit_ways_of_cells(world: &mut World, h: f32) {
     let World { config, particles, blocks, organisms, dispatch, .. } = world;
-    let outside = outside_of(blocks.iter().map(Block::range), particles.len()).filter(|loose| !loose.is_empty());
+    let mut outside = outside_of(blocks.iter().map(Block::range), particles.len()).filter(|loose| !loose.is_empty());
     let (limit, mut columns) = (config.speed_limit(), particles.columns());
-    let mut exceeds = |loose| {
+    let exceeds = |loose| {
         let mut loose = columns.part(loose);
         dispatch.run(
             #[inline(always)]
             || integrate::exceeds_speed_limit(&mut loose, limit, h),
         )
     };
-    if outside.map(&mut exceeds).any(|exceeds| exceeds) {
+    if outside.any(exceeds) {
         for (_, cell) in organisms.with_membrane() {
             speed_limit::limit_ways(|| cell.particles(), particles, limit * h);
         }

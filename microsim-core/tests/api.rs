@@ -264,7 +264,7 @@ fn templates_of_equal_shape_are_shared_and_scaled() {
         (outline[1] - outline[0]).length()
     };
     assert!((side(&world, large) / side(&world, small) - 3.0).abs() < 1e-3);
-    assert_eq!(world.kind(small), Some(Kind::Custom));
+    assert_eq!(world.kind(small), Some(Kind::Custom(id)));
     let other = World::new(WorldConfig::default()).unwrap().spawn_template(id, Placement::at(20.0, 20.0));
     assert_eq!(other.unwrap_err().kind(), &ErrorKind::Stale);
 }

@@ -45,7 +45,7 @@ fn replays() {
 #[test]
 fn sequences() {
     show("api", |bytes| {
-        sequence::run(bytes).unwrap();
+        sequence::run(bytes, sequence::Limits::SHORT).unwrap();
     });
 }
 

@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 
 /// Every module, and the prefixes of the paths that it may use besides its own.
 const LAYERS: &[(&str, &str)] = &[
-    ("arena error float_environment fnv geometry instruction_set kind look rng shared value_walk", ""),
+    ("arena error float_environment fnv geometry instruction_set look rng shared value_walk", ""),
     ("parallel", "float_environment"),
     ("chemical", "config error"),
     ("config spec_field", "error"),
     ("particle", "shared"),
     ("actuation", "error"),
     ("id", "arena"),
+    ("kind", "id"),
     ("inputs", "actuation error float_environment id"),
     ("joint", "config error id"),
     ("force_field", "error"),

@@ -85,7 +85,7 @@ fn a_template_is_emitted_in_its_direction_at_its_speed() {
     world.add_emitter(Emitter { velocity, angle, ..Emitter::new(spot, Recipe::Template(template), 60.0) }).unwrap();
     run(&mut world, 1);
     let body = world.view().organisms().next().unwrap();
-    assert_eq!((body.kind(), body.velocity(), body.angle()), (Kind::Custom, velocity, Some(0.0)));
+    assert_eq!((body.kind(), body.velocity(), body.angle()), (Kind::Custom(template), velocity, Some(0.0)));
 }
 
 fn water(world: &mut World, x: f32, y: f32) -> OrganismId {
@@ -225,7 +225,8 @@ fn a_body_longer_than_the_room_leaves_by_an_open_side() {
         world.validate().unwrap();
         events.extend(world.events().iter().copied());
     }
-    let gone = Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom, particles: 2 };
+    let gone =
+        Event::Drained { outlet: Outlet::Side(Wall::Top), organism: rod, kind: Kind::Custom(template), particles: 2 };
     assert_eq!(events, [gone]);
 }
 

@@ -1,11 +1,14 @@
-//! Prints a line for each built-in scenario and each of some numbers of steps: what `.ci/cross` compares.
+//! Prints a line for each built-in scenario, and a scene that a program commands, and each of some numbers of steps: what
+//! `.ci/cross` compares.
 //!
 //! `digests [baseline|best] [THREADS]` where there is a command line; without one, everything at its default.
 #![allow(clippy::disallowed_methods, reason = "compares what differs between platforms, and reads the command line")]
 
 mod arithmetic;
+mod commanded;
 mod output;
 
+use commanded::Commanded;
 use microsim_core::scenario::{Built, Scenario, builtins};
 use microsim_core::{InstructionSet, World};
 use output::print;
@@ -18,7 +21,10 @@ fn main() {
     let set = arguments.next().map_or(InstructionSet::Best, |name| instruction_set(&name));
     let threads = arguments.next().map_or(1, |count| count.parse().expect("a number of threads"));
     arithmetic::run();
-    on_threads(threads, || builtins().iter().for_each(|scenario| run(scenario.name, scenario.text, set)));
+    on_threads(threads, || {
+        builtins().iter().for_each(|scenario| run(scenario.name, scenario.text, set));
+        run_commanded(set);
+    });
 }
 
 fn instruction_set(name: &str) -> InstructionSet {
@@ -49,6 +55,17 @@ fn run(name: &str, text: &str, set: InstructionSet) {
             world.step(inputs);
         }
         print(&line(name, &world));
+    }
+}
+
+fn run_commanded(set: InstructionSet) {
+    let mut scene = Commanded::build().expect("a scene");
+    scene.world.set_instruction_set(set);
+    for steps in STEPS {
+        while scene.world.step_index() < steps {
+            scene.step().expect("calls that are accepted");
+        }
+        print(&line("commanded", &scene.world));
     }
 }
 

@@ -27,6 +27,7 @@ pub(crate) fn tow(
         velocity,
         heading: organism.goal.map_or(Vec2::ZERO, |goal| heading(goal - at)),
         max_acceleration,
+        own_damping: organism.linear_damping,
         at_once: if is_at_once { (velocity - before).length() } else { 0.0 },
     })
 }

@@ -4,12 +4,14 @@
 //! are the organisms. Nothing flows through the walls of the room or through obstacles.
 
 mod diffusion;
+mod resampling;
 mod spec;
 
 use crate::config::WorldConfig;
 use crate::error::Error;
 use diffusion::DiffusionGrid;
 use glam::Vec2;
+use resampling::Resampling;
 #[cfg(feature = "snapshot")]
 use serde::Deserialize;
 use serde::Serialize;
@@ -70,6 +72,24 @@ impl Chemical {
         let (count, rounds) = spec.plan(config)?;
         let grid = DiffusionGrid::new(count, config.size);
         Ok(Self { spec, values: vec![spec.initial; count[0] * count[1]], grid, rounds })
+    }
+
+    /// The same in a room of another size with the same lower left corner, in which nothing is closed yet. What is there of the old
+    /// room keeps its content, the rest begins as a new chemical does.
+    pub(crate) fn resized(&self, config: &WorldConfig) -> Result<Self, Error> {
+        let mut new = Self::new(self.spec, config)?;
+        let (from, to, fill) = (&self.grid, &new.grid, self.spec.initial);
+        let across = Resampling { from: from.cell.x, to: to.cell.x, count: to.count[0], fill };
+        let rows = self.values.chunks_exact(from.count[0]).map(|row| across.of(row));
+        let rows: Vec<Vec<f32>> = rows.collect();
+        let upwards = Resampling { from: from.cell.y, to: to.cell.y, count: to.count[1], fill };
+        for column in 0..to.count[0] {
+            let old: Vec<f32> = rows.iter().map(|row| row[column]).collect();
+            for (row, value) in upwards.of(&old).into_iter().enumerate() {
+                new.values[row * to.count[0] + column] = value;
+            }
+        }
+        Ok(new)
     }
 
     /// Opens all cells and faces of a room of this size. What was closed is empty.

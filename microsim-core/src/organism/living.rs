@@ -86,6 +86,10 @@ pub(crate) struct Organism {
     pub is_quarantined: bool,
     /// Share of gravity that acts on it.
     pub gravity_scale: f32,
+    /// Damping of its motion as a whole besides that of the medium, 1/s.
+    pub linear_damping: f32,
+    /// Damping of its rotation as a whole, 1/s.
+    pub angular_damping: f32,
     /// The embedder's: low and high half.
     pub user_data: [u64; 2],
 }
@@ -108,6 +112,11 @@ impl Organism {
             Storage::Lane { first, .. } => Some(*first),
             Storage::Loose { particles, .. } => particles.first().copied(),
         }
+    }
+
+    /// Whether it has a damping of its own.
+    pub(crate) fn is_damped(&self) -> bool {
+        self.linear_damping > 0.0 || self.angular_damping > 0.0
     }
 
     /// Whether somebody has taken it in, or is about to.

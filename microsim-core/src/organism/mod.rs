@@ -79,7 +79,7 @@ macro_rules! organisms {
         pub(crate) fn look(kind: Kind) -> Look {
             match kind {
                 $(Kind::$kind => <$spec>::default().look(),)*
-                Kind::Custom => Look::PLAIN,
+                Kind::Custom(_) => Look::PLAIN,
             }
         }
     };

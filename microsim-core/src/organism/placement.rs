@@ -31,6 +31,10 @@ pub struct Placement {
     /// What its discs collide with, those excepted that its template lets collide with less: a tier of the slide
     /// ([`CollisionGroups::in_tier`]) lets it pass over what lies in others. What has a membrane or is fluid is in all groups.
     pub groups: CollisionGroups,
+    /// Damping of its motion as a whole besides that of the medium, 1/s, see [`crate::World::set_linear_damping`].
+    pub linear_damping: f32,
+    /// Damping of its rotation as a whole, 1/s, see [`crate::World::set_angular_damping`].
+    pub angular_damping: f32,
 }
 
 impl Placement {
@@ -38,7 +42,9 @@ impl Placement {
     #[must_use]
     pub fn at(x: f32, y: f32) -> Self {
         let (controller, groups) = (Controller::Still, CollisionGroups::ALL);
-        Self { at: Vec2::new(x, y), angle: 0.0, scale: 1.0, controller, overlap: TOUCHING, groups }
+        let (linear_damping, angular_damping) = (0.0, 0.0);
+        let (at, overlap) = (Vec2::new(x, y), TOUCHING);
+        Self { at, angle: 0.0, scale: 1.0, controller, overlap, groups, linear_damping, angular_damping }
     }
 
     /// The same with another controller.
@@ -73,6 +79,13 @@ impl Placement {
     #[must_use]
     pub fn in_groups(mut self, groups: CollisionGroups) -> Self {
         self.groups = groups;
+        self
+    }
+
+    /// The same with damping of its own, of its motion and of its rotation, 1/s.
+    #[must_use]
+    pub fn damped(mut self, linear: f32, angular: f32) -> Self {
+        (self.linear_damping, self.angular_damping) = (linear, angular);
         self
     }
 

@@ -20,6 +20,9 @@ pub(crate) struct Organisms {
     /// Whether gravity was ever scaled for an organism: else nobody has to be asked in a step.
     #[serde(skip)]
     scales_gravity: bool,
+    /// Whether an organism ever had a damping of its own.
+    #[serde(skip)]
+    is_damped: bool,
 }
 
 impl Clone for Organisms {
@@ -30,10 +33,11 @@ impl Clone for Organisms {
     }
 
     fn clone_from(&mut self, source: &Self) {
-        let Self { arena, with_membrane, scales_gravity } = source;
+        let Self { arena, with_membrane, scales_gravity, is_damped } = source;
         self.arena.clone_from(arena);
         self.with_membrane.clone_from(with_membrane);
         self.scales_gravity = *scales_gravity;
+        self.is_damped = *is_damped;
     }
 }
 
@@ -51,16 +55,19 @@ impl Organisms {
         {
             self.with_membrane.insert(at, id.index);
         }
+        self.is_damped |= organism.is_damped();
         OrganismId::of(self.arena.insert(Shared::new(organism)))
     }
 
-    /// Makes what is not read with a table: who has a membrane, whether gravity is scaled.
+    /// Makes what is not read with a table: who has a membrane, whether gravity is scaled and somebody damped.
     #[cfg(feature = "snapshot")]
     pub(crate) fn complete(&mut self) {
         let has_membrane = |organism: &Organism| organism.body.membrane().is_some();
         self.with_membrane = self.iter().filter(|(_, it)| has_membrane(it)).map(|(id, _)| id.index).collect();
         let scales_gravity = self.iter().any(|(_, organism)| organism.gravity_scale != 1.0);
         self.scales_gravity = scales_gravity;
+        let is_damped = self.iter().any(|(_, organism)| organism.is_damped());
+        self.is_damped = is_damped;
     }
 
     pub(crate) fn remove(&mut self, id: OrganismId) -> Option<Organism> {
@@ -117,6 +124,20 @@ impl Organisms {
     pub(crate) fn with_gravity_scale(&self) -> impl Iterator<Item = &Organism> {
         let all = self.scales_gravity.then(|| self.iter().map(|(_, organism)| organism));
         all.into_iter().flatten().filter(|organism| organism.gravity_scale != 1.0 && !organism.is_quarantined)
+    }
+
+    /// Those with a damping of their own.
+    pub(crate) fn with_damping(&self) -> impl Iterator<Item = &Organism> {
+        let all = self.is_damped.then(|| self.iter().map(|(_, organism)| organism));
+        all.into_iter().flatten().filter(|organism| organism.is_damped() && !organism.is_quarantined)
+    }
+
+    /// Sets the damping of the motion of an organism, and of its rotation.
+    pub(crate) fn set_damping(&mut self, id: OrganismId, [linear, angular]: [f32; 2]) {
+        if let Some(organism) = self.get_mut(id) {
+            (organism.linear_damping, organism.angular_damping) = (linear, angular);
+            self.is_damped |= linear > 0.0 || angular > 0.0;
+        }
     }
 
     pub(crate) fn set_gravity_scale(&mut self, id: OrganismId, scale: f32) {

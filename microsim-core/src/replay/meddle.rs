@@ -63,8 +63,9 @@ fn change_organisms(step: u32, world: &mut World) -> Result<(), Error> {
         13 => {
             let mut builder = Template::builder();
             builder.node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+            builder.name("dot");
             let template = world.add_template(builder.build()?);
-            world.spawn_template(template, Placement::at(5.0, 25.0))?;
+            world.spawn_template(template, Placement::at(5.0, 25.0).damped(1.0, 0.0))?;
         }
         14 => world.set_gravity_scale(last, 0.5)?,
         15 => world.set_user_data(last, u128::MAX - 5)?,
@@ -88,6 +89,9 @@ fn change_conditions(step: u32, world: &mut World) -> Result<(), Error> {
             let chemical = world.add_chemical(ChemicalSpec::default())?;
             world.set_exchange(first_two(world)[0], Exchange { chemical, secretion: 1.0, uptake: 0.0 })?;
         }
+        36 => world.set_size(Vec2::new(44.0, 32.0))?,
+        37 => world.set_linear_damping(first_two(world)[0], 1.5)?,
+        38 => world.set_angular_damping(first_two(world)[0], 2.5)?,
         _ => {}
     }
     Ok(())

@@ -53,7 +53,7 @@ use std::num::NonZeroU32;
 
 const MAGIC: [u8; 8] = *b"MSIMPLAY";
 /// Changes with every change of the chunks, and of what they hold.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Kinds of chunks.
 const HEADER: u8 = 0;

@@ -169,6 +169,8 @@ const WORDS: &[(&str, &str)] = &[
         "spawn.*.tier",
         "Tier of the slide that they lie in. Those in different tiers pass over each other; without one they meet all.",
     ),
+    ("spawn.*.linear_damping", "Damping of their motion as a whole besides that of the medium, 1/s."),
+    ("spawn.*.angular_damping", "Damping of their rotation as a whole, 1/s."),
     ("spawn.*.scale", "Size relative to the prototype, or [smallest, largest]."),
     ("spawn.*.controller", "Name of the controller that moves it; without it, it rests."),
     ("spawn.*.name", "A name for commands and views."),

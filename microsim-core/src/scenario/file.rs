@@ -67,7 +67,13 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
     let medium = medium::read(&mut root);
     let chemicals = chemical::read(&mut root, &config);
     let controllers = controller::read(&mut root, size, &chemicals);
-    let definitions = Definitions { prototypes: &prototypes, controllers: &controllers, chemicals: &chemicals, size };
+    let definitions = Definitions {
+        prototypes: &prototypes,
+        controllers: &controllers,
+        chemicals: &chemicals,
+        config: &config,
+        size,
+    };
     let mut groups = spawn::read(&mut root, &definitions);
     groups.extend(field::lay_out(plans, size, context));
     let supplies = supply::read(&mut root, &definitions);

@@ -61,7 +61,7 @@
 //! | `[pursue.NAME]` | [`PursueParams`](crate::PursueParams); `otherwise`: a controller of a kind above, or it rests |
 //! | `[flee.NAME]` | [`FleeParams`](crate::FleeParams); `otherwise`: the same |
 //! | `[chemical.NAME]` | [`ChemicalSpec`](crate::ChemicalSpec) |
-//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `tier`, 0 to 31: they pass over those in other tiers; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false`; `from = 0.0`: when they come; `respawn`: time after which one that is gone or taken in is replaced, at another random place |
+//! | `[[spawn]]` | `of`; `at = [x, y]`, or `count = 1`, `within = [[x0, y0], [x1, y1]]` (the room), `gap = 0.0`; `angle = 0.0` or `"random"`; `tier`, 0 to 31: they pass over those in other tiers; `linear_damping = 0.0` and `angular_damping = 0.0`, 1/s, besides the medium's; `scale = 1.0` or `[smallest, largest]`; `controller`; `name`; `player = false`; `from = 0.0`: when they come; `respawn`: time after which one that is gone or taken in is replaced, at another random place |
 //! | `[[field]]` | a grid: `of`, `count`, `pitch`, `jitter = 0.0`, `margin = 0.0` |
 //! | `[[wall]]` | `from`, `to`, `thickness`, `friction = 0.2` |
 //! | `[[block]]` | `at`, `size`, `angle = 0.0`, `friction = 0.2` |

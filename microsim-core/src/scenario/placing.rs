@@ -118,7 +118,9 @@ pub(super) fn place(group: &Group, at: Vec2, scale: f32, angle: f32) -> Placed {
     let extent = group.prototype.extent(scale);
     let (spec, scale) = group.prototype.scaled(scale);
     let controller = group.controller.clone();
+    let [linear, angular] = group.damping;
     let placement = Placement { angle, scale, controller, groups: group.groups, ..Placement::at(at.x, at.y) };
+    let placement = placement.damped(linear, angular);
     Placed { spec, placement, extent }
 }
 

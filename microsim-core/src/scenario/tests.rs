@@ -291,6 +291,18 @@ fn tiers_share_a_place_and_what_holds_fluid_has_none() {
 }
 
 #[test]
+fn who_is_damped_besides_the_medium_is_told_so_and_not_more_than_substeps_carry() {
+    let room = with("[[spawn]]\nof = 'a'\nat = [20, 20]\nlinear_damping = 2.5\nangular_damping = 1\nfrom = 0.1\n");
+    let mut built = room.build().unwrap();
+    (0..10).for_each(|_| built.step(&crate::Inputs::new()));
+    let damped = |organism: crate::OrganismView<'_>| (organism.linear_damping(), organism.angular_damping());
+    assert_eq!(built.world.view().organisms().map(damped).last(), Some((2.5, 1.0)));
+    let refused = Scenario::parse(&format!("{ROOM}[[spawn]]\nof = 'a'\nat = [20, 20]\nangular_damping = 25\n"), &[]);
+    let message = refused.unwrap_err().to_string();
+    assert!(message.contains("angular_damping") && message.contains("24.0 with 8 substeps"), "{message}");
+}
+
+#[test]
 fn a_medium_kicks_as_stokes_and_einstein_say() {
     use crate::FieldKind;
     let mobility = |extra: &str| {

@@ -179,6 +179,7 @@ fn supply(world: &mut World, organism: OrganismId) -> [Event; 3] {
 /// A custom body, with a muscle.
 fn roped(world: &mut World) {
     let mut builder = Template::builder();
+    builder.name("rope");
     let [a, b] = [0.0, 2.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
     let channel = builder.channel([1.0, 0.5]);
     builder.muscle(channel, Rope { a, b, max_length: 3.0 });
@@ -188,7 +189,7 @@ fn roped(world: &mut World) {
     builder.constraint(spring);
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
-    world.spawn_template(template, Placement::at(120.0, 75.0)).unwrap();
+    world.spawn_template(template, Placement::at(120.0, 75.0).damped(1.0, 2.0)).unwrap();
 }
 
 /// Lets cells eat until the first one digests, the second one ingests, the third one touches and the last one divides.

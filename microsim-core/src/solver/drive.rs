@@ -98,8 +98,10 @@ pub(crate) struct Tow {
     pub velocity: Vec2,
     /// Where the first particle is to point: a unit vector, or zero to turn no further.
     pub heading: Vec2,
-    /// Largest acceleration towards the velocity, units/s2, beyond that against the drag of the medium.
+    /// Largest acceleration towards the velocity, units/s2, beyond that against drag.
     pub max_acceleration: f32,
+    /// Damping of its own besides that of the medium, 1/s.
+    pub own_damping: f32,
     /// Change of velocity in this step that needs no acceleration, units/s: at low Reynolds number nothing has inertia.
     pub at_once: f32,
 }
@@ -156,7 +158,7 @@ pub(crate) fn begin_tows(tows: &[Tow], particles: &mut Particles) {
 pub(crate) fn apply_tows(tows: &[Tow], particles: &mut Particles, config: &WorldConfig, h: f32) {
     for tow in tows {
         let speed = tow.velocity.length();
-        tow.approach(particles, (tow.max_acceleration + config.damping * speed) * h);
+        tow.approach(particles, (tow.max_acceleration + (config.damping + tow.own_damping) * speed) * h);
         let room = config.speed_limit() - speed;
         let room = if room > 0.0 { room } else { 0.0 };
         tow.turn(particles, if room < speed { room } else { speed }, tow.max_acceleration * h);

@@ -21,12 +21,30 @@ pub(crate) struct Force {
 pub(crate) struct Forces {
     particles: Vec<u32>,
     list: Vec<(Range<usize>, Force)>,
+    /// Particles that are damped together, and the rates of their motion and of their rotation, 1/s.
+    damped: Vec<(Vec<u32>, [f32; 2])>,
 }
 
 impl Forces {
     pub(crate) fn clear(&mut self) {
         self.particles.clear();
         self.list.clear();
+        self.damped.clear();
+    }
+
+    /// Damps some particles as a whole: the velocity of their centre of mass, and their rotation about it.
+    pub(crate) fn damp(&mut self, on: Vec<u32>, rates: [f32; 2]) {
+        self.damped.push((on, rates));
+    }
+
+    /// Damps velocities for a substep of `h` seconds, by `1 / (1 + rate h)` as the medium does.
+    pub(crate) fn apply_damping(&self, p: &mut Particles, h: f32) {
+        for (list, rates) in &self.damped {
+            let Some(body) = MassProperties::of(p, list) else { continue };
+            let [linear, angular] = rates.map(|rate| rate * h / (1.0 + rate * h));
+            let spin = if angular > 0.0 { body.angular_velocity(p, list) } else { 0.0 };
+            accelerate(p, list, |arm| arm.perp() * (-spin * angular) - body.velocity * linear, &body, f32::MAX);
+        }
     }
 
     /// Adds a force on some particles.
@@ -105,6 +123,21 @@ mod tests {
         let body = MassProperties::of(&p, &[0, 1]).unwrap();
         assert!((body.angular_velocity(&p, &[0, 1]) - 0.01).abs() < 1e-6);
         assert!(momentum(&p, &[0, 1]).length() < 1e-6);
+    }
+
+    #[test]
+    fn damping_of_the_motion_leaves_the_rotation_and_the_other_way_round() {
+        for (rates, velocity, spin) in [([25.0, 0.0], 4.0, 2.0), ([0.0, 25.0], 5.0, 1.6)] {
+            let mut p = line(3.0, [1.0, 0.5]);
+            // Arms of 2 and 1 turn with 2 radians/s while all of it moves with 5 units/s.
+            (p.vx, p.vy) = (vec![5.0; 2], vec![-4.0, 2.0]);
+            let mut forces = Forces::default();
+            forces.damp(vec![0, 1], rates);
+            forces.apply_damping(&mut p, 0.01);
+            let body = MassProperties::of(&p, &[0, 1]).unwrap();
+            assert!((body.velocity - Vec2::new(velocity, 0.0)).length() < 1e-5, "{}", body.velocity);
+            assert!((body.angular_velocity(&p, &[0, 1]) - spin).abs() < 1e-5);
+        }
     }
 
     #[test]

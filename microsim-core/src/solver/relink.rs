@@ -10,13 +10,18 @@ use crate::collision::{Contact, Mobility};
 use crate::instruction_set::Dispatch;
 use crate::particle::Particles;
 
-/// Passes in a substep; under heavy discs, which one pass moves less, there are more.
+/// Passes in a long substep.
 const PASSES: usize = 2;
-const HEAVY_PASSES: usize = 4;
-/// Substeps up to this do without, except under heavy discs, s.
+/// Substeps up to this do without, s.
 const SHORT: f32 = 1.0 / 400.0;
-/// A disc so many times as heavy as a linked one, or one that cannot move, is heavy.
+/// A disc more than so many times as heavy as a linked one, or one that cannot move, is heavy.
 const HEAVY: f32 = 30.0;
+/// Passes under heavy discs, which one pass moves less, in substeps of any length ...
+const HEAVY_PASSES: usize = 8;
+/// ... and how many bodies farther: those that are pressed on press on others.
+const FARTHER: usize = 2;
+/// Stands for no block.
+const NO_BLOCK: usize = usize::MAX;
 
 /// Discs that overlapped in this substep, at least one of them linked to others.
 #[derive(Debug, Default)]
@@ -25,12 +30,14 @@ pub(crate) struct Pressed {
     /// Whether a heavy disc is among them.
     has_heavy: bool,
     contacts: Vec<Contact>,
-    /// By block: whether a disc of it is among them.
+    /// Of each contact: the blocks that its linked sides are in.
+    sides: Vec<[usize; 2]>,
+    /// By block: whether it is projected.
     blocks: Vec<bool>,
 }
 
 impl Pressed {
-    /// Forgets those of the last substep; in a substep of `h` seconds that is short, only heavy ones are noted.
+    /// Forgets those of the last substep, and begins with one of `h` seconds.
     pub(crate) fn begin(&mut self, h: f32) {
         self.is_long = h > SHORT;
         self.has_heavy = false;
@@ -40,15 +47,25 @@ impl Pressed {
     /// Notes a contact that was projected.
     #[inline(always)]
     pub(crate) fn note(&mut self, contact: &Contact, particles: &Particles) {
-        if !contact.mobility.contains(&Mobility::Linked) {
-            return;
+        if contact.mobility.contains(&Mobility::Linked) {
+            self.has_heavy |= is_heavy(contact, particles);
+            if self.is_long {
+                self.add(contact);
+            }
         }
-        let is_heavy = is_heavy(contact, particles);
-        self.has_heavy |= is_heavy;
-        if self.is_long || is_heavy {
-            // Its impact is known.
-            self.contacts.push(Contact { restitution: 0.0, ..*contact });
+    }
+
+    /// Notes what has touched in this step, if the substep is short and a heavy disc presses on something.
+    pub(crate) fn note_neighbours(&mut self, contacts: &[Contact]) {
+        if self.has_heavy && !self.is_long {
+            let linked = |contact: &&Contact| contact.touched && contact.mobility.contains(&Mobility::Linked);
+            contacts.iter().filter(linked).for_each(|contact| self.add(contact));
         }
+    }
+
+    fn add(&mut self, contact: &Contact) {
+        // Its impact is known.
+        self.contacts.push(Contact { restitution: 0.0, ..*contact });
     }
 
     /// Projects the links of the bodies that were pressed on, and then what pressed on them. `links` are the rigid ones of a
@@ -65,7 +82,25 @@ impl Pressed {
             return;
         }
         self.find_blocks(blocks);
-        for _ in 0..if self.has_heavy { HEAVY_PASSES } else { PASSES } {
+        if self.is_long {
+            self.project(PASSES, blocks, &links, particles, recorder, dispatch);
+        }
+        if self.has_heavy {
+            self.keep_those_near_heavy(particles);
+            self.project(HEAVY_PASSES, blocks, &links, particles, recorder, dispatch);
+        }
+    }
+
+    fn project<'a>(
+        &mut self,
+        passes: usize,
+        blocks: &[Block],
+        links: impl Fn(usize) -> &'a [Constraint],
+        particles: &mut Particles,
+        recorder: &mut ContactRecorder,
+        dispatch: Dispatch,
+    ) {
+        for _ in 0..passes {
             let pressed = blocks.iter().zip(&self.blocks).filter(|(_, is_pressed)| **is_pressed);
             let mut pressed: Vec<_> = pressed.map(|(block, _)| (block, ())).collect();
             for mut batch in block::batches(&mut pressed, particles) {
@@ -81,22 +116,46 @@ impl Pressed {
 
     /// Finds the blocks that linked sides of the contacts are in, and forgets contacts without any.
     fn find_blocks(&mut self, blocks: &[Block]) {
-        let Self { contacts, blocks: pressed, .. } = self;
+        let Self { contacts, sides, blocks: pressed, .. } = self;
         pressed.clear();
         pressed.resize(blocks.len(), false);
+        sides.clear();
         // Contacts of two bodies lie side by side, so the last blocks are often the next ones.
         let mut last = [0; 2];
         contacts.retain(|contact| {
-            let mut any = false;
-            for ((side, mobility), last) in [contact.i, contact.j].into_iter().zip(contact.mobility).zip(&mut last) {
-                if mobility == Mobility::Linked
-                    && let Some(block) = block_of(side, blocks, *last)
+            let mut found = [NO_BLOCK; 2];
+            for (k, side) in [contact.i, contact.j].into_iter().enumerate() {
+                if contact.mobility[k] == Mobility::Linked
+                    && let Some(block) = block_of(side, blocks, last[k])
                 {
-                    (*last, pressed[block], any) = (block, true, true);
+                    (last[k], found[k], pressed[block]) = (block, block, true);
                 }
+            }
+            let any = found != [NO_BLOCK; 2];
+            if any {
+                sides.push(found);
             }
             any
         });
+    }
+
+    /// Forgets all contacts but those of bodies that heavy discs press on, and of the next ones.
+    fn keep_those_near_heavy(&mut self, particles: &Particles) {
+        let Self { contacts, sides, blocks: pressed, .. } = self;
+        let mark = |pressed: &mut [bool], sides: &[usize; 2]| {
+            sides.iter().filter(|side| **side != NO_BLOCK).for_each(|&side| pressed[side] = true);
+        };
+        let is_near =
+            |pressed: &[bool], sides: &[usize; 2]| sides.iter().any(|&side| side != NO_BLOCK && pressed[side]);
+        pressed.fill(false);
+        let heavy = contacts.iter().zip(&*sides).filter(|(contact, _)| is_heavy(contact, particles));
+        heavy.for_each(|(_, sides)| mark(pressed, sides));
+        for _ in 0..FARTHER {
+            let before = pressed.clone();
+            sides.iter().filter(|sides| is_near(&before, sides)).for_each(|sides| mark(pressed, sides));
+        }
+        let mut sides = sides.iter();
+        contacts.retain(|_| sides.next().is_some_and(|sides| is_near(pressed, sides)));
     }
 }
 
@@ -129,9 +188,9 @@ mod tests {
     const LONG: f32 = 0.005;
     const LINK: Distance = Distance { a: 0, b: 1, rest_length: 2.0, compliance: 0.0, damping: 0.0 };
 
-    /// Two blocks with a stretched dumbbell each, of which a heavy disc presses on the first: the stretch that relinking leaves in
+    /// Two blocks with a stretched dumbbell each, of which a disc of an inverse mass presses on the first: the stretch that relinking leaves in
     /// each, relative to that before.
-    fn stretch_left(h: f32, mobility: Mobility) -> [f32; 2] {
+    fn stretch_left(h: f32, mobility: Mobility, inv_mass: f32) -> [f32; 2] {
         let mut p = Particles::default();
         let blocks = [0, 1].map(|_| Block { owner: [0; LANES], ..Block::new(0, 2, &mut p) });
         for (block, x) in blocks.iter().zip([0.0, 50.0]) {
@@ -139,13 +198,14 @@ mod tests {
                 p.set(block.particle(slot, 0) as usize, &disc(Vec2::new(x, 2.2 * slot as f32), 1.0));
             }
         }
-        let heavy = p.insert(&disc(Vec2::new(0.9, 2.2), 1e-3));
+        let heavy = p.insert(&disc(Vec2::new(0.9, 2.2), inv_mass));
         let side = blocks[0].particle(1, 0) as usize;
         let mut contacts = [Contact::new(&p, heavy as usize, side, [Mobility::Single, mobility])];
         let mut pressed = Pressed::default();
         let mut recorder = ContactRecorder::default();
         pressed.begin(h);
         contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact, p| pressed.note(contact, p));
+        pressed.note_neighbours(&contacts);
         let stretch = |p: &Particles| {
             let ends = blocks.each_ref().map(|block| [0, 1].map(|slot| block.particle(slot, 0) as usize));
             ends.map(|[a, b]| (p.between(a, b).length() - 2.0).abs())
@@ -159,15 +219,23 @@ mod tests {
     }
 
     #[test]
-    fn what_is_pressed_on_gets_its_links_back_in_long_substeps() {
-        let [pressed, other] = stretch_left(LONG, Mobility::Linked);
-        assert!(pressed < 0.3 && other == 1.0, "{pressed} {other}");
+    fn under_heavy_discs_links_are_got_back_in_substeps_of_any_length() {
+        for h in [LONG, SHORT] {
+            let [pressed, other] = stretch_left(h, Mobility::Linked, 1e-3);
+            assert!(pressed < 0.3 && other == 1.0, "{pressed} {other}");
+        }
     }
 
     #[test]
-    fn short_substeps_and_what_is_not_linked_are_left_alone() {
-        assert_eq!(stretch_left(SHORT, Mobility::Linked), [1.0; 2]);
-        assert_eq!(stretch_left(LONG, Mobility::Single), [1.0; 2]);
+    fn under_what_is_not_heavy_long_substeps_alone_do_so() {
+        let [long, short] = [LONG, SHORT].map(|h| stretch_left(h, Mobility::Linked, 0.1));
+        assert!(long[0] < 0.6 && long[1] == 1.0, "{long:?}");
+        assert_eq!(short, [1.0; 2]);
+    }
+
+    #[test]
+    fn what_is_not_linked_is_left_alone() {
+        assert_eq!(stretch_left(LONG, Mobility::Single, 1e-3), [1.0; 2]);
     }
 
     #[test]

@@ -15,6 +15,9 @@ use glam::Vec2;
 pub use role::Role;
 use serde::{Deserialize, Serialize};
 
+/// Most bytes of a name.
+const LONGEST_NAME: usize = 100;
+
 /// One particle of a template, in the template's own frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Node {
@@ -71,6 +74,7 @@ pub struct Propulsion {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "TemplateBuilder")]
 pub struct Template {
+    name: String,
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
@@ -88,6 +92,12 @@ impl Template {
     #[must_use]
     pub fn builder() -> TemplateBuilder {
         TemplateBuilder::default()
+    }
+
+    /// Its name; empty if it has none.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Its particles; a node's index here is its slot.
@@ -164,6 +174,7 @@ impl TryFrom<TemplateBuilder> for Template {
 /// ```
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct TemplateBuilder {
+    name: String,
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
@@ -173,6 +184,26 @@ pub struct TemplateBuilder {
 }
 
 impl TemplateBuilder {
+    /// Names it: at most 100 bytes, without control characters. Templates of different names are different ones, whatever else
+    /// they have in common.
+    ///
+    /// ```
+    /// use microsim_core::{Kind, Node, Placement, Template, World, WorldConfig, glam::Vec2};
+    ///
+    /// let mut world = World::new(WorldConfig::default())?;
+    /// let mut builder = Template::builder();
+    /// builder.name("crumb").node(Node::disc(Vec2::ZERO, 1.0, 0.5));
+    /// let crumb = world.add_template(builder.build()?);
+    /// let one = world.spawn_template(crumb, Placement::at(50.0, 50.0))?;
+    /// assert_eq!((world.kind(one), world.template_named("crumb")), (Some(Kind::Custom(crumb)), Some(crumb)));
+    /// assert_eq!(world.view().organism(one).unwrap().template_name(), Some("crumb"));
+    /// # Ok::<(), microsim_core::Error>(())
+    /// ```
+    pub fn name(&mut self, name: impl Into<String>) -> &mut Self {
+        self.name = name.into();
+        self
+    }
+
     /// Adds a particle and returns its slot.
     pub fn node(&mut self, node: Node) -> u32 {
         self.nodes.push(node);
@@ -262,7 +293,10 @@ impl TemplateBuilder {
     }
 
     fn check(self) -> Result<Template, Error> {
-        let Self { nodes, constraints, outline, propulsion, channels, muscles } = self;
+        let Self { name, nodes, constraints, outline, propulsion, channels, muscles } = self;
+        if name.len() > LONGEST_NAME || name.contains(char::is_control) {
+            return Err(Error::unsupported("name", "at most 100 bytes, without control characters"));
+        }
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
@@ -286,7 +320,7 @@ impl TemplateBuilder {
             in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
         }
         let rigid_links = rigid_links(&constraints, &muscles);
-        Ok(Template { nodes, constraints, outline, propulsion, channels, muscles, rigid_links })
+        Ok(Template { name, nodes, constraints, outline, propulsion, channels, muscles, rigid_links })
     }
 }
 

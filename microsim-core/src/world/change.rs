@@ -66,6 +66,9 @@ pub(crate) enum WorldChange {
     Shrink(OrganismId, u32),
     SetSpeed(OrganismId, f32),
     SetPhagocytosis(OrganismId, Box<PhagocytosisParams>),
+    SetLinearDamping(OrganismId, f32),
+    SetAngularDamping(OrganismId, f32),
+    SetSize(Vec2),
 }
 
 /// The changes since the last step, and those before it.
@@ -168,6 +171,9 @@ impl WorldChange {
             Self::Shrink(id, particles) => world.shrink(id, particles).ok()?,
             Self::SetSpeed(id, speed) => world.set_speed(id, speed).ok()?,
             Self::SetPhagocytosis(id, params) => world.set_phagocytosis(id, *params).ok()?,
+            Self::SetLinearDamping(id, damping) => world.set_linear_damping(id, damping).ok()?,
+            Self::SetAngularDamping(id, damping) => world.set_angular_damping(id, damping).ok()?,
+            Self::SetSize(size) => world.set_size(size).ok()?,
         }
         Some(())
     }

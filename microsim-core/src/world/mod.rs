@@ -17,6 +17,7 @@ mod membrane;
 mod muscle;
 pub(crate) mod obstacle;
 mod occupancy;
+mod own_medium;
 mod phagocytosis;
 mod push;
 mod quarantine;
@@ -24,9 +25,11 @@ pub(crate) mod query;
 mod replace;
 mod scale;
 mod settings;
+mod size;
 mod spawn;
 pub(crate) mod state;
 pub(crate) mod supply;
+mod template;
 mod thermal;
 mod vacancies;
 pub(crate) mod view;
@@ -43,7 +46,7 @@ use crate::error::{Error, ErrorKind};
 use crate::event::Event;
 use crate::float_environment::with_default_float_environment;
 use crate::force_field::ForceField;
-use crate::id::{OrganismId, TemplateId};
+use crate::id::OrganismId;
 use crate::instruction_set::{Dispatch, InstructionSet};
 use crate::kind::Kind;
 use crate::organism::Organism;
@@ -288,26 +291,6 @@ impl World {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.step_index as f64 * f64::from(self.config.dt)
-    }
-
-    /// Adds a template for custom bodies, see [`World::spawn_template`].
-    pub fn add_template(&mut self, template: Template) -> TemplateId {
-        let count = self.templates.len();
-        let index = self.template_index(template);
-        if self.templates.len() > count {
-            let added = self.templates[count].clone();
-            self.changed(|| WorldChange::AddTemplate(Box::new(added)));
-        }
-        TemplateId(index)
-    }
-
-    /// Index of an equal template, added if there is none.
-    pub(crate) fn template_index(&mut self, template: Template) -> u32 {
-        let known = with_default_float_environment(|| self.templates.iter().position(|other| *other == template));
-        known.unwrap_or_else(|| {
-            self.templates.push(template);
-            self.templates.len() - 1
-        }) as u32
     }
 
     /// Lets two organisms pass through each other, or collide again.

@@ -1,7 +1,7 @@
 //! Settings that change while the world runs: the world's own, and those of single organisms.
 
+use super::World;
 use super::change::WorldChange;
-use super::{World, obstacle};
 use crate::capability::phagocytosis::PhagocytosisParams;
 use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
@@ -9,8 +9,6 @@ use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::organism::{MAX_SPEED, Organism, Storage};
 use crate::particle::CollisionGroups;
-use crate::particle::mass_properties::MassProperties;
-use crate::solver::force::Force;
 use glam::Vec2;
 
 impl World {
@@ -60,9 +58,7 @@ impl World {
 
     fn enforce_speed_limit(&mut self) {
         // Walls are as thick as the limit asks for.
-        for (wall, thick) in self.obstacles.iter_mut().zip(obstacle::walls(&self.config)) {
-            *wall = thick;
-        }
+        self.rebuild_walls();
         let limit = self.config.speed_limit();
         for i in 0..self.particles.len() {
             let Vec2 { x, y } = self.particles.velocity(i).clamp_length_max(limit);
@@ -78,21 +74,6 @@ impl World {
         organisms.try_for_each(|o| o.controller.check_body(&o.locomotion, o.speed, &config))?;
         self.check_all_kicks(&config)?;
         self.config = config;
-        Ok(())
-    }
-
-    /// Sets how strongly gravity acts on an organism: 1 as on others, 0 not at all, negative upwards; within ±100. Cells that
-    /// divide pass it on.
-    ///
-    /// # Errors
-    /// When the handle is stale, or the scale is not finite or out of its range.
-    pub fn set_gravity_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
-        self.organism_or_stale(id, "organism")?;
-        in_range("scale", scale, -100.0, 100.0)?;
-        self.organisms.set_gravity_scale(id, scale);
-        self.wake_up(id);
-        self.wake_up_touching(id);
-        self.changed(|| WorldChange::SetGravityScale(id, scale));
         Ok(())
     }
 
@@ -172,25 +153,6 @@ impl World {
         let nodes = template.map_or(&[][..], |template| template.nodes());
         let collides = |k: usize| nodes.get(k).is_none_or(|node| node.groups != CollisionGroups::NONE);
         organism.particles().enumerate().filter(|&(k, _)| collides(k)).map(|(_, i)| i as usize).collect()
-    }
-
-    /// Adds the forces by which gravity on some organisms differs from that on others; what sleeps has none.
-    pub(crate) fn scale_gravity(&mut self) {
-        let Self { organisms, particles, sleep, blocks, scratch, config, .. } = self;
-        for organism in organisms.with_gravity_scale() {
-            let lane = organism.body.lane(blocks);
-            if !lane.is_some_and(|(block, _)| sleep.is_asleep(block)) {
-                let acceleration = config.gravity * (organism.gravity_scale - 1.0);
-                let list: Vec<u32> = organism.particles().collect();
-                // Slower than the sleep speed it may be on its way down.
-                let slowest = 0.25 * config.fall_speed(organism.gravity_scale);
-                let speed = MassProperties::of(particles, &list).map_or(0.0, |body| body.velocity.length());
-                if let Some((block, lane)) = lane.filter(|_| 0.0 < slowest && slowest < speed) {
-                    sleep.wake_up(block, lane);
-                }
-                scratch.forces.add(&list, Force { acceleration, ..Force::default() });
-            }
-        }
     }
 }
 

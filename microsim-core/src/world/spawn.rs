@@ -48,7 +48,7 @@ impl World {
     pub fn spawn_template(&mut self, template: TemplateId, placement: Placement) -> Result<OrganismId, Error> {
         let known = self.templates.get(template.0 as usize).cloned();
         let known = known.ok_or_else(|| Error::new(ErrorKind::Stale, "template"))?;
-        let spawn = || self.spawn_blueprint(Blueprint::custom(known), placement.clone());
+        let spawn = || self.spawn_blueprint(Blueprint::custom(template, known), placement.clone());
         let id = with_default_float_environment(spawn)?;
         self.changed(|| WorldChange::SpawnTemplate(template.0, Box::new(placement)));
         Ok(id)
@@ -132,6 +132,8 @@ impl World {
             home: placement.at,
             is_quarantined: false,
             gravity_scale: 1.0,
+            linear_damping: placement.linear_damping,
+            angular_damping: placement.angular_damping,
             user_data: [0; 2],
         };
         Ok(self.organisms.insert(organism))
@@ -140,8 +142,10 @@ impl World {
     /// Checks all of a blueprint and its placement but for what is there already.
     fn check_spawn(&self, blueprint: &Blueprint, placement: &Placement) -> Result<(), Error> {
         placement.validate()?;
+        self.config.check_damping("linear_damping", placement.linear_damping)?;
+        self.config.check_damping("angular_damping", placement.angular_damping)?;
         self.check_substeps(blueprint)?;
-        self.check_kicks(blueprint, placement.scale)?;
+        self.check_kicks(blueprint, placement.scale, placement.linear_damping)?;
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
         check_fluid(blueprint, placement)?;
         let asked = self.particles.live_count() as u64 + blueprint.particle_count() as u64;
@@ -214,9 +218,10 @@ impl World {
         self.with_its_place(hit)
     }
 
-    fn with_its_place(&self, id: OrganismId) -> Option<String> {
-        let centre = self.centroid(id)?;
-        Some(format!("the {} at [{:.1}, {:.1}]", self.kind(id)?.name(), centre.x, centre.y))
+    pub(super) fn with_its_place(&self, id: OrganismId) -> Option<String> {
+        let organism = self.view().organism(id)?;
+        let (centre, name) = (organism.centroid(), organism.template_name().unwrap_or(organism.kind().name()));
+        Some(format!("the {name} at [{:.1}, {:.1}]", centre.x, centre.y))
     }
 
     /// Whether an organism has one of the discs inside its membrane, which would hold it in.
@@ -322,7 +327,7 @@ impl World {
 
 impl Blueprint {
     /// Of a template of the embedder's own.
-    pub(super) fn custom(template: Template) -> Self {
+    pub(super) fn custom(id: TemplateId, template: Template) -> Self {
         let outline: Vec<Vec2> =
             template.outline().iter().map(|&slot| template.nodes()[slot as usize].position).collect();
         let area = crate::geometry::polygon::signed_area(&outline);
@@ -330,7 +335,7 @@ impl Blueprint {
             Some(Propulsion { speed, max_acceleration }) => (Locomotion::Propel { max_acceleration }, speed),
             None => (Locomotion::None, 0.0),
         };
-        Self { template: Some(template), locomotion, speed, ..Self::of(Kind::Custom, area) }
+        Self { template: Some(template), locomotion, speed, ..Self::of(Kind::Custom(id), area) }
     }
 }
 

@@ -249,7 +249,7 @@ impl World {
         emitter.validate()?;
         let blueprint = self.blueprint_of(&emitter.recipe)?;
         self.check_substeps(&blueprint)?;
-        self.check_kicks(&blueprint, 1.0)
+        self.check_kicks(&blueprint, 1.0, 0.0)
     }
 
     /// What a recipe amounts to in this world.
@@ -258,7 +258,9 @@ impl World {
             Recipe::Organism(spec) => spec.blueprint(),
             Recipe::Template(id) => {
                 let template = self.templates.get(id.0 as usize).cloned();
-                template.map(Blueprint::custom).ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
+                template
+                    .map(|template| Blueprint::custom(*id, template))
+                    .ok_or_else(|| Error::new(ErrorKind::Stale, "recipe.template"))
             }
         }
     }

@@ -18,14 +18,13 @@ const SPEED_LIMIT: f32 = 4.0;
 
 impl World {
     /// Kicks the bodies in thermal fields, once per step. A kick `v` moves a body by `v (1 + g h) / g` in all, with a damping of
-    /// `g` and substeps of `h`; its variance is such that the kicks of a second add up to `2 D` along each axis.
+    /// `g`, its own included, and substeps of `h`; its variance is such that the kicks of a second add up to `2 D` along each axis.
     pub(crate) fn kick_bodies(&mut self) {
         if !self.fields.iter().any(|(_, field)| matches!(field.kind, FieldKind::Thermal { .. })) {
             return;
         }
         let Self { config, fields, organisms, particles, sleep, step_index, .. } = self;
         let step = *step_index + 1;
-        let per_root = kick_per_root(config);
         for (id, organism) in organisms.iter() {
             let sleeps = matches!(organism.body, Storage::Lane { block, .. } if sleep.is_asleep(block));
             if sleeps || organism.slots == 0 || organism.goal.is_some() || organism.is_held() || organism.is_quarantined
@@ -40,10 +39,12 @@ impl World {
             if mobility <= 0.0 || radius <= 0.0 {
                 continue;
             }
-            let kick = per_root * (mobility / radius).sqrt();
+            let root = (mobility / radius).sqrt();
+            let [kick, spin] =
+                [organism.linear_damping, organism.angular_damping].map(|own| kick_per_root(config, own) * root);
             let mut rng = kicks(config.seed, step, id.thermal_stream());
             let velocity = Vec2::new(rng.normal(), rng.normal()) * kick;
-            let turn = 0.75_f32.sqrt() * kick * rng.normal() / radius;
+            let turn = 0.75_f32.sqrt() * spin * rng.normal() / radius;
             for i in list.into_iter().map(|i| i as usize).filter(|&i| particles.inv_mass[i] > 0.0) {
                 let change = velocity + body.arm(particles, i).perp() * turn;
                 particles.vx[i] += change.x;
@@ -57,22 +58,29 @@ impl World {
         self.fields.iter().map(|(_, field)| field.mobility_at(point)).sum()
     }
 
-    /// Checks that the speed limit leaves a body of a blueprint, at a scale, the kicks of the hottest place.
-    pub(super) fn check_kicks(&self, blueprint: &Blueprint, scale: f32) -> Result<(), Error> {
+    /// Checks that the speed limit leaves a body of a blueprint, at a scale and with a damping of its own, the kicks of the hottest
+    /// place.
+    pub(super) fn check_kicks(&self, blueprint: &Blueprint, scale: f32, own: f32) -> Result<(), Error> {
         let is_kicked = blueprint.template.is_some() && blueprint.rim.is_none();
         let area = if is_kicked { blueprint.area * (scale * scale) } else { 0.0 };
-        check(area, most_mobile(self.fields.iter().map(|(_, field)| &**field)), &self.config)
+        check(area, own, self.most_mobile(), &self.config)
     }
 
     /// The same of an organism at a scale relative to its size when spawned.
     pub(super) fn check_kicks_at_scale(&self, organism: &Organism, scale: f32) -> Result<(), Error> {
         let area = organism.spawn_area * (scale * scale);
-        check(area, most_mobile(self.fields.iter().map(|(_, field)| &**field)), &self.config)
+        check(area, organism.linear_damping, self.most_mobile(), &self.config)
+    }
+
+    /// The same of an organism with another damping of its own.
+    pub(super) fn check_kicks_at_damping(&self, organism: &Organism, own: f32) -> Result<(), Error> {
+        let area = if organism.slots > 0 { organism.full_area() } else { 0.0 };
+        check(area, own, self.most_mobile(), &self.config)
     }
 
     /// The same of all bodies with other settings.
     pub(super) fn check_all_kicks(&self, config: &WorldConfig) -> Result<(), Error> {
-        self.check_bodies(most_mobile(self.fields.iter().map(|(_, field)| &**field)), config)
+        self.check_bodies(self.most_mobile(), config)
     }
 
     /// The same with one more field, or one in the place of another.
@@ -82,12 +90,16 @@ impl World {
         self.check_bodies(mobility, &self.config).map_err(|error| error.within("kind"))
     }
 
+    fn most_mobile(&self) -> f32 {
+        most_mobile(self.fields.iter().map(|(_, field)| &**field))
+    }
+
     fn check_bodies(&self, mobility: f32, config: &WorldConfig) -> Result<(), Error> {
         let mut bodies = self.organisms.iter().filter(|(_, organism)| organism.slots > 0);
-        bodies.try_for_each(|(_, organism)| check(organism.full_area(), mobility, config))?;
+        bodies.try_for_each(|(_, organism)| check(organism.full_area(), organism.linear_damping, mobility, config))?;
         let emitted = self.emitters.iter().filter_map(|(_, record)| self.blueprint_of(&record.emitter.recipe).ok());
         let mut emitted = emitted.filter(|blueprint| blueprint.template.is_some() && blueprint.rim.is_none());
-        emitted.try_for_each(|blueprint| check(blueprint.area, mobility, config))
+        emitted.try_for_each(|blueprint| check(blueprint.area, 0.0, mobility, config))
     }
 }
 
@@ -112,17 +124,17 @@ fn most_mobile<'a>(fields: impl Iterator<Item = &'a ForceField>) -> f32 {
     sums.fold(0.0, |most, sum| if sum > most { sum } else { most })
 }
 
-/// Checks that a body of this area is not kicked beyond the speed limit.
-fn check(area: f32, mobility: f32, config: &WorldConfig) -> Result<(), Error> {
+/// Checks that a body of this area and with this damping of its own is not kicked beyond the speed limit.
+fn check(area: f32, own: f32, mobility: f32, config: &WorldConfig) -> Result<(), Error> {
     let radius = (area.abs() / PI).sqrt();
-    let slowest = SPEED_LIMIT * speed_by_kicks(config);
+    let slowest = SPEED_LIMIT * speed_by_kicks(config, own);
     if mobility <= 0.0 || radius <= 0.0 || slowest <= 0.0 {
         return Ok(());
     }
     let root = config.speed_limit() / slowest;
     let most = radius * (root * root);
     let accepted = || {
-        let WorldConfig { damping, max_speed, .. } = config;
+        let (damping, max_speed) = (damping(config, own), config.max_speed);
         format!(
             "0 to {most:.3} in all with a body of radius {radius:.3}, a `damping` of {damping} and a `max_speed` of {max_speed}"
         )
@@ -132,18 +144,24 @@ fn check(area: f32, mobility: f32, config: &WorldConfig) -> Result<(), Error> {
 
 /// Standard deviation along an axis of the velocity after a kick, units/s, of a body with a diffusion coefficient of 1: `sqrt(g)`
 /// in short steps.
-fn speed_by_kicks(config: &WorldConfig) -> f32 {
-    let loss = config.damping * config.substep();
+fn speed_by_kicks(config: &WorldConfig, own: f32) -> f32 {
+    let loss = damping(config, own) * config.substep();
     if loss <= 0.0 {
         return 0.0;
     }
     let lost = (0..2 * config.substeps).fold(0.0, |lost, _| (lost + loss) / (1.0 + loss));
-    kick_per_root(config) / f32::sqrt(lost)
+    kick_per_root(config, own) / f32::sqrt(lost)
+}
+
+/// Damping of a body by the medium and by its own, 1/s: its own comes first in each substep.
+fn damping(config: &WorldConfig, own: f32) -> f32 {
+    let g = config.damping;
+    g + own + g * own * config.substep()
 }
 
 /// Standard deviation of a kick along an axis over the root of the diffusion coefficient.
-fn kick_per_root(config: &WorldConfig) -> f32 {
-    config.damping * (2.0 * config.dt).sqrt() / (1.0 + config.damping * config.substep())
+fn kick_per_root(config: &WorldConfig, own: f32) -> f32 {
+    damping(config, own) * (2.0 * config.dt).sqrt() / (1.0 + config.damping * config.substep())
 }
 
 #[cfg(test)]

@@ -101,7 +101,8 @@ mod tests {
         names.sort_unstable();
         let expected = "agar amoeboid-cell bacillus coccus fluid-block platelet probe red-cell rigid-cell";
         assert_eq!(names.join(" "), expected);
-        assert_eq!(of_kind(Kind::Custom).map(|entry| entry.name), Some("custom"));
+        let custom = Kind::try_from(6).expect("a body of the first template");
+        assert_eq!(of_kind(custom).map(|entry| entry.name), Some("custom"));
         assert!(Sight::all().all(|sight| find(sight.name()).is_some()));
     }
 

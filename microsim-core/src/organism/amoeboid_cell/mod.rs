@@ -212,7 +212,8 @@ impl AmoeboidCellSpec {
         }
         let (wide, narrow) = (self.radii.max_element(), self.radii.min_element());
         if narrow < NARROW * self.node_radius && wide > NEARLY_ROUND * narrow {
-            let accepted = format!("at least {NARROW} node radii, or an ellipse of an aspect of at most {NEARLY_ROUND}");
+            let accepted =
+                format!("at least {NARROW} node radii, or an ellipse of an aspect of at most {NEARLY_ROUND}");
             return Err(out_of_range("radii", f64::from(narrow), accepted));
         }
         let radii = self.radii - Vec2::splat(self.node_radius);

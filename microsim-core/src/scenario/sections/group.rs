@@ -18,6 +18,8 @@ pub(crate) struct Group {
     /// Smallest and largest scale.
     pub scale: [f32; 2],
     pub groups: CollisionGroups,
+    /// Of their motion, and of their rotation, 1/s.
+    pub damping: [f32; 2],
     pub controller: Controller,
     pub exchanges: Vec<Exchange>,
     pub name: Option<String>,
@@ -66,6 +68,7 @@ impl Group {
             angle: Angle::Radians(0.0),
             scale: [1.0, 1.0],
             groups: CollisionGroups::ALL,
+            damping: [0.0, 0.0],
             controller: Controller::Still,
             exchanges: Vec::new(),
             name: None,

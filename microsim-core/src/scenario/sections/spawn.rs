@@ -1,12 +1,13 @@
 //! Organisms in one place or in random places: the tables `[[spawn]]`.
 
+use crate::scenario::diagnostic::in_words;
 use crate::scenario::reader::{DEGREE, Fields, NAME, Read, ReadContext, SpannedValue, ValueType, is_name, mismatch};
 use crate::scenario::sections::chemical::{self, Chemicals};
 use crate::scenario::sections::controller::{self, Controllers};
 use crate::scenario::sections::group::{Angle, Group, Positions};
 use crate::scenario::sections::prototype::Prototype;
 use crate::scenario::sections::prototype::{self, Prototypes};
-use crate::{CollisionGroups, Controller};
+use crate::{CollisionGroups, Controller, WorldConfig};
 use glam::Vec2;
 use std::collections::BTreeSet;
 
@@ -15,6 +16,7 @@ pub(crate) struct Definitions<'a> {
     pub prototypes: &'a Prototypes,
     pub controllers: &'a Controllers,
     pub chemicals: &'a Chemicals,
+    pub config: &'a WorldConfig,
     pub size: Vec2,
 }
 
@@ -41,6 +43,7 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
     let is_player = fields.or("player", false);
     let (from, respawn) = read_times(fields, is_player || name.is_some());
     let groups = read_tier(fields, prototype.as_ref());
+    let damping = ["linear_damping", "angular_damping"].map(|field| read_damping(fields, field, definitions.config));
     let prototype = prototype?;
     check_steering(fields, &prototype, controller != Controller::Still, is_player);
     let (path, positions) = (fields.path.clone(), positions?);
@@ -52,6 +55,7 @@ fn read_spawn(fields: &mut Fields<'_>, definitions: &Definitions<'_>, names: &mu
         angle,
         scale,
         groups,
+        damping,
         controller,
         exchanges,
         name,
@@ -91,6 +95,17 @@ fn read_tier(fields: &mut Fields<'_>, prototype: Option<&Prototype>) -> Collisio
         fields.refuse("tier", format!("{tier} is out of range"), "0 to 31");
         CollisionGroups::ALL
     })
+}
+
+/// A damping of their own, of which substeps carry as much as of the medium's.
+fn read_damping(fields: &mut Fields<'_>, field: &'static str, config: &WorldConfig) -> f32 {
+    let damping = fields.number(field, 0.0, [0.0, 100.0]);
+    let of_all = WorldConfig { damping, ..config.clone() }.validate();
+    if let Some(error) = of_all.err().filter(|error| error.field() == "damping") {
+        let (message, accepted) = in_words(&error);
+        fields.refuse(field, message, accepted.unwrap_or_default());
+    }
+    damping
 }
 
 /// Checks that an organism of this extent fits into the box that it is to be put into.

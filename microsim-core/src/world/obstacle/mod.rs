@@ -136,8 +136,15 @@ impl World {
         }
     }
 
+    /// Puts the walls where the settings say.
+    pub(in crate::world) fn rebuild_walls(&mut self) {
+        for (wall, rebuilt) in self.obstacles.iter_mut().zip(walls(&self.config)) {
+            *wall = rebuilt;
+        }
+    }
+
     /// Lets chemicals into all of the room but its present obstacles.
-    fn open_chemicals(&mut self) {
+    pub(in crate::world) fn open_chemicals(&mut self) {
         let Self { chemicals, obstacles, config, .. } = self;
         for chemical in chemicals {
             chemical.open(config.size);

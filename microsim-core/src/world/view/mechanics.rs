@@ -6,7 +6,7 @@ use crate::organism::Storage;
 use crate::particle::mass_properties::{MassProperties, movable};
 use glam::Vec2;
 
-impl OrganismView<'_> {
+impl<'a> OrganismView<'a> {
     /// Mass of what can move of it, fluid included.
     #[must_use]
     pub fn mass(self) -> f32 {
@@ -61,6 +61,13 @@ impl OrganismView<'_> {
             Storage::Lane { block, .. } => Some(TemplateId(self.view.world.blocks[block as usize].template)),
             Storage::Loose { .. } => None,
         }
+    }
+
+    /// The name of its template; `None` if it has none.
+    #[must_use]
+    pub fn template_name(self) -> Option<&'a str> {
+        let template = self.view.world.template(self.template()?)?;
+        Some(template.name()).filter(|name| !name.is_empty())
     }
 
     fn properties(self) -> Option<(Vec<u32>, MassProperties)> {

@@ -194,6 +194,18 @@ impl<'a> OrganismView<'a> {
         self.organism.gravity_scale
     }
 
+    /// Damping of its motion as a whole besides that of the medium, 1/s.
+    #[must_use]
+    pub fn linear_damping(self) -> f32 {
+        self.organism.linear_damping
+    }
+
+    /// Damping of its rotation as a whole, 1/s.
+    #[must_use]
+    pub fn angular_damping(self) -> f32 {
+        self.organism.angular_damping
+    }
+
     /// Its prey in the order of first contact, each with its phase; empty for organisms that are no engulfers.
     pub fn meals(self) -> impl Iterator<Item = (OrganismId, MealPhase)> + 'a {
         self.organism.meals().iter().map(|meal| (meal.prey, meal.phase))

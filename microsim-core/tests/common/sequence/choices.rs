@@ -80,6 +80,7 @@ impl Choices<'_> {
         };
         let scale = if c.byte() < 220 { 1.0 } else { c.number(0.5, 2.0) };
         let placed = Placement::at(at.x, at.y).turned(c.number(-4.0, 4.0)).scaled(scale).steered_by(controller);
+        let placed = if c.byte() < 220 { placed } else { placed.damped(c.number(0.0, 10.0), c.number(0.0, 10.0)) };
         if c.byte() < 220 { placed } else { placed.overlapping(c.number(0.0, 0.9)) }
     }
 

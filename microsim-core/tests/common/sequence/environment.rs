@@ -102,6 +102,21 @@ impl Sequence<'_> {
         }
     }
 
+    pub(super) fn set_size(&mut self) -> Outcome {
+        let Vec2 { x, y } = self.world.config().size;
+        let size = Vec2::new(self.choices.number(0.8 * x, 1.2 * x), self.choices.number(0.8 * y, 1.2 * y));
+        self.world.set_size(if size.max_element() > 300.0 { size.min(Vec2::splat(300.0)) } else { size })
+    }
+
+    pub(super) fn damp(&mut self, id: OrganismId) -> Outcome {
+        let damping = self.choices.number(0.0, 12.0);
+        if self.choices.flag() {
+            self.world.set_linear_damping(id, damping)
+        } else {
+            self.world.set_angular_damping(id, damping)
+        }
+    }
+
     pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
         let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
         let gravity = self.vector(30.0);

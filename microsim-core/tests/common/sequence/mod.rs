@@ -7,6 +7,7 @@
 mod check;
 mod choices;
 mod environment;
+mod look;
 mod obstacle;
 mod organism;
 
@@ -17,10 +18,23 @@ use microsim_core::{
     TemplateId, World,
 };
 
-/// Most calls and steps of a sequence.
-const CALLS: usize = 60;
-const STEPS: u32 = 120;
+/// Most handles of organisms that are kept, so that not all are stale.
+const HANDLES: usize = 200;
 type Outcome = Result<(), Error>;
+
+/// How long a sequence may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    pub calls: usize,
+    pub steps: u32,
+    /// Whether the world is also checked after each step, not only after each call.
+    pub checks_steps: bool,
+}
+
+impl Limits {
+    pub(crate) const SHORT: Self = Self { calls: 60, steps: 120, checks_steps: false };
+    pub(crate) const LONG: Self = Self { calls: 2500, steps: 800, checks_steps: true };
+}
 
 /// What a sequence did.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,41 +63,31 @@ struct Sequence<'a> {
     drains: Vec<DrainId>,
     inputs: Inputs,
     tally: Tally,
+    limits: Limits,
+    /// What was wrong after a step.
+    violation: Option<String>,
 }
 
 /// Carries out what the bytes spell.
 ///
 /// # Errors
 /// What is wrong with the world, and after which call.
-pub(crate) fn run(bytes: &[u8]) -> Result<Tally, String> {
+pub(crate) fn run(bytes: &[u8], limits: Limits) -> Result<Tally, String> {
     let mut choices = Choices(bytes);
     let Ok(world) = World::new(choices.config()) else { return Ok(Tally::default()) };
-    let mut sequence = Sequence::new(choices, world);
-    for _ in 0..CALLS {
+    let mut sequence = Sequence::new(choices, world, limits);
+    for _ in 0..limits.calls {
         if sequence.choices.0.is_empty() {
             break;
         }
-        let before = sequence.world.digest();
-        let (name, outcome) = sequence.call();
-        let Tally { calls, .. } = sequence.tally;
-        sequence.tally.calls += 1;
-        sequence.world.validate().map_err(|violation| format!("after call {calls}, {name}: {violation}"))?;
-        if outcome.is_err() {
-            sequence.tally.refusals += 1;
-            if before != sequence.world.digest() {
-                return Err(format!("call {calls}, {name}, was refused and has changed the world: {outcome:?}"));
-            }
-        }
-        if sequence.saved.digest() != sequence.digest_saved {
-            return Err(format!("call {calls}, {name}, has changed a clone"));
-        }
-        sequence.tally.organisms = sequence.tally.organisms.max(sequence.world.organisms().count());
+        sequence.checked_call()?;
     }
+    let _ = (sequence.save_or_restore(), sequence.write_and_read());
     Ok(sequence.tally)
 }
 
 impl<'a> Sequence<'a> {
-    fn new(choices: Choices<'a>, world: World) -> Self {
+    fn new(choices: Choices<'a>, world: World, limits: Limits) -> Self {
         Self {
             choices,
             saved: world.clone(),
@@ -99,7 +103,34 @@ impl<'a> Sequence<'a> {
             drains: Vec::new(),
             inputs: Inputs::new(),
             tally: Tally::default(),
+            limits,
+            violation: None,
         }
+    }
+
+    /// One call; what is wrong after it.
+    fn checked_call(&mut self) -> Result<(), String> {
+        let before = self.world.digest();
+        let (name, outcome) = self.call();
+        let Tally { calls, .. } = self.tally;
+        self.tally.calls += 1;
+        let violation = self.violation.take().or_else(|| self.world.validate().err().map(|flaw| flaw.to_string()));
+        violation.map_or(Ok(()), |violation| Err(format!("after call {calls}, {name}: {violation}")))?;
+        if outcome.is_err() {
+            self.tally.refusals += 1;
+            if before != self.world.digest() {
+                return Err(format!("call {calls}, {name}, was refused and has changed the world: {outcome:?}"));
+            }
+        }
+        if self.saved.digest() != self.digest_saved {
+            return Err(format!("call {calls}, {name}, has changed a clone"));
+        }
+        self.tally.organisms = self.tally.organisms.max(self.world.organisms().count());
+        if self.handles.len() > HANDLES {
+            let (world, mut stale) = (&self.world, 0);
+            self.handles.retain(|&id| world.kind(id).is_some() || (stale += 1, stale < 20).1);
+        }
+        Ok(())
     }
 
     /// One call, and its name.
@@ -125,9 +156,12 @@ impl<'a> Sequence<'a> {
             32 => ("setting", self.with_handle(Self::change_setting)),
             33 => ("emitter", self.change_emitter()),
             34 => ("drain", self.change_drain()),
-            _ => match self.choices.below(8) {
+            _ => match self.choices.below(14) {
                 which @ 0..=3 => ("set_instruction_set", self.set_instruction_set(which % 2 == 1)),
                 4..=5 => ("snapshot", self.write_and_read()),
+                8..=9 => ("set_size", self.set_size()),
+                10..=11 => ("damping", self.with_handle(Self::damp)),
+                12..=13 => ("view", self.look()),
                 _ => ("set_controller", self.with_handle(Self::set_controller)),
             },
         }
@@ -153,9 +187,12 @@ impl<'a> Sequence<'a> {
 
     fn step(&mut self) -> Outcome {
         for _ in 0..1 + self.choices.below(12) {
-            if self.tally.steps < STEPS {
+            if self.tally.steps < self.limits.steps {
                 self.world.step(&self.inputs);
                 self.tally.steps += 1;
+                if self.limits.checks_steps && self.violation.is_none() {
+                    self.violation = self.world.validate().err().map(|flaw| flaw.to_string());
+                }
             }
         }
         Ok(())

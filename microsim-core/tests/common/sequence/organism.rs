@@ -51,7 +51,12 @@ impl Sequence<'_> {
         let node = self.choices.below(40) as u32;
         let (force, impulse) = (Actuation::force(self.vector(500.0)), Actuation::impulse(self.vector(50.0)));
         let target = Actuation::target(self.place());
-        match self.choices.below(7) {
+        match self.choices.below(9) {
+            7 => self.inputs.actuate_node(id, node, Actuation { impulse: impulse.impulse, ..target }),
+            8 => {
+                self.inputs.remove(id);
+                self.inputs.actuate(id, Actuation::default())
+            }
             0 => self.inputs.actuate(id, force),
             1 => self.inputs.actuate(id, impulse),
             2 => self.inputs.actuate(id, Actuation::torque(self.choices.number(-500.0, 500.0))),
@@ -94,6 +99,7 @@ impl Sequence<'_> {
 
     fn template(&mut self) -> Result<Template, Error> {
         let mut builder = Template::builder();
+        builder.name(["", "mote", "seed", "a\tb"][usize::from(self.choices.byte() % 16) / 5]);
         let c = &mut self.choices;
         let count = 1 + c.below(6) as u32;
         for _ in 0..count {

@@ -4,7 +4,9 @@
 use super::{Check, Subject, Violation};
 use crate::capability::Locomotion;
 use crate::error::Error;
+use crate::id::TemplateId;
 use crate::joint::JointEnd;
+use crate::kind::Kind;
 use crate::organism::ring_surgery::LEAST_NODES;
 use crate::organism::{MOST_WANTED_NODES, Organism, Phagosome, Storage};
 use crate::particle::{CollisionGroups, NO_OWNER};
@@ -154,6 +156,7 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     let are_rings = (membrane.is_none() || nodes >= LEAST_NODES) && organism.phagosomes.iter().all(is_ring);
     cell.must(are_rings, || "a ring of too few nodes".to_owned())?;
     cell.must_range("gravity scale", organism.gravity_scale, -100.0, 100.0)?;
+    check_kind(world, organism, cell)?;
     let fluids = world.fluids.len();
     let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
     cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;
@@ -162,9 +165,22 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     check_parameters(world, organism, nodes > 0).map_err(|error| cell.violation(error.to_string()))
 }
 
+/// A body of a template of the embedder's own has that template.
+fn check_kind(world: &World, organism: &Organism, cell: Subject) -> Check {
+    let Kind::Custom(TemplateId(template)) = organism.kind else { return Ok(()) };
+    let block = if let Storage::Lane { block, .. } = organism.body { world.blocks.get(block as usize) } else { None };
+    let all = &world.templates;
+    let is_own = block.is_some_and(|block| {
+        block.template == template || all.get(block.template as usize) == all.get(template as usize)
+    });
+    cell.must(is_own, || format!("it has not template {template}"))
+}
+
 /// Parameters that the public API would refuse.
 fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Result<(), Error> {
     let Organism { controller, exchanges, engulfer, divider, .. } = organism;
+    world.config.check_damping("linear_damping", organism.linear_damping)?;
+    world.config.check_damping("angular_damping", organism.angular_damping)?;
     controller.validate().map_err(|error| error.within("controller"))?;
     world.check_controller(controller, &organism.locomotion, organism.speed, has_outline)?;
     for exchange in exchanges {

@@ -173,6 +173,19 @@ fn damage_to_muscles_and_gravity_scales_is_found() {
 }
 
 #[test]
+fn damage_to_dampings_and_kinds_is_found() {
+    let first = |w: &mut World, change: fn(&mut crate::organism::Organism)| {
+        let id = w.organisms().next().unwrap();
+        change(w.organisms.get_mut(id).unwrap());
+    };
+    finds(|w| first(w, |it| it.linear_damping = f32::NAN), "`linear_damping` is NaN");
+    finds(|w| first(w, |it| it.angular_damping = 99.0), "`angular_damping` is 99");
+    let of_no_template = crate::Kind::try_from(256 * 70 + 6).unwrap();
+    let id = room().organisms().next().unwrap();
+    finds(|w| w.organisms.get_mut(id).unwrap().kind = of_no_template, "it has not template 70");
+}
+
+#[test]
 fn tangled_and_leaking_membranes_are_found() {
     let move_node = |w: &mut World, k: usize, by: f32| {
         let id = w.organisms().next().unwrap();
