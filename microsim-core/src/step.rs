@@ -265,15 +265,15 @@ fn project_contacts(world: &mut World) {
     obstacle::project(&broad_phase.obstacle_contacts, obstacles, paths, particles, impacts, recorder, h);
 }
 
-/// Discs push each other apart; in long substeps and under heavy discs, what they press on gets its links back.
+/// Discs push each other apart; in long substeps, and where they press hard, bodies get their links back.
 fn project_discs(world: &mut World) {
     let World { config, particles, templates, blocks, exemptions, sleep, scratch, dispatch, .. } = world;
     let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     pressed.begin(config.substep());
     for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, impacts, contact_records, |contact, particles| {
-            pressed.note(contact, particles);
+        contact::project(contacts, particles, impacts, contact_records, |contact, particles, depth| {
+            pressed.note(contact, particles, depth);
         });
     }
     broad_phase.contacts.lists_mut().for_each(|contacts| pressed.note_neighbours(contacts));

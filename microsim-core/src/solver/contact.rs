@@ -24,13 +24,13 @@ pub(crate) struct Impact {
     surface: Vec2,
 }
 
-/// Pushes overlapping discs apart, and tells of each two.
+/// Pushes overlapping discs apart, and tells of each two and how deep they overlapped.
 pub(crate) fn project(
     contacts: &mut [Contact],
     particles: &mut Particles,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
-    mut projected: impl FnMut(&Contact, &Particles),
+    mut projected: impl FnMut(&Contact, &Particles, f32),
 ) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
@@ -38,12 +38,13 @@ pub(crate) fn project(
         let squared = between.length_squared();
         if squared < contact.radius_sum * contact.radius_sum {
             contact.touched = true;
-            separate(contact, between, squared, particles, impacts, recorder);
-            projected(contact, particles);
+            let depth = separate(contact, between, squared, particles, impacts, recorder);
+            projected(contact, particles, depth);
         }
     }
 }
 
+/// Returns how deep they overlapped.
 fn separate(
     c: &Contact,
     between: Vec2,
@@ -51,7 +52,7 @@ fn separate(
     p: &mut Particles,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
-) {
+) -> f32 {
     let (i, j) = (c.i as usize, c.j as usize);
     let length = squared.sqrt();
     let normal = if length > 1e-6 { between / length } else { Vec2::X };
@@ -76,6 +77,7 @@ fn separate(
     let rub = friction(slip, normal, c.friction * depth) * ratio(1.0, wi + wj);
     shift(p, i, -rub * wi);
     shift(p, j, rub * wj);
+    depth
 }
 
 /// Inverse masses with which the two press on each other.
@@ -158,7 +160,7 @@ mod tests {
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _, _| {});
         });
     }
 
@@ -173,7 +175,7 @@ mod tests {
                 &mut p,
                 &mut Vec::new(),
                 &mut ContactRecorder::default(),
-                |_, _| {},
+                |_, _, _| {},
             );
             assert!((p.x[0] + 0.4 * ratio / (1.0 + ratio)).abs() < 1e-6, "ratio {ratio}, {mobility:?}: {}", p.x[0]);
             let error = (momentum(&p) - before).length();
@@ -190,7 +192,7 @@ mod tests {
             &mut p,
             &mut Vec::new(),
             &mut ContactRecorder::default(),
-            |_, _| {},
+            |_, _, _| {},
         );
         assert!(!contact.touched && p.x[1] == 1.2);
     }
@@ -203,7 +205,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _, _| {});
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }
@@ -214,7 +216,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _, _| {});
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
@@ -226,7 +228,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 0.25]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
+        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _, _| {});
         p.vx = vec![0.5, 0.25];
         let before = momentum(&p);
         apply_restitution(&mut impacts, &mut p);

@@ -1,6 +1,7 @@
-//! Rigid links once more after contacts, in long substeps and under heavy discs. Contacts have the last word in a substep, so what
-//! they press on is stretched most at its end. A pass over the rigid links of these bodies, and over what pressed on them, costs
-//! less than another substep and leaves smaller errors.
+//! Rigid links once more after contacts. Contacts have the last word in a substep, so what they press on is stretched most at its
+//! end. In long substeps a pass over the rigid links of these bodies, and over what pressed on them, costs less than another
+//! substep and leaves smaller errors. In substeps of any length hard contacts ask for it: those with heavy discs, and deep ones, as
+//! of bodies that meet fast.
 
 use super::block::{self, Block};
 use super::constraint::Constraint;
@@ -14,10 +15,12 @@ use crate::particle::Particles;
 const PASSES: usize = 2;
 /// Substeps up to this do without, s.
 const SHORT: f32 = 1.0 / 400.0;
-/// A disc more than so many times as heavy as a linked one, or one that cannot move, is heavy.
+/// A disc more than so many times as heavy as a linked one, or one that cannot move, presses hard on it ...
 const HEAVY: f32 = 30.0;
-/// Passes under heavy discs, which one pass moves less, in substeps of any length ...
-const HEAVY_PASSES: usize = 8;
+/// ... and so does one that overlaps it by more than this share of the sum of their radii.
+const DEEP: f32 = 0.02;
+/// Passes under hard contacts ...
+const HARD_PASSES: usize = 8;
 /// ... and how many bodies farther: those that are pressed on press on others.
 const FARTHER: usize = 2;
 /// Stands for no block.
@@ -27,11 +30,11 @@ const NO_BLOCK: usize = usize::MAX;
 #[derive(Debug, Default)]
 pub(crate) struct Pressed {
     is_long: bool,
-    /// Whether a heavy disc is among them.
-    has_heavy: bool,
+    /// Those of the hard contacts of this substep, in their order.
+    hard: Vec<[u32; 2]>,
     contacts: Vec<Contact>,
-    /// Of each contact: the blocks that its linked sides are in.
-    sides: Vec<[usize; 2]>,
+    /// Of each contact: the blocks that its linked sides are in, and whether it is hard.
+    sides: Vec<([usize; 2], bool)>,
     /// By block: whether it is projected.
     blocks: Vec<bool>,
 }
@@ -40,24 +43,27 @@ impl Pressed {
     /// Forgets those of the last substep, and begins with one of `h` seconds.
     pub(crate) fn begin(&mut self, h: f32) {
         self.is_long = h > SHORT;
-        self.has_heavy = false;
+        self.hard.clear();
         self.contacts.clear();
     }
 
-    /// Notes a contact that was projected.
+    /// Notes a contact that was projected, from this depth.
     #[inline(always)]
-    pub(crate) fn note(&mut self, contact: &Contact, particles: &Particles) {
+    pub(crate) fn note(&mut self, contact: &Contact, particles: &Particles, depth: f32) {
         if contact.mobility.contains(&Mobility::Linked) {
-            self.has_heavy |= is_heavy(contact, particles);
+            if depth > DEEP * contact.radius_sum || is_heavy(contact, particles) {
+                self.hard.push([contact.i, contact.j]);
+            }
             if self.is_long {
                 self.add(contact);
             }
         }
     }
 
-    /// Notes what has touched in this step, if the substep is short and a heavy disc presses on something.
+    /// Notes what has touched in this step, if the substep is short and has hard contacts. Lists come in the order in which they were
+    /// projected.
     pub(crate) fn note_neighbours(&mut self, contacts: &[Contact]) {
-        if self.has_heavy && !self.is_long {
+        if !self.hard.is_empty() && !self.is_long {
             let linked = |contact: &&Contact| contact.touched && contact.mobility.contains(&Mobility::Linked);
             contacts.iter().filter(linked).for_each(|contact| self.add(contact));
         }
@@ -85,9 +91,9 @@ impl Pressed {
         if self.is_long {
             self.project(PASSES, blocks, &links, particles, recorder, dispatch);
         }
-        if self.has_heavy {
-            self.keep_those_near_heavy(particles);
-            self.project(HEAVY_PASSES, blocks, &links, particles, recorder, dispatch);
+        if !self.hard.is_empty() {
+            self.keep_those_near_hard();
+            self.project(HARD_PASSES, blocks, &links, particles, recorder, dispatch);
         }
     }
 
@@ -110,19 +116,21 @@ impl Pressed {
                     || batch.project_links(links),
                 );
             }
-            contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_, _| {});
+            contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_, _, _| {});
         }
     }
 
     /// Finds the blocks that linked sides of the contacts are in, and forgets contacts without any.
     fn find_blocks(&mut self, blocks: &[Block]) {
-        let Self { contacts, sides, blocks: pressed, .. } = self;
+        let Self { contacts, sides, blocks: pressed, hard, .. } = self;
         pressed.clear();
         pressed.resize(blocks.len(), false);
         sides.clear();
+        let mut hard = hard.iter().peekable();
         // Contacts of two bodies lie side by side, so the last blocks are often the next ones.
         let mut last = [0; 2];
         contacts.retain(|contact| {
+            let is_hard = hard.next_if_eq(&&[contact.i, contact.j]).is_some();
             let mut found = [NO_BLOCK; 2];
             for (k, side) in [contact.i, contact.j].into_iter().enumerate() {
                 if contact.mobility[k] == Mobility::Linked
@@ -133,29 +141,26 @@ impl Pressed {
             }
             let any = found != [NO_BLOCK; 2];
             if any {
-                sides.push(found);
+                sides.push((found, is_hard));
             }
             any
         });
     }
 
-    /// Forgets all contacts but those of bodies that heavy discs press on, and of the next ones.
-    fn keep_those_near_heavy(&mut self, particles: &Particles) {
+    /// Forgets all contacts but those of bodies with hard ones, and of the next bodies.
+    fn keep_those_near_hard(&mut self) {
         let Self { contacts, sides, blocks: pressed, .. } = self;
-        let mark = |pressed: &mut [bool], sides: &[usize; 2]| {
-            sides.iter().filter(|side| **side != NO_BLOCK).for_each(|&side| pressed[side] = true);
-        };
-        let is_near =
-            |pressed: &[bool], sides: &[usize; 2]| sides.iter().any(|&side| side != NO_BLOCK && pressed[side]);
+        let any = |pressed: &[bool], sides: [usize; 2]| sides.iter().any(|&side| side != NO_BLOCK && pressed[side]);
+        let mut before = Vec::new();
         pressed.fill(false);
-        let heavy = contacts.iter().zip(&*sides).filter(|(contact, _)| is_heavy(contact, particles));
-        heavy.for_each(|(_, sides)| mark(pressed, sides));
-        for _ in 0..FARTHER {
-            let before = pressed.clone();
-            sides.iter().filter(|sides| is_near(&before, sides)).for_each(|sides| mark(pressed, sides));
+        for round in 0..=FARTHER {
+            before.clone_from(pressed);
+            for &(of, _) in sides.iter().filter(|(of, is_hard)| if round == 0 { *is_hard } else { any(&before, *of) }) {
+                of.iter().filter(|side| **side != NO_BLOCK).for_each(|&side| pressed[side] = true);
+            }
         }
         let mut sides = sides.iter();
-        contacts.retain(|_| sides.next().is_some_and(|sides| is_near(pressed, sides)));
+        contacts.retain(|_| sides.next().is_some_and(|(of, _)| any(pressed, *of)));
     }
 }
 
@@ -190,7 +195,7 @@ mod tests {
 
     /// Two blocks with a stretched dumbbell each, of which a disc of an inverse mass presses on the first: the stretch that relinking leaves in
     /// each, relative to that before.
-    fn stretch_left(h: f32, mobility: Mobility, inv_mass: f32) -> [f32; 2] {
+    fn stretch_left(h: f32, mobility: Mobility, inv_mass: f32, overlap: f32) -> [f32; 2] {
         let mut p = Particles::default();
         let blocks = [0, 1].map(|_| Block { owner: [0; LANES], ..Block::new(0, 2, &mut p) });
         for (block, x) in blocks.iter().zip([0.0, 50.0]) {
@@ -198,13 +203,15 @@ mod tests {
                 p.set(block.particle(slot, 0) as usize, &disc(Vec2::new(x, 2.2 * slot as f32), 1.0));
             }
         }
-        let heavy = p.insert(&disc(Vec2::new(0.9, 2.2), inv_mass));
+        let heavy = p.insert(&disc(Vec2::new(1.0 - overlap, 2.2), inv_mass));
         let side = blocks[0].particle(1, 0) as usize;
         let mut contacts = [Contact::new(&p, heavy as usize, side, [Mobility::Single, mobility])];
         let mut pressed = Pressed::default();
         let mut recorder = ContactRecorder::default();
         pressed.begin(h);
-        contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact, p| pressed.note(contact, p));
+        contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact, p, depth| {
+            pressed.note(contact, p, depth)
+        });
         pressed.note_neighbours(&contacts);
         let stretch = |p: &Particles| {
             let ends = blocks.each_ref().map(|block| [0, 1].map(|slot| block.particle(slot, 0) as usize));
@@ -219,23 +226,23 @@ mod tests {
     }
 
     #[test]
-    fn under_heavy_discs_links_are_got_back_in_substeps_of_any_length() {
-        for h in [LONG, SHORT] {
-            let [pressed, other] = stretch_left(h, Mobility::Linked, 1e-3);
-            assert!(pressed < 0.3 && other == 1.0, "{pressed} {other}");
+    fn under_hard_contacts_links_are_got_back_in_substeps_of_any_length() {
+        for (h, inv_mass, overlap) in [(LONG, 1e-3, 0.1), (SHORT, 1e-3, 0.01), (SHORT, 0.1, 0.1)] {
+            let [pressed, other] = stretch_left(h, Mobility::Linked, inv_mass, overlap);
+            assert!(pressed < 0.3 && other == 1.0, "{h} s, {inv_mass}, {overlap}: {pressed} {other}");
         }
     }
 
     #[test]
-    fn under_what_is_not_heavy_long_substeps_alone_do_so() {
-        let [long, short] = [LONG, SHORT].map(|h| stretch_left(h, Mobility::Linked, 0.1));
+    fn without_hard_contacts_long_substeps_alone_do_so() {
+        let [long, short] = [LONG, SHORT].map(|h| stretch_left(h, Mobility::Linked, 0.1, 0.01));
         assert!(long[0] < 0.6 && long[1] == 1.0, "{long:?}");
         assert_eq!(short, [1.0; 2]);
     }
 
     #[test]
     fn what_is_not_linked_is_left_alone() {
-        assert_eq!(stretch_left(LONG, Mobility::Single, 1e-3), [1.0; 2]);
+        assert_eq!(stretch_left(LONG, Mobility::Single, 1e-3, 0.1), [1.0; 2]);
     }
 
     #[test]
