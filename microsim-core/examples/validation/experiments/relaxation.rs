@@ -61,7 +61,7 @@ fn measure() -> Result<Outcome, Error> {
         "since the area limit is as strict in short substeps as in long ones; how the two are connected is not known.";
     let mut outcome = Outcome { cause, ..Outcome::default() };
     let mut curves = Vec::new();
-    for radius in [6.0, 8.0, 11.0, 16.8, 25.0f32] {
+    for radius in [7.0, 8.0, 11.0, 16.8, 25.0f32] {
         for (step, dt, substeps) in STEPS {
             let aspects = relaxation(radius, Stepping { dt, substeps })?;
             let name = format!("radius {radius}, {step} s, {substeps} substeps");
