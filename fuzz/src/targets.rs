@@ -100,11 +100,11 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 
 /// How a snapshot of a world begins.
 const WORLD: [u8; 8] = *b"MSIMWRLD";
-const WORLD_VERSION: u32 = 9;
+const WORLD_VERSION: u32 = 10;
 /// Of checkpoints.
 const RUN_VERSION: u32 = 6;
 /// Of replays.
-const REPLAY_VERSION: u32 = 3;
+const REPLAY_VERSION: u32 = 4;
 
 /// The scenario of replays that are made up.
 pub(crate) const ROOM: &str = r#"

@@ -287,7 +287,7 @@ mod tests {
     fn the_larger_bites_and_the_smaller_is_gone_in_the_end() {
         let mut round = room(
             5.0,
-            "[amoeboid_cell.large]\nradii = [9.5, 9.5]\nspeed = 8.0\n[patrol.there]\nthrough = [[20.0, 30.0]]\n\
+            "[amoeboid_cell.large]\nradii = [9.5, 9.5]\nspeed = 8.0\n[patrol.there]\nthrough = [[20.0, 30.0], [8.0, 30.0]]\n\
              [[spawn]]\nof = \"large\"\nat = [35.5, 30.0]\ncontroller = \"there\"\n",
         );
         let mut bitten = false;
