@@ -18,11 +18,9 @@ const SHORT: f32 = 1.0 / 400.0;
 /// A disc more than so many times as heavy as a linked one, or one that cannot move, presses hard on it ...
 const HEAVY: f32 = 30.0;
 /// ... and so does one that overlaps it by more than this share of the sum of their radii.
-const DEEP: f32 = 0.02;
-/// Passes under hard contacts ...
+const DEEP: f32 = 0.06;
+/// Passes over the blocks with hard contacts.
 const HARD_PASSES: usize = 8;
-/// ... and how many bodies farther: those that are pressed on press on others.
-const FARTHER: usize = 2;
 /// Stands for no block.
 const NO_BLOCK: usize = usize::MAX;
 
@@ -92,7 +90,7 @@ impl Pressed {
             self.project(PASSES, blocks, &links, particles, recorder, dispatch);
         }
         if !self.hard.is_empty() {
-            self.keep_those_near_hard();
+            self.keep_hard_blocks();
             self.project(HARD_PASSES, blocks, &links, particles, recorder, dispatch);
         }
     }
@@ -147,20 +145,16 @@ impl Pressed {
         });
     }
 
-    /// Forgets all contacts but those of bodies with hard ones, and of the next bodies.
-    fn keep_those_near_hard(&mut self) {
+    /// Forgets all contacts but those of the blocks that have hard ones.
+    fn keep_hard_blocks(&mut self) {
         let Self { contacts, sides, blocks: pressed, .. } = self;
-        let any = |pressed: &[bool], sides: [usize; 2]| sides.iter().any(|&side| side != NO_BLOCK && pressed[side]);
-        let mut before = Vec::new();
         pressed.fill(false);
-        for round in 0..=FARTHER {
-            before.clone_from(pressed);
-            for &(of, _) in sides.iter().filter(|(of, is_hard)| if round == 0 { *is_hard } else { any(&before, *of) }) {
-                of.iter().filter(|side| **side != NO_BLOCK).for_each(|&side| pressed[side] = true);
-            }
+        for &(of, _) in sides.iter().filter(|(_, is_hard)| *is_hard) {
+            of.iter().filter(|side| **side != NO_BLOCK).for_each(|&side| pressed[side] = true);
         }
         let mut sides = sides.iter();
-        contacts.retain(|_| sides.next().is_some_and(|(of, _)| any(pressed, *of)));
+        let is_pressed = |of: &[usize; 2]| of.iter().any(|&side| side != NO_BLOCK && pressed[side]);
+        contacts.retain(|_| sides.next().is_some_and(|(of, _)| is_pressed(of)));
     }
 }
 

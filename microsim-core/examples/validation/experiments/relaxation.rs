@@ -19,7 +19,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
 
 /// The name of a step, its length and its substeps.
 const STEPS: [(&str, f32, u32); 5] = [
-    ("1/30", 1.0 / 30.0, 4),
+    ("1/30", 1.0 / 30.0, 6),
     ("1/60", 1.0 / 60.0, 4),
     ("1/60", 1.0 / 60.0, 8),
     ("1/60", 1.0 / 60.0, 64),
