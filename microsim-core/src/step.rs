@@ -272,8 +272,8 @@ fn project_discs(world: &mut World) {
     broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     pressed.begin(config.substep());
     for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, impacts, contact_records, |contact, particles, depth| {
-            pressed.note(contact, particles, depth);
+        contact::project(contacts, particles, impacts, contact_records, |contact, particles| {
+            pressed.note(contact, particles);
         });
     }
     broad_phase.contacts.lists_mut().for_each(|contacts| pressed.note_neighbours(contacts));

@@ -25,6 +25,8 @@ pub(crate) enum Mobility {
     Single,
     /// With others that it is linked to.
     Linked,
+    /// A heavy disc on its own that a drive moves against linked ones.
+    Driven,
 }
 
 /// Two discs near enough that they may touch during the step.

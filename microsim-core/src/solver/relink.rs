@@ -1,11 +1,10 @@
 //! Rigid links once more after contacts. Contacts have the last word in a substep, so what they press on is stretched most at its
 //! end. In long substeps a pass over the rigid links of these bodies, and over what pressed on them, costs less than another
-//! substep and leaves smaller errors. In substeps of any length hard contacts ask for it: those with heavy discs, and deep ones, as
-//! of bodies that meet fast.
+//! substep and leaves smaller errors. In substeps of any length hard contacts ask for it: those with heavy discs.
 
 use super::block::{self, Block};
 use super::constraint::Constraint;
-use super::contact;
+use super::contact::{self, is_heavy};
 use super::contact_record::ContactRecorder;
 use crate::collision::{Contact, Mobility};
 use crate::instruction_set::Dispatch;
@@ -15,10 +14,6 @@ use crate::particle::Particles;
 const PASSES: usize = 2;
 /// Substeps up to this do without, s.
 const SHORT: f32 = 1.0 / 400.0;
-/// A disc more than so many times as heavy as a linked one, or one that cannot move, presses hard on it ...
-const HEAVY: f32 = 30.0;
-/// ... and so does one that overlaps it by more than this share of the sum of their radii.
-const DEEP: f32 = 0.06;
 /// Passes over the blocks with hard contacts.
 const HARD_PASSES: usize = 8;
 /// Stands for no block.
@@ -45,11 +40,11 @@ impl Pressed {
         self.contacts.clear();
     }
 
-    /// Notes a contact that was projected, from this depth.
+    /// Notes a contact that was projected.
     #[inline(always)]
-    pub(crate) fn note(&mut self, contact: &Contact, particles: &Particles, depth: f32) {
+    pub(crate) fn note(&mut self, contact: &Contact, particles: &Particles) {
         if contact.mobility.contains(&Mobility::Linked) {
-            if depth > DEEP * contact.radius_sum || is_heavy(contact, particles) {
+            if is_hard(contact, particles) {
                 self.hard.push([contact.i, contact.j]);
             }
             if self.is_long {
@@ -114,7 +109,7 @@ impl Pressed {
                     || batch.project_links(links),
                 );
             }
-            contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_, _, _| {});
+            contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_, _| {});
         }
     }
 
@@ -158,12 +153,12 @@ impl Pressed {
     }
 }
 
-/// Whether one side is heavy on the other, which is linked.
+/// Whether one side is heavy on the other, which is linked, and no drive moves it.
 #[inline(always)]
-fn is_heavy(contact: &Contact, particles: &Particles) -> bool {
-    let [wi, wj] = [contact.i, contact.j].map(|side| particles.inv_mass[side as usize]);
-    let [a, b] = contact.mobility.map(|mobility| mobility == Mobility::Linked);
-    a && wj * HEAVY < wi || b && wi * HEAVY < wj
+fn is_hard(contact: &Contact, particles: &Particles) -> bool {
+    let hard = |disc, on| disc != Mobility::Driven && on == Mobility::Linked;
+    let (i, j, [of_i, of_j]) = (contact.i, contact.j, contact.mobility);
+    (hard(of_i, of_j) && is_heavy(particles, i, j)) || (hard(of_j, of_i) && is_heavy(particles, j, i))
 }
 
 /// The block that a particle is in, if it is in any; `likely` is looked at first.
@@ -203,9 +198,7 @@ mod tests {
         let mut pressed = Pressed::default();
         let mut recorder = ContactRecorder::default();
         pressed.begin(h);
-        contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact, p, depth| {
-            pressed.note(contact, p, depth)
-        });
+        contact::project(&mut contacts, &mut p, &mut Vec::new(), &mut recorder, |contact, p| pressed.note(contact, p));
         pressed.note_neighbours(&contacts);
         let stretch = |p: &Particles| {
             let ends = blocks.each_ref().map(|block| [0, 1].map(|slot| block.particle(slot, 0) as usize));
@@ -221,7 +214,7 @@ mod tests {
 
     #[test]
     fn under_hard_contacts_links_are_got_back_in_substeps_of_any_length() {
-        for (h, inv_mass, overlap) in [(LONG, 1e-3, 0.1), (SHORT, 1e-3, 0.01), (SHORT, 0.1, 0.1)] {
+        for (h, inv_mass, overlap) in [(LONG, 1e-3, 0.1), (SHORT, 1e-3, 0.01)] {
             let [pressed, other] = stretch_left(h, Mobility::Linked, inv_mass, overlap);
             assert!(pressed < 0.3 && other == 1.0, "{h} s, {inv_mass}, {overlap}: {pressed} {other}");
         }

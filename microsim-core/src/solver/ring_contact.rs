@@ -12,7 +12,7 @@
 //! nearest node, the one that the disc stands over more squarely (Baerentzen, Aanaes 2005, section 2: the sign at a vertex
 //! is that of an angle-weighted normal; in the plane it is that of the more orthogonal edge).
 
-use super::contact::{friction, moved, shift};
+use super::contact::{friction, moved, no_heavier, shift};
 use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use super::ring_relation::{Relation, Relations, RingNodes};
@@ -23,10 +23,6 @@ use glam::Vec2;
 
 /// Share of the contact distance below which [`keep_sides`] moves a disc away from a link by itself.
 pub(super) const STANDOFF: f32 = 0.25;
-
-/// On a node of a ring a disc counts as at most so many times as heavy: a heavier one would stretch the links faster than a substep's
-/// iterations can pass the load on. Momentum is kept below this ratio; above it the heavy side feels more than it should.
-const HEAVIEST: f32 = 30.0;
 
 /// Pushes discs and links apart; returns how many discs were on the wrong side.
 pub(crate) fn project(
@@ -214,13 +210,6 @@ fn separate(
     contact.touched = Some(node);
     let slip = moved(p, i) - moved(p, a) * share_a - moved(p, b) * share_b;
     push(friction(slip, normal, contact.friction * depth) * ratio(1.0, weight), weights, p);
-}
-
-/// Inverse mass with which a disc presses on a node of inverse mass `other`, see [`HEAVIEST`].
-#[inline(always)]
-fn no_heavier(inv_mass: f32, other: f32) -> f32 {
-    let least = other / HEAVIEST;
-    if inv_mass > 0.0 && inv_mass < least { least } else { inv_mass }
 }
 
 /// Moves particles along `by`, each by its weight.

@@ -1,15 +1,16 @@
 //! Contacts: the search for pairs, the pairs that it found, and one begin and one end event per pair of organisms.
 
 use super::World;
-use crate::collision::Contact;
 use crate::collision::broad_phase::SearchInput;
 use crate::collision::ring::{Link, Ring, RingContact};
 use crate::collision::speculative_margin::DisplacementLimits;
+use crate::collision::{Contact, Mobility};
 use crate::event::Event;
 use crate::id::OrganismId;
 use crate::organism::table::Organisms;
 use crate::particle::{BlockRange, Particles};
 use crate::solver::block::Block;
+use crate::solver::contact::is_heavy;
 use crate::solver::ring_contact;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,25 @@ impl World {
             dispatch: *dispatch,
         };
         scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
+        self.mark_driven_discs();
+    }
+
+    /// Tells the contacts of heavy discs that a drive moves against linked ones.
+    fn mark_driven_discs(&mut self) {
+        let Self { particles, organisms, scratch, .. } = self;
+        let is_driven = |disc: u32| {
+            let id = organisms.id_at(particles.owner[disc as usize]);
+            id.and_then(|id| organisms.get(id)).is_some_and(|organism| organism.goal.is_some())
+        };
+        for contact in scratch.broad_phase.contacts.lists_mut().flatten() {
+            let sides = [contact.i, contact.j];
+            for (k, other) in [(0, 1), (1, 0)] {
+                let is_pair = contact.mobility[k] == Mobility::Single && contact.mobility[other] == Mobility::Linked;
+                if is_pair && is_heavy(particles, sides[k], sides[other]) && is_driven(sides[k]) {
+                    contact.mobility[k] = Mobility::Driven;
+                }
+            }
+        }
     }
 
     /// All pairs of live particles that the last step's search found.
