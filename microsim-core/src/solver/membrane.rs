@@ -39,7 +39,7 @@ const ACTIVE: f32 = 0.05;
 const FASTEST_AT_REST: f32 = 4.0;
 const FASTEST_DRIVEN: f32 = 0.7;
 /// ... when the area may be larger by this share.
-const AREA_SLACK: f32 = 0.01;
+const AREA_SLACK: f32 = 0.015;
 
 /// A closed ring's parameters and state. The ring itself, particle indices in counter-clockwise order, is its owner's.
 #[derive(Clone, Debug, Serialize, Deserialize)]
