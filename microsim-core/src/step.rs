@@ -14,6 +14,7 @@ use crate::solver::{
     block, contact, contraction, drive, integrate, obstacle, ring_contact, speed_limit, strays, stretch_damping,
     untangle,
 };
+use crate::world::contacts::bound_driven_discs;
 use crate::world::{Scratch, World, count};
 use glam::Vec2;
 
@@ -267,9 +268,10 @@ fn project_contacts(world: &mut World) {
 
 /// Discs push each other apart; in long substeps, and where they press hard, bodies get their links back.
 fn project_discs(world: &mut World) {
-    let World { config, particles, templates, blocks, exemptions, sleep, scratch, dispatch, .. } = world;
+    let World { config, particles, templates, blocks, organisms, exemptions, sleep, scratch, dispatch, .. } = world;
     let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
-    broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
+    let late = broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
+    bound_driven_discs(late.iter_mut(), particles, organisms);
     pressed.begin(config.substep());
     for contacts in broad_phase.contacts.lists_mut() {
         contact::project(contacts, particles, impacts, contact_records, |contact, particles| {

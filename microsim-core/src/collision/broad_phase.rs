@@ -101,11 +101,19 @@ impl BroadPhase {
 
     /// Finds the pairs of bodies that may exceed their speculative margin with another displacement of `next`: in the present
     /// substep, if the displacements up to its beginning have been subtracted.
-    pub(crate) fn find_late_pairs(&mut self, particles: &Particles, exemptions: &Exemptions, sleep: &Sleep, next: f32) {
+    pub(crate) fn find_late_pairs(
+        &mut self,
+        particles: &Particles,
+        exemptions: &Exemptions,
+        sleep: &Sleep,
+        next: f32,
+    ) -> &mut [Contact] {
         let Self { contacts, bodies, margins, .. } = self;
+        let known = contacts.others.len();
         if margins.any_below(next) {
             bodies.late_pairs(PairFilter { particles, exemptions, sleep }, margins, next, &mut contacts.others);
         }
+        &mut contacts.others[known..]
     }
 
     /// Keeps the blocks of sleepers awake near which something moves. Membranes and fluid always count as moving.
@@ -202,8 +210,13 @@ impl BroadPhase {
 fn contact(a: &Disc, b: &Disc, input: SearchInput<'_>) -> Option<Contact> {
     let (p, i, j) = (input.particles, a.index as usize, b.index as usize);
     let is_for_rings = !input.rings.is_empty() && is_for_rings(p, i, j);
-    let mobility = |i: usize| if p.next_in_ring[i] == NO_OWNER { Mobility::Single } else { Mobility::Linked };
-    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j, [i, j].map(mobility)))
+    let mobility = match [i, j].map(|i| p.next_in_ring[i] != NO_OWNER) {
+        [true, true] => [Mobility::Linked; 2],
+        [true, false] => [Mobility::Linked, Mobility::Bounded],
+        [false, true] => [Mobility::Bounded, Mobility::Linked],
+        [false, false] => [Mobility::Single; 2],
+    };
+    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j, mobility))
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.

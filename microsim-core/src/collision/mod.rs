@@ -25,8 +25,8 @@ pub(crate) enum Mobility {
     Single,
     /// With others that it is linked to.
     Linked,
-    /// A heavy disc on its own that a drive moves against linked ones.
-    Driven,
+    /// A disc on its own that counts as at most so many times as heavy as the linked one.
+    Bounded,
 }
 
 /// Two discs near enough that they may touch during the step.

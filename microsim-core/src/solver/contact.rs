@@ -10,9 +10,8 @@ use crate::collision::{Contact, Mobility};
 use crate::particle::Particles;
 use glam::Vec2;
 
-/// A disc that is driven counts at most so many times as heavy as a linked one, and any disc as a node of an amoeboid cell's membrane:
-/// a heavier one would stretch the links faster than a substep's iterations can pass the load on. Above it the heavy side feels more
-/// than it should; of what is driven that is the drive's affair.
+/// What is bounded counts as at most so many times as heavy as a linked disc: a heavier one would stretch the links faster than a
+/// substep's iterations can pass the load on. Above it the heavy side feels more than it should.
 const HEAVIEST: f32 = 30.0;
 
 /// An impact of this substep that has to bounce.
@@ -89,8 +88,8 @@ fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
     match c.mobility {
         [Mobility::Asleep, _] => (0.0, wj),
         [_, Mobility::Asleep] => (wi, 0.0),
-        [Mobility::Driven, _] => (no_heavier(wi, wj), wj),
-        [_, Mobility::Driven] => (wi, no_heavier(wj, wi)),
+        [Mobility::Bounded, _] => (no_heavier(wi, wj), wj),
+        [_, Mobility::Bounded] => (wi, no_heavier(wj, wi)),
         _ => (wi, wj),
     }
 }
@@ -175,31 +174,29 @@ mod tests {
         Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1, [Mobility::Single; 2]) }
     }
 
+    fn separate(contact: &mut Contact, p: &mut Particles) {
+        project(std::slice::from_mut(contact), p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+    }
+
     #[test]
     fn obeys_the_laws_of_a_pair_constraint() {
         assert_pair_laws(&[0.6], 1.0, |p| {
-            project(&mut [touching(0.0, 0.0)], p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+            separate(&mut touching(0.0, 0.0), p);
         });
     }
 
     #[test]
-    fn a_heavy_disc_presses_with_all_its_mass_unless_it_is_driven() {
+    fn a_heavy_disc_presses_with_all_its_mass_unless_it_is_bounded() {
         for (ratio, own, mobility, counted) in [
             (10.0, Mobility::Single, Mobility::Linked, 10.0),
             (1e3, Mobility::Single, Mobility::Single, 1e3),
             (1e3, Mobility::Single, Mobility::Linked, 1e3),
-            (1e3, Mobility::Driven, Mobility::Linked, 30.0),
+            (1e3, Mobility::Bounded, Mobility::Linked, 30.0),
         ] {
             let mut p = line(0.6, [1.0, 1.0 / ratio]);
             let before = momentum(&p);
             let mut contact = Contact { mobility: [mobility, own], ..touching(0.0, 0.0) };
-            project(
-                std::slice::from_mut(&mut contact),
-                &mut p,
-                &mut Vec::new(),
-                &mut ContactRecorder::default(),
-                |_, _| {},
-            );
+            separate(&mut contact, &mut p);
             assert!((p.x[0] + 0.4 * counted / (1.0 + counted)).abs() < 1e-6, "ratio {ratio}, {own:?}: {}", p.x[0]);
             let error = (momentum(&p) - before).length();
             assert_eq!(error < 1e-6 * ratio, counted == ratio, "ratio {ratio}, {own:?}: {error}");
@@ -210,13 +207,7 @@ mod tests {
     fn discs_apart_are_left_alone_and_not_touched() {
         let mut p = line(1.2, [1.0, 1.0]);
         let mut contact = touching(0.5, 0.0);
-        project(
-            std::slice::from_mut(&mut contact),
-            &mut p,
-            &mut Vec::new(),
-            &mut ContactRecorder::default(),
-            |_, _| {},
-        );
+        separate(&mut contact, &mut p);
         assert!(!contact.touched && p.x[1] == 1.2);
     }
 
@@ -228,7 +219,7 @@ mod tests {
             p.x[1] = (0.81f32 - 0.09).sqrt();
             p.prev_x[1] = p.x[1];
             let normal = p.position(1).normalize();
-            project(&mut [touching(mu, 0.0)], &mut p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+            separate(&mut touching(mu, 0.0), &mut p);
             let slip = (moved(&p, 1) - normal * moved(&p, 1).dot(normal)).length();
             assert!(slip <= kept + 1e-3, "mu {mu}: slip {slip}");
         }

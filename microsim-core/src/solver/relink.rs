@@ -156,7 +156,7 @@ impl Pressed {
 /// Whether one side is heavy on the other, which is linked, and no drive moves it.
 #[inline(always)]
 fn is_hard(contact: &Contact, particles: &Particles) -> bool {
-    let hard = |disc, on| disc != Mobility::Driven && on == Mobility::Linked;
+    let hard = |disc, on| disc != Mobility::Bounded && on == Mobility::Linked;
     let (i, j, [of_i, of_j]) = (contact.i, contact.j, contact.mobility);
     (hard(of_i, of_j) && is_heavy(particles, i, j)) || (hard(of_j, of_i) && is_heavy(particles, j, i))
 }

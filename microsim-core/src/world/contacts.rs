@@ -49,6 +49,29 @@ pub(crate) struct NearPair {
     pub touched: bool,
 }
 
+/// Bounds the mass of heavy discs that a drive moves against linked ones.
+pub(crate) fn bound_driven_discs<'a>(
+    contacts: impl Iterator<Item = &'a mut Contact>,
+    particles: &Particles,
+    organisms: &Organisms,
+) {
+    let is_driven = |disc: u32| {
+        let id = organisms.id_at(particles.owner[disc as usize]);
+        id.and_then(|id| organisms.get(id)).is_some_and(|organism| organism.goal.is_some())
+    };
+    for contact in contacts {
+        let (disc, on) = match contact.mobility {
+            [Mobility::Single, Mobility::Linked] => (0, 1),
+            [Mobility::Linked, Mobility::Single] => (1, 0),
+            _ => continue,
+        };
+        let sides = [contact.i, contact.j];
+        if is_heavy(particles, sides[disc], sides[on]) && is_driven(sides[disc]) {
+            contact.mobility[disc] = Mobility::Bounded;
+        }
+    }
+}
+
 impl World {
     /// Finds the pairs of bodies and discs that can touch before the next search, and which blocks are asleep.
     pub(crate) fn find_pairs(&mut self) {
@@ -73,25 +96,8 @@ impl World {
             dispatch: *dispatch,
         };
         scratch.broad_phase.find_pairs(input, sleep, config.steps_to_sleep());
-        self.mark_driven_discs();
-    }
-
-    /// Tells the contacts of heavy discs that a drive moves against linked ones.
-    fn mark_driven_discs(&mut self) {
-        let Self { particles, organisms, scratch, .. } = self;
-        let is_driven = |disc: u32| {
-            let id = organisms.id_at(particles.owner[disc as usize]);
-            id.and_then(|id| organisms.get(id)).is_some_and(|organism| organism.goal.is_some())
-        };
-        for contact in scratch.broad_phase.contacts.lists_mut().flatten() {
-            let sides = [contact.i, contact.j];
-            for (k, other) in [(0, 1), (1, 0)] {
-                let is_pair = contact.mobility[k] == Mobility::Single && contact.mobility[other] == Mobility::Linked;
-                if is_pair && is_heavy(particles, sides[k], sides[other]) && is_driven(sides[k]) {
-                    contact.mobility[k] = Mobility::Driven;
-                }
-            }
-        }
+        let contacts = scratch.broad_phase.contacts.lists_mut().flatten();
+        bound_driven_discs(contacts, particles, organisms);
     }
 
     /// All pairs of live particles that the last step's search found.

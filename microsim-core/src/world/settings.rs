@@ -7,8 +7,9 @@ use crate::config::WorldConfig;
 use crate::error::{Error, ErrorKind, in_range};
 use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
-use crate::organism::{MAX_SPEED, Organism, Storage};
+use crate::organism::{Blueprint, MAX_SPEED, Organism, Storage};
 use crate::particle::CollisionGroups;
+use crate::solver::fluid::{FluidMode, FluidParams};
 use glam::Vec2;
 
 impl World {
@@ -153,6 +154,21 @@ impl World {
         let nodes = template.map_or(&[][..], |template| template.nodes());
         let collides = |k: usize| nodes.get(k).is_none_or(|node| node.groups != CollisionGroups::NONE);
         organism.particles().enumerate().filter(|&(k, _)| collides(k)).map(|(_, i)| i as usize).collect()
+    }
+
+    /// Checks that substeps are short enough for what it is made of.
+    pub(super) fn check_substeps(&self, blueprint: &Blueprint) -> Result<(), Error> {
+        if blueprint.rim.is_some() {
+            self.config.check_membranes()?;
+        }
+        blueprint.fluid.as_ref().map_or(Ok(()), |plan| self.check_fluid(&plan.params))
+    }
+
+    pub(super) fn check_fluid(&self, params: &FluidParams) -> Result<(), Error> {
+        if params.mode == FluidMode::Granular {
+            self.config.check_grains()?;
+        }
+        self.config.check_viscosity(params.viscosity)
     }
 }
 

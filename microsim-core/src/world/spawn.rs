@@ -19,7 +19,7 @@ use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, S
 use crate::particle::{CollisionGroups, Material, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
-use crate::solver::fluid::{Fluid, FluidMode, FluidParams};
+use crate::solver::fluid::{Fluid, FluidParams};
 use crate::solver::lanes::LANES;
 use crate::solver::membrane::Membrane;
 use crate::template::{Node, Propulsion, Role, Template};
@@ -154,21 +154,6 @@ impl World {
             return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
         }
         Ok(())
-    }
-
-    /// Checks that substeps are short enough for what it is made of.
-    pub(super) fn check_substeps(&self, blueprint: &Blueprint) -> Result<(), Error> {
-        if blueprint.rim.is_some() {
-            self.config.check_membranes()?;
-        }
-        blueprint.fluid.as_ref().map_or(Ok(()), |plan| self.check_fluid_substeps(&plan.params))
-    }
-
-    pub(in crate::world) fn check_fluid_substeps(&self, params: &FluidParams) -> Result<(), Error> {
-        if params.mode == FluidMode::Granular {
-            self.config.check_grains()?;
-        }
-        self.config.check_viscosity(params.viscosity)
     }
 
     /// Checks that planned discs lie inside the walls and overlap nothing, organisms without an outline by at most a share, and

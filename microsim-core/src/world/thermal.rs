@@ -172,29 +172,39 @@ mod tests {
     };
     use glam::Vec2;
 
-    /// Many balls that do not collide, one of them a red cell, in a warm room.
-    fn warm(mobility: f32, damping: f32) -> (World, Vec<OrganismId>) {
+    /// Many balls far from each other, with damping of their own, in a warm room.
+    fn warm_damped(mobility: f32, damping: f32, own: [f32; 2]) -> (World, Vec<OrganismId>) {
         let size = Vec2::splat(400.0);
         let mut world = World::new(WorldConfig { size, damping, ..WorldConfig::default() }).unwrap();
         let kind = FieldKind::Thermal { mobility };
         world.add_field(ForceField { region: Region::All, kind }).unwrap();
         let place = |k: u32| Placement::at(20.0 + 9.0 * (k % 40) as f32, 20.0 + 9.0 * (k / 40) as f32);
         let ball = AgarSpec { radius: 0.5, ..AgarSpec::default() };
-        let balls = (0..1500).map(|k| world.spawn(&ball.clone().into(), place(k)).unwrap()).collect();
+        let spawn = |k| world.spawn(&ball.clone().into(), place(k).damped(own[0], own[1])).unwrap();
+        let balls = (0..1500).map(spawn).collect();
         (world, balls)
     }
 
-    #[test]
-    fn bodies_diffuse_by_their_radius_once_drag_has_acted() {
-        let (mut world, balls) = warm(0.1, 4.0);
+    fn warm(mobility: f32, damping: f32) -> (World, Vec<OrganismId>) {
+        warm_damped(mobility, damping, [0.0; 2])
+    }
+
+    /// Mean squared displacement after so many seconds over that of an Ornstein-Uhlenbeck walk from rest with a drag of 4 1/s, of balls
+    /// with a radius of 0.5: 4 D (t - (3 - 4 e + e^2) / 2 g) with e = exp(-g t).
+    fn spread(world: &mut World, balls: &[OrganismId], mobility: f32, time: f32) -> f32 {
         let start: Vec<Vec2> = balls.iter().map(|&id| world.centroid(id).unwrap()).collect();
-        let time = 6.0;
-        (0..360).for_each(|_| world.step(&Inputs::new()));
+        (0..(60.0 * time) as u32).for_each(|_| world.step(&Inputs::new()));
         let squares = balls.iter().zip(&start).map(|(&id, &at)| (world.centroid(id).unwrap() - at).length_squared());
-        let measured = squares.sum::<f32>() / balls.len() as f32;
-        // Of an Ornstein-Uhlenbeck walk from rest: 4 D (t - (3 - 4 e + e^2) / 2 g) with e = exp(-g t).
-        let expected = 4.0 * (0.1 / 0.5) * (time - 1.5 / 4.0);
-        assert!((measured / expected - 1.0).abs() < 0.06, "{measured} instead of {expected}");
+        squares.sum::<f32>() / balls.len() as f32 / (4.0 * (mobility / 0.5) * (time - 1.5 / 4.0))
+    }
+
+    #[test]
+    fn bodies_diffuse_by_their_radius_once_drag_has_acted_of_the_medium_or_their_own() {
+        for (damping, own) in [(4.0, [0.0, 0.0]), (0.0, [4.0, 6.0])] {
+            let (mut world, balls) = warm_damped(0.1, damping, own);
+            let spread = spread(&mut world, &balls, 0.1, 6.0);
+            assert!((spread - 1.0).abs() < 0.06, "{damping}, {own:?}: {spread} of what it should be");
+        }
     }
 
     /// Mobility of what has a standard deviation of its speed of a quarter of the limit, 20 units/s: `D g = 25` with a radius of 0.5.
@@ -208,12 +218,8 @@ mod tests {
         let mobility = 0.93 * most_mobile(damping);
         let (mut world, balls) = warm(mobility, damping);
         balls.iter().for_each(|&ball| world.set_collision_groups(ball, CollisionGroups::NONE).unwrap());
-        let start: Vec<Vec2> = balls.iter().map(|&id| world.centroid(id).unwrap()).collect();
-        (0..120).for_each(|_| world.step(&Inputs::new()));
-        let squares = balls.iter().zip(&start).map(|(&id, &at)| (world.centroid(id).unwrap() - at).length_squared());
-        let measured = squares.sum::<f32>() / balls.len() as f32;
-        let expected = 4.0 * 2.0 * mobility * (2.0 - 1.5 / damping);
-        assert!((measured / expected - 1.0).abs() < 0.06, "{measured} instead of {expected}");
+        let spread = spread(&mut world, &balls, mobility, 2.0);
+        assert!((spread - 1.0).abs() < 0.06, "{spread} of what it should be");
         let field = ForceField { region: Region::All, kind: FieldKind::Thermal { mobility: most_mobile(damping) } };
         let (id, _) = world.fields().next().unwrap();
         let refused = world.set_field(id, field).unwrap_err();

@@ -44,7 +44,7 @@ impl World {
         if self.organisms.with_membrane().next().is_some() {
             self.config.check_membranes().map_err(refused)?;
         }
-        self.fluids.iter().try_for_each(|fluid| self.check_fluid_substeps(&fluid.params)).map_err(refused)?;
+        self.fluids.iter().try_for_each(|fluid| self.check_fluid(&fluid.params)).map_err(refused)?;
         store::check_columns(&self.particles)?;
         structure::check(self)?;
         numbers::check(self)?;
