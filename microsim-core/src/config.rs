@@ -153,23 +153,6 @@ impl WorldConfig {
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
     }
 
-    /// Thickness from which on no disc gets through an obstacle that stays, `2 v dt / substeps`, units, where `v` is the speed limit:
-    /// in a substep a disc moves at most so far that its centre comes to the middle, and it is put back to the side that is
-    /// nearer. There is no continuous collision detection.
-    ///
-    /// A disc of radius `r` begins outside, so that `2 r` less will do. An obstacle that moves comes towards it as fast: twice the
-    /// thickness, less `2 r`. Without protection of membranes the speed limit is 15 times [`WorldConfig::max_speed`].
-    ///
-    /// ```
-    /// # use microsim_core::WorldConfig;
-    /// let config = WorldConfig { max_speed: 24.0, dt: 1.0 / 60.0, substeps: 8, ..WorldConfig::default() };
-    /// assert!((config.safe_thickness() - 0.1).abs() < 1e-6);
-    /// ```
-    #[must_use]
-    pub fn safe_thickness(&self) -> f32 {
-        2.0 * self.max_substep_displacement()
-    }
-
     /// Lower left and upper right corner of what the walls enclose, infinitely far where a side is open.
     pub(crate) fn walls(&self) -> [Vec2; 2] {
         let Sides { bottom, top, left, right } = self.sides;

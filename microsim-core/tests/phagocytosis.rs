@@ -295,16 +295,27 @@ fn t33_prey_that_is_outside_at_the_time_limit_is_released_and_collides_again() {
 fn t44_retreat_and_another_try_take_it_in() {
     let weak =
         PhagocytosisParams { pull_speed: 2.0, pull_acceleration: 50.0, time_limit: 0.5, ..by(IngestionWay::Gate) };
-    let (mut world, cell, prey) = scene_with(weak, MIDDLE, &agar(), 14.0);
-    let away = toward(cell, Vec2::new(10.0, 45.0));
-    // A touch that is too short, and an ingestion from which the cell turns away.
-    chase(&mut world, cell, prey, 120, |w| phase(w, cell, prey).is_some()).unwrap();
-    run(&mut world, &away, 20);
-    assert_eq!(phase(&world, cell, prey), None);
-    chase(&mut world, cell, prey, 240, begins).unwrap();
-    assert!(is_released_within(60, &mut world, &away) && world.view().organism(prey).unwrap().held_by().is_none());
-    run(&mut world, &away, 30);
-    assert!(chase(&mut world, cell, prey, 600, ingests).is_some(), "the next try");
+    let mut at_the_next_try = 0;
+    for k in 0..8 {
+        let (mut world, cell, prey) = scene_with(weak, MIDDLE, &agar(), 13.0 + 0.25 * k as f32);
+        let away = toward(cell, Vec2::new(10.0, 45.0));
+        // A touch that is too short, and an ingestion from which the cell turns away.
+        chase(&mut world, cell, prey, 120, |w| phase(w, cell, prey).is_some()).unwrap();
+        run(&mut world, &away, 20);
+        assert_eq!(phase(&world, cell, prey), None);
+        chase(&mut world, cell, prey, 240, begins).unwrap();
+        assert!(is_released_within(60, &mut world, &away) && world.view().organism(prey).unwrap().held_by().is_none());
+        run(&mut world, &away, 30);
+        let misses = std::cell::Cell::new(0);
+        let ends = |world: &World| {
+            misses.set(misses.get() + world.events().iter().filter(|event| is_released(event)).count());
+            ingests(world)
+        };
+        assert!(chase(&mut world, cell, prey, 1200, ends).is_some(), "{k}: another try");
+        at_the_next_try += usize::from(misses.get() == 0);
+    }
+    // So weak a pull misses one time in three.
+    assert!(at_the_next_try >= 4, "{at_the_next_try} of 8 at the next try");
 }
 
 #[test]

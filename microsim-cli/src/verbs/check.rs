@@ -6,9 +6,8 @@ use crate::failure::Failure;
 use crate::prepared::{Prepared, prepare};
 use crate::scenario_args::ScenarioArgs;
 use crate::{json, sanitize};
-use microsim_core::glam::Vec2;
+use microsim_core::Census;
 use microsim_core::scenario::{Diagnostic, Diagnostics};
-use microsim_core::{Census, World};
 use serde::Serialize;
 
 #[derive(Debug, clap::Args)]
@@ -47,27 +46,7 @@ fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
     let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
-    let notes: String = notes(&prepared.built.world).iter().map(|note| format!("note: {note}\n")).collect();
-    Ok(print(format!("ok: {}, {size}\n{notes}", sanitize::line(name)))?)
-}
-
-/// What may go wrong though it can be run: obstacles that discs can get through.
-fn notes(world: &World) -> Vec<String> {
-    let discs = world.view().organisms().flat_map(|organism| organism.particles().map(|disc| disc.radius));
-    let smallest = discs.filter(|radius| *radius > 0.0).reduce(f32::min).unwrap_or(0.0);
-    let safe = world.config().safe_thickness() - 2.0 * smallest;
-    let obstacles = world.obstacles().filter_map(|id| world.obstacle(id));
-    let thin = obstacles.filter_map(|obstacle| {
-        let thickness = obstacle.shape.compute_local_aabb().extents().min_element();
-        let Vec2 { x, y } = obstacle.shape.compute_aabb(&obstacle.pose).center();
-        let note = || {
-            format!(
-                "discs at the speed limit get through the obstacle at {x}, {y}: {thickness} is less than {safe} thick"
-            )
-        };
-        (thickness < safe).then(note)
-    });
-    thin.collect()
+    Ok(print(format!("ok: {}, {size}\n", sanitize::line(name)))?)
 }
 
 /// The JSON of `--format json`.
@@ -78,8 +57,6 @@ struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario: Option<ScenarioSummary<'a>>,
     problems: Vec<Problem<'a>>,
-    /// What may go wrong though the scenario can be run.
-    notes: Vec<String>,
     /// Of kinds of which enough are listed.
     left_out: Vec<More<'a>>,
 }
@@ -124,7 +101,6 @@ impl<'a> Answer<'a> {
             file: &prepared.source.origin,
             scenario: Some(scenario),
             problems: Vec::new(),
-            notes: notes(&prepared.built.world),
             left_out: Vec::new(),
         }
     }
@@ -140,6 +116,6 @@ impl<'a> Answer<'a> {
         };
         let left_out = problems.left_out().iter().map(|more| More { kind: &more.kind, count: more.count });
         let (problems, left_out) = (problems.iter().map(problem).collect(), left_out.collect());
-        Self { ok: false, file: &source.origin, scenario: None, problems, notes: Vec::new(), left_out }
+        Self { ok: false, file: &source.origin, scenario: None, problems, left_out }
     }
 }

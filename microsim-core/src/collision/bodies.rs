@@ -60,6 +60,8 @@ pub(super) struct PairFilter<'a> {
     pub particles: &'a Particles,
     pub exemptions: &'a Exemptions,
     pub sleep: &'a Sleep,
+    /// Largest displacement of a particle in a substep, units.
+    pub longest: f32,
 }
 
 /// Some of the blocks, and the part of a list with an entry for each or for each of their particles.
@@ -353,7 +355,7 @@ impl PairFilter<'_> {
     fn contact(self, a: &Disc, b: &Disc, mobility: [Mobility; 2]) -> Option<Contact> {
         let (p, i, j) = (self.particles, a.index as usize, b.index as usize);
         let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
-        collide.then(|| Contact::new(p, i, j, mobility))
+        collide.then(|| Contact::new(p, i, j, mobility, self.longest))
     }
 }
 

@@ -80,7 +80,9 @@ impl BroadPhase {
         let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
-        bodies.pairs(PairFilter { particles: input.particles, exemptions: input.exemptions, sleep }, strips, others);
+        let SearchInput { particles, exemptions, limits, .. } = input;
+        let filter = PairFilter { particles, exemptions, sleep, longest: limits.substep };
+        bodies.pairs(filter, strips, others);
         let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
         membranes.pairs(&mut consider);
         if !fluid.is_empty() {
@@ -111,7 +113,8 @@ impl BroadPhase {
         let Self { contacts, bodies, margins, .. } = self;
         let known = contacts.others.len();
         if margins.any_below(next) {
-            bodies.late_pairs(PairFilter { particles, exemptions, sleep }, margins, next, &mut contacts.others);
+            let filter = PairFilter { particles, exemptions, sleep, longest: next };
+            bodies.late_pairs(filter, margins, next, &mut contacts.others);
         }
         &mut contacts.others[known..]
     }
@@ -216,7 +219,8 @@ fn contact(a: &Disc, b: &Disc, input: SearchInput<'_>) -> Option<Contact> {
         [false, true] => [Mobility::Bounded, Mobility::Linked],
         [false, false] => [Mobility::Single; 2],
     };
-    (!is_for_rings && may_collide(p, i, j, input.exemptions)).then(|| Contact::new(p, i, j, mobility))
+    (!is_for_rings && may_collide(p, i, j, input.exemptions))
+        .then(|| Contact::new(p, i, j, mobility, input.limits.substep))
 }
 
 /// Whether two particles meet as a disc and a link: one is a ring's node and the other is not of that ring.

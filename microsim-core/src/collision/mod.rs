@@ -16,6 +16,9 @@ pub(crate) mod uniform_grid;
 use crate::particle::{Material, Particles};
 use glam::Vec2;
 
+/// Share of the sum of two discs' radii from which on their relative way in a substep is a long one: they may pass each other.
+pub(crate) const FAST: f32 = 0.5;
+
 /// How a side of a contact gives way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mobility {
@@ -41,21 +44,26 @@ pub(crate) struct Contact {
     pub restitution: f32,
     /// Touched in any substep since the pair was found.
     pub touched: bool,
+    /// Whether one can be on the other side of the other after a substep.
+    pub can_pass: bool,
     /// Of `i` and of `j`; not both are asleep.
     pub mobility: [Mobility; 2],
 }
 
 impl Contact {
-    pub(crate) fn new(p: &Particles, i: usize, j: usize, mobility: [Mobility; 2]) -> Self {
+    /// A contact of two discs that each move by at most `longest` units in a substep.
+    pub(crate) fn new(p: &Particles, i: usize, j: usize, mobility: [Mobility; 2], longest: f32) -> Self {
         let (friction, restitution) = combine(p.material[i], p.material[j]);
+        let radius_sum = p.radius[i] + p.radius[j];
         Self {
             i: i as u32,
             j: j as u32,
             between_origins: p.origin(j) - p.origin(i),
-            radius_sum: p.radius[i] + p.radius[j],
+            radius_sum,
             friction,
             restitution,
             touched: false,
+            can_pass: 2.0 * longest > FAST * radius_sum,
             mobility,
         }
     }

@@ -6,7 +6,8 @@
 
 use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
-use crate::collision::{Contact, Mobility};
+use super::sweep::first_touch;
+use crate::collision::{Contact, FAST, Mobility};
 use crate::particle::Particles;
 use glam::Vec2;
 
@@ -28,6 +29,16 @@ pub(crate) struct Impact {
     surface: Vec2,
 }
 
+/// How two discs overlap.
+struct Penetration {
+    /// From the first to the second.
+    normal: Vec2,
+    /// Along the normal, units.
+    depth: f32,
+    /// Whether they overlap only on their way, see [`super::sweep`].
+    has_passed: bool,
+}
+
 /// Pushes overlapping discs apart, and tells of each two.
 pub(crate) fn project(
     contacts: &mut [Contact],
@@ -39,29 +50,48 @@ pub(crate) fn project(
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
         let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
-        let squared = between.length_squared();
-        if squared < contact.radius_sum * contact.radius_sum {
+        if let Some(penetration) = penetration(contact, between, particles) {
             contact.touched = true;
-            separate(contact, between, squared, particles, impacts, recorder);
+            separate(contact, penetration, particles, impacts, recorder);
             projected(contact, particles);
         }
     }
 }
 
+#[inline(always)]
+fn penetration(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration> {
+    let passed = if c.can_pass { passed(c, between, p) } else { None };
+    let squared = between.length_squared();
+    let overlap = || {
+        let length = squared.sqrt();
+        let normal = if length > 1e-6 { between / length } else { Vec2::X };
+        Penetration { normal, depth: c.radius_sum - length, has_passed: false }
+    };
+    passed.or_else(|| (squared < c.radius_sum * c.radius_sum).then(overlap))
+}
+
+/// How far two discs on a long way are beyond where they met first, if they are.
+#[cold]
+fn passed(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration> {
+    let way = moved(p, c.j as usize) - moved(p, c.i as usize);
+    let longest = FAST * c.radius_sum;
+    let normal =
+        if way.length_squared() > longest * longest { first_touch(between, way, c.radius_sum)? } else { return None };
+    let depth = c.radius_sum - between.dot(normal);
+    (depth > 0.0).then_some(Penetration { normal, depth, has_passed: true })
+}
+
 fn separate(
     c: &Contact,
-    between: Vec2,
-    squared: f32,
+    Penetration { normal, depth, has_passed }: Penetration,
     p: &mut Particles,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
 ) {
     let (i, j) = (c.i as usize, c.j as usize);
-    let length = squared.sqrt();
-    let normal = if length > 1e-6 { between / length } else { Vec2::X };
     let (wi, wj) = weights(c, p);
-    let depth = c.radius_sum - length;
-    if c.restitution > 0.0 {
+    // What approach the projection leaves would carry discs past each other in the next substep.
+    if c.restitution > 0.0 || has_passed {
         impacts.extend(Impact::of(c, normal, p));
     }
     recorder.note(p, || Projected {
@@ -142,8 +172,7 @@ impl Impact {
     /// An impact of particle `i` on a surface of this velocity, which nothing moves, if it approaches it.
     pub(crate) fn on_surface(p: &Particles, i: u32, normal: Vec2, restitution: f32, surface: Vec2) -> Option<Self> {
         let approach = (surface - p.velocity(i as usize)).dot(normal);
-        let bounces = restitution > 0.0 && approach < 0.0;
-        bounces.then_some(Self { i, j: None, normal, rebound: -restitution * approach, surface })
+        (approach < 0.0).then_some(Self { i, j: None, normal, rebound: -restitution * approach, surface })
     }
 }
 
@@ -171,7 +200,7 @@ mod tests {
     use super::*;
 
     fn touching(friction: f32, restitution: f32) -> Contact {
-        Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1, [Mobility::Single; 2]) }
+        Contact { friction, restitution, ..Contact::new(&line(1.0, [1.0; 2]), 0, 1, [Mobility::Single; 2], 0.0) }
     }
 
     fn separate(contact: &mut Contact, p: &mut Particles) {

@@ -24,6 +24,7 @@ mod ring_relation;
 pub(crate) mod speed_limit;
 pub(crate) mod strays;
 pub(crate) mod stretch_damping;
+mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod untangle;

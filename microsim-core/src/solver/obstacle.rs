@@ -6,6 +6,7 @@
 use super::contact::{Impact, friction, moved, shift};
 use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
+use super::sweep::{Stop, first_stop};
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_path::{ObstaclePath, path_of};
 use crate::collision::{ObstacleContact, combine};
@@ -33,10 +34,12 @@ pub(crate) fn project(
     for contact in contacts {
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
         let path = path_of(paths, contact.obstacle);
-        if let Some((away, depth)) = separate(i, obstacle, path.as_deref(), particles) {
+        if let Some(Stop { away, depth, has_passed }) = separate(i, obstacle, path.as_deref(), particles) {
             let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(particles.position(i)));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
-            impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
+            if restitution > 0.0 || has_passed {
+                impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
+            }
             recorder.note(particles, || Projected {
                 particle: contact.particle,
                 touched: Touched::Obstacle(contact.obstacle),
@@ -70,43 +73,53 @@ fn move_back(contacts: &[ObstacleContact], obstacles: &[Obstacle], paths: &mut [
     for contact in contacts {
         let Some(path) = path_of(paths, contact.obstacle) else { return };
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
-        if let Some((away, depth)) = overlap(i, obstacle, Some(path), p) {
+        if let Some(Stop { away, depth, .. }) = overlap(i, obstacle, Some(path), p) {
             path.give_way(depth, path.displacement(p.position(i)), away);
         }
     }
 }
 
 /// Moves a disc out of an obstacle; returns the way out and how deep it was, if it was inside.
-fn separate(
-    i: usize,
-    obstacle: &Obstacle,
-    path: Option<&ObstaclePath>,
-    particles: &mut Particles,
-) -> Option<(Vec2, f32)> {
-    let (away, depth) = overlap(i, obstacle, path, particles)?;
-    shift(particles, i, away * depth);
-    Some((away, depth))
+fn separate(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &mut Particles) -> Option<Stop> {
+    let stop = overlap(i, obstacle, path, particles)?;
+    shift(particles, i, stop.away * stop.depth);
+    Some(stop)
 }
 
-/// The way out of an obstacle and how deep a disc is in it, if it is.
-fn overlap(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &Particles) -> Option<(Vec2, f32)> {
-    let position = particles.position(i);
+/// The way out of an obstacle and how deep a disc is in it, or beyond where it met it, if it is.
+fn overlap(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &Particles) -> Option<Stop> {
+    let (position, last) = (particles.position(i), particles.last_position(i));
+    // Where it came from, beside the obstacle as it stands now.
+    let from = last + path.map_or(Vec2::ZERO, |path| path.displacement(last));
+    let radius = particles.radius[i];
+    if (position - from).length_squared() > radius * radius
+        && let Some(stop) = stop_on_way(obstacle, [from, position], radius)
+    {
+        return Some(stop);
+    }
     let (surface, is_inside) = obstacle.nearest(position);
-    let came_from = particles.last_position(i) - surface;
-    let (away, distance) = direction(position - surface, is_inside, came_from);
-    let depth = particles.radius[i] - distance;
-    let is_held = || obstacle.one_way.is_none_or(|normal| is_above(i, obstacle, normal, path, particles));
-    (depth > 0.0 && is_held()).then_some((away, depth))
+    let (away, distance) = direction(position - surface, is_inside, last - surface);
+    let depth = radius - distance;
+    let is_held = || obstacle.one_way.is_none_or(|normal| is_above(from, radius, obstacle, normal));
+    (depth > 0.0 && is_held()).then_some(Stop { away, depth, has_passed: false })
+}
+
+/// Where a disc on a long way meets an obstacle first.
+#[cold]
+fn stop_on_way(obstacle: &Obstacle, way: [Vec2; 2], radius: f32) -> Option<Stop> {
+    let Some(normal) = obstacle.one_way else { return first_stop(obstacle, way, radius, |_| true) };
+    let normal = direction_or(obstacle.pose.transform_vector(normal), Vec2::Y);
+    let (surface, _) = obstacle.nearest(way[0]);
+    let is_clear = (way[0] - surface).length() >= CLEAR * radius;
+    if is_clear { first_stop(obstacle, way, radius, |away| away.dot(normal) >= UPRIGHT) } else { None }
 }
 
 /// Whether a disc was wholly on the solid side of a one-way platform when the substep began.
-fn is_above(i: usize, platform: &Obstacle, normal: Vec2, path: Option<&ObstaclePath>, p: &Particles) -> bool {
-    let last = p.last_position(i);
-    let came_from = last + path.map_or(Vec2::ZERO, |path| path.displacement(last));
-    let (surface, is_inside) = platform.nearest(came_from);
-    let (way, normal) = (came_from - surface, platform.pose.transform_vector(normal));
+fn is_above(from: Vec2, radius: f32, platform: &Obstacle, normal: Vec2) -> bool {
+    let (surface, is_inside) = platform.nearest(from);
+    let (way, normal) = (from - surface, platform.pose.transform_vector(normal));
     let distance = way.length();
-    !is_inside && distance >= CLEAR * p.radius[i] && way.dot(normal) * ratio(1.0, normal.length()) >= UPRIGHT * distance
+    !is_inside && distance >= CLEAR * radius && way.dot(normal) * ratio(1.0, normal.length()) >= UPRIGHT * distance
 }
 
 /// Unit vector out of the obstacle and signed distance to its surface (negative inside). On the surface itself the way out

@@ -194,7 +194,7 @@ mod tests {
         }
         let heavy = p.insert(&disc(Vec2::new(1.0 - overlap, 2.2), inv_mass));
         let side = blocks[0].particle(1, 0) as usize;
-        let mut contacts = [Contact::new(&p, heavy as usize, side, [Mobility::Single, mobility])];
+        let mut contacts = [Contact::new(&p, heavy as usize, side, [Mobility::Single, mobility], 0.0)];
         let mut pressed = Pressed::default();
         let mut recorder = ContactRecorder::default();
         pressed.begin(h);

@@ -23,8 +23,7 @@ use parry2d::shape::SharedShape;
 pub(crate) use walls::{WALLS, walls};
 
 impl World {
-    /// Adds an obstacle: any `parry2d` shape. A disc at the speed limit can get through one that is thinner than
-    /// [`safe_thickness`](crate::WorldConfig::safe_thickness) less its diameter.
+    /// Adds an obstacle: any `parry2d` shape. No disc gets through it, however thin it is.
     ///
     /// # Errors
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, a one-way platform has no

@@ -22,9 +22,6 @@ impl World {
     /// A body that is caught between it and something that does not give way is not crushed: the obstacle moves back, and
     /// then goes on or stops, see [`ObstacleMotion`]. It comes to an end with [`Event::ObstacleBlocked`] if it stops.
     ///
-    /// There is no continuous collision detection: an obstacle that is moved should be at least twice
-    /// [`safe_thickness`](crate::WorldConfig::safe_thickness) thick, less the diameter of the smallest disc.
-    ///
     /// ```
     /// use microsim_core::prelude::*;
     ///
