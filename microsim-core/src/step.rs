@@ -236,9 +236,9 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
                         integrate::predict_positions(block, config.gravity, config.speed_limit(), h);
                     },
                 );
-                batch.project(constraints, muscles, share, h);
             },
         );
+        batch.project(constraints, muscles, share, h, *dispatch);
     });
     membrane::project(membranes(organisms), particles, h, *dispatch);
     contraction::project(&scratch.contractions, particles, h);

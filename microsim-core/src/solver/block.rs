@@ -3,7 +3,7 @@
 use super::constraint::{self, Constraint};
 use super::lanes::{LANES, Span, load};
 use super::muscle::{Muscle, runs};
-use crate::instruction_set::each;
+use crate::instruction_set::{Dispatch, each};
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
 
@@ -120,25 +120,39 @@ impl<T> Batch<'_, T> {
     }
 
     /// Projects the template's constraints in all blocks, muscles with the lengths that they have after a share of the step.
-    #[inline(always)]
-    pub(crate) fn project(&mut self, constraints: &[Constraint], muscles: &[Muscle], share: f32, h: f32) {
+    pub(crate) fn project(
+        &mut self,
+        constraints: &[Constraint],
+        muscles: &[Muscle],
+        share: f32,
+        h: f32,
+        dispatch: Dispatch,
+    ) {
         for (run, channel) in runs(constraints.len(), muscles) {
             let live = self.blocks.iter().filter(|(block, _)| !block.is_empty());
             let spans: Vec<_> = match channel {
                 None => live.map(|(block, _)| block.span(self.start)).collect(),
                 Some(channel) => live.map(|(block, _)| block.span_of(channel, share, self.start)).collect(),
             };
-            constraint::project(&constraints[run], &spans, &mut self.stretch, h);
+            project(&constraints[run], &spans, &mut self.stretch, h, dispatch);
         }
     }
 }
 
+/// Projects constraints in some spans: the kernel, once for all that ask for it, because it is large.
+#[inline(never)]
+fn project(list: &[Constraint], spans: &[Span<LANES>], particles: &mut Columns<'_>, h: f32, dispatch: Dispatch) {
+    dispatch.run(
+        #[inline(always)]
+        || constraint::project(list, spans, particles, h),
+    );
+}
+
 impl Batch<'_, ()> {
     /// Projects rigid links of the template in all blocks.
-    #[inline(always)]
-    pub(crate) fn project_links(&mut self, links: &[Constraint]) {
+    pub(crate) fn project_links(&mut self, links: &[Constraint], dispatch: Dispatch) {
         // How long the substep is matters to soft ones only.
-        self.project(links, &[], 1.0, 1.0);
+        self.project(links, &[], 1.0, 1.0, dispatch);
     }
 }
 
@@ -205,7 +219,13 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, &muscles, 1.0, 0.01);
+            batches(&mut [(&block, ())], &mut in_lanes)[0].project(
+                &constraints,
+                &muscles,
+                1.0,
+                0.01,
+                Dispatch::default(),
+            );
             for (lane, p) in loose.iter_mut().enumerate() {
                 for (k, constraint) in constraints.iter().enumerate() {
                     let contraction = if k == 2 { block.contraction[0][lane] } else { 1.0 };

@@ -104,10 +104,7 @@ impl Pressed {
             let mut pressed: Vec<_> = pressed.map(|(block, _)| (block, ())).collect();
             for mut batch in block::batches(&mut pressed, particles) {
                 let links = links(batch.template());
-                dispatch.run(
-                    #[inline(always)]
-                    || batch.project_links(links),
-                );
+                batch.project_links(links, dispatch);
             }
             contact::project(&mut self.contacts, particles, &mut Vec::new(), recorder, |_, _| {});
         }
