@@ -192,6 +192,14 @@ pub enum Event {
         /// How many of its particles went.
         particles: u32,
     },
+    /// A link of a body was stretched beyond its breaking strain, and is gone until something is spawned anew in its place. A body
+    /// that falls into pieces so is one organism as before.
+    LinkTorn {
+        /// The organism.
+        organism: OrganismId,
+        /// The nodes of its template that the link held.
+        nodes: [u32; 2],
+    },
 }
 
 /// Why a cell does not divide or fuse.
@@ -241,7 +249,7 @@ impl Refusal {
 
 impl Event {
     /// Names of all kinds, see [`Event::name`].
-    pub const NAMES: [&str; 24] = [
+    pub const NAMES: [&str; 25] = [
         "contact_began",
         "contact_ended",
         "front_switched",
@@ -266,6 +274,7 @@ impl Event {
         "hit",
         "emitted",
         "drained",
+        "link_torn",
     ];
 
     /// Name of its kind, for counting.
@@ -296,6 +305,7 @@ impl Event {
             Self::Hit { .. } => "hit",
             Self::Emitted { .. } => "emitted",
             Self::Drained { .. } => "drained",
+            Self::LinkTorn { .. } => "link_torn",
         }
     }
 
@@ -322,6 +332,7 @@ impl Event {
             | Self::TouchEnded { organism, .. }
             | Self::Emitted { organism, .. }
             | Self::Drained { organism, .. }
+            | Self::LinkTorn { organism, .. }
             | Self::Quarantined { organism } => [Some(organism), None],
             Self::Hit { contact } => [Some(contact.organism), contact.partner.organism()],
             Self::ObstacleBlocked { .. } => [None, None],

@@ -200,6 +200,7 @@ pub mod queries {
 pub mod views {
     pub use crate::look::drawn::{Colour, DrawnLook, Form, Tint};
     pub use crate::world::view::anatomy::Bond;
+    pub use crate::world::view::links::YieldingLink;
     pub use crate::world::view::moment::Moment;
     pub use crate::world::view::{OrganismView, ParticleView, View};
 }

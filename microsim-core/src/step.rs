@@ -33,7 +33,7 @@ pub enum Phase {
     ProjectConstraints,
     /// Pairs of bodies that got faster than expected are found; discs and obstacles push each other apart.
     ProjectContacts,
-    /// Velocities follow from the changes of position; restitution.
+    /// Velocities follow from the changes of position; restitution; links flow and tear.
     UpdateVelocities,
     /// Discs on the wrong side of a membrane are returned; prey is touched, taken in and digested; engulfers grow.
     AdvancePhagocytosis,
@@ -131,6 +131,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         serial(world, project_contacts);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
+        world.yield_links(substep, h);
         finished(Phase::UpdateVelocities);
     }
     damp_stretching(world);
@@ -223,7 +224,7 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
     let mut awake: Vec<_> = awake.collect();
     parallel::for_each(block::batches(&mut awake, particles), |mut batch| {
         let template = &templates[batch.template()];
-        let (constraints, muscles) = (template.constraints(), template.muscles());
+        let (constraints, scaled) = (template.constraints(), template.scaled());
         dispatch.run(
             #[inline(always)]
             || {
@@ -238,7 +239,7 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
                 );
             },
         );
-        batch.project(constraints, muscles, share, h, *dispatch);
+        batch.project(constraints, scaled, share, h, *dispatch);
     });
     membrane::project(membranes(organisms), particles, h, *dispatch);
     contraction::project(&scratch.contractions, particles, h);

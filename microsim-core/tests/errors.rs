@@ -14,7 +14,7 @@ use microsim_core::{
     Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd,
     JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec,
     PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template,
-    TemplateBuilder, TemplateId, World, WorldConfig,
+    TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
 };
 use sources::sources;
 use std::collections::BTreeSet;
@@ -164,6 +164,8 @@ fn build(change: fn(&mut TemplateBuilder)) -> Error {
     builder.build().unwrap_err()
 }
 
+const SPRING: Distance = Distance { a: 0, b: 1, rest_length: 1.0, compliance: 1e-3, damping: 0.0 };
+
 /// Controllers one in another, one too many.
 fn nested() -> Controller {
     (0..8).fold(Controller::Still, |inner, _| Controller::flee(FleeParams::default(), inner))
@@ -283,6 +285,7 @@ const CASES: &[Case] = &[
     ("World::check_inputs", "BadReference", "activation.channel", |r| r.refuse(|inputs, r| inputs.activate(r.agar, 0, 1.0).unwrap())),
     ("TemplateBuilder::build", "BadReference", "muscles", |_| build(|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }))),
     ("TemplateBuilder::build", "OutOfRange", "channels[0].active", |_| build(|b| _ = b.channel([1.0, 0.0]))),
+    ("TemplateBuilder::build", "OutOfRange", "constraints[0].breaking_strain", |_| build(|b| _ = b.constraint(YieldingDistance { breaking_strain: 0.0, ..SPRING.into() }))),
     ("JointSpec::validate", "OutOfRange", "kind.max_force", |r| r.joint(JointKind::mouse(-1.0)).validate().unwrap_err()),
     ("World::add_joint", "OutOfRange", "kind.length", |r| r.world.add_joint(r.joint(JointKind::Distance { length: f32::NAN })).unwrap_err()),
     ("World::add_joint", "Stale", "a.organism", |r| r.world.add_joint(JointSpec { a: JointEnd::Centre(r.stale), ..r.joint(JointKind::Pin) }).unwrap_err()),

@@ -142,7 +142,7 @@ fn contact(organism: OrganismId, partner: Collider) -> ContactPoint {
     }
 }
 
-fn every_kind_of_event(id: OrganismId, joint: JointId, obstacle: ObstacleId) -> [Event; 24] {
+fn every_kind_of_event(id: OrganismId, joint: JointId, obstacle: ObstacleId) -> [Event; 25] {
     let (kind, reason) = (Kind::Agar, Refusal::Dividing);
     let collider = Collider::Obstacle(obstacle);
     [
@@ -170,6 +170,7 @@ fn every_kind_of_event(id: OrganismId, joint: JointId, obstacle: ObstacleId) -> 
         Event::Hit { contact: contact(id, collider) },
         Event::Emitted { emitter: an_emitter(), organism: id },
         Event::Drained { outlet: Outlet::Side(Wall::Top), organism: id, kind, particles: 1 },
+        Event::LinkTorn { organism: id, nodes: [0, 1] },
     ]
 }
 

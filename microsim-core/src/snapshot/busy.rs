@@ -3,11 +3,11 @@
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl, Drain, Emitter,
-    EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd, JointId,
-    JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
+    CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl, Distance, Drain,
+    Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd,
+    JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
     PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec,
-    Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig, YieldingDistance,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -186,7 +186,8 @@ fn roped(world: &mut World) {
     let c = builder.node(Node::disc(Vec2::new(4.0, 0.0), 1.0, 0.5));
     builder.constraint(Bend::new([a, b, c], 0.0, 1.0));
     let spring = ConservativeDistance { a: b, b: c, rest_length: 1.0, compliance: 1.0, damping: 0.1 };
-    builder.constraint(spring);
+    let yielding = Distance { a: b, b: c, rest_length: 2.0, compliance: 1.0, damping: 0.1 };
+    builder.constraint(spring).constraint(YieldingDistance { breaking_strain: 2.0, ..yielding.into() });
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0).damped(1.0, 2.0)).unwrap();
@@ -275,6 +276,7 @@ fn events(a: OrganismId, b: OrganismId, obstacle: ObstacleId, joint: JointId) ->
         Event::JointEnded { joint, between },
         Event::Quarantined { organism: a },
         Event::ObstacleBlocked { obstacle },
+        Event::LinkTorn { organism: a, nodes: [0, 1] },
     ];
     others.into_iter().chain(of_contacts).chain(of_sensors).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::constraint::{self, Constraint};
 use super::lanes::{LANES, Span, load};
-use super::muscle::{Muscle, runs};
+use super::muscle::{Scaled, runs};
 use crate::instruction_set::{Dispatch, each};
 use crate::particle::{BlockRange, Columns, NO_OWNER, Particles};
 use serde::{Deserialize, Serialize};
@@ -22,9 +22,10 @@ pub(crate) struct Block {
     pub owner: [u32; LANES],
     /// Size of each instance relative to the template.
     pub scale: [f32; LANES],
-    /// Factor on the lengths of the muscles of each channel at the end of the step ...
-    pub contraction: Vec<[f32; LANES]>,
-    /// ... and at its beginning.
+    /// What scales lengths: first the factor on those of the muscles of each channel at the end of the step, then the plastic
+    /// strain of each yielding link.
+    pub length_state: Vec<[f32; LANES]>,
+    /// The factors of the channels at the beginning of the step.
     #[serde(skip)]
     pub contraction_before: Vec<[f32; LANES]>,
 }
@@ -39,7 +40,7 @@ impl Block {
             base,
             owner: [NO_OWNER; LANES],
             scale: [1.0; LANES],
-            contraction: Vec::new(),
+            length_state: Vec::new(),
             contraction_before: Vec::new(),
         }
     }
@@ -73,10 +74,19 @@ impl Block {
         Span { base: self.base - start as u32, scale: self.scale }
     }
 
-    /// The same for the muscles of a channel, after a share of the step.
-    fn span_of(&self, channel: u32, share: f32, start: usize) -> Span<LANES> {
-        let (span, k) = (self.span(start), channel as usize);
-        let (from, to) = (self.contraction_before[k], self.contraction[k]);
+    /// The same for the rest lengths of a constraint that is scaled, after a share of the step. The scale of a torn link is 0.
+    fn span_of(&self, scaled: &Scaled, share: f32, start: usize) -> Span<LANES> {
+        let span = self.contracted(scaled, share, start);
+        let Some(row) = scaled.link else { return span };
+        let plastic = self.length_state[row as usize];
+        Span { scale: each(|l| span.scale[l] * (1.0 + plastic[l])), ..span }
+    }
+
+    /// The same without plastic strains.
+    pub(super) fn contracted(&self, scaled: &Scaled, share: f32, start: usize) -> Span<LANES> {
+        let span = self.span(start);
+        let Some(channel) = scaled.channel else { return span };
+        let (from, to) = (self.contraction_before[channel as usize], self.length_state[channel as usize]);
         Span { scale: each(|l| span.scale[l] * (from[l] + share * (to[l] - from[l]))), ..span }
     }
 }
@@ -84,10 +94,10 @@ impl Block {
 /// A few neighbouring blocks of one template, each with a value of the caller's, and the stretch of the store that they lie
 /// in. They are projected together: what one has loaded the others find in the cache.
 pub(crate) struct Batch<'a, T> {
-    blocks: &'a mut [(&'a Block, T)],
+    pub(super) blocks: &'a mut [(&'a Block, T)],
     /// First particle of the stretch.
-    start: usize,
-    stretch: Columns<'a>,
+    pub(super) start: usize,
+    pub(super) stretch: Columns<'a>,
 }
 
 /// Divides blocks, in the order of the store, into batches of up to [`BATCH`].
@@ -119,20 +129,21 @@ impl<T> Batch<'_, T> {
         }
     }
 
-    /// Projects the template's constraints in all blocks, muscles with the lengths that they have after a share of the step.
+    /// Projects the template's constraints in all blocks, those that are scaled with the lengths that they have after a share of the
+    /// step.
     pub(crate) fn project(
         &mut self,
         constraints: &[Constraint],
-        muscles: &[Muscle],
+        scaled: &[Scaled],
         share: f32,
         h: f32,
         dispatch: Dispatch,
     ) {
-        for (run, channel) in runs(constraints.len(), muscles) {
+        for (run, scaled) in runs(constraints.len(), scaled).filter(|(run, _)| !run.is_empty()) {
             let live = self.blocks.iter().filter(|(block, _)| !block.is_empty());
-            let spans: Vec<_> = match channel {
+            let spans: Vec<_> = match scaled {
                 None => live.map(|(block, _)| block.span(self.start)).collect(),
-                Some(channel) => live.map(|(block, _)| block.span_of(channel, share, self.start)).collect(),
+                Some(scaled) => live.map(|(block, _)| block.span_of(scaled, share, self.start)).collect(),
             };
             project(&constraints[run], &spans, &mut self.stretch, h, dispatch);
         }
@@ -173,7 +184,7 @@ pub(crate) fn subtract_displacement(block: &mut Columns<'_>, margins: &mut [f32;
 
 #[cfg(test)]
 mod tests {
-    use super::super::constraint::{Anchor, Area, Bend, Distance, MinDistance, Rope};
+    use super::super::constraint::{Anchor, Area, Bend, Distance, MinDistance, Rope, TORN, YieldingDistance};
     use super::super::testing::disc;
     use super::*;
     use glam::Vec2;
@@ -191,6 +202,8 @@ mod tests {
         list.push(Rope { a: 2, b: 4, max_length: 2.9 }.into());
         list.push(Bend::new([0, 3, 4], 0.4, 1e-3).into());
         list.push(Anchor { node: 3, anchor: 0, rest_length: 1.0, max_length: 4.4, compliance: 1e-4 }.into());
+        let spring = Distance { a: 0, b: 4, rest_length: 3.0, compliance: 1e-4, damping: 0.01 };
+        list.push(YieldingDistance::from(spring).into());
         for is_upper_bound in [false, true] {
             list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound }.into());
         }
@@ -208,9 +221,14 @@ mod tests {
         let mut block = Block::new(0, 5, &mut in_lanes);
         block.owner = [0; LANES];
         block.scale = [0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3];
-        block.contraction = vec![[1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3]];
-        block.contraction_before = block.contraction.clone();
-        let muscles = [Muscle { constraint: 2, channel: 0 }];
+        block.length_state =
+            vec![[1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3], [0.0, 0.1, -0.2, TORN, 0.4, 0.5, TORN, 0.7]];
+        block.contraction_before = block.length_state[..1].to_vec();
+        let yielding = constraints.iter().position(|it| matches!(it, Constraint::YieldingDistance(_))).unwrap();
+        let scaled = [
+            Scaled { constraint: 2, channel: Some(0), link: None },
+            Scaled { constraint: yielding as u32, channel: None, link: Some(1) },
+        ];
         let mut loose = vec![Particles::default(); LANES];
         for (lane, loose) in loose.iter_mut().enumerate() {
             for slot in 0..5 {
@@ -219,17 +237,14 @@ mod tests {
             }
         }
         for _ in 0..10 {
-            batches(&mut [(&block, ())], &mut in_lanes)[0].project(
-                &constraints,
-                &muscles,
-                1.0,
-                0.01,
-                Dispatch::default(),
-            );
+            let dispatch = Dispatch::default();
+            batches(&mut [(&block, ())], &mut in_lanes)[0].project(&constraints, &scaled, 1.0, 0.01, dispatch);
             for (lane, p) in loose.iter_mut().enumerate() {
                 for (k, constraint) in constraints.iter().enumerate() {
-                    let contraction = if k == 2 { block.contraction[0][lane] } else { 1.0 };
-                    let scale = [block.scale[lane] * contraction];
+                    let [contraction, plastic] = [0, 1].map(|row: usize| block.length_state[row][lane]);
+                    let factor = if k == 2 { contraction } else { 1.0 };
+                    let factor = if k == yielding { factor * (1.0 + plastic) } else { factor };
+                    let scale = [block.scale[lane] * factor];
                     constraint::project(
                         std::slice::from_ref(constraint),
                         &[Span { base: 0, scale }],

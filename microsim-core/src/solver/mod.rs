@@ -28,6 +28,7 @@ mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
 pub(crate) mod untangle;
+pub(crate) mod yielding;
 
 /// The factor that brings a vector of this squared length down to `longest`; 1 if it is not longer.
 #[inline(always)]

@@ -3,15 +3,17 @@
 //! Instances of one template have the same topology, which is what lets eight of them be solved side by side. They may
 //! differ in place, direction and size.
 
+mod order;
 mod role;
 mod self_contact;
 
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;
 use crate::particle::{CollisionGroups, Material};
-use crate::solver::constraint::{Constraint, Distance, check_ring};
-use crate::solver::muscle::Muscle;
+use crate::solver::constraint::{Constraint, Distance, YieldingDistance, check_ring};
+use crate::solver::muscle::{Muscle, Scaled};
 use glam::Vec2;
+use order::{in_order, rigid_links, scaled};
 pub use role::Role;
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +87,9 @@ pub struct Template {
     /// Those of its constraints that are rigid links.
     #[serde(skip)]
     rigid_links: Vec<Constraint>,
+    /// Those whose lengths are scaled: muscles and yielding links.
+    #[serde(skip)]
+    scaled: Vec<Scaled>,
 }
 
 impl Template {
@@ -130,9 +135,28 @@ impl Template {
         &self.channels
     }
 
-    /// Its muscles, in the order of its constraints.
-    pub(crate) fn muscles(&self) -> &[Muscle] {
-        &self.muscles
+    /// Its muscles and yielding links, in the order of its constraints.
+    pub(crate) fn scaled(&self) -> &[Scaled] {
+        &self.scaled
+    }
+
+    /// The yielding links among them.
+    pub(crate) fn yielding_links(&self) -> impl Iterator<Item = (&YieldingDistance, &Scaled)> {
+        self.scaled.iter().filter_map(|scaled| match &self.constraints[scaled.constraint as usize] {
+            Constraint::YieldingDistance(link) => Some((link, scaled)),
+            _ => None,
+        })
+    }
+
+    /// Whether there are any.
+    pub(crate) fn yields(&self) -> bool {
+        self.scaled.iter().any(|scaled| scaled.link.is_some())
+    }
+
+    /// Length state of a body that has just been spawned, see [`crate::solver::block::Block`].
+    pub(crate) fn rest_state(&self) -> Vec<f32> {
+        let links = self.yielding_links().map(|_| 0.0);
+        self.channels.iter().map(|&[rest, _]| rest).chain(links).collect()
     }
 
     /// Its rigid links but for muscles, in their order.
@@ -320,7 +344,8 @@ impl TemplateBuilder {
             in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
         }
         let rigid_links = rigid_links(&constraints, &muscles);
-        Ok(Template { name, nodes, constraints, outline, propulsion, channels, muscles, rigid_links })
+        let scaled = scaled(&constraints, &muscles, channels.len() as u32);
+        Ok(Template { name, nodes, constraints, outline, propulsion, channels, muscles, rigid_links, scaled })
     }
 }
 
@@ -339,32 +364,6 @@ fn check_muscles(muscles: &[Muscle], constraints: &[Constraint], channels: usize
             "one of the {channels} channels for each of the constraints that are muscles, and those with lengths only"
         ),
     ))
-}
-
-/// Constraints by kind, in the order of projection, those of one kind in their order; and the muscles among them.
-fn in_order(mut constraints: Vec<Constraint>, muscles: &[Muscle]) -> (Vec<Constraint>, Vec<Muscle>) {
-    if muscles.is_empty() {
-        constraints.sort_by_key(Constraint::order);
-        return (constraints, Vec::new());
-    }
-    let mut numbered: Vec<(u32, Constraint)> = (0..).zip(constraints).collect();
-    numbered.sort_by_key(|(_, constraint)| constraint.order());
-    let muscle = |(constraint, &(before, _)): (u32, &(u32, Constraint))| {
-        let k = muscles.binary_search_by_key(&before, |muscle| muscle.constraint).ok()?;
-        Some(Muscle { constraint, channel: muscles[k].channel })
-    };
-    let muscles = (0..).zip(&numbered).filter_map(muscle).collect();
-    (numbered.into_iter().map(|(_, constraint)| constraint).collect(), muscles)
-}
-
-/// The constraints that are rigid links and no muscles, in their order.
-fn rigid_links(constraints: &[Constraint], muscles: &[Muscle]) -> Vec<Constraint> {
-    let is_muscle = |k: u32| muscles.binary_search_by_key(&k, |muscle| muscle.constraint).is_ok();
-    let is_rigid = |constraint: &Constraint| {
-        matches!(constraint, Constraint::Distance(Distance { compliance: 0.0, damping: 0.0, .. }))
-    };
-    let rigid = constraints.iter().zip(0..).filter(|&(constraint, k)| is_rigid(constraint) && !is_muscle(k));
-    rigid.map(|(constraint, _)| constraint.clone()).collect()
 }
 
 #[cfg(test)]

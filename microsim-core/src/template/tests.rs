@@ -3,6 +3,7 @@
 use super::*;
 use crate::error::ErrorKind;
 use crate::solver::constraint::{Anchor, Area, Bend, MinDistance, Rope};
+use crate::solver::muscle::Scaled;
 
 /// Discs at (0, 0) and (0, 2).
 fn two_nodes() -> TemplateBuilder {
@@ -40,6 +41,7 @@ fn rigid_links_are_neither_soft_nor_muscles() {
     (0..4u8).for_each(|k| _ = builder.node(Node::disc(Vec2::new(f32::from(k), 0.0), 1.0, 0.1)));
     let channel = builder.channel([1.0, 0.5]);
     let link = |a, b, compliance| Distance { a, b, rest_length: 1.0, compliance, damping: 0.0 };
+    builder.constraint(YieldingDistance { breaking_strain: 0.5, ..link(0, 1, 1e-3).into() });
     builder.constraint(Rope { a: 0, b: 3, max_length: 4.0 }).constraint(link(2, 3, 0.0)).constraint(link(0, 2, 1e-3));
     builder.muscle(channel, link(1, 2, 0.0)).constraint(link(0, 1, 0.0));
     let template = builder.build().unwrap();
@@ -54,8 +56,23 @@ fn a_muscle_stays_one_when_constraints_are_sorted() {
     builder.muscle(slow, Distance { a: 0, b: 1, rest_length: 1.0, compliance: 0.0, damping: 0.0 });
     let template = builder.build().unwrap();
     let muscle = |constraint, channel| Muscle { constraint, channel };
-    assert_eq!((template.muscles(), template.channels().len()), (&[muscle(1, slow), muscle(2, fast)][..], 2));
+    assert_eq!((&template.muscles[..], template.channels().len()), (&[muscle(1, slow), muscle(2, fast)][..], 2));
     assert!(matches!(template.constraints()[2], Constraint::Rope(_)));
+}
+
+#[test]
+fn yielding_links_have_rows_after_the_channels_and_may_be_muscles() {
+    let mut builder = two_nodes();
+    let channel = builder.channel([1.5, 0.5]);
+    let link = YieldingDistance::from(Distance { a: 0, b: 1, rest_length: 1.0, compliance: 1e-3, damping: 0.0 });
+    builder.muscle(channel, Rope { a: 0, b: 1, max_length: 3.0 }).constraint(link).link(0, 1, 0.0);
+    builder.muscle(channel, link);
+    let template = builder.build().unwrap();
+    let scaled = |constraint, channel, link| Scaled { constraint, channel, link };
+    let (muscle, rope) = (scaled(2, Some(channel), Some(2)), scaled(3, Some(channel), None));
+    assert_eq!(template.scaled(), [scaled(1, None, Some(1)), muscle, rope]);
+    assert_eq!((template.rest_state(), template.yielding_links().count()), (vec![1.5, 0.0, 0.0], 2));
+    assert!(template.yields() && !two_nodes().build().unwrap().yields());
 }
 
 /// Changes two discs and expects that this field is refused.
@@ -85,6 +102,25 @@ fn bad_constraints_are_refused_by_name() {
     refuses(|b| _ = b.constraint(anchor), "constraints[0].max_length");
     let area = Area { ring: vec![0, 1, 1], rest_area: 1.0, compliance: 0.0, is_upper_bound: false };
     refuses(|b| _ = b.constraint(area), "constraints[0].ring");
+}
+
+#[test]
+fn bad_yielding_links_are_refused_by_name() {
+    let spring = Distance { a: 0, b: 1, rest_length: 1.0, compliance: 1e-3, damping: 0.0 };
+    let refuses = |change: fn(&mut YieldingDistance), field: &str| {
+        let mut link = YieldingDistance::from(spring);
+        change(&mut link);
+        refuses(|b| _ = b.constraint(link), &format!("constraints[0].{field}"));
+    };
+    refuses(|link| link.b = 7, "a");
+    refuses(|link| link.rest_length = 0.0, "rest_length");
+    refuses(|link| link.compliance = 0.0, "compliance");
+    refuses(|link| link.damping = 11.0, "damping");
+    refuses(|link| link.yield_strain = -0.1, "yield_strain");
+    refuses(|link| link.flow_rate = 101.0, "flow_rate");
+    refuses(|link| link.max_plastic_strain = f32::INFINITY, "max_plastic_strain");
+    refuses(|link| link.breaking_strain = 0.0, "breaking_strain");
+    refuses(|link| link.breaking_strain = f32::NAN, "breaking_strain");
 }
 
 /// A bend over both discs and a third one, which is added.

@@ -34,6 +34,7 @@ mod thermal;
 mod vacancies;
 pub(crate) mod view;
 mod wake;
+mod yielding;
 
 use crate::arena::{Arena, Handle};
 use crate::chemical::Chemical;

@@ -2,7 +2,6 @@
 
 use super::World;
 use crate::inputs::Inputs;
-use crate::organism::{Organism, Storage};
 use crate::solver::block::Block;
 use crate::solver::lanes::LANES;
 
@@ -10,18 +9,19 @@ impl World {
     /// Sets the contraction of all muscles for a step, and wakes the bodies in which it changes.
     pub(crate) fn contract_muscles(&mut self, inputs: &Inputs) {
         for index in 0..self.blocks.len() {
-            if self.blocks[index].contraction.is_empty() {
+            let channels = self.templates[self.blocks[index].template as usize].channels().len();
+            if channels == 0 {
                 continue;
             }
             let wanted = self.contraction(&self.blocks[index], inputs);
-            let before = &self.blocks[index].contraction;
+            let before = &self.blocks[index].length_state[..channels];
             let changes =
                 |lane: &usize| wanted.iter().zip(before).any(|(wanted, before)| wanted[*lane] != before[*lane]);
             let changed: Vec<usize> = (0..LANES).filter(changes).collect();
             changed.iter().for_each(|&lane| self.sleep.wake_up(index as u32, lane));
             if !changed.is_empty() || *before != self.blocks[index].contraction_before {
                 let block = &mut self.blocks[index];
-                block.contraction_before = std::mem::replace(&mut block.contraction, wanted);
+                block.contraction_before = block.length_state.splice(..channels, wanted).collect();
             }
         }
     }
@@ -35,14 +35,5 @@ impl World {
             activation.map(|activation| rest + activation * (active - rest))
         };
         channels.map(of_channel).collect()
-    }
-
-    /// Factor on the lengths of a constraint of an organism: 1, but for muscles.
-    pub(in crate::world) fn contraction_of(&self, organism: &Organism, constraint: u32) -> f32 {
-        let Storage::Lane { block, first } = organism.body else { return 1.0 };
-        let block = &self.blocks[block as usize];
-        let muscles = self.templates[block.template as usize].muscles();
-        let found = muscles.binary_search_by_key(&constraint, |muscle| muscle.constraint);
-        found.map_or(1.0, |k| block.contraction[muscles[k].channel as usize][(first - block.base) as usize])
     }
 }

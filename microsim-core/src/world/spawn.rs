@@ -242,7 +242,7 @@ impl World {
     /// Puts a body into a lane of a block of its template.
     fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
-        let at_rest: Vec<[f32; LANES]> = template.channels().iter().map(|&[rest, _]| [rest; LANES]).collect();
+        let at_rest: Vec<[f32; LANES]> = template.rest_state().into_iter().map(|rest| [rest; LANES]).collect();
         let template = self.template_index(template);
         let Self { blocks, particles, scratch, .. } = self;
         let vacancies = &mut scratch.vacancies;
@@ -252,16 +252,16 @@ impl World {
             blocks.len() - 1
         });
         let block = &mut blocks[index];
-        if block.template != template || block.contraction.len() != at_rest.len() {
-            block.contraction.clone_from(&at_rest);
+        if block.template != template || block.length_state.len() != at_rest.len() {
+            block.length_state.clone_from(&at_rest);
         }
         block.template = template;
         vacancies.add(block, index);
         let lane = block.free_lane().unwrap_or(0);
         block.owner[lane] = owner;
         block.scale[lane] = scale;
-        for (contraction, rest) in block.contraction.iter_mut().zip(&at_rest) {
-            contraction[lane] = rest[lane];
+        for (row, rest) in block.length_state.iter_mut().zip(&at_rest) {
+            row[lane] = rest[lane];
         }
         self.sleep.wake_up(index as u32, lane);
         for (slot, particle) in (0u32..).zip(planned) {

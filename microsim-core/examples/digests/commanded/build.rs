@@ -8,7 +8,7 @@ use microsim_core::{
     AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, Emitter, EmitterId, Error,
     FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd, JointId, JointKind,
     JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, Recipe,
-    Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig,
+    Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig, YieldingDistance,
 };
 use std::f32::consts::TAU;
 
@@ -75,7 +75,7 @@ fn pour(world: &mut World) -> Result<(), Error> {
     Ok(())
 }
 
-/// A ring that keeps its length and area, with a muscle across.
+/// A ring that keeps its length and area, with a muscle across and a link that flows and tears.
 fn slime() -> Result<Template, Error> {
     let mut builder = Template::builder();
     let corner = |k: u8| 3.0 * unit_vector(f32::from(k) * TAU / 16.0);
@@ -84,6 +84,13 @@ fn slime() -> Result<Template, Error> {
     builder.constraint(Area { ring, rest_area: 27.0, compliance: 1e-4, is_upper_bound: false });
     let channel = builder.name("slime").channel([1.0, 0.6]);
     builder.muscle(channel, Distance { a: 0, b: 8, rest_length: 6.0, compliance: 1e-4, damping: 0.0 });
+    builder.constraint(YieldingDistance {
+        yield_strain: 0.02,
+        flow_rate: 2.0,
+        max_plastic_strain: 0.1,
+        breaking_strain: 0.15,
+        ..Distance { a: 4, b: 12, rest_length: 6.0, compliance: 1e-3, damping: 0.02 }.into()
+    });
     builder.build()
 }
 

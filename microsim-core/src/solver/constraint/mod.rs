@@ -7,6 +7,7 @@ mod conservative_distance;
 mod distance;
 mod min_distance;
 mod rope;
+mod yielding_distance;
 
 pub use anchor::Anchor;
 pub use area::Area;
@@ -16,6 +17,8 @@ pub use conservative_distance::ConservativeDistance;
 pub use distance::Distance;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
+pub(crate) use yielding_distance::TORN;
+pub use yielding_distance::YieldingDistance;
 
 use super::lanes::Span;
 use crate::error::Error;
@@ -43,6 +46,7 @@ pub enum Constraint {
     Rope(Rope),
     Bend(Bend),
     ConservativeDistance(ConservativeDistance),
+    YieldingDistance(YieldingDistance),
 }
 
 /// What every kind of constraint says of itself.
@@ -85,6 +89,7 @@ impl Constraint {
             Self::Rope(c) => task.run(c),
             Self::Bend(c) => task.run(c),
             Self::ConservativeDistance(c) => task.run(c),
+            Self::YieldingDistance(c) => task.run(c),
         }
     }
 
@@ -171,7 +176,7 @@ mod tests {
     use super::*;
 
     /// One of each kind, between nodes 0, 1 and 2.
-    fn kinds() -> [Constraint; 7] {
+    fn kinds() -> [Constraint; 8] {
         let (a, b, rest_length, compliance) = (0, 1, 1.0, 0.0);
         [
             Constraint::from(Distance { a, b, rest_length, compliance, damping: 0.0 }),
@@ -181,6 +186,7 @@ mod tests {
             Rope { a, b, max_length: 1.0 }.into(),
             Bend::new([0, 1, 2], 0.0, compliance).into(),
             ConservativeDistance { a, b, rest_length, compliance, damping: 0.0 }.into(),
+            YieldingDistance::from(Distance { a, b, rest_length, compliance, damping: 0.0 }).into(),
         ]
     }
 

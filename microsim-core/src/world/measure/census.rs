@@ -18,7 +18,7 @@ pub struct Census {
     pub bodies: usize,
     /// All live particles: discs, fluid and static points.
     pub particles: usize,
-    /// Constraints, without contacts and fluid density.
+    /// Constraints, without contacts, fluid density and links that tore.
     pub constraints: usize,
     /// Cytoplasm particles outside their own membrane (ray cast, thesis, 3.1.3).
     pub leaks: usize,
@@ -41,7 +41,7 @@ impl World {
     pub fn census(&self) -> Census {
         let of_body = |organism: &Organism| match organism.body.membrane() {
             Some(_) => organism.outline.len(),
-            None => self.constraints_of(organism).len(),
+            None => self.whole_constraints_of(organism).count(),
         };
         let constraints = self.organisms.iter().map(|(_, organism)| of_body(organism)).sum();
         Census {
@@ -64,6 +64,18 @@ impl World {
             Storage::Lane { block, .. } => self.templates[self.blocks[block as usize].template as usize].constraints(),
             Storage::Loose { .. } => &[],
         }
+    }
+
+    /// The same without links that tore.
+    pub(in crate::world) fn whole_constraints_of<'a>(
+        &'a self,
+        organism: &'a Organism,
+    ) -> impl Iterator<Item = &'a Constraint> {
+        let is_whole = move |constraint: &Constraint, k| {
+            !matches!(constraint, Constraint::YieldingDistance(_)) || self.length_factor(organism, k) > 0.0
+        };
+        let constraints = self.constraints_of(organism).iter().zip(0..);
+        constraints.filter(move |&(constraint, k)| is_whole(constraint, k)).map(|(constraint, _)| constraint)
     }
 
     pub(in crate::world) fn bodies(&self) -> usize {

@@ -140,7 +140,7 @@ impl World {
         errors
     }
 
-    /// Relative error of each rigid link between neighbours of a templated outline, positive when stretched.
+    /// Relative error of each link between neighbours of a templated outline, positive when stretched; not of those that tore.
     fn outline_strains<'a>(&'a self, organism: &'a Organism) -> impl Iterator<Item = f32> + 'a {
         let scale = self.scale_of(organism);
         let is_outline = |node: u32| self.particles.role[organism.body.particle(node) as usize] == Role::Membrane as u8;
@@ -148,12 +148,14 @@ impl World {
             let ([node_a, node_b], rest_length) = match constraint {
                 Constraint::Distance(c) => ([c.a, c.b], c.rest_length),
                 Constraint::ConservativeDistance(c) => ([c.a, c.b], c.rest_length),
+                Constraint::YieldingDistance(c) => ([c.a, c.b], c.rest_length),
                 _ => return None,
             };
             let (a, b) = (organism.body.particle(node_a) as usize, organism.body.particle(node_b) as usize);
             let is_ring_link = is_outline(node_a) && is_outline(node_b) && rest_length > 0.0;
-            let rest_length = || rest_length * scale * self.contraction_of(organism, k);
-            is_ring_link.then(|| self.particles.between(a, b).length() / rest_length() - 1.0)
+            let rest_length = || rest_length * scale * self.length_factor(organism, k);
+            let rest_length = is_ring_link.then(rest_length).filter(|&rest_length| rest_length > 0.0)?;
+            Some(self.particles.between(a, b).length() / rest_length - 1.0)
         })
     }
 

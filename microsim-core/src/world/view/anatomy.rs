@@ -18,7 +18,8 @@ pub enum Bond<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Every link of a membrane and of a constraint ([`Constraint::links`]), and every joint, with the positions of its two ends.
+    /// Every link of a membrane and of a constraint ([`Constraint::links`]) that has not torn, and every joint, with the positions
+    /// of its two ends.
     pub fn bonds(self) -> impl Iterator<Item = (Bond<'a>, [Vec2; 2])> + 'a {
         let organisms = self.world.organisms.iter();
         let bonds = organisms.flat_map(move |(_, organism)| self.bonds_of(organism));
@@ -37,7 +38,8 @@ impl<'a> View<'a> {
         let rings = organism.membranes().map(|(_, ring)| ring);
         let links = rings.flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]));
         let mut bonds: Vec<_> = links.map(|link| (Bond::Membrane, link)).collect();
-        for constraint in self.world.constraints_of(organism) {
+        let whole = self.world.whole_constraints_of(organism);
+        for constraint in whole {
             let links = constraint.links().into_iter().map(|link| link.map(|node| organism.body.particle(node)));
             bonds.extend(links.map(|link| (Bond::Constraint(constraint), link)));
         }

@@ -1,6 +1,7 @@
 //! A read-only view for drawing and measuring.
 
 pub(crate) mod anatomy;
+pub(crate) mod links;
 mod mechanics;
 pub(crate) mod moment;
 

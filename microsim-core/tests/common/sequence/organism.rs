@@ -1,9 +1,10 @@
 //! Calls for organisms: spawning, inputs, division, growth, controllers, own templates.
 
-use super::{Outcome, Sequence};
+use super::{Choices, Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    Actuation, Bend, ChemicalSpec, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template,
+    Actuation, Bend, ChemicalSpec, Distance, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template,
+    YieldingDistance,
 };
 
 impl Sequence<'_> {
@@ -121,6 +122,23 @@ impl Sequence<'_> {
             builder.muscle(channel, Rope { a: 0, b: c.below(3) as u32, max_length: c.number(1.0, 4.0) });
             builder.propulsion(Propulsion { speed: c.number(1.0, 20.0), max_acceleration: c.number(1.0, 100.0) });
         }
+        for _ in 0..c.below(6) / 2 {
+            builder.constraint(yielding(c));
+        }
         builder.build()
+    }
+}
+
+/// A link that a push makes flow or tear.
+fn yielding(c: &mut Choices<'_>) -> YieldingDistance {
+    let a = c.below(2) as u32;
+    let b = a + 1 + c.below(2) as u32;
+    let (rest_length, compliance, damping) = (c.number(0.5, 4.0), c.number(1e-4, 1e-2), c.number(0.0, 0.1));
+    YieldingDistance {
+        yield_strain: c.number(0.0, 0.3),
+        flow_rate: c.number(0.0, 20.0),
+        max_plastic_strain: c.number(0.0, 1.0),
+        breaking_strain: c.number(0.1, 1.0),
+        ..Distance { a, b, rest_length, compliance, damping }.into()
     }
 }

@@ -11,6 +11,7 @@ use crate::organism::ring_surgery::LEAST_NODES;
 use crate::organism::{MOST_WANTED_NODES, Organism, Phagosome, Storage};
 use crate::particle::{CollisionGroups, NO_OWNER};
 use crate::solver::block::Block;
+use crate::solver::constraint::TORN;
 use crate::solver::lanes::LANES;
 use crate::world::scale::SCALES;
 use crate::world::{Guard, MOST_COUNTED, World};
@@ -108,8 +109,10 @@ fn check_blocks(world: &World, owned: &mut [u32]) -> Check {
         none.must(fits, || {
             format!("block {k} lies at {first}, where {} slots of template {} do not", block.slots, block.template)
         })?;
-        let channels = template.map_or(0, |template| template.channels().len());
-        none.must(channels == block.contraction.len(), || format!("block {k} has not the channels of its template"))?;
+        let rows = template.map_or(0, |template| template.rest_state().len());
+        none.must(rows == block.length_state.len(), || {
+            format!("block {k} has not the channels and links of its template")
+        })?;
         for (lane, &owner) in block.owner.iter().enumerate() {
             check_lane(world, k, block, lane)?;
             let owner = if owner == NO_OWNER { EMPTY_LANE } else { owner };
@@ -125,8 +128,16 @@ fn check_lane(world: &World, k: usize, block: &Block, lane: usize) -> Check {
     let (organisms, none, owner) = (&world.organisms, Subject::default(), block.owner[lane]);
     let [least, most] = SCALES;
     none.must_range(&format!("scale of lane {lane} of block {k}"), block.scale[lane], least, most)?;
-    for contraction in &block.contraction {
+    let Some(template) = world.templates.get(block.template as usize) else { return Ok(()) };
+    for contraction in &block.length_state[..template.channels().len()] {
         none.must_range(&format!("contraction in lane {lane} of block {k}"), contraction[lane], 0.099, 10.1)?;
+    }
+    for (link, scaled) in template.yielding_links() {
+        let plastic = scaled.link.map_or(0.0, |row| block.length_state[row as usize][lane]);
+        let [least, most] = link.bounds();
+        none.must(plastic == TORN || (least..=most).contains(&plastic), || {
+            format!("plastic strain {plastic} in lane {lane} of block {k}")
+        })?;
     }
     let holder = organisms.id_at(owner).and_then(|id| organisms.get(id));
     let place = holder.and_then(|organism| match organism.body {

@@ -5,9 +5,9 @@ use crate::particle::sleep::Sleep;
 use crate::world::joint::JointRecord;
 use crate::world::supply::EmitterRecord;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Drain, Emitter, Exchange,
-    FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Placement, PlateletSpec, Recipe,
-    Region, World, WorldConfig, glam::Vec2,
+    AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Distance, Drain, Emitter,
+    Exchange, FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Node, Placement,
+    PlateletSpec, Recipe, Region, Template, World, WorldConfig, YieldingDistance, glam::Vec2,
 };
 
 /// One of each storage: a membrane with cytoplasm, two lanes of blocks, free fluid, a chemical.
@@ -162,7 +162,7 @@ fn damage_to_fields_emitters_and_drains_is_found() {
 
 #[test]
 fn damage_to_muscles_and_gravity_scales_is_found() {
-    finds(|w| w.blocks[0].contraction.push([1.0; 8]), "has not the channels of its template");
+    finds(|w| w.blocks[0].length_state.push([1.0; 8]), "has not the channels and links of its template");
     finds(
         |w| {
             let id = w.organisms().next().unwrap();
@@ -170,6 +170,24 @@ fn damage_to_muscles_and_gravity_scales_is_found() {
         },
         "gravity scale is NaN",
     );
+}
+
+#[test]
+fn damage_to_plastic_strains_is_found() {
+    let mut builder = Template::builder();
+    [0.0, 2.0].into_iter().for_each(|x| _ = builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    let spring = Distance { a: 0, b: 1, rest_length: 2.0, compliance: 1e-3, damping: 0.0 };
+    builder.constraint(YieldingDistance { max_plastic_strain: 0.5, ..spring.into() });
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let template = world.add_template(builder.build().unwrap());
+    world.spawn_template(template, Placement::at(40.0, 45.0)).unwrap();
+    for (plastic, is_sound) in [(0.5, true), (-0.5, true), (-1.0, true), (0.6, false), (-0.6, false), (f32::NAN, false)]
+    {
+        world.blocks[0].length_state[0][0] = plastic;
+        let violation = world.validate().err().map(|it| it.to_string()).unwrap_or_default();
+        assert_eq!(violation.is_empty(), is_sound, "{plastic}: {violation}");
+        assert!(is_sound || violation.contains("plastic strain"), "{violation}");
+    }
 }
 
 #[test]
