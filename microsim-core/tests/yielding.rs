@@ -344,3 +344,24 @@ fn growth_and_activation_are_no_strain_but_what_resists_them_is() {
         world.remove(muscle).unwrap();
     }
 }
+
+#[test]
+fn in_a_chain_strains_exceed_those_of_the_load_by_the_share_that_the_field_says() {
+    const LINKS: u32 = 5;
+    for time in TIMES {
+        let mut builder = Template::builder();
+        builder.node(Node::fixed(Vec2::ZERO));
+        (1..=LINKS).for_each(|k| _ = builder.node(Node::disc(Vec2::new(k as f32, 0.0), 1.0, 0.2)));
+        let (compliance, damping) = (5e-3, 0.02);
+        (0..LINKS).for_each(|a| _ = builder.constraint(YieldingDistance { a, b: a + 1, ..link(compliance, damping) }));
+        let config = pulled(time).config().clone();
+        let mut world = World::new(WorldConfig { damping: 1.0, sleeps: false, ..config }).unwrap();
+        let id = spawn(&mut world, builder.build().unwrap());
+        run(&mut world, &Inputs::new(), 20.0);
+        let (h, load) = (time.0 / time.1 as f32, 10.0 * LINKS as f32 * compliance);
+        let excess = (length(&world, id) - 1.0) / load - 1.0;
+        // But for the last node, whose link is projected last.
+        let expected = h * (h + damping) / compliance * (LINKS - 1) as f32 / LINKS as f32;
+        assert!((excess / expected - 1.0).abs() < 0.05, "{time:?}: {excess} of the strain, not {expected}");
+    }
+}
