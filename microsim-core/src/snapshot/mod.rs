@@ -34,7 +34,7 @@ use serde::de::DeserializeOwned;
 use std::fmt;
 
 /// Changes with every change of a type that is part of a world, except for a new kind of constraint at the end of the list.
-const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 10 };
+const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 11 };
 
 /// Content of a snapshot of a world.
 type Content = (Vec<ObstacleRecord>, WorldState);
