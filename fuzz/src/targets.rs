@@ -102,7 +102,7 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 const WORLD: [u8; 8] = *b"MSIMWRLD";
 const WORLD_VERSION: u32 = 11;
 /// Of checkpoints.
-const RUN_VERSION: u32 = 6;
+const RUN_VERSION: u32 = 7;
 /// Of replays.
 const REPLAY_VERSION: u32 = 4;
 

@@ -1,7 +1,10 @@
 //! Force fields as plain data: an acceleration in a region, or the kicks of molecules there.
 
+mod grid;
+
 use crate::error::{Error, in_range};
 use glam::Vec2;
+pub use grid::AccelerationGrid;
 use serde::{Deserialize, Serialize};
 
 /// Largest coordinate and radius, units.
@@ -34,7 +37,7 @@ pub enum Region {
 }
 
 /// The acceleration of what is in a field, whatever its mass, units/s2. Its components, or its size, are within ±1 000 000.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum FieldKind {
     /// The same everywhere.
@@ -66,10 +69,12 @@ pub enum FieldKind {
         /// Diffusion coefficient times radius, cubic units/s, 0 to 10 000.
         mobility: f32,
     },
+    /// As the nodes of a grid say.
+    Grid(AccelerationGrid),
 }
 
 /// A force field, see [`crate::World::add_field`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForceField {
     /// Where it acts.
     pub region: Region,
@@ -78,19 +83,20 @@ pub struct ForceField {
 }
 
 impl ForceField {
-    /// Acceleration of what is at a point, units/s2; zero outside of its region, at the centre of a radial field or vortex, and
-    /// in a thermal field.
+    /// Acceleration of what is at a point, units/s2; zero outside of its region and of its grid, at the centre of a radial field or
+    /// vortex, and in a thermal field.
     #[must_use]
     pub fn acceleration_at(&self, point: Vec2) -> Vec2 {
         if !self.region.contains(point) {
             return Vec2::ZERO;
         }
         let outward = |centre: Vec2| (point - centre).normalize_or_zero();
-        match self.kind {
-            FieldKind::Uniform { acceleration } => acceleration,
-            FieldKind::Radial { centre, acceleration } => outward(centre) * acceleration,
-            FieldKind::Vortex { centre, acceleration } => outward(centre).perp() * acceleration,
+        match &self.kind {
+            &FieldKind::Uniform { acceleration } => acceleration,
+            &FieldKind::Radial { centre, acceleration } => outward(centre) * acceleration,
+            &FieldKind::Vortex { centre, acceleration } => outward(centre).perp() * acceleration,
             FieldKind::Thermal { .. } => Vec2::ZERO,
+            FieldKind::Grid(grid) => grid.acceleration_at(point),
         }
     }
 
@@ -166,6 +172,8 @@ impl FieldKind {
                 in_range("acceleration", acceleration, -STRONGEST, STRONGEST)
             }
             Self::Thermal { mobility } => in_range("mobility", mobility, 0.0, MOST_MOBILE),
+            // It was checked when it was made.
+            Self::Grid(_) => Ok(()),
         }
     }
 }
@@ -185,22 +193,22 @@ mod tests {
         let circle = Region::Circle { centre, radius: 5.0 };
         let at = |region, kind, x, y| ForceField { region, kind }.acceleration_at(Vec2::new(x, y));
         let radial = FieldKind::Radial { centre, acceleration: -2.0 };
-        assert_eq!(at(circle, radial, 13.0, 10.0), Vec2::new(-2.0, 0.0));
-        assert_eq!(at(circle, radial, 16.0, 10.0), Vec2::ZERO);
+        assert_eq!(at(circle, radial.clone(), 13.0, 10.0), Vec2::new(-2.0, 0.0));
+        assert_eq!(at(circle, radial.clone(), 16.0, 10.0), Vec2::ZERO);
         assert_eq!(at(circle, radial, 10.0, 10.0), Vec2::ZERO);
         assert_eq!(at(Region::All, FieldKind::Vortex { centre, acceleration: 2.0 }, 13.0, 10.0), Vec2::new(0.0, 2.0));
         let below = Region::Box { low: Vec2::ZERO, high: Vec2::new(9.0, 4.0) };
         let wind = FieldKind::Uniform { acceleration: Vec2::X };
-        assert_eq!((at(below, wind, 9.0, 4.0), at(below, wind, 9.0, 4.1)), (Vec2::X, Vec2::ZERO));
+        assert_eq!((at(below, wind.clone(), 9.0, 4.0), at(below, wind, 9.0, 4.1)), (Vec2::X, Vec2::ZERO));
     }
 
     #[test]
     fn every_number_out_of_range_is_named() {
         let refused = |region, kind| ForceField { region, kind }.validate().unwrap_err().field().to_owned();
-        let (centre, wind) = (Vec2::ZERO, FieldKind::Uniform { acceleration: Vec2::X });
-        assert_eq!(refused(Region::Circle { centre, radius: -1.0 }, wind), "region.radius");
-        assert_eq!(refused(Region::Circle { centre: Vec2::NAN, radius: 1.0 }, wind), "region.centre.x");
-        assert_eq!(refused(Region::Box { low: Vec2::ONE, high: Vec2::X }, wind), "region.high.y");
+        let (centre, wind) = (Vec2::ZERO, || FieldKind::Uniform { acceleration: Vec2::X });
+        assert_eq!(refused(Region::Circle { centre, radius: -1.0 }, wind()), "region.radius");
+        assert_eq!(refused(Region::Circle { centre: Vec2::NAN, radius: 1.0 }, wind()), "region.centre.x");
+        assert_eq!(refused(Region::Box { low: Vec2::ONE, high: Vec2::X }, wind()), "region.high.y");
         let blown = FieldKind::Uniform { acceleration: Vec2::new(0.0, 2e6) };
         assert_eq!(refused(Region::All, blown), "kind.acceleration.y");
         assert_eq!(refused(Region::All, FieldKind::Thermal { mobility: -1.0 }), "kind.mobility");

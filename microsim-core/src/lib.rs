@@ -153,7 +153,7 @@ pub mod bodies {
 /// Forces on organisms and nodes, for a step or in a region.
 pub mod forces {
     pub use crate::actuation::Actuation;
-    pub use crate::force_field::{FieldKind, ForceField, Region};
+    pub use crate::force_field::{AccelerationGrid, FieldKind, ForceField, Region};
     pub use crate::id::FieldId;
 }
 

@@ -9,12 +9,12 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec, CoccusSpec,
-    CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error, ErrorKind,
-    Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent, JointEnd,
-    JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec,
-    PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec, Rope, Template,
-    TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
+    AccelerationGrid, Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec,
+    CoccusSpec, CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error,
+    ErrorKind, Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Inputs, Intent,
+    JointEnd, JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId,
+    OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec,
+    Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
 };
 use sources::sources;
 use std::collections::BTreeSet;
@@ -293,6 +293,8 @@ const CASES: &[Case] = &[
     ("World::add_joint", "Unsupported", "b", |r| r.world.add_joint(JointSpec { a: JointEnd::Point(Vec2::ONE), ..r.joint(JointKind::Pin) }).unwrap_err()),
     ("World::set_joint", "Stale", "joint", |r| { let joint = r.stale_joint(); r.world.set_joint(joint, r.joint(JointKind::Pin)).unwrap_err() }),
     ("World::remove_joint", "Stale", "joint", |r| { let joint = r.stale_joint(); r.world.remove_joint(joint).unwrap_err() }),
+    ("AccelerationGrid::new", "OutOfRange", "nodes", |_| AccelerationGrid::new(Vec2::ZERO, Vec2::ONE, [2, 2], Vec::new()).unwrap_err()),
+    ("AccelerationGrid::sampled", "OutOfRange", "nodes[0].x", |_| AccelerationGrid::sampled(Vec2::ZERO, Vec2::ONE, [2, 2], |_| Vec2::NAN).unwrap_err()),
     ("ForceField::validate", "OutOfRange", "region.radius", |_| circle(-1.0).validate().unwrap_err()),
     ("World::add_field", "OutOfRange", "region.radius", |r| r.world.add_field(circle(f32::NAN)).unwrap_err()),
     ("World::set_field", "Stale", "field", |r| { let field = r.stale_field(); r.world.set_field(field, circle(1.0)).unwrap_err() }),

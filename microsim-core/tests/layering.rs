@@ -20,7 +20,7 @@ const LAYERS: &[(&str, &str)] = &[
     ("kind", "id"),
     ("inputs", "actuation error float_environment id"),
     ("joint", "config error id"),
-    ("force_field", "error"),
+    ("force_field", "error float_environment"),
     ("collider", "id"),
     ("event", "collider id kind"),
     ("collision", "geometry instruction_set parallel particle shared"),

@@ -2,9 +2,9 @@
 
 use crate::id::OrganismId;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting, Controller,
-    DivisionParams, Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind, Node,
-    Obstacle, ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
+    AccelerationGrid, AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting,
+    Controller, DivisionParams, Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec,
+    Kind, Node, Obstacle, ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -49,7 +49,11 @@ fn change_joints_and_fields(step: u32, world: &mut World) -> Result<(), Error> {
         7 => world.set_joint(joint.unwrap().id, JointSpec { kind: JointKind::Rope { max_length: 12.0 }, ..rope })?,
         8 => world.remove_joint(joint.unwrap().id)?,
         9 => drop(world.add_field(wind)?),
-        10 => world.set_field(field.unwrap(), ForceField { region: Region::All, ..wind })?,
+        10 => {
+            let saddle = |at: Vec2| 0.1 * (at - 20.0) * Vec2::new(1.0, -1.0);
+            let grid = AccelerationGrid::sampled(Vec2::ZERO, Vec2::splat(40.0), [4, 4], saddle)?;
+            world.set_field(field.unwrap(), ForceField { kind: FieldKind::Grid(grid), ..wind })?;
+        }
         11 => world.remove_field(field.unwrap())?,
         _ => {}
     }

@@ -90,7 +90,7 @@ impl Scenario {
     fn fill(&self, built: &mut Built, context: &ReadContext<'_>) -> Vec<Spawner> {
         let File { config, medium, chemicals, obstacles, groups, supplies, .. } = &self.file;
         if let Some(field) = medium {
-            context.check("medium", built.world.add_field(*field));
+            context.check("medium", built.world.add_field(field.clone()));
         }
         for (name, spec) in chemicals {
             if let Some(id) = context.check(&format!("chemical.{name}"), built.world.add_chemical(*spec)) {

@@ -2,12 +2,12 @@
 
 use crate::capability::phagocytosis::MealPhase;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec, ChemotaxisParams,
-    CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl, Distance, Drain,
-    Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs, Intent, JointEnd,
-    JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Outlet,
-    PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal, Region, RigidCellSpec,
-    Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig, YieldingDistance,
+    AccelerationGrid, AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec,
+    ChemotaxisParams, CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl,
+    Distance, Drain, Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs,
+    Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId,
+    OrganismSpec, Outlet, PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal,
+    Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig, YieldingDistance,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -126,12 +126,14 @@ fn blow(world: &mut World) {
         FieldKind::Radial { centre, acceleration: 0.0 },
         FieldKind::Vortex { centre, acceleration: 0.0 },
         FieldKind::Thermal { mobility: 0.0 },
+        FieldKind::Grid(AccelerationGrid::sampled(Vec2::ZERO, centre, [3, 2], |at| 1e-3 * at).unwrap()),
     ];
     let circle = Region::Circle { centre, radius: 5.0 };
-    let regions = [Region::All, circle, Region::Box { low: Vec2::ZERO, high: centre }, circle];
+    let regions = [Region::All, circle, Region::Box { low: Vec2::ZERO, high: centre }, circle, Region::All];
+    let calm = kinds[0].clone();
     let fields = kinds.into_iter().zip(regions).map(|(kind, region)| ForceField { region, kind });
     let fields: Vec<_> = fields.map(|field| world.add_field(field).unwrap()).collect();
-    let gone = world.add_field(ForceField { region: regions[0], kind: kinds[0] }).unwrap();
+    let gone = world.add_field(ForceField { region: regions[0], kind: calm }).unwrap();
     world.remove_field(gone).unwrap();
     assert_eq!(fields.len(), world.fields().count());
 }

@@ -8,7 +8,7 @@ use crate::scenario::{Built, Checks, Origin, Script};
 use crate::world::World;
 
 /// Changes with every change of a type that is part of a run, but not with one of a world.
-pub(super) const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 6 };
+pub(super) const RUN: Format = Format { magic: *b"MSIMRUN\0", version: 7 };
 
 /// Content of a checkpoint; the world is a snapshot.
 pub(super) type Content =

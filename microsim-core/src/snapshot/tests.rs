@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::{
-    AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, Controller, Event, FluidBlockSpec, Inputs, Intent,
-    OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, WorldConfig,
+    AccelerationGrid, AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, Controller, Event, FieldKind,
+    FluidBlockSpec, ForceField, Inputs, Intent, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, Region,
+    RigidCellSpec, WorldConfig,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -118,6 +119,27 @@ fn forge(content: &[u8]) -> Result<World, SnapshotError> {
 fn read_back(world: &World) {
     let again = World::from_snapshot(&world.to_snapshot().unwrap());
     assert_eq!(again.map(|again| again.digest()), Ok(world.digest()));
+}
+
+#[test]
+fn a_forged_grid_of_accelerations_is_refused() {
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let grid = AccelerationGrid::sampled(Vec2::ZERO, Vec2::ONE, [2, 2], |_| Vec2::splat(7.25)).unwrap();
+    world.add_field(ForceField { region: Region::All, kind: FieldKind::Grid(grid) }).unwrap();
+    let honest = content(&world);
+    let node = honest.windows(4).position(|bytes| bytes == 7.25_f32.to_le_bytes()).unwrap();
+    forge(&honest).unwrap();
+    for value in [f32::NAN, f32::INFINITY, -2e6] {
+        let mut forged = honest.clone();
+        forged[node..node + 4].copy_from_slice(&value.to_le_bytes());
+        forge(&forged).unwrap_err();
+    }
+    // Columns, rows and the number of nodes lie before the nodes.
+    for k in 1..=3 {
+        let mut forged = honest.clone();
+        forged[node - k] += 1;
+        forge(&forged).unwrap_err();
+    }
 }
 
 #[test]

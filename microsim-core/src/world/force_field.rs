@@ -26,8 +26,8 @@ impl World {
     /// Names the number that is out of its range; in a thermal field for some body here, see [`FieldKind::Thermal`].
     pub fn add_field(&mut self, field: ForceField) -> Result<FieldId, Error> {
         field.validate()?;
-        self.check_field(None, field)?;
-        let id = FieldId::of(self.fields.insert(Box::new(field)));
+        self.check_field(None, &field)?;
+        let id = FieldId::of(self.fields.insert(Box::new(field.clone())));
         self.changed(|| WorldChange::AddField(field));
         Ok(id)
     }
@@ -38,8 +38,8 @@ impl World {
     /// As for [`World::add_field`], and when the handle is stale.
     pub fn set_field(&mut self, id: FieldId, field: ForceField) -> Result<(), Error> {
         field.validate()?;
-        self.check_field(Some(id), field)?;
-        **self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))? = field;
+        self.check_field(Some(id), &field)?;
+        (**self.fields.get_mut(id.handle()).ok_or_else(|| Error::stale("field"))?).clone_from(&field);
         self.changed(|| WorldChange::SetField(id, field));
         Ok(())
     }

@@ -337,7 +337,7 @@ mod tests {
         assert!(world.view().organism(inside).unwrap().is_at_rest());
         let region = Region::Circle { centre: Vec2::new(20.0, 45.0), radius: 15.0 };
         let wind = ForceField { region, kind: FieldKind::Uniform { acceleration: Vec2::new(6.0, 0.0) } };
-        let field = world.add_field(wind).unwrap();
+        let field = world.add_field(wind.clone()).unwrap();
         run(&mut world, 60);
         let moved = [inside, outside].map(|id| world.view().organism(id).unwrap().velocity().x);
         assert!((moved[0] - 6.0).abs() < 0.06 && moved[1] == 0.0, "{moved:?}");

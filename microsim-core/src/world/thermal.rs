@@ -84,9 +84,9 @@ impl World {
     }
 
     /// The same with one more field, or one in the place of another.
-    pub(super) fn check_field(&self, old: Option<FieldId>, new: ForceField) -> Result<(), Error> {
+    pub(super) fn check_field(&self, old: Option<FieldId>, new: &ForceField) -> Result<(), Error> {
         let others = self.fields().filter(|(id, _)| Some(*id) != old).map(|(_, field)| field);
-        let mobility = most_mobile(others.chain([&new]));
+        let mobility = most_mobile(others.chain([new]));
         self.check_bodies(mobility, &self.config).map_err(|error| error.within("kind"))
     }
 

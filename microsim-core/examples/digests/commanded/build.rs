@@ -5,10 +5,10 @@ use microsim_core::geometry::unit_vector;
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, Emitter, EmitterId, Error,
-    FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd, JointId, JointKind,
-    JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement, PlateletSpec, Recipe,
-    Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig, YieldingDistance,
+    AccelerationGrid, AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, Emitter,
+    EmitterId, Error, FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd,
+    JointId, JointKind, JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement,
+    PlateletSpec, Recipe, Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig, YieldingDistance,
 };
 use std::f32::consts::TAU;
 
@@ -157,6 +157,7 @@ fn spawn_cells(world: &mut World) -> Result<[OrganismId; 2], Error> {
 fn blow_and_emit(world: &mut World) -> Result<(FieldId, EmitterId), Error> {
     let circle = |x, y, radius| Region::Circle { centre: Vec2::new(x, y), radius };
     let within = |low: [f32; 2], high: [f32; 2]| Region::Box { low: low.into(), high: high.into() };
+    let (low, high) = (Vec2::new(180.0, 80.0), Vec2::new(240.0, 116.0));
     let (sink, eddy) = (Vec2::new(150.0, 60.0), Vec2::new(200.0, 60.0));
     let wind = FieldKind::Uniform { acceleration: Vec2::new(0.0, 25.0) };
     let wind = world.add_field(ForceField { region: within([10.0, 0.0], [30.0, 50.0]), kind: wind })?;
@@ -164,6 +165,7 @@ fn blow_and_emit(world: &mut World) -> Result<(FieldId, EmitterId), Error> {
         (circle(sink.x, sink.y, 20.0), FieldKind::Radial { centre: sink, acceleration: -8.0 }),
         (circle(eddy.x, eddy.y, 20.0), FieldKind::Vortex { centre: eddy, acceleration: 12.0 }),
         (circle(60.0, 103.0, 30.0), FieldKind::Thermal { mobility: 5.0 }),
+        (Region::All, FieldKind::Grid(AccelerationGrid::sampled(low, high, [9, 5], |at| 0.25 * (at - low).perp())?)),
     ] {
         world.add_field(ForceField { region, kind })?;
     }

@@ -3,8 +3,8 @@
 use super::{Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    CollisionGroups, ContactReporting, Drain, Emitter, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Kind,
-    OrganismId, Recipe, Region,
+    AccelerationGrid, CollisionGroups, ContactReporting, Drain, Emitter, Error, FieldKind, ForceField, JointEnd,
+    JointKind, JointSpec, Kind, OrganismId, Recipe, Region,
 };
 
 impl Sequence<'_> {
@@ -85,9 +85,17 @@ impl Sequence<'_> {
         }
     }
 
+    fn grid(&mut self, high: Vec2) -> Result<AccelerationGrid, Error> {
+        let (low, count) = (self.place(), [1, 2, 3, 5].map(|least| least + u32::from(self.choices.flag())));
+        let size = [count[self.choices.below(4)], count[self.choices.below(4)]];
+        let (one, other) = (self.vector(100.0), self.vector(10.0));
+        AccelerationGrid::sampled(low, high, size, |at| one + other.perp() * (0.1 * (at.x - at.y)))
+    }
+
     pub(super) fn change_field(&mut self) -> Outcome {
         let (centre, acceleration, count) = (self.place(), self.choices.number(-200.0, 200.0), self.fields.len());
-        let kind = match self.choices.below(4) {
+        let kind = match self.choices.below(5) {
+            4 => FieldKind::Grid(self.grid(centre)?),
             3 => FieldKind::Thermal { mobility: self.choices.number(0.0, 20.0) },
             0 => FieldKind::Uniform { acceleration: self.vector(100.0) },
             1 => FieldKind::Radial { centre, acceleration },
