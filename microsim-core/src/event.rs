@@ -202,7 +202,7 @@ pub enum Event {
     },
 }
 
-/// Why a cell does not divide or fuse.
+/// Why a cell does not divide or fuse, or a body does not divide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Refusal {
@@ -226,6 +226,8 @@ pub enum Refusal {
     NoPartner,
     /// The world would hold too many particles.
     WorldFull,
+    /// A half of a body has no room, or cannot go on as its template says.
+    NoRoom,
 }
 
 impl Refusal {
@@ -243,6 +245,7 @@ impl Refusal {
             Self::PlaceTaken => "place_taken",
             Self::NoPartner => "no_partner",
             Self::WorldFull => "world_full",
+            Self::NoRoom => "no_room",
         }
     }
 }

@@ -147,7 +147,7 @@ pub mod bodies {
     pub use crate::id::TemplateId;
     pub use crate::particle::{CollisionGroups, Material};
     pub use crate::solver::constraint::*;
-    pub use crate::template::{Node, Propulsion, Role, Template, TemplateBuilder};
+    pub use crate::template::{Half, Node, Propulsion, Role, Template, TemplateBuilder};
 }
 
 /// Forces on organisms and nodes, for a step or in a region.

@@ -38,7 +38,7 @@ fn the_scene_ends_in_its_golden_digests_and_shows_everything() {
         writeln!(lines, "step {steps} particles {} digest {:016x}", census.particles, scene.world.digest()).unwrap();
     }
     let expected =
-        "ContactBegan Drained Emitted Hit JointBroken LinkTorn SensorEntered SensorLeft TouchBegan TouchEnded";
+        "ContactBegan Divided Drained Emitted Hit JointBroken LinkTorn SensorEntered SensorLeft TouchBegan TouchEnded";
     let missing: Vec<&str> = expected.split(' ').filter(|&name| !events.contains(name)).collect();
     assert!(missing.is_empty(), "nothing of {missing:?} happens, only {events:?}");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/commanded.txt");

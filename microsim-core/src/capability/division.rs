@@ -100,6 +100,12 @@ impl Divider {
         Self { params, order: None, furrow: None, lobes: 1.0, nodes_per_root: None, wanted_nodes: None }
     }
 
+    /// Whether it is as that of a body without a membrane always is, but for an order to divide.
+    pub(crate) fn is_of_body(&self) -> bool {
+        let orders = [None, Some(Order::Divide { axis: None })];
+        orders.into_iter().any(|order| *self == Self { order, ..Self::new(DivisionParams::default()) })
+    }
+
     /// Moves the length of the membrane towards what the furrow needs, or back to one circle.
     pub(crate) fn relax(&mut self, dt: f32) {
         let (target, rate) = match self.furrow {

@@ -4,7 +4,7 @@ use super::Particles;
 use glam::Vec2;
 
 /// Least moment of inertia of what can be turned.
-const LEAST_INERTIA: f32 = 1e-12;
+pub(crate) const LEAST_INERTIA: f32 = 1e-12;
 
 /// Mass, centre and velocity of the particles in a list that can move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,10 +52,29 @@ impl MassProperties {
         (inertia > LEAST_INERTIA).then_some(inertia)
     }
 
+    /// Rotation from some places, one for each of a list, to where its particles are, that fits best by mass: the vector of its cosine
+    /// and sine, times a factor, which is zero for a single particle.
+    pub(crate) fn rotation(&self, p: &Particles, list: &[u32], places: impl Iterator<Item = Vec2>) -> Vec2 {
+        let places: Vec<(Vec2, f32, usize)> = (list.iter().zip(places))
+            .flat_map(|(i, place)| movable(p, std::slice::from_ref(i)).map(move |(i, mass)| (place, mass, i)))
+            .collect();
+        let centre = places.iter().map(|&(place, mass, _)| place * mass).sum::<Vec2>() / self.mass;
+        let (mut dot, mut cross) = (0.0, 0.0);
+        for (place, mass, i) in places {
+            let (from, to) = (place - centre, self.arm(p, i));
+            dot += mass * from.dot(to);
+            cross += mass * from.perp_dot(to);
+        }
+        Vec2::new(dot, cross)
+    }
+
+    /// Angular momentum about the centre of mass.
+    pub(crate) fn angular_momentum(&self, p: &Particles, list: &[u32]) -> f32 {
+        movable(p, list).map(|(i, m)| m * self.arm(p, i).perp_dot(p.velocity(i) - self.velocity)).sum()
+    }
+
     /// Angular velocity about the centre of mass, radians/s counter-clockwise; 0 for what cannot be turned.
     pub(crate) fn angular_velocity(&self, p: &Particles, list: &[u32]) -> f32 {
-        let momentum =
-            movable(p, list).map(|(i, m)| m * self.arm(p, i).perp_dot(p.velocity(i) - self.velocity)).sum::<f32>();
-        self.inertia(p, list).map_or(0.0, |inertia| momentum / inertia)
+        self.inertia(p, list).map_or(0.0, |inertia| self.angular_momentum(p, list) / inertia)
     }
 }

@@ -3,8 +3,9 @@
 use crate::id::OrganismId;
 use crate::{
     AccelerationGrid, AgarSpec, AmoeboidCellSpec, ChemicalSpec, CoccusSpec, CollisionGroups, ContactReporting,
-    Controller, DivisionParams, Drain, Emitter, Error, Exchange, FieldKind, ForceField, JointEnd, JointKind, JointSpec,
-    Kind, Node, Obstacle, ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region, Template, World,
+    Controller, DivisionParams, Drain, Emitter, Error, Exchange, FieldKind, ForceField, Half, JointEnd, JointKind,
+    JointSpec, Kind, Node, Obstacle, ObstacleMotion, OrganismSpec, PhagocytosisParams, Placement, Recipe, Region,
+    Template, World,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -21,6 +22,7 @@ pub(super) fn meddle(step: u32, world: &mut World) -> Result<(), Error> {
     change_organisms(step, world)?;
     change_conditions(step, world)?;
     change_cell(step, world)?;
+    divide_body(step, world)?;
     resupply(step, world)
 }
 
@@ -114,6 +116,24 @@ fn change_cell(step: u32, world: &mut World) -> Result<(), Error> {
         29 => world.set_speed(cell, 5.0)?,
         30 => world.set_phagocytosis(cell, PhagocytosisParams { hold_time: 0.1, ..PhagocytosisParams::default() })?,
         31 => world.divide(cell)?,
+        _ => {}
+    }
+    Ok(())
+}
+
+/// A body that becomes heavier and divides.
+fn divide_body(step: u32, world: &mut World) -> Result<(), Error> {
+    let pair = world.organisms().find(|&id| world.kind(id) == world.template_named("pair").map(Kind::Custom));
+    match step {
+        50 => {
+            let mut builder = Template::builder();
+            [0.0, 0.9].into_iter().for_each(|x| _ = builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.4)));
+            builder.name("pair").cut([Half::of([0]).scaled(0.5), Half::of([1]).scaled(0.5)]);
+            let template = world.add_template(builder.build()?);
+            world.spawn_template(template, Placement::at(40.0, 3.0))?;
+        }
+        51 => world.set_mass(pair.unwrap(), 3.0)?,
+        52 => world.divide(pair.unwrap())?,
         _ => {}
     }
     Ok(())

@@ -4,10 +4,11 @@ use crate::capability::phagocytosis::MealPhase;
 use crate::{
     AccelerationGrid, AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec,
     ChemotaxisParams, CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl,
-    Distance, Drain, Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Inputs,
-    Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId,
-    OrganismSpec, Outlet, PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams, Recipe, Refusal,
-    Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig, YieldingDistance,
+    Distance, Drain, Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Half,
+    Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion,
+    OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams,
+    Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    YieldingDistance,
 };
 use glam::Vec2;
 use parry2d::math::Pose;
@@ -30,6 +31,7 @@ pub(super) fn world() -> World {
     world.set_exchange(eater, Exchange { chemical, secretion: 1.0, uptake: 2.0 }).unwrap();
     world.divide_along(toucher, Vec2::X).unwrap();
     world.fuse(taker, divider).unwrap();
+    divide(&mut world);
     let joint = join(&mut world, toucher, divider, platform);
     world.events = events(eater, divider, sensor, joint);
     let of_supplies = supply(&mut world, eater);
@@ -193,6 +195,18 @@ fn roped(world: &mut World) {
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0).damped(1.0, 2.0)).unwrap();
+}
+
+/// A body that is about to divide, and a template that also follows goals.
+fn divide(world: &mut World) {
+    let mut builder = Template::builder();
+    [0.0, 1.0].into_iter().for_each(|x| _ = builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.4)));
+    builder.cut([Half::of([0]).scaled(0.5), Half::of([1]).scaled(0.5)]);
+    let template = world.add_template(builder.clone().build().unwrap());
+    let body = world.spawn_template(template, Placement::at(110.0, 84.0)).unwrap();
+    world.divide(body).unwrap();
+    builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
+    world.add_template(builder.build().unwrap());
 }
 
 /// Lets cells eat until the first one digests, the second one ingests, the third one touches and the last one divides.

@@ -3,6 +3,7 @@
 //! Instances of one template have the same topology, which is what lets eight of them be solved side by side. They may
 //! differ in place, direction and size.
 
+mod cut;
 mod order;
 mod role;
 mod self_contact;
@@ -12,6 +13,8 @@ use crate::float_environment::with_default_float_environment;
 use crate::particle::{CollisionGroups, Material};
 use crate::solver::constraint::{Constraint, Distance, YieldingDistance, check_ring};
 use crate::solver::muscle::{Muscle, Scaled};
+pub use cut::Half;
+use cut::{Abilities, check_name};
 use glam::Vec2;
 use order::{in_order, rigid_links, scaled};
 pub use role::Role;
@@ -80,7 +83,7 @@ pub struct Template {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
-    propulsion: Option<Propulsion>,
+    abilities: Abilities,
     channels: Vec<[f32; 2]>,
     /// By constraint.
     muscles: Vec<Muscle>,
@@ -126,7 +129,13 @@ impl Template {
     /// How it moves towards a goal; `None` if it cannot.
     #[must_use]
     pub fn propulsion(&self) -> Option<Propulsion> {
-        self.propulsion
+        self.abilities.propulsion()
+    }
+
+    /// The halves into which it divides; `None` if it cannot.
+    #[must_use]
+    pub fn cut(&self) -> Option<&[Half; 2]> {
+        self.abilities.cut()
     }
 
     /// Its channels: the factors on the lengths of their muscles at rest and at full activation.
@@ -202,7 +211,7 @@ pub struct TemplateBuilder {
     nodes: Vec<Node>,
     constraints: Vec<Constraint>,
     outline: Vec<u32>,
-    propulsion: Option<Propulsion>,
+    abilities: Abilities,
     channels: Vec<[f32; 2]>,
     muscles: Vec<Muscle>,
 }
@@ -304,7 +313,7 @@ impl TemplateBuilder {
 
     /// Lets it move towards the goal of an intent or a controller. Without it, it goes nowhere by itself.
     pub fn propulsion(&mut self, propulsion: Propulsion) -> &mut Self {
-        self.propulsion = Some(propulsion);
+        self.abilities = Abilities::new(Some(propulsion), self.abilities.cut().cloned().map(Box::new));
         self
     }
 
@@ -317,10 +326,8 @@ impl TemplateBuilder {
     }
 
     fn check(self) -> Result<Template, Error> {
-        let Self { name, nodes, constraints, outline, propulsion, channels, muscles } = self;
-        if name.len() > LONGEST_NAME || name.contains(char::is_control) {
-            return Err(Error::unsupported("name", "at most 100 bytes, without control characters"));
-        }
+        let Self { name, nodes, constraints, outline, abilities, channels, muscles } = self;
+        check_name("name", &name)?;
         if nodes.is_empty() || nodes.len() > 10_000 {
             return Err(Error::reference("nodes", "1 to 10000 nodes"));
         }
@@ -339,13 +346,10 @@ impl TemplateBuilder {
         if !outline.is_empty() {
             check_ring("outline", &outline, nodes.len())?;
         }
-        if let Some(Propulsion { speed, max_acceleration }) = propulsion {
-            in_range("propulsion.speed", speed, 0.0, 1000.0)?;
-            in_range("propulsion.max_acceleration", max_acceleration, 0.0, 1e6)?;
-        }
+        abilities.check(&nodes)?;
         let rigid_links = rigid_links(&constraints, &muscles);
         let scaled = scaled(&constraints, &muscles, channels.len() as u32);
-        Ok(Template { name, nodes, constraints, outline, propulsion, channels, muscles, rigid_links, scaled })
+        Ok(Template { name, nodes, constraints, outline, abilities, channels, muscles, rigid_links, scaled })
     }
 }
 

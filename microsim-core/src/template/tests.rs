@@ -158,3 +158,33 @@ fn bad_muscles_and_propulsions_are_refused_by_name() {
     refuses(|b| _ = b.propulsion(propulsion(-1.0, 0.0)), "propulsion.speed");
     refuses(|b| _ = b.propulsion(propulsion(1.0, f32::INFINITY)), "propulsion.max_acceleration");
 }
+
+#[test]
+fn bad_cuts_are_refused_by_name() {
+    let halves = |one: &[u32], other: &[u32]| [one, other].map(|slots| Half::of(slots.iter().copied()));
+    for [one, other] in [[&[0][..], &[][..]], [&[0], &[0]], [&[0], &[1, 1]], [&[0], &[2]], [&[0, 1], &[]]] {
+        refuses(|b| _ = b.cut(halves(one, other)), "cut");
+    }
+    let [left, right] = halves(&[0], &[1]);
+    refuses(|b| _ = b.cut([left.clone(), right.clone().scaled(f32::NAN)]), "cut[1].scale");
+    refuses(|b| _ = b.cut([left.clone().named("a\tb"), right.clone()]), "cut[0].template");
+    let anchored = |b: &mut TemplateBuilder| {
+        b.node(Node::fixed(Vec2::Y));
+        b.cut(halves(&[0, 2], &[1]));
+    };
+    refuses(anchored, "cut");
+}
+
+#[test]
+fn a_body_may_follow_goals_and_divide() {
+    let mut builder = two_nodes();
+    let swims = Propulsion { speed: 1.0, max_acceleration: 2.0 };
+    let halves = [Half::of([1]).named("bud").scaled(0.5), Half::of([0])];
+    builder.cut(halves.clone()).propulsion(swims);
+    let template = builder.build().unwrap();
+    assert_eq!((template.cut(), template.propulsion()), (Some(&halves), Some(swims)));
+    let mut other = two_nodes();
+    other.propulsion(swims).cut(halves);
+    assert_eq!(other.build().unwrap(), template);
+    assert_eq!(two_nodes().build().unwrap().cut(), None);
+}

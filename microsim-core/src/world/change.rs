@@ -69,6 +69,7 @@ pub(crate) enum WorldChange {
     SetLinearDamping(OrganismId, f32),
     SetAngularDamping(OrganismId, f32),
     SetSize(Vec2),
+    SetMass(OrganismId, f32),
 }
 
 /// The changes since the last step, and those before it.
@@ -174,6 +175,7 @@ impl WorldChange {
             Self::SetLinearDamping(id, damping) => world.set_linear_damping(id, damping).ok()?,
             Self::SetAngularDamping(id, damping) => world.set_angular_damping(id, damping).ok()?,
             Self::SetSize(size) => world.set_size(size).ok()?,
+            Self::SetMass(id, mass) => world.set_mass(id, mass).ok()?,
         }
         Some(())
     }

@@ -85,9 +85,11 @@ impl World {
         self.scratch.occupancy.near(aabb).filter(meets).min()
     }
 
-    /// Notes where a new organism is.
+    /// Notes where a new organism is, if the others are noted.
     pub(super) fn note_place(&mut self, slot: u32, aabb: Aabb) {
-        self.scratch.occupancy.add(slot, aabb, self.config.size);
+        if !self.scratch.occupancy.boxes.is_empty() {
+            self.scratch.occupancy.add(slot, aabb, self.config.size);
+        }
     }
 
     fn note_all(&mut self) {
@@ -113,7 +115,7 @@ pub(super) fn bounds_of(discs: impl Iterator<Item = (Vec2, f32)>) -> Aabb {
 mod tests {
     use super::*;
     use crate::rng::Rng;
-    use crate::{AgarSpec, Inputs, OrganismSpec, Placement, RigidCellSpec, WorldConfig};
+    use crate::{AgarSpec, CollisionGroups, Inputs, OrganismSpec, Placement, RigidCellSpec, WorldConfig};
 
     const ROOM: Vec2 = Vec2::new(300.0, 40.0);
 
@@ -178,5 +180,16 @@ mod tests {
         assert!(world.spawn(&pellet, at(80.0)).is_ok());
         world.clone_from(&other);
         assert!(world.spawn(&pellet, at(80.0)).is_err() && world.spawn(&pellet, at(30.0)).is_ok());
+    }
+
+    #[test]
+    fn what_collides_with_nobody_does_not_hide_the_others() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let pellet: OrganismSpec = AgarSpec::default().into();
+        world.spawn(&pellet, Placement::at(30.0, 45.0)).unwrap();
+        world.step(&Inputs::new());
+        let ghost = Placement::at(60.0, 45.0).in_groups(CollisionGroups::NONE);
+        world.spawn(&pellet, ghost).unwrap();
+        assert!(world.spawn(&pellet, Placement::at(30.0, 45.0)).is_err());
     }
 }

@@ -5,7 +5,7 @@ use super::change::WorldChange;
 use super::occupancy::bounds_of;
 use super::vacancies::Vacancy;
 use crate::capability::Locomotion;
-use crate::capability::division::Divider;
+use crate::capability::division::{Divider, DivisionParams};
 use crate::capability::phagocytosis::{Engulfer, Prey};
 use crate::capability::progress::Progress;
 use crate::collision::obstacle::Obstacle;
@@ -16,7 +16,7 @@ use crate::geometry::polygon::contains_point;
 use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::{Blueprint, FluidPlan, Organism, OrganismSpec, Placement, Storage, TOUCHING};
-use crate::particle::{CollisionGroups, Material, Particle};
+use crate::particle::{CollisionGroups, Material, NO_OWNER, Particle};
 use crate::rng::Rng;
 use crate::solver::block::Block;
 use crate::solver::fluid::{Fluid, FluidParams};
@@ -69,13 +69,7 @@ impl World {
             fluid.particles.retain(|i| self.particles.owner[*i as usize] != id.index);
         }
         match organism.body {
-            Storage::Lane { block, first } => {
-                let index = block as usize;
-                let block = &mut self.blocks[index];
-                self.scratch.vacancies.add(block, index);
-                block.owner[(first - block.base) as usize] = crate::particle::NO_OWNER;
-                (0..organism.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
-            }
+            Storage::Lane { block, first } => self.empty_lane(block, first),
             Storage::Loose { particles, .. } => particles.into_iter().for_each(|i| self.particles.remove(i)),
         }
         organism.fluid_particles.into_iter().for_each(|i| self.particles.remove(i));
@@ -210,7 +204,7 @@ impl World {
     }
 
     /// Whether an organism has one of the discs inside its membrane, which would hold it in.
-    fn encloses(&self, organism: &Organism, discs: &[Particle]) -> bool {
+    pub(super) fn encloses(&self, organism: &Organism, discs: &[Particle]) -> bool {
         let Some(&node) = organism.outline.first().filter(|_| organism.body.membrane().is_some()) else { return false };
         let groups = self.particles.groups[organism.body.particle(node) as usize];
         let outline = self.outline_of(organism);
@@ -226,7 +220,7 @@ impl World {
         !outline.is_empty() && organism.particles().any(|i| is_inside(i as usize))
     }
 
-    fn touches(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
+    pub(super) fn touches(&self, organism: &Organism, discs: &[Particle], bounds: &Aabb, share: f32) -> bool {
         let p = &self.particles;
         let share = if organism.outline.is_empty() { share } else { TOUCHING };
         organism.particles().map(|i| i as usize).any(|i| {
@@ -239,8 +233,17 @@ impl World {
         })
     }
 
+    /// Takes a body out of its lane.
+    pub(super) fn empty_lane(&mut self, block: u32, first: u32) {
+        let index = block as usize;
+        let block = &mut self.blocks[index];
+        self.scratch.vacancies.add(block, index);
+        block.owner[(first - block.base) as usize] = NO_OWNER;
+        (0..block.slots).for_each(|slot| self.particles.clear_entry(first as usize + slot as usize * LANES));
+    }
+
     /// Puts a body into a lane of a block of its template.
-    fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
+    pub(super) fn add_to_block(&mut self, template: Template, owner: u32, scale: f32, planned: &[Particle]) -> Storage {
         let slots = template.nodes().len();
         let at_rest: Vec<[f32; LANES]> = template.rest_state().into_iter().map(|rest| [rest; LANES]).collect();
         let template = self.template_index(template);
@@ -320,7 +323,8 @@ impl Blueprint {
             Some(Propulsion { speed, max_acceleration }) => (Locomotion::Propel { max_acceleration }, speed),
             None => (Locomotion::None, 0.0),
         };
-        Self { template: Some(template), locomotion, speed, ..Self::of(Kind::Custom(id), area) }
+        let divider = template.cut().map(|_| DivisionParams::default());
+        Self { template: Some(template), locomotion, speed, divider, ..Self::of(Kind::Custom(id), area) }
     }
 }
 
@@ -359,14 +363,14 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
 }
 
 /// Whether a disc overlaps an obstacle.
-fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
+pub(super) fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
     let (surface, is_inside) = obstacle.nearest(disc.position());
     let gap = (disc.position() - surface).length();
     disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - TOUCHING))
 }
 
 /// Places and radii of planned particles.
-fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
+pub(super) fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
     planned.iter().map(|disc| (disc.position(), disc.radius))
 }
 

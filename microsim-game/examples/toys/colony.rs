@@ -9,7 +9,7 @@ use microsim_core::prelude::*;
 pub(crate) fn scene() -> Scene {
     let (world, mut colony) = rods::colony()?;
     let act = move |world: &mut World, inputs: &mut Inputs, _| {
-        if colony.len() < rods::COLONY { colony.grow(world, inputs) } else { Ok(()) }
+        if world.organisms().count() < rods::COLONY { colony.grow(world, inputs) } else { Ok(()) }
     };
     Ok((world, Box::new(act)))
 }

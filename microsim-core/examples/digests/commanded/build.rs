@@ -6,7 +6,7 @@ use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
     AccelerationGrid, AgarSpec, AmoeboidCellSpec, Area, CoccusSpec, ContactReporting, Distance, Drain, Emitter,
-    EmitterId, Error, FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Inputs, JointEnd,
+    EmitterId, Error, FieldId, FieldKind, FluidBlockSpec, FluidMode, FluidParams, ForceField, Half, Inputs, JointEnd,
     JointId, JointKind, JointSpec, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId, OrganismSpec, Placement,
     PlateletSpec, Recipe, Region, RigidCellSpec, Side, Sides, Template, World, WorldConfig, YieldingDistance,
 };
@@ -39,9 +39,10 @@ impl Commanded {
         let balls = spawn_balls(&mut world)?;
         let joints = join(&mut world, &balls, &slimes, lift)?;
         let [cell, swimmer] = spawn_cells(&mut world)?;
+        let rod = spawn_rod(&mut world)?;
         let (wind, inlet) = blow_and_emit(&mut world)?;
         let inputs = Inputs::new();
-        Ok(Self { world, inputs, slimes, balls, joints, cell, swimmer, lift, piston, door, wind, inlet })
+        Ok(Self { world, inputs, slimes, balls, joints, cell, swimmer, rod, lift, piston, door, wind, inlet })
     }
 }
 
@@ -151,6 +152,19 @@ fn spawn_cells(world: &mut World) -> Result<[OrganismId; 2], Error> {
     world.spawn(&AgarSpec::default().into(), Placement::at(106.5, 60.0))?;
     let swimmer = RigidCellSpec { radii: Vec2::new(6.0, 4.0), ..RigidCellSpec::default() };
     Ok([cell, world.spawn(&swimmer.into(), Placement::at(98.0, 38.0))?])
+}
+
+/// A rod that can divide into two of its kind.
+fn spawn_rod(world: &mut World) -> Result<OrganismId, Error> {
+    let mut builder = Template::builder();
+    let node = |k: u8| Node::disc(Vec2::new(1.25 * f32::from(k), 0.0), 0.25, 0.5);
+    let discs: Vec<u32> = (0..4).map(|k| builder.node(node(k))).collect();
+    for apart in [1, 3] {
+        discs.windows(apart + 1).for_each(|part| _ = builder.link(part[0], part[apart], 0.0));
+    }
+    builder.name("rod").cut([0..2, 2..4].map(|slots| Half::of(slots).scaled(0.5)));
+    let rod = world.add_template(builder.build()?);
+    world.spawn_template(rod, Placement::at(190.0, 8.0).turned(0.5))
 }
 
 /// A field of each kind, an emitter and a drain.

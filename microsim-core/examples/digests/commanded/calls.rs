@@ -81,6 +81,8 @@ impl Commanded {
         let id = slimes[30 + step as usize % 60];
         match step {
             1 => world.push(balls[17], Vec2::new(0.0, 20.0)),
+            2 => world.set_mass(self.rod, 1.5),
+            3 => world.divide(self.rod),
             5 => world.set_gravity_scale(id, -0.5),
             7 => world.spawn(&AgarSpec::default().into(), Placement::at(215.0, 8.0)).map(drop),
             9 => world.remove(id),

@@ -20,6 +20,8 @@ pub(crate) struct Commanded {
     joints: Vec<JointId>,
     cell: OrganismId,
     swimmer: OrganismId,
+    /// A body that divides.
+    rod: OrganismId,
     lift: ObstacleId,
     piston: ObstacleId,
     door: ObstacleId,

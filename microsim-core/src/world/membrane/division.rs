@@ -33,9 +33,22 @@ impl World {
     ///
     /// Cytoplasm is conserved. The membrane gets the nodes that two cells need, some 1.41 times as many.
     ///
+    /// A body whose template has a cut ([`crate::TemplateBuilder::cut`]) is two at the end of the next step: [`Event::Divided`], or
+    /// [`Event::DivisionRefused`] when there is no room any more. The first half keeps its handle; both have its controller,
+    /// collision groups, gravity scale, damping, exchanges and user data. Joints of its nodes end, those of its centre stay with the
+    /// first half. A half may overlap others, and the other half, by up to 0.5 of the sum of two radii, or 0.02 if it or the other
+    /// one has an outline, and obstacles by 0.02 of a radius.
+    ///
     /// # Errors
-    /// When the handle is stale or the organism is no amoeboid cell.
+    /// When the handle is stale, or the organism is neither an amoeboid cell nor a body whose template has a cut. Of such a body:
+    /// when it is frozen; when a half goes on with a template that this world has not, with nodes that cannot move, or that its
+    /// controller cannot steer; when a half has too much or too little mass, is too large, would lie beyond a wall or overlap too
+    /// much; when a thermal field would kick it beyond the speed limit; or when the world would hold too many particles.
     pub fn divide(&mut self, id: OrganismId) -> Result<(), Error> {
+        let is_body = |organism: &Organism| organism.body.membrane().is_none() && organism.divider.is_some();
+        if self.organisms.get(id).is_some_and(is_body) {
+            with_default_float_environment(|| self.plan_cut(id))?;
+        }
         self.give_order(id, Order::Divide { axis: None })
     }
 

@@ -30,8 +30,9 @@ impl World {
         (by(self.step_index + 1) - by(self.step_index)) as u32
     }
 
-    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content.
+    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content; divides bodies.
     pub(crate) fn divide_and_fuse(&mut self) {
+        self.divide_bodies();
         let dt = self.config.dt;
         let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
         for id in cells.map(|(id, _)| id).collect::<Vec<_>>() {
@@ -55,8 +56,13 @@ impl World {
     /// Stores an order, which the next step carries out.
     pub(in crate::world) fn give_order(&mut self, id: OrganismId, order: Order) -> Result<(), Error> {
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
-        let divider = organism.divider.as_mut();
-        divider.ok_or_else(|| Error::unsupported("organism", "an amoeboid cell"))?.order = Some(order);
+        let is_cell = organism.body.membrane().is_some();
+        let (accepted, can_obey) = match order {
+            Order::Divide { axis: None } => ("an amoeboid cell, or a body whose template has a cut", true),
+            Order::Divide { axis: Some(_) } | Order::Fuse { .. } => ("an amoeboid cell", is_cell),
+        };
+        let divider = organism.divider.as_mut().filter(|_| can_obey);
+        divider.ok_or_else(|| Error::unsupported("organism", accepted))?.order = Some(order);
         self.changed(|| WorldChange::Order(id, order));
         Ok(())
     }

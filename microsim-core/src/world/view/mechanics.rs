@@ -3,7 +3,7 @@
 use super::OrganismView;
 use crate::id::TemplateId;
 use crate::organism::Storage;
-use crate::particle::mass_properties::{MassProperties, movable};
+use crate::particle::mass_properties::MassProperties;
 use glam::Vec2;
 
 impl<'a> OrganismView<'a> {
@@ -40,18 +40,9 @@ impl<'a> OrganismView<'a> {
         let world = self.view.world;
         let template = &world.templates[self.template()?.0 as usize];
         let (list, now) = self.properties()?;
-        let p = &world.particles;
-        let places: Vec<(Vec2, f32, usize)> = (list.iter().zip(template.nodes()))
-            .flat_map(|(i, node)| movable(p, std::slice::from_ref(i)).map(move |(i, mass)| (node.position, mass, i)))
-            .collect();
-        let centre = places.iter().map(|&(place, mass, _)| place * mass).sum::<Vec2>() / now.mass;
-        let (mut dot, mut cross) = (0.0, 0.0);
-        for (place, mass, i) in places {
-            let (from, to) = (place - centre, now.arm(p, i));
-            dot += mass * from.dot(to);
-            cross += mass * from.perp_dot(to);
-        }
-        (dot != 0.0 || cross != 0.0).then(|| libm::atan2f(cross, dot))
+        let places = template.nodes().iter().map(|node| node.position);
+        let rotation = now.rotation(&world.particles, &list, places);
+        (rotation != Vec2::ZERO).then(|| libm::atan2f(rotation.y, rotation.x))
     }
 
     /// The template of its body; `None` for membranes and for fluid on its own.

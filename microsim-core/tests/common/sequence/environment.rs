@@ -128,7 +128,7 @@ impl Sequence<'_> {
     pub(super) fn change_setting(&mut self, id: OrganismId) -> Outcome {
         let groups = CollisionGroups { memberships: self.choices.byte().into(), filter: self.choices.byte().into() };
         let gravity = self.vector(30.0);
-        match self.choices.below(12) {
+        match self.choices.below(13) {
             0 => self.world.set_gravity(gravity),
             6 => self.world.set_scale(id, self.choices.number(0.7, 1.5)),
             7 => {
@@ -142,6 +142,7 @@ impl Sequence<'_> {
                 let reporting = self.choices.flag().then_some(ContactReporting { hit_speed });
                 self.world.set_contact_reporting(reporting)
             }
+            12 => self.world.set_mass(id, self.choices.number(0.0, 100.0)),
             11 => self.world.shrink(id, self.choices.byte().into()),
             1 => self.world.set_damping(self.choices.number(0.0, 3.0)),
             2 => self.world.set_max_speed(self.choices.number(5.0, 30.0)),

@@ -3,8 +3,8 @@
 use super::{Choices, Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    Actuation, Bend, ChemicalSpec, Distance, Error, Exchange, Intent, Node, OrganismId, Propulsion, Rope, Template,
-    YieldingDistance,
+    Actuation, Bend, ChemicalSpec, Distance, Error, Exchange, Half, Intent, Node, OrganismId, Propulsion, Rope,
+    Template, YieldingDistance,
 };
 
 impl Sequence<'_> {
@@ -27,7 +27,9 @@ impl Sequence<'_> {
 
     pub(super) fn divide(&mut self, id: OrganismId) -> Outcome {
         if self.choices.flag() {
-            return self.world.divide(id);
+            // Bodies that can are few among many.
+            let body = self.handles.iter().copied().rfind(|&id| self.has_cut(id)).filter(|_| self.choices.flag());
+            return self.world.divide(body.unwrap_or(id));
         }
         let axis = Vec2::new(self.choices.number(-1.0, 1.0), self.choices.number(-1.0, 1.0));
         self.world.divide_along(id, axis)
@@ -88,17 +90,47 @@ impl Sequence<'_> {
     }
 
     pub(super) fn spawn_template(&mut self) -> Outcome {
-        if self.templates.is_empty() || self.choices.byte() < 80 {
+        let is_new = self.templates.is_empty() || self.choices.byte() < 80;
+        if is_new {
             let template = self.template()?;
             self.templates.push(self.world.add_template(template));
-            return Ok(());
         }
-        let which = self.choices.below(self.templates.len());
+        let which = if is_new { self.templates.len() - 1 } else { self.choices.below(self.templates.len()) };
         let (template, placement) = (self.templates[which], self.choices.placement(self.world.config().size));
-        self.world.spawn_template(template, placement).map(|id| self.handles.push(id))
+        // Whether the second of two calls is refused does not matter: the first one has changed the world.
+        let id = match self.world.spawn_template(template, placement) {
+            Err(_) if is_new => return Ok(()),
+            spawned => spawned?,
+        };
+        self.handles.push(id);
+        if self.has_cut(id) && self.choices.byte() < 200 {
+            let _ = self.world.divide(id);
+        }
+        Ok(())
+    }
+
+    fn has_cut(&self, id: OrganismId) -> bool {
+        let template = self.world.view().organism(id).and_then(|body| self.world.template(body.template()?));
+        template.is_some_and(|template| template.cut().is_some())
+    }
+
+    /// A rod that can divide.
+    fn rod(&mut self) -> Result<Template, Error> {
+        let (mut builder, c) = (Template::builder(), &mut self.choices);
+        let (count, pitch) = (2 + c.below(5) as u32, c.number(0.5, 1.5));
+        for k in 0..count {
+            builder.node(Node::disc(Vec2::new(pitch * k as f32, 0.0), c.number(0.1, 10.0), 0.5));
+        }
+        (1..count).for_each(|k| _ = builder.link(k - 1, k, 0.0));
+        let at = 1 + c.below(count as usize - 1) as u32;
+        builder.cut([0..at, at..count].map(|slots| Half::of(slots).scaled(c.number(0.3, 0.8))));
+        builder.build()
     }
 
     fn template(&mut self) -> Result<Template, Error> {
+        if self.choices.byte() < 120 {
+            return self.rod();
+        }
         let mut builder = Template::builder();
         builder.name(["", "mote", "seed", "a\tb"][usize::from(self.choices.byte() % 16) / 5]);
         let c = &mut self.choices;
@@ -116,6 +148,11 @@ impl Sequence<'_> {
         if c.byte() < 40 {
             let slots: Vec<u32> = (0..1 + c.below(6) as u32).collect();
             builder.self_contacts(&slots);
+        }
+        if count > 1 && c.byte() < 120 {
+            let (at, template) = (1 + c.below(count as usize - 1) as u32, ["", "mote", "seed"][c.below(3)]);
+            let halves = [Half::of(0..at), Half::of(at..count)];
+            builder.cut(halves.map(|half| half.named(template).scaled(c.number(0.4, 1.2))));
         }
         if c.flag() {
             let channel = builder.channel([c.number(0.5, 1.5), c.number(0.5, 1.5)]);

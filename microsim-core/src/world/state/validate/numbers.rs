@@ -98,7 +98,8 @@ fn check_state(organism: &Organism, cell: Subject) -> Check {
     let [least, most] = SCALES;
     cell.must_range("speed", organism.speed, 0.0, MAX_SPEED)?;
     // Only of a template of the embedder's own the outline may turn the other way.
-    let is_sized = organism.prey.is_some() || organism.divider.is_some();
+    let is_cell = organism.divider.is_some() && organism.body.membrane().is_some();
+    let is_sized = organism.prey.is_some() || is_cell;
     cell.must_range("spawn area", organism.spawn_area, if is_sized { 0.0 } else { -MOST }, MOST)?;
     cell.must_range("spawn scale", organism.spawn_scale, least, most)?;
     cell.must_range("home x", organism.home.x, -organism::FARTHEST, organism::FARTHEST)?;

@@ -3,6 +3,7 @@
 
 use super::{Check, Subject, Violation};
 use crate::capability::Locomotion;
+use crate::capability::division::Divider;
 use crate::error::Error;
 use crate::id::TemplateId;
 use crate::joint::JointEnd;
@@ -161,13 +162,18 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
         }
     };
     cell.must(can_move, || format!("it cannot move so with {nodes} nodes: {:?}", organism.locomotion))?;
-    let needs_membrane = organism.engulfer.is_some() || organism.divider.is_some() || !organism.phagosomes.is_empty();
+    let divides = world.divides(organism);
+    let needs_membrane =
+        organism.engulfer.is_some() || organism.divider.is_some() && !divides || !organism.phagosomes.is_empty();
     cell.must(membrane.is_some() || !needs_membrane, || "it lacks a membrane".to_owned())?;
     let is_ring = |inner: &Phagosome| inner.ring.len() >= LEAST_NODES;
     let are_rings = (membrane.is_none() || nodes >= LEAST_NODES) && organism.phagosomes.iter().all(is_ring);
     cell.must(are_rings, || "a ring of too few nodes".to_owned())?;
     cell.must_range("gravity scale", organism.gravity_scale, -100.0, 100.0)?;
     check_kind(world, organism, cell)?;
+    cell.must(!divides || organism.divider.as_ref().is_some_and(Divider::is_of_body), || {
+        "it does not divide as its template says".to_owned()
+    })?;
     let fluids = world.fluids.len();
     let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
     cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;

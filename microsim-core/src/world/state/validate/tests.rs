@@ -1,12 +1,13 @@
 //! Each kind of damage is found, and named.
 
 use crate::capability::crawl::Pseudopods;
+use crate::capability::division::{Divider, Order};
 use crate::particle::sleep::Sleep;
 use crate::world::joint::JointRecord;
 use crate::world::supply::EmitterRecord;
 use crate::{
     AgarSpec, AmoeboidCellSpec, Chemical, ChemicalId, ChemicalSpec, CoccusSpec, Crawl, Distance, Drain, Emitter,
-    Exchange, FieldKind, FluidBlockSpec, ForceField, Inputs, JointEnd, JointKind, JointSpec, Node, Placement,
+    Exchange, FieldKind, FluidBlockSpec, ForceField, Half, Inputs, JointEnd, JointKind, JointSpec, Node, Placement,
     PlateletSpec, Recipe, Region, Template, World, WorldConfig, YieldingDistance, glam::Vec2,
 };
 
@@ -201,6 +202,31 @@ fn damage_to_dampings_and_kinds_is_found() {
     let of_no_template = crate::Kind::try_from(256 * 70 + 6).unwrap();
     let id = room().organisms().next().unwrap();
     finds(|w| w.organisms.get_mut(id).unwrap().kind = of_no_template, "it has not template 70");
+}
+
+#[test]
+fn damage_to_bodies_that_divide_is_found() {
+    let damaged = |change: fn(&mut Option<Divider>)| {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let mut builder = Template::builder();
+        (0..2u8).for_each(|k| _ = builder.node(Node::disc(Vec2::new(f32::from(k), 0.0), 1.0, 0.4)));
+        builder.cut([Half::of([0]), Half::of([1])]);
+        let template = world.add_template(builder.build().unwrap());
+        let id = world.spawn_template(template, Placement::at(50.0, 50.0)).unwrap();
+        assert_eq!(world.validate(), Ok(()));
+        change(&mut world.organisms.get_mut(id).unwrap().divider);
+        world.validate().unwrap_err().to_string()
+    };
+    let changes: [fn(&mut Option<Divider>); 4] = [
+        |divider| *divider = None,
+        |divider| divider.as_mut().unwrap().lobes = 2.0,
+        |divider| divider.as_mut().unwrap().wanted_nodes = Some(9),
+        |divider| divider.as_mut().unwrap().order = Some(Order::Divide { axis: Some(Vec2::X) }),
+    ];
+    for change in changes {
+        let found = damaged(change);
+        assert!(found.contains("it does not divide as its template says"), "{found}");
+    }
 }
 
 #[test]

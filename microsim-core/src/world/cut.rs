@@ -1,0 +1,311 @@
+//! Division of bodies by the cut of their template. Everything is checked before anything changes.
+
+use super::World;
+use super::mass::MASSES;
+use super::occupancy::bounds_of;
+use super::scale::{LARGEST, SCALES};
+use super::spawn::{discs, is_blocked};
+use crate::capability::division::Divider;
+use crate::capability::progress::Progress;
+use crate::error::{Error, ErrorKind, in_range};
+use crate::event::{Event, Refusal};
+use crate::geometry::ring::{direction_or, rotate};
+use crate::id::{OrganismId, TemplateId};
+use crate::kind::Kind;
+use crate::organism::{Blueprint, Organism, Storage, TOUCHING};
+use crate::particle::mass_properties::{LEAST_INERTIA, MassProperties};
+use crate::particle::{CollisionGroups, NO_OWNER, Particle};
+use crate::rng::Rng;
+use crate::template::{Half, Node, Template};
+use glam::Vec2;
+
+/// Overlap of halves with others and each other, as a share of the sum of two radii.
+const OVERLAP: f32 = 0.5;
+
+/// A half as it will be.
+pub(super) struct PlannedHalf {
+    blueprint: Blueprint,
+    template: Template,
+    scale: f32,
+    speed: f32,
+    particles: Vec<Particle>,
+}
+
+/// What becomes of the slots of a half.
+struct Transfer<'a> {
+    nodes: &'a [Node],
+    scale: f32,
+    /// Groups that the discs of the whole body are in, or meet.
+    groups: CollisionGroups,
+}
+
+impl World {
+    /// Whether a body can divide, as far as its template goes.
+    pub(in crate::world) fn divides(&self, organism: &Organism) -> bool {
+        self.template_of(organism).is_some_and(|template| template.cut().is_some())
+    }
+
+    fn template_of(&self, organism: &Organism) -> Option<&Template> {
+        let Storage::Lane { block, .. } = organism.body else { return None };
+        self.templates.get(self.blocks.get(block as usize)?.template as usize)
+    }
+
+    /// Divides the bodies that were told to.
+    pub(super) fn divide_bodies(&mut self) {
+        if self.templates.iter().all(|template| template.cut().is_none()) {
+            return;
+        }
+        let is_told = |organism: &Organism| {
+            organism.body.membrane().is_none()
+                && organism.divider.as_ref().is_some_and(|divider| divider.order.is_some())
+        };
+        let told: Vec<OrganismId> =
+            self.organisms.iter().filter(|(_, organism)| is_told(organism)).map(|(id, _)| id).collect();
+        // Since places were noted, everything has moved.
+        self.scratch.occupancy.clear();
+        for id in told {
+            if let Some(divider) = self.divider_mut(id) {
+                divider.order = None;
+            }
+            match self.plan_cut(id) {
+                Ok(halves) => self.cut(id, halves),
+                Err(error) => {
+                    let reason = self.reason(id, &error);
+                    self.events.push(Event::DivisionRefused { organism: id, reason });
+                }
+            }
+        }
+        self.scratch.occupancy.clear();
+    }
+
+    fn reason(&self, id: OrganismId, error: &Error) -> Refusal {
+        match error.kind() {
+            _ if self.organisms.get(id).is_some_and(|organism| organism.is_quarantined) => Refusal::Quarantined,
+            ErrorKind::TooMany { .. } => Refusal::WorldFull,
+            _ => Refusal::NoRoom,
+        }
+    }
+
+    /// The two halves of a body, where it is.
+    pub(in crate::world) fn plan_cut(&mut self, id: OrganismId) -> Result<[PlannedHalf; 2], Error> {
+        let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
+        let Some(template) = self.template_of(organism).filter(|_| !organism.is_quarantined && !organism.is_held())
+        else {
+            return Err(Error::unsupported("organism", "one that is neither frozen nor held"));
+        };
+        let Some([one, other]) = template.cut() else {
+            return Err(Error::unsupported("organism", "a body whose template has a cut"));
+        };
+        let [one, other] =
+            [(one, "cut[0]"), (other, "cut[1]")].map(|(half, name)| (self.plan_half(organism, template, half), name));
+        let halves = [one.0.map_err(|error| error.within(one.1))?, other.0.map_err(|error| error.within(other.1))?];
+        self.check_halves(id, &halves)?;
+        Ok(halves)
+    }
+
+    fn plan_half(&self, organism: &Organism, whole: &Template, half: &Half) -> Result<PlannedHalf, Error> {
+        let id = self.template_of_half(organism, half)?;
+        let template = self.templates[id.0 as usize].clone();
+        if !template.nodes().iter().all(|node| node.mass.is_finite()) {
+            return Err(Error::unsupported("template", "a template of nodes that can move"));
+        }
+        let blueprint = Blueprint::custom(id, template.clone());
+        let speed = if whole.propulsion().is_some() { organism.speed } else { blueprint.speed };
+        let has_outline = !template.outline().is_empty();
+        self.check_controller(&organism.controller, &blueprint.locomotion, speed, has_outline)?;
+        let scale = self.scale_of(organism) * half.scale;
+        self.check_scale_of_half(&template, scale)?;
+        self.check_kicks(&blueprint, scale, organism.linear_damping)?;
+        let transfer = Transfer { nodes: template.nodes(), scale, groups: self.groups_of(organism) };
+        let planned = self.particles_of_half(organism, whole, half, &transfer);
+        let particles = planned.ok_or_else(|| Error::unsupported("slots", "slots that can move"))?;
+        for particle in &particles {
+            in_range("mass", 1.0 / particle.inv_mass, MASSES[0], MASSES[1])?;
+        }
+        Ok(PlannedHalf { blueprint, template, scale, speed, particles })
+    }
+
+    fn template_of_half(&self, organism: &Organism, half: &Half) -> Result<TemplateId, Error> {
+        match organism.kind {
+            Kind::Custom(own) if half.template.is_empty() => Ok(own),
+            _ => self
+                .template_named(&half.template)
+                .ok_or_else(|| Error::reference("template", "the name of a template of this world")),
+        }
+    }
+
+    fn check_scale_of_half(&self, template: &Template, scale: f32) -> Result<(), Error> {
+        let largest =
+            template.nodes().iter().fold(0.0, |most, node| if node.radius > most { node.radius } else { most });
+        let room = 0.5 * self.config.width_between_walls();
+        let most = if room < LARGEST { room } else { LARGEST } / largest;
+        in_range("scale", scale, SCALES[0], if most < SCALES[1] { most } else { SCALES[1] })
+    }
+
+    /// Groups of all discs of an organism together.
+    fn groups_of(&self, organism: &Organism) -> CollisionGroups {
+        let groups = organism.particles().map(|i| self.particles.groups[i as usize]);
+        groups.fold(CollisionGroups::NONE, |all, one| CollisionGroups {
+            memberships: all.memberships | one.memberships,
+            filter: all.filter | one.filter,
+        })
+    }
+
+    fn particles_of_half(
+        &self,
+        organism: &Organism,
+        whole: &Template,
+        half: &Half,
+        transfer: &Transfer<'_>,
+    ) -> Option<Vec<Particle>> {
+        let p = &self.particles;
+        let list: Vec<u32> = half.slots.iter().map(|&slot| organism.body.particle(slot)).collect();
+        if list.len() == transfer.nodes.len() {
+            let taken_over = transfer.nodes.iter().zip(&list);
+            return Some(taken_over.map(|(node, &i)| transfer.particle(node, p.get(i as usize))).collect());
+        }
+        let body = MassProperties::of(p, &list)?;
+        let all: Vec<u32> = organism.particles().collect();
+        let place = |slot: u32| whole.nodes()[slot as usize].position;
+        let turn = MassProperties::of(p, &all)
+            .map_or(Vec2::X, |body| body.rotation(p, &all, whole.nodes().iter().map(|node| node.position)));
+        let turn = direction_or(turn, Vec2::X);
+        let turn = direction_or(body.rotation(p, &list, half.slots.iter().map(|&slot| place(slot))), turn);
+        let spin = body.angular_momentum(p, &list);
+        let (mut centre, limit) = (p.get(body.reference), self.config.speed_limit());
+        (centre.offset, centre.velocity) = (centre.offset + body.centre, body.velocity);
+        Some(transfer.at_rest(centre, body.mass, turn, spin, limit))
+    }
+
+    /// Checks that there is room for halves, and in the world.
+    fn check_halves(&mut self, id: OrganismId, halves: &[PlannedHalf; 2]) -> Result<(), Error> {
+        let before = self.organisms.get(id).map_or(0, |organism| organism.particles().count());
+        let after: usize = halves.iter().map(|half| half.particles.len()).sum();
+        let asked = (self.particles.live_count() + after - before) as u64;
+        let limit = u64::from(self.config.max_particles);
+        if asked > limit {
+            return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
+        }
+        self.check_room_of_half(id, &halves[0]).map_err(|error| error.within("cut[0]"))?;
+        self.check_room_of_half(id, &halves[1]).map_err(|error| error.within("cut[1]"))?;
+        let [one, other] = halves.each_ref().map(|half| &half.particles);
+        let is_free = one.iter().all(|a| other.iter().all(|b| !overlap(a, b)));
+        let refused = || Error::new(ErrorKind::Overlap { with: "the other half".to_owned() }, "cut[1]");
+        is_free.then_some(()).ok_or_else(refused)
+    }
+
+    /// Checks that a half is within the walls and overlaps nobody else by much.
+    fn check_room_of_half(&mut self, id: OrganismId, half: &PlannedHalf) -> Result<(), Error> {
+        let all: Vec<Particle> = half.particles.iter().filter(|disc| disc.groups.memberships != 0).copied().collect();
+        if all.is_empty() {
+            return Ok(());
+        }
+        let ([low, high], size) = (self.config.walls(), self.config.size);
+        for disc in &all {
+            let (at, reach) = (disc.position(), disc.radius * (1.0 - TOUCHING));
+            if !((at - reach).cmpge(low).all() && (at + reach).cmple(high).all()) {
+                let accepted = format!("everything within 0 to {} by 0 to {}", size.x, size.y);
+                return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
+            }
+        }
+        let bounds = bounds_of(discs(&all));
+        let mut near = self.obstacles_near(&bounds).into_iter();
+        if near.any(|obstacle| all.iter().any(|disc| is_blocked(obstacle, disc))) {
+            return Err(Error::new(ErrorKind::Overlap { with: "an obstacle".to_owned() }, "at"));
+        }
+        let share = if half.template.outline().is_empty() { OVERLAP } else { TOUCHING };
+        let is_other = |world: &Self, organism: &Organism| {
+            organism.first_node().is_none_or(|i| world.particles.owner[i as usize] != id.index)
+        };
+        let hit = self.first_near(&bounds, |world, organism| {
+            is_other(world, organism)
+                && (world.touches(organism, &all, &bounds, share) || world.encloses(organism, &all))
+        });
+        let with = hit.and_then(|hit| self.with_its_place(self.organisms.id_at(hit)?));
+        with.map_or(Ok(()), |with| Err(Error::new(ErrorKind::Overlap { with }, "at")))
+    }
+
+    /// Puts the halves in the place of a body: the first one keeps its handle.
+    fn cut(&mut self, id: OrganismId, [one, other]: [PlannedHalf; 2]) {
+        let Some(whole) = self.organisms.get(id).cloned() else { return };
+        let Storage::Lane { block, first } = whole.body else { return };
+        let gone: Vec<u32> = whole.particles().collect();
+        self.lose_joints(|i| gone.contains(&i));
+        self.wake_up_touching(id);
+        self.empty_lane(block, first);
+        let daughter_id = self.organisms.next_id();
+        let rng = Rng::new(self.config.seed, daughter_id.stream());
+        let home = bounds_of(discs(&other.particles)).center();
+        self.exemptions.inherit(id.index, daughter_id.index);
+        let parent = self.settle(id, whole.clone(), one);
+        let daughter = self.settle(daughter_id, Organism { rng, home, ..whole }, other);
+        if let Some(place) = self.organisms.get_mut(id) {
+            *place = parent;
+        }
+        self.organisms.insert(daughter);
+        self.events.push(Event::Divided { parent: id, daughter: daughter_id });
+    }
+
+    /// An organism that is a half from now on.
+    fn settle(&mut self, id: OrganismId, organism: Organism, half: PlannedHalf) -> Organism {
+        let PlannedHalf { blueprint, template, scale, speed, mut particles } = half;
+        particles.iter_mut().for_each(|particle| particle.owner = id.index);
+        self.note_place(id.index, bounds_of(discs(&particles)));
+        let (outline, slots) = (template.outline().to_vec(), template.nodes().len() as u32);
+        let crawl = Rng::new(self.config.seed, id.crawl_stream());
+        Organism {
+            kind: blueprint.kind,
+            body: self.add_to_block(template, id.index, scale, &particles),
+            slots,
+            locomotion: blueprint.locomotion.begun(crawl, outline.len()),
+            outline,
+            speed,
+            spawn_area: blueprint.area * scale * scale,
+            spawn_scale: scale,
+            full_scale: 1.0,
+            divider: blueprint.divider.map(Divider::new),
+            goal: None,
+            progress: Progress::default(),
+            ..organism
+        }
+    }
+}
+
+impl Transfer<'_> {
+    /// A node with the place, velocity and mass of a particle.
+    fn particle(&self, node: &Node, at: Particle) -> Particle {
+        Particle {
+            radius: node.radius * self.scale,
+            groups: node.groups.and(self.groups),
+            material: node.material,
+            role: node.role as u8,
+            owner: NO_OWNER,
+            fluid: 0,
+            ..at
+        }
+    }
+
+    /// All nodes in the form of the template, with this mass, turned, around a centre that moves, with this angular momentum.
+    fn at_rest(&self, centre: Particle, mass: f32, turn: Vec2, spin: f32, speed_limit: f32) -> Vec<Particle> {
+        let total: f32 = self.nodes.iter().map(|node| node.mass).sum();
+        let middle = self.nodes.iter().map(|node| node.position * node.mass).sum::<Vec2>() / total;
+        let share = mass / total;
+        let arms: Vec<Vec2> =
+            self.nodes.iter().map(|node| rotate((node.position - middle) * self.scale, turn)).collect();
+        let inertia: f32 =
+            self.nodes.iter().zip(&arms).map(|(node, arm)| node.mass * share * arm.length_squared()).sum();
+        let rate = if inertia > LEAST_INERTIA { spin / inertia } else { 0.0 };
+        let place = |(node, arm): (&Node, Vec2)| {
+            let velocity = (centre.velocity + arm.perp() * rate).clamp_length_max(speed_limit);
+            let inv_mass = 1.0 / (node.mass * share);
+            self.particle(node, Particle { offset: centre.offset + arm, velocity, inv_mass, ..centre })
+        };
+        self.nodes.iter().zip(arms).map(place).collect()
+    }
+}
+
+/// Whether two discs overlap by more than halves may.
+fn overlap(a: &Particle, b: &Particle) -> bool {
+    let least = (a.radius + b.radius) * (1.0 - OVERLAP);
+    a.groups.meets(b.groups) && (a.position() - b.position()).length_squared() < least * least
+}
