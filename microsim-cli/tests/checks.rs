@@ -85,9 +85,9 @@ fn a_valid_state_exits_with_0() {
 #[test]
 fn an_invalid_state_exits_with_1_and_is_described() {
     let absurd = ["step.substeps=3", "world.gravity=[0,-1000]", "world.max_speed=1000"].map(|change| ["--set", change]);
-    let output = run(&[&["run", "game", "--steps", "60", "--validate"][..], absurd.as_flattened()].concat());
+    let output = run(&[&["run", "crawl", "--steps", "60", "--validate"][..], absurd.as_flattened()].concat());
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    let flaw = ": amoeboid_cell 0 (generation 0): a ring of 40 nodes crosses itself";
-    assert!(said.contains("game with seed 1: after step 24") && said.contains(flaw), "{said}");
+    let flaw = ": amoeboid_cell 2 (generation 0): particle 1199: it has leaked out of its membrane";
+    assert!(said.contains("crawl with seed 1: after step 16") && said.contains(flaw), "{said}");
 }

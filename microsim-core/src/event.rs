@@ -192,7 +192,7 @@ pub enum Event {
         /// How many of its particles went.
         particles: u32,
     },
-    /// A link of a body was stretched beyond its breaking strain, and is gone until something is spawned anew in its place. A body
+    /// A link of a body was stretched beyond its breaking strain, and is gone for good. A body
     /// that falls into pieces so is one organism as before.
     LinkTorn {
         /// The organism.
@@ -226,8 +226,10 @@ pub enum Refusal {
     NoPartner,
     /// The world would hold too many particles.
     WorldFull,
-    /// A half of a body has no room, or cannot go on as its template says.
+    /// A half of a body has no room.
     NoRoom,
+    /// A half of a body cannot go on as its template says: the template is gone, or mass, size or what moves it does not suit.
+    UnfitHalf,
 }
 
 impl Refusal {
@@ -246,6 +248,7 @@ impl Refusal {
             Self::NoPartner => "no_partner",
             Self::WorldFull => "world_full",
             Self::NoRoom => "no_room",
+            Self::UnfitHalf => "unfit_half",
         }
     }
 }

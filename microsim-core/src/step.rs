@@ -41,7 +41,7 @@ pub enum Phase {
     DivideAndFuse,
     /// Organisms secrete and take up chemicals, which diffuse and decay.
     DiffuseChemicals,
-    /// Contacts become events, organisms that are no longer finite are frozen, origins are moved.
+    /// Contacts become events, bodies are cut, organisms that are no longer finite are frozen, origins are moved.
     Conclude,
 }
 
@@ -358,6 +358,8 @@ fn conclude(world: &mut World) {
     world.conclude_obstacle_paths();
     world.update_sensors();
     world.report_contacts();
+    // What touched has been reported of the whole bodies.
+    world.divide_bodies();
     let World { config, particles, blocks, sleep, .. } = world;
     if config.sleeps {
         sleep.update_sleep_times(

@@ -4,9 +4,9 @@
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    Actuation, AgarSpec, ChemicalSpec, CollisionGroups, Controller, Event, Exchange, Half, Inputs, JointEnd, JointKind,
-    JointSpec, Kind, Node, Obstacle, OrganismId, Placement, Propulsion, Refusal, Template, TemplateBuilder, TemplateId,
-    World, WorldConfig,
+    Actuation, AgarSpec, ChemicalSpec, CollisionGroups, Controller, Distance, Event, Exchange, Half, Inputs, JointEnd,
+    JointKind, JointSpec, Kind, Node, Obstacle, OrganismId, Placement, Propulsion, Refusal, Template, TemplateBuilder,
+    TemplateId, World, WorldConfig, YieldingDistance,
 };
 
 fn room() -> World {
@@ -256,6 +256,73 @@ fn who_has_lost_the_room_in_the_step_is_told() {
     assert!(matches!(world.events()[0], Event::Divided { parent, .. } if parent == left), "{:?}", world.events());
     assert!(world.events().contains(&Event::DivisionRefused { organism: right, reason: Refusal::NoRoom }));
     assert_eq!(world.organisms().count(), 3);
+}
+
+#[test]
+fn contacts_of_the_step_are_those_of_the_whole_body() {
+    let mut world = room();
+    let rod = add(&mut world, dividing("long"));
+    // The first lane is free when a body in the second one divides: its first half moves there, and the other one takes its lane.
+    let gone = world.spawn_template(rod, Placement::at(20.0, 20.0)).unwrap();
+    let parent = world.spawn_template(rod, Placement::at(50.0, 50.0)).unwrap();
+    let [left, right] = [48.98, 58.02].map(|x| {
+        let ball = world.spawn(&AgarSpec { radius: 0.5, ..AgarSpec::default() }.into(), Placement::at(x, 50.0));
+        ball.unwrap()
+    });
+    world.push(left, Vec2::new(2.0, 0.0)).unwrap();
+    world.push(right, Vec2::new(-2.0, 0.0)).unwrap();
+    world.remove(gone).unwrap();
+    world.divide(parent).unwrap();
+    world.step(&Inputs::new());
+    let named: Vec<[OrganismId; 2]> = world
+        .events()
+        .iter()
+        .filter_map(|event| match *event {
+            Event::ContactBegan { a, b } => Some([a, b]),
+            _ => None,
+        })
+        .collect();
+    assert!(!named.is_empty() && named.iter().all(|pair| pair.contains(&parent)), "{:?}", world.events());
+    assert!(world.events().iter().any(|event| matches!(event, Event::Divided { .. })));
+}
+
+#[test]
+fn links_of_a_half_have_flowed_and_torn_as_those_of_the_whole() {
+    let chain = |discs: u8, name: &str| {
+        let mut builder = Template::builder();
+        let node = |k: u8| Node::disc(Vec2::new(2.0 * f32::from(k), 0.0), 1.0, 0.5);
+        let discs: Vec<u32> = (0..discs).map(|k| builder.node(node(k))).collect();
+        for pair in discs.windows(2) {
+            let spring = Distance { a: pair[0], b: pair[1], rest_length: 2.0, compliance: 1e-2, damping: 0.0 };
+            let (yield_strain, flow_rate, max_plastic_strain, breaking_strain) = (0.05, 20.0, 1.0, 0.5);
+            let yields =
+                YieldingDistance { yield_strain, flow_rate, max_plastic_strain, breaking_strain, ..spring.into() };
+            builder.constraint(yields);
+        }
+        builder.name(name);
+        builder
+    };
+    let mut world = room();
+    add(&mut world, chain(3, "half"));
+    let mut whole = chain(6, "whole");
+    whole.cut([0..3, 3..6].map(|slots| Half::of(slots).named("half")));
+    let whole = add(&mut world, whole);
+    let id = world.spawn_template(whole, Placement::at(50.0, 50.0)).unwrap();
+    let mut inputs = Inputs::new();
+    inputs.actuate_node(id, 0, Actuation::impulse(Vec2::new(-4.0, 0.0))).unwrap();
+    inputs.actuate_node(id, 5, Actuation::impulse(Vec2::new(40.0, 0.0))).unwrap();
+    (0..20).for_each(|_| {
+        world.step(&inputs);
+        inputs.clear();
+    });
+    let strains = |world: &World, id| -> Vec<Option<f32>> {
+        world.view().organism(id).unwrap().yielding_links().map(|link| link.plastic_strain).collect()
+    };
+    let before = strains(&world, id);
+    assert!(before[0].is_some_and(|plastic| plastic > 0.02) && before[4].is_none(), "{before:?}");
+    let (divided, whole, halves) = divided(&world, id);
+    let expected = strains(&whole, id);
+    assert_eq!(halves.map(|half| strains(&divided, half)), [expected[..2].to_vec(), expected[3..].to_vec()]);
 }
 
 #[cfg(feature = "snapshot")]

@@ -4,13 +4,16 @@
 //! a bullet in Box2D; the disc is moved back to the tangent there, with the other's share by mass.
 
 use crate::collision::obstacle::Obstacle;
+use crate::geometry::ring::direction_or;
 use glam::Vec2;
 
-/// A gap of this share of a disc's radius is none.
-const TOUCH: f32 = 0.05;
-/// Share of the radius by which a disc goes on along a surface that does not stop it: it stays outside.
+/// A gap of this share of a disc's size is none.
+const TOUCH: f32 = 0.002;
+/// Share of its size by which a disc goes on along a surface that does not stop it: it stays outside.
 const SLIDE: f32 = 0.5;
-/// Most surfaces that are looked at on the way of a disc.
+/// Smallest size of a disc in a search, units: a point's.
+const SMALLEST: f32 = 0.02;
+/// Most places that are looked at on the way of a disc.
 const MOST_LOOKS: usize = 256;
 
 /// How a surface stops a disc.
@@ -28,29 +31,30 @@ pub(crate) struct Stop {
 /// outside at first.
 pub(crate) fn first_touch(between: Vec2, way: Vec2, radius_sum: f32) -> Option<Vec2> {
     let start = between - way;
-    let (squared, approach) = (start.length_squared(), start.dot(way));
-    if squared <= radius_sum * radius_sum {
-        let has_crossed = squared > 0.0 && start.dot(between) < 0.0;
-        return has_crossed.then(|| start / squared.sqrt());
+    let approach = start.dot(way);
+    if start.length_squared() <= radius_sum * radius_sum {
+        let has_crossed = start.dot(between) < 0.0;
+        return has_crossed.then(|| direction_or(start, -direction_or(way, Vec2::X)));
     }
-    // |start + t way| = radius_sum, its first root.
-    let way_squared = way.length_squared();
-    let root = approach * approach - way_squared * (squared - radius_sum * radius_sum);
+    // |start + t way| = radius_sum, its first root; the miss distance times the way keeps its digits on any way.
+    let (way_squared, miss) = (way.length_squared(), start.perp_dot(way));
+    let root = radius_sum * radius_sum * way_squared - miss * miss;
     if approach >= 0.0 || root < 0.0 {
         return None;
     }
     let t = -(approach + root.sqrt()) / way_squared;
-    (t <= 1.0).then(|| (start + way * t) / radius_sum)
+    (t <= 1.0).then(|| direction_or(start + way * t, -direction_or(way, Vec2::X)))
 }
 
 /// The first surface of an obstacle that stops a disc on a straight way, if it is outside at first. `holds` says by a direction out
-/// of the surface whether the surface is solid there.
+/// of the surface whether the surface is solid there. A disc that comes past too many surfaces is stopped where it got to.
 pub(crate) fn first_stop(
     obstacle: &Obstacle,
     [from, to]: [Vec2; 2],
     radius: f32,
     holds: impl Fn(Vec2) -> bool,
 ) -> Option<Stop> {
+    let size = if radius > SMALLEST { radius } else { SMALLEST };
     let length = (to - from).length();
     let along = (to - from) / length;
     let mut gone = 0.0;
@@ -61,21 +65,34 @@ pub(crate) fn first_stop(
         if is_inside || distance <= 1e-6 {
             return None;
         }
-        let gap = distance - radius;
-        if gap < TOUCH * radius {
-            let away = (at - surface) / distance;
-            let depth = radius - (to - surface).dot(away);
-            if depth > 0.0 && along.dot(away) < 0.0 && holds(away) {
-                return Some(Stop { away, depth, has_passed: true });
-            }
+        let (away, gap) = ((at - surface) / distance, distance - radius);
+        let depth = radius - (to - surface).dot(away);
+        let stops = depth > 0.0 && along.dot(away) < 0.0 && holds(away);
+        if stops && gap < TOUCH * size {
+            return Some(Stop { away, depth, has_passed: true });
         }
-        // No surface is nearer than the nearest one: it is safe to go on as far.
-        gone += if gap > SLIDE * radius { gap } else { SLIDE * radius };
+        // No surface is nearer than the nearest one: it is safe to go on almost as far.
+        gone += if stops { gap - 0.5 * TOUCH * size } else { slide(gap, distance, size) };
         if gone >= length {
             return None;
         }
     }
-    None
+    Some(Stop { away: -along, depth: length - gone, has_passed: true })
+}
+
+/// How far a disc goes on where nothing stops it.
+fn slide(gap: f32, distance: f32, size: f32) -> f32 {
+    let longest = SLIDE * size;
+    let half = 0.5 * distance;
+    if gap > longest {
+        gap
+    } else if half > longest {
+        longest
+    } else if half > 0.1 * size {
+        half
+    } else {
+        0.1 * size
+    }
 }
 
 #[cfg(test)]
@@ -97,6 +114,18 @@ mod tests {
         assert_eq!(touch(Vec2::new(1.9, 0.0), Vec2::new(1.2, 0.0)), None, "it overlaps, and stays on its side");
     }
 
+    #[test]
+    fn a_long_way_and_a_point_lose_no_digits() {
+        for (aside, meets) in [(0.009, true), (0.011, false)] {
+            let way = Vec2::new(-1000.0, 0.0);
+            let normal = first_touch(Vec2::new(400.0, aside) + way, way, 0.01);
+            assert_eq!(normal.is_some(), meets, "{aside}");
+            assert!(normal.is_none_or(|normal| (normal.y - 0.9).abs() < 0.01 && normal.is_normalized()), "{normal:?}");
+        }
+        assert_eq!(first_touch(Vec2::splat(-2.0), Vec2::splat(-5.0), 0.0), Some(Vec2::splat(0.5f32.sqrt())));
+        assert_eq!(first_touch(Vec2::ZERO, Vec2::ZERO, 0.0), None);
+    }
+
     fn stop_at(shape: SharedShape, from: Vec2, to: Vec2) -> Option<Stop> {
         first_stop(&Obstacle::new(shape, Pose::IDENTITY), [from, to], 0.5, |_| true)
     }
@@ -113,12 +142,13 @@ mod tests {
             SharedShape::polyline(vec![Vec2::new(0.0, -4.0), Vec2::new(0.0, 1.0), Vec2::new(0.0, 4.0)], None),
         ];
         for shape in shapes {
-            for [from, to] in [[-20.0, 30.0], [9.0, -7.0]] {
-                let stop = stop_at(shape.clone(), Vec2::new(from, 0.0), Vec2::new(to, 0.0));
+            for ([from, to], radius) in [([-20.0, 30.0], 0.5), ([9.0, -7.0], 0.5), ([-20.0, 30.0], 0.0)] {
+                let obstacle = Obstacle::new(shape.clone(), Pose::IDENTITY);
+                let stop = first_stop(&obstacle, [from, to].map(|x| Vec2::new(x, 0.0)), radius, |_| true);
                 let Stop { away, depth, .. } = stop.unwrap_or_else(|| panic!("{:?}", shape.shape_type()));
                 let end = to + away.x * depth;
                 assert!(away.x * from > 0.99 * from.abs(), "{:?}: {away}", shape.shape_type());
-                assert!(end * from > 0.0 && end.abs() < 0.56, "{:?}: {end}", shape.shape_type());
+                assert!(end * from >= 0.0 && end.abs() < radius + 0.06, "{:?}: {end}", shape.shape_type());
             }
         }
     }
@@ -137,6 +167,8 @@ mod tests {
 
     #[test]
     fn what_begins_inside_and_what_passes_by_is_not_stopped() {
+        assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 1.51), Vec2::new(9.0, 1.51)).is_none());
+        assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 1.49), Vec2::new(9.0, 1.49)).is_some());
         assert!(stop_at(SharedShape::ball(1.0), Vec2::ZERO, Vec2::new(9.0, 0.0)).is_none());
         assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 1.6), Vec2::new(9.0, 1.6)).is_none());
         assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 0.0), Vec2::new(-2.0, 0.0)).is_none());

@@ -14,7 +14,7 @@ use crate::id::{OrganismId, TemplateId};
 use crate::kind::Kind;
 use crate::organism::{Blueprint, Organism, Storage, TOUCHING};
 use crate::particle::mass_properties::{LEAST_INERTIA, MassProperties};
-use crate::particle::{CollisionGroups, NO_OWNER, Particle};
+use crate::particle::{CollisionGroups, GRID, NO_OWNER, Particle};
 use crate::rng::Rng;
 use crate::template::{Half, Node, Template};
 use glam::Vec2;
@@ -29,13 +29,15 @@ pub(super) struct PlannedHalf {
     scale: f32,
     speed: f32,
     particles: Vec<Particle>,
+    /// Rows of plastic strains in the length state of a block, and what they are.
+    strains: Vec<(u32, f32)>,
 }
 
 /// What becomes of the slots of a half.
 struct Transfer<'a> {
     nodes: &'a [Node],
     scale: f32,
-    /// Groups that the discs of the whole body are in, or meet.
+    /// Groups that the whole body was given.
     groups: CollisionGroups,
 }
 
@@ -51,7 +53,7 @@ impl World {
     }
 
     /// Divides the bodies that were told to.
-    pub(super) fn divide_bodies(&mut self) {
+    pub(crate) fn divide_bodies(&mut self) {
         if self.templates.iter().all(|template| template.cut().is_none()) {
             return;
         }
@@ -82,15 +84,16 @@ impl World {
         match error.kind() {
             _ if self.organisms.get(id).is_some_and(|organism| organism.is_quarantined) => Refusal::Quarantined,
             ErrorKind::TooMany { .. } => Refusal::WorldFull,
-            _ => Refusal::NoRoom,
+            ErrorKind::Overlap { .. } | ErrorKind::OutsideWorld { .. } => Refusal::NoRoom,
+            _ => Refusal::UnfitHalf,
         }
     }
 
     /// The two halves of a body, where it is.
     pub(in crate::world) fn plan_cut(&mut self, id: OrganismId) -> Result<[PlannedHalf; 2], Error> {
         let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
-        let Some(template) = self.template_of(organism).filter(|_| !organism.is_quarantined && !organism.is_held())
-        else {
+        let is_free = !organism.is_quarantined && !organism.is_held();
+        let Some(template) = self.template_of(organism).filter(|_| is_free) else {
             return Err(Error::unsupported("organism", "one that is neither frozen nor held"));
         };
         let Some([one, other]) = template.cut() else {
@@ -116,13 +119,14 @@ impl World {
         let scale = self.scale_of(organism) * half.scale;
         self.check_scale_of_half(&template, scale)?;
         self.check_kicks(&blueprint, scale, organism.linear_damping)?;
-        let transfer = Transfer { nodes: template.nodes(), scale, groups: self.groups_of(organism) };
+        let transfer = Transfer { nodes: template.nodes(), scale, groups: self.groups_of(organism, whole) };
         let planned = self.particles_of_half(organism, whole, half, &transfer);
         let particles = planned.ok_or_else(|| Error::unsupported("slots", "slots that can move"))?;
         for particle in &particles {
             in_range("mass", 1.0 / particle.inv_mass, MASSES[0], MASSES[1])?;
         }
-        Ok(PlannedHalf { blueprint, template, scale, speed, particles })
+        let strains = self.strains_of_half(organism, &half.slots, &template);
+        Ok(PlannedHalf { blueprint, template, scale, speed, particles, strains })
     }
 
     fn template_of_half(&self, organism: &Organism, half: &Half) -> Result<TemplateId, Error> {
@@ -142,12 +146,12 @@ impl World {
         in_range("scale", scale, SCALES[0], if most < SCALES[1] { most } else { SCALES[1] })
     }
 
-    /// Groups of all discs of an organism together.
-    fn groups_of(&self, organism: &Organism) -> CollisionGroups {
-        let groups = organism.particles().map(|i| self.particles.groups[i as usize]);
-        groups.fold(CollisionGroups::NONE, |all, one| CollisionGroups {
-            memberships: all.memberships | one.memberships,
-            filter: all.filter | one.filter,
+    /// Groups that an organism was given besides those of its nodes: what its discs have lost of theirs is left out.
+    fn groups_of(&self, organism: &Organism, template: &Template) -> CollisionGroups {
+        let discs = organism.particles().map(|i| self.particles.groups[i as usize]);
+        discs.zip(template.nodes()).fold(CollisionGroups::ALL, |all, (disc, node)| CollisionGroups {
+            memberships: all.memberships & (disc.memberships | !node.groups.memberships),
+            filter: all.filter & (disc.filter | !node.groups.filter),
         })
     }
 
@@ -188,8 +192,9 @@ impl World {
         }
         self.check_room_of_half(id, &halves[0]).map_err(|error| error.within("cut[0]"))?;
         self.check_room_of_half(id, &halves[1]).map_err(|error| error.within("cut[1]"))?;
+        let share = if halves.iter().all(|half| half.template.outline().is_empty()) { OVERLAP } else { TOUCHING };
         let [one, other] = halves.each_ref().map(|half| &half.particles);
-        let is_free = one.iter().all(|a| other.iter().all(|b| !overlap(a, b)));
+        let is_free = one.iter().all(|a| other.iter().all(|b| !overlap(a, b, share)));
         let refused = || Error::new(ErrorKind::Overlap { with: "the other half".to_owned() }, "cut[1]");
         is_free.then_some(()).ok_or_else(refused)
     }
@@ -248,14 +253,16 @@ impl World {
 
     /// An organism that is a half from now on.
     fn settle(&mut self, id: OrganismId, organism: Organism, half: PlannedHalf) -> Organism {
-        let PlannedHalf { blueprint, template, scale, speed, mut particles } = half;
+        let PlannedHalf { blueprint, template, scale, speed, mut particles, strains } = half;
         particles.iter_mut().for_each(|particle| particle.owner = id.index);
         self.note_place(id.index, bounds_of(discs(&particles)));
         let (outline, slots) = (template.outline().to_vec(), template.nodes().len() as u32);
         let crawl = Rng::new(self.config.seed, id.crawl_stream());
+        let body = self.add_to_block(template, id.index, scale, &particles);
+        self.set_strains(&body, &strains);
         Organism {
             kind: blueprint.kind,
-            body: self.add_to_block(template, id.index, scale, &particles),
+            body,
             slots,
             locomotion: blueprint.locomotion.begun(crawl, outline.len()),
             outline,
@@ -298,14 +305,49 @@ impl Transfer<'_> {
         let place = |(node, arm): (&Node, Vec2)| {
             let velocity = (centre.velocity + arm.perp() * rate).clamp_length_max(speed_limit);
             let inv_mass = 1.0 / (node.mass * share);
-            self.particle(node, Particle { offset: centre.offset + arm, velocity, inv_mass, ..centre })
+            let (origin, offset) = near_origin(centre.origin, centre.offset + arm);
+            self.particle(node, Particle { origin, offset, velocity, inv_mass, ..centre })
         };
         self.nodes.iter().zip(arms).map(place).collect()
     }
 }
 
-/// Whether two discs overlap by more than halves may.
-fn overlap(a: &Particle, b: &Particle) -> bool {
-    let least = (a.radius + b.radius) * (1.0 - OVERLAP);
+/// The same place from the nearest origin on the grid.
+fn near_origin(origin: Vec2, offset: Vec2) -> (Vec2, Vec2) {
+    let by = (offset / GRID).round() * GRID;
+    (origin + by, offset - by)
+}
+
+/// Whether two discs overlap by more than a share of the sum of their radii.
+fn overlap(a: &Particle, b: &Particle, share: f32) -> bool {
+    let least = (a.radius + b.radius) * (1.0 - share);
     a.groups.meets(b.groups) && (a.position() - b.position()).length_squared() < least * least
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{CollisionGroups, Half, Inputs, Node, Placement, Template, World, WorldConfig};
+    use glam::Vec2;
+
+    #[test]
+    fn a_half_is_in_the_groups_of_its_template_but_for_those_that_the_whole_was_not_given() {
+        let groups = |memberships, filter| CollisionGroups { memberships, filter };
+        for (given, expected) in [(CollisionGroups::ALL, groups(2, 6)), (groups(!0, 5), groups(2, 4))] {
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let at = |x: f32, groups| Node { groups, ..Node::disc(Vec2::new(x, 0.0), 1.0, 0.5) };
+            let mut half = Template::builder();
+            half.name("half").node(at(0.0, groups(2, 6)));
+            world.add_template(half.build().unwrap());
+            let mut whole = Template::builder();
+            let slots = [0.0, 1.0].map(|x| whole.node(at(x, groups(1, 7))));
+            whole.cut(slots.map(|slot| Half::of([slot]).named("half")));
+            let whole = world.add_template(whole.build().unwrap());
+            let id = world.spawn_template(whole, Placement::at(50.0, 50.0)).unwrap();
+            world.set_collision_groups(id, given).unwrap();
+            world.divide(id).unwrap();
+            world.step(&Inputs::new());
+            let found: Vec<_> = world.particles.live().map(|i| world.particles.groups[i]).collect();
+            assert_eq!(found, [expected; 2]);
+        }
+    }
 }

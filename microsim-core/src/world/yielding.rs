@@ -8,6 +8,7 @@ use crate::solver::block::{self, Block};
 use crate::solver::constraint::{TORN, YieldingDistance};
 use crate::solver::muscle::Scaled;
 use crate::solver::yielding::Flow;
+use crate::template::Template;
 
 impl World {
     /// Lets the links of all bodies that are awake flow and tear, at the end of a substep of `h` seconds.
@@ -71,5 +72,33 @@ impl World {
                 Some((link, row[(first - block.base) as usize]))
             })
         })
+    }
+
+    /// Rows and plastic strains of the links of a half of an organism that goes on with a template, where its nodes take over slots:
+    /// a link has what one between the same slots had.
+    pub(in crate::world) fn strains_of_half(
+        &self,
+        organism: &Organism,
+        slots: &[u32],
+        template: &Template,
+    ) -> Vec<(u32, f32)> {
+        if slots.len() != template.nodes().len() {
+            return Vec::new();
+        }
+        let strain = |link: &YieldingDistance| {
+            let [a, b] = [link.a, link.b].map(|node| slots[node as usize]);
+            let mut known = self.yielding_links(organism);
+            let same = known.find(|(of_whole, _)| [[a, b], [b, a]].contains(&[of_whole.a, of_whole.b]));
+            same.map_or(0.0, |(_, plastic)| link.within_bounds(plastic))
+        };
+        template.yielding_links().filter_map(|(link, scaled)| Some((scaled.link?, strain(link)))).collect()
+    }
+
+    /// Sets plastic strains of a body, by their rows.
+    pub(in crate::world) fn set_strains(&mut self, body: &Storage, strains: &[(u32, f32)]) {
+        let &Storage::Lane { block, first } = body else { return };
+        let block = &mut self.blocks[block as usize];
+        let lane = (first - block.base) as usize;
+        strains.iter().for_each(|&(row, strain)| block.length_state[row as usize][lane] = strain);
     }
 }

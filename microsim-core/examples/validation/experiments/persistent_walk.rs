@@ -13,7 +13,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     words: "900 bacilli in a world, far from each other, after they have got going for 2 s: bodies that are moved as a whole follow \
             their controller. A cell that crawls does not, or only after a while: of 16 amoeboid cells of radius 11 the rows say by how \
             much it differs. For them the walk is a model of behaviour: cells of radius 8 to 16 at 3 to 14 µm/s follow it within 20 % where \
-            they get 0.75 of their radius far in `P`, and keep their direction longer below.",
+            they move by 0.75 of their radius in `P`, and keep their direction longer below.",
     run: measure,
     order: Order::None("statistical. Times of controllers are whole steps, and at least three of them"),
 };

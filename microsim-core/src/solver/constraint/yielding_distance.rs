@@ -74,6 +74,20 @@ impl YieldingDistance {
         [if most < MOST_SHORTENED { -most } else { -MOST_SHORTENED }, most]
     }
 
+    /// The nearest plastic strain that it may have; one that tore stays so.
+    pub(crate) fn within_bounds(&self, plastic: f32) -> f32 {
+        let [least, most] = self.bounds();
+        if plastic == TORN {
+            TORN
+        } else if plastic < least {
+            least
+        } else if plastic > most {
+            most
+        } else {
+            plastic
+        }
+    }
+
     /// The plastic strain in each lane after a share of the excess has flowed, [`TORN`] where it tears; `None` if nothing yields.
     /// What nothing moves does not yield.
     #[inline(always)]
@@ -107,7 +121,7 @@ impl YieldingDistance {
         if strain > self.breaking_strain {
             return TORN;
         }
-        let (elastic, [least, most]) = (strain - plastic, self.bounds());
+        let elastic = strain - plastic;
         let excess = if elastic > self.yield_strain {
             elastic - self.yield_strain
         } else if elastic < -self.yield_strain {
@@ -116,15 +130,7 @@ impl YieldingDistance {
             0.0
         };
         let flowed = plastic + excess * share;
-        if flowed < least {
-            least
-        } else if flowed > most {
-            most
-        } else if flowed.is_finite() {
-            flowed
-        } else {
-            plastic
-        }
+        if flowed.is_finite() { self.within_bounds(flowed) } else { plastic }
     }
 }
 

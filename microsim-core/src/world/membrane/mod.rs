@@ -30,9 +30,8 @@ impl World {
         (by(self.step_index + 1) - by(self.step_index)) as u32
     }
 
-    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content; divides bodies.
+    /// Advances all cells that divide or fuse by a step, and the membranes that adapt to their content.
     pub(crate) fn divide_and_fuse(&mut self) {
-        self.divide_bodies();
         let dt = self.config.dt;
         let cells = self.organisms.with_membrane().filter(|(_, organism)| organism.divider.is_some());
         for id in cells.map(|(id, _)| id).collect::<Vec<_>>() {

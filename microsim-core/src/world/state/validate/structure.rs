@@ -174,6 +174,8 @@ fn check_organism(world: &World, organism: &Organism, cell: Subject) -> Check {
     cell.must(!divides || organism.divider.as_ref().is_some_and(Divider::is_of_body), || {
         "it does not divide as its template says".to_owned()
     })?;
+    let may_have_fluid = matches!(organism.body, Storage::Loose { .. }) || organism.fluid.is_none();
+    cell.must(may_have_fluid, || "a body in lanes has fluid".to_owned())?;
     let fluids = world.fluids.len();
     let is_known = organism.fluid.is_none_or(|fluid| (fluid as usize) < fluids);
     cell.must(is_known, || format!("it is of fluid {:?} of {fluids}", organism.fluid))?;

@@ -102,6 +102,13 @@ fn damage_to_chemicals_is_found() {
 
 #[test]
 fn damage_to_organisms_is_found() {
+    finds(
+        |w| {
+            let platelet = w.organisms().nth(1).unwrap();
+            w.organisms.get_mut(platelet).unwrap().fluid = Some(0);
+        },
+        "a body in lanes has fluid",
+    );
     let cell = |w: &World| w.organisms().next().unwrap();
     let organism = |w: &mut World, change: &dyn Fn(&mut crate::organism::Organism)| {
         let id = cell(w);
