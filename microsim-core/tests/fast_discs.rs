@@ -6,7 +6,11 @@ mod common;
 use common::run;
 use microsim_core::geometry::polygon::contains_point;
 use microsim_core::glam::Vec2;
-use microsim_core::{Inputs, Material, Node, OrganismId, Placement, RedCellSpec, Template, World, WorldConfig};
+use microsim_core::parry2d::{math::Pose, shape::SharedShape};
+use microsim_core::{
+    AgarSpec, Inputs, Material, Node, Obstacle, ObstacleMotion, OrganismId, Placement, RedCellSpec, Template, World,
+    WorldConfig,
+};
 
 fn room(max_speed: f32, substeps: u32) -> World {
     let (size, damping) = (Vec2::new(300.0, 60.0), 0.0);
@@ -93,5 +97,53 @@ fn a_fast_disc_does_not_jump_into_a_cell() {
                 assert!(is_out, "{speed} units/s, {substeps} substeps, mass {mass}, {k}, step {step}: {place}");
             }
         }
+    }
+}
+
+/// Discs that get through a bar of this thickness, shot at it as fast as they may be, or met by it as fast as it may be.
+fn shot_through(config: &WorldConfig, thickness: f32, radius: f32, is_bar_on_its_way: bool) -> usize {
+    let mut world = World::new(config.clone()).unwrap();
+    let bar = Obstacle::new(SharedShape::cuboid(0.5 * thickness, 45.0), Pose::translation(50.0, 45.0));
+    let bar = world.add_obstacle(Obstacle { motion: ObstacleMotion::Push, ..bar }).unwrap();
+    let way = config.max_speed * config.dt / config.substeps as f32;
+    let shoot = |k: u8| {
+        let at = Placement::at(10.0 + way * f32::from(k) / 30.0, 3.0 + 2.5 * f32::from(k));
+        let disc = world.spawn(&AgarSpec { radius, ..AgarSpec::default() }.into(), at).unwrap();
+        if !is_bar_on_its_way {
+            world.push(disc, Vec2::new(config.max_speed, 0.0)).unwrap();
+        }
+        disc
+    };
+    let discs: Vec<_> = (0..30).map(shoot).collect();
+    if is_bar_on_its_way {
+        world.move_obstacle(bar, Pose::translation(5.0, 45.0)).unwrap();
+    }
+    run(&mut world, &Inputs::new(), 120);
+    let bar = world.obstacle(bar).unwrap().pose.translation.x;
+    discs.into_iter().filter(|&disc| world.centroid(disc).unwrap().x > bar).count()
+}
+
+#[test]
+fn nothing_gets_through_an_obstacle_however_thin_and_fast() {
+    for (max_speed, substeps, radius) in [(200.0, 2, 0.3), (400.0, 8, 0.2), (1000.0, 32, 0.1), (1000.0, 3, 0.1)] {
+        let config = WorldConfig { max_speed, substeps, damping: 0.0, ..WorldConfig::default() };
+        for (thickness, is_bar_on_its_way) in [(0.002, false), (0.002, true), (0.5, false), (0.5, true)] {
+            let through = shot_through(&config, thickness, radius, is_bar_on_its_way);
+            assert_eq!(through, 0, "{config:?}, {thickness} thick, on its way {is_bar_on_its_way}");
+        }
+    }
+}
+
+#[test]
+fn a_fast_disc_lands_on_a_one_way_platform_and_passes_it_from_below() {
+    let config = WorldConfig { max_speed: 1000.0, damping: 0.0, ..WorldConfig::default() };
+    for (from, speed, ends_above) in [(45.0, -900.0, true), (15.0, 900.0, true), (15.0, 0.0, false)] {
+        let mut world = World::new(config.clone()).unwrap();
+        let platform = Obstacle::new(SharedShape::cuboid(30.0, 0.01), Pose::translation(40.0, 30.0));
+        world.add_obstacle(Obstacle { one_way: Some(Vec2::Y), ..platform }).unwrap();
+        let disc = world.spawn(&AgarSpec::default().into(), Placement::at(40.0, from)).unwrap();
+        world.push(disc, Vec2::new(0.0, speed)).unwrap();
+        run(&mut world, &Inputs::new(), 60);
+        assert_eq!(world.centroid(disc).unwrap().y > 30.0, ends_above, "from {from} at {speed}");
     }
 }
