@@ -332,7 +332,7 @@ mod tests {
     #[test]
     fn a_half_is_in_the_groups_of_its_template_but_for_those_that_the_whole_was_not_given() {
         let groups = |memberships, filter| CollisionGroups { memberships, filter };
-        for (given, expected) in [(CollisionGroups::ALL, groups(2, 6)), (groups(!0, 5), groups(2, 4))] {
+        for (given, expected) in [(None, groups(2, 6)), (Some(groups(!0, 5)), groups(2, 4))] {
             let mut world = World::new(WorldConfig::default()).unwrap();
             let at = |x: f32, groups| Node { groups, ..Node::disc(Vec2::new(x, 0.0), 1.0, 0.5) };
             let mut half = Template::builder();
@@ -343,7 +343,9 @@ mod tests {
             whole.cut(slots.map(|slot| Half::of([slot]).named("half")));
             let whole = world.add_template(whole.build().unwrap());
             let id = world.spawn_template(whole, Placement::at(50.0, 50.0)).unwrap();
-            world.set_collision_groups(id, given).unwrap();
+            if let Some(given) = given {
+                world.set_collision_groups(id, given).unwrap();
+            }
             world.divide(id).unwrap();
             world.step(&Inputs::new());
             let found: Vec<_> = world.particles.live().map(|i| world.particles.groups[i]).collect();
