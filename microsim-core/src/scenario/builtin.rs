@@ -1,7 +1,5 @@
 //! The scenarios that come with the library.
 
-use super::bare::scenario_text;
-
 /// A scenario that comes with the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Builtin {
@@ -17,82 +15,82 @@ static BUILTINS: [Builtin; 16] = [
     Builtin {
         name: "game",
         summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",
-        text: scenario_text!("../../scenarios/game.toml"),
+        text: include_str!("../../scenarios/game.toml"),
     },
     Builtin {
         name: "demo",
         summary: "hunting cells among platelets: everything at once, to play with (thesis, Fig. 3.12)",
-        text: scenario_text!("../../scenarios/demo.toml"),
+        text: include_str!("../../scenarios/demo.toml"),
     },
     Builtin {
         name: "platelets",
         summary: "a probe sweeps through a dense field of platelets, any number of them (thesis, Table 4.1)",
-        text: scenario_text!("../../scenarios/platelets.toml"),
+        text: include_str!("../../scenarios/platelets.toml"),
     },
     Builtin {
         name: "crowd",
         summary: "amoeboid cells wander about and jostle each other, any number of them",
-        text: scenario_text!("../../scenarios/crowd.toml"),
+        text: include_str!("../../scenarios/crowd.toml"),
     },
     Builtin {
         name: "dam-break",
         summary: "a column of fluid collapses under gravity",
-        text: scenario_text!("../../scenarios/dam-break.toml"),
+        text: include_str!("../../scenarios/dam-break.toml"),
     },
     Builtin {
         name: "empty",
         summary: "an empty room, to start from",
-        text: scenario_text!("../../scenarios/empty.toml"),
+        text: include_str!("../../scenarios/empty.toml"),
     },
     Builtin {
         name: "absorb-agar",
         summary: "a cell hunts down agar among platelets and takes it in",
-        text: scenario_text!("../../scenarios/absorb-agar.toml"),
+        text: include_str!("../../scenarios/absorb-agar.toml"),
     },
     Builtin {
         name: "absorb-rigid",
         summary: "a cell hunts down a rigid cell among platelets and takes it in",
-        text: scenario_text!("../../scenarios/absorb-rigid.toml"),
+        text: include_str!("../../scenarios/absorb-rigid.toml"),
     },
     Builtin {
         name: "grow",
         summary: "a cell eats agar, digests it and grows",
-        text: scenario_text!("../../scenarios/grow.toml"),
+        text: include_str!("../../scenarios/grow.toml"),
     },
     Builtin {
         name: "divide",
         summary: "a cell divides among platelets; its halves crawl apart, come back and fuse",
-        text: scenario_text!("../../scenarios/divide.toml"),
+        text: include_str!("../../scenarios/divide.toml"),
     },
     Builtin {
         name: "squeeze",
         summary: "a cell squeezes through a gap of half its diameter",
-        text: scenario_text!("../../scenarios/squeeze.toml"),
+        text: include_str!("../../scenarios/squeeze.toml"),
     },
     Builtin {
         name: "leak-stress",
         summary: "a growing cell thrashes about among platelets and must not leak",
-        text: scenario_text!("../../scenarios/leak-stress.toml"),
+        text: include_str!("../../scenarios/leak-stress.toml"),
     },
     Builtin {
         name: "ram-stress",
         summary: "rigid cells and probes ram a cell from all sides; nothing gets in but by ingestion",
-        text: scenario_text!("../../scenarios/ram-stress.toml"),
+        text: include_str!("../../scenarios/ram-stress.toml"),
     },
     Builtin {
         name: "hunt",
         summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
-        text: scenario_text!("../../scenarios/hunt.toml"),
+        text: include_str!("../../scenarios/hunt.toml"),
     },
     Builtin {
         name: "pond",
         summary: "paramecia and an amoeba in their real size, for `render`",
-        text: scenario_text!("../../scenarios/pond.toml"),
+        text: include_str!("../../scenarios/pond.toml"),
     },
     Builtin {
         name: "crawl",
         summary: "four types of amoeba crawl by pseudopods in an open field, best seen with `render`",
-        text: scenario_text!("../../scenarios/crawl.toml"),
+        text: include_str!("../../scenarios/crawl.toml"),
     },
 ];
 

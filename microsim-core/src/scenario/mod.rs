@@ -82,7 +82,6 @@
 //!
 //! Organisms are spawned in this order: `[[spawn]]` tables, then `[[field]]` tables, each in the order of the file.
 
-mod bare;
 mod build;
 mod builtin;
 mod describe;
