@@ -21,6 +21,7 @@ impl World {
     }
 
     fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
+        self.check_chemicals_allowed()?;
         spec.cells_beside(self.chemicals.iter().map(|other| other.values().len()).sum(), &self.config)?;
         let mut chemical = Chemical::new(spec, &self.config)?;
         let shut = self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals());

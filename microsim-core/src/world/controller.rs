@@ -35,6 +35,7 @@ impl World {
         speed: f32,
         has_outline: bool,
     ) -> Result<(), Error> {
+        self.check_periodic_controller(controller)?;
         controller.chemicals().try_for_each(|chemical| self.check_chemical(chemical, "controller.chemical"))?;
         if *locomotion == Locomotion::None && *controller != Controller::Still {
             return Err(Error::unsupported("controller", "an organism that moves"));

@@ -68,6 +68,9 @@ impl World {
         let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
         let linear = organism.linear_damping;
         with_default_float_environment(|| self.config.check_damping("damping", damping))?;
+        if damping != 0.0 && organism.is_free_fluid() && !self.period().is_none() {
+            return Err(Error::unsupported("damping", "0 for fluid in a room with periodic sides"));
+        }
         self.organisms.set_damping(id, [linear, damping]);
         self.changed(|| WorldChange::SetAngularDamping(id, damping));
         Ok(())

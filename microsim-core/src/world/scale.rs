@@ -48,6 +48,7 @@ impl World {
         let room = 0.5 * self.config.width_between_walls();
         let most = if room < LARGEST { room } else { LARGEST } / (largest * organism.spawn_scale);
         in_range("scale", scale, 0.1, if most < 10.0 { most } else { 10.0 })?;
+        self.check_width(nodes, organism.spawn_scale * scale)?;
         self.check_kicks_at_scale(organism, scale)
     }
 

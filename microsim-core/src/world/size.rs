@@ -39,6 +39,11 @@ impl World {
     fn resize(&mut self, size: Vec2) -> Result<(), Error> {
         let config = WorldConfig { size, ..self.config.clone() };
         config.validate()?;
+        for (axis, field) in ["size.x", "size.y"].into_iter().enumerate() {
+            if self.period().0[axis] > 0.0 && size[axis] != self.config.size[axis] {
+                return Err(Error::unsupported(field, "a length that stays as it is between periodic sides"));
+            }
+        }
         self.check_room(&config)?;
         self.chemicals = self.resized_chemicals(&config)?;
         self.config = config;

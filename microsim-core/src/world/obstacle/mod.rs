@@ -168,6 +168,10 @@ impl World {
             let is_there = table.id_at(index).is_some();
             let obstacle = if is_there { read.next().ok_or("obstacles: some are missing")? } else { nothing() };
             check(&obstacle).map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
+            if is_there {
+                let checked = self.check_obstacle_period(&obstacle);
+                checked.map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
+            }
             count += usize::from(is_there);
             self.obstacles.push(obstacle);
         }
@@ -184,6 +188,7 @@ impl World {
 
     /// Checks that an obstacle overlaps no organism.
     fn check_clear(&self, obstacle: &Obstacle) -> Result<(), Error> {
+        self.check_obstacle_period(obstacle)?;
         let overlapped = if obstacle.is_solid() { self.overlapped_by(obstacle) } else { None };
         overlapped.map_or(Ok(()), |with| Err(Error::new(ErrorKind::Overlap { with }, "pose")))
     }
