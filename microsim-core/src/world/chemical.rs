@@ -13,7 +13,8 @@ impl World {
     /// Adds a chemical, in the concentration that its spec says.
     ///
     /// # Errors
-    /// Names the field out of its range, which may depend on the room, the time step and the other chemicals.
+    /// Names the field out of its range, which may depend on the room, the time step and the other chemicals. A room with periodic
+    /// sides has none.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let id = with_default_float_environment(|| self.insert_chemical(spec))?;
         self.changed(|| WorldChange::AddChemical(spec));

@@ -13,7 +13,7 @@ impl World {
     ///
     /// # Errors
     /// When the handle is stale, a field is out of range, the controller senses a chemical that this world does not have, the
-    /// organism cannot move or has no outline to sense with, or it could not follow a random walk.
+    /// organism cannot move or has no outline to sense with, it could not follow a random walk, or the room has periodic sides.
     pub fn set_controller(&mut self, id: OrganismId, controller: Controller) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         with_default_float_environment(|| controller.validate()).map_err(|error| error.within("controller"))?;

@@ -64,8 +64,8 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// Names the number that is out of its range, the handle that is stale, the node that does not exist, or the end that cannot
-    /// be joined. Nothing is changed then.
+    /// Names the number that is out of its range, the handle that is stale, the node that does not exist, the end that cannot
+    /// be joined, or in a room with periodic sides a length of half of it or more. Nothing is changed then.
     pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
         let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&spec);

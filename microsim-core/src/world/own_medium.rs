@@ -63,7 +63,7 @@ impl World {
     /// exp(-damping t) of itself. Cells that divide pass it on.
     ///
     /// # Errors
-    /// When the handle is stale, or the damping is not finite or out of its range.
+    /// When the handle is stale, the damping is not finite or out of its range, or it is of fluid in a room with periodic sides.
     pub fn set_angular_damping(&mut self, id: OrganismId, damping: f32) -> Result<(), Error> {
         let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
         let linear = organism.linear_damping;

@@ -28,7 +28,7 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// When a side is not finite or out of its range, when something lies outside of the new walls, or beyond an open side farther than
+    /// When a side is not finite or out of its range, when the length between periodic sides would change, when something lies outside of the new walls, or beyond an open side farther than
     /// the new room is large, and when a chemical would have too many cells or spread too fast for them. Nothing is changed then.
     pub fn set_size(&mut self, size: Vec2) -> Result<(), Error> {
         with_default_float_environment(|| self.resize(size))?;

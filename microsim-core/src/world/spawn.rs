@@ -32,7 +32,8 @@ impl World {
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls, inside a membrane
     /// or overlap what is already there, when substeps are too long for its membrane, when a thermal field would kick it beyond the
-    /// speed limit, or when the world would hold too many particles.
+    /// speed limit, when a room with periodic sides cannot hold it ([`Side::Periodic`](crate::Side::Periodic)), or when the world would
+    /// hold too many particles.
     /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());

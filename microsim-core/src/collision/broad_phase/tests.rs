@@ -193,7 +193,7 @@ fn finds_each_pair_of_images_once() {
         broad.find_pairs(input, &mut Sleep::default(), 1);
         let (found, expected) = (image_pairs(&p, &broad), near_images(&p, period, 0.2));
         assert_eq!(found, expected, "seed {seed}");
-        assert!(expected.iter().filter(|(.., shift)| *shift != [0, 0]).count() > 30);
+        assert!(expected.iter().filter(|(.., shift)| *shift != [0, 0]).count() > 5);
     }
 }
 

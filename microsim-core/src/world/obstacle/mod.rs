@@ -27,7 +27,8 @@ impl World {
     ///
     /// # Errors
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, a one-way platform has no
-    /// direction, or the obstacle would overlap an organism. Nothing is changed then.
+    /// direction, the obstacle would overlap an organism, or it is outside of a room with periodic sides or longer than two of it.
+    /// Nothing is changed then.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
         let record = ObstacleRecord::of(&obstacle).map(Box::new);
         let id = with_default_float_environment(|| self.insert_obstacle(obstacle))?;
