@@ -51,8 +51,11 @@ fn a_lift_wakes_and_raises_what_lies_on_its_image() {
     let ball = agar(&mut world, 1.5, 22.0);
     run(&mut world, &Inputs::new(), 90);
     assert!(world.view().organism(ball).unwrap().is_at_rest());
-    world.move_obstacle(lift, Pose::translation(78.0, 24.0)).unwrap();
-    run(&mut world, &Inputs::new(), 90);
+    for step in 1..=80u8 {
+        world.move_obstacle(lift, Pose::translation(78.0, 20.0 + 0.05 * f32::from(step))).unwrap();
+        run(&mut world, &Inputs::new(), 1);
+    }
+    run(&mut world, &Inputs::new(), 60);
     assert!((at(&world, ball).y - 26.0).abs() < 0.05, "{}", at(&world, ball));
 }
 
@@ -116,7 +119,7 @@ fn an_emitter_finds_no_room_where_an_image_is() {
 fn goals_and_targets_are_reached_the_short_way() {
     let mut world = room(0.0);
     let probe = world.spawn(&ProbeSpec::default().into(), Placement::at(74.0, 30.0)).unwrap();
-    let coccus = world.spawn(&CoccusSpec::default().into(), Placement::at(6.0, 50.0)).unwrap();
+    let coccus = world.spawn(&CoccusSpec::default().into(), Placement::at(1.0, 50.0)).unwrap();
     let ball = agar(&mut world, 78.0, 10.0);
     let mut inputs = Inputs::new();
     inputs.set(probe, Intent::toward(Vec2::new(6.0, 30.0)).unwrap());
@@ -222,6 +225,7 @@ fn a_scenario_with_periodic_sides_is_recorded_and_played_again() {
     use microsim_core::scenario::Scenario;
     use std::num::NonZeroU32;
     let text = r#"
+schema = 1
 name = "around"
 [world]
 size = [80.0, 60.0]
@@ -229,8 +233,10 @@ size = [80.0, 60.0]
 left = "periodic"
 right = "periodic"
 [[spawn]]
-kind = "agar"
+of = "ball"
 at = [79.5, 30.0]
+[agar.ball]
+radius = 1.0
 "#;
     assert!(Scenario::parse(&text.replace("right = \"periodic\"\n", ""), &[]).is_err());
     let scenario = Scenario::parse(text, &[]).unwrap();

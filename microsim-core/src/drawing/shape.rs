@@ -89,8 +89,7 @@ impl Geometry {
     }
 
     /// The same elsewhere.
-    #[must_use]
-    pub fn moved(mut self, by: Vec2) -> Self {
+    pub(super) fn moved(mut self, by: Vec2) -> Self {
         match &mut self {
             Self::Discs(discs) => discs.iter_mut().for_each(|(centre, _)| *centre += by),
             Self::Outline(points) | Self::Curve(points) => points.iter_mut().for_each(|point| *point += by),
@@ -217,8 +216,7 @@ impl Item {
     }
 
     /// The same elsewhere.
-    #[must_use]
-    pub fn moved(mut self, by: Vec2) -> Self {
+    pub(super) fn moved(mut self, by: Vec2) -> Self {
         self.geometry = self.geometry.moved(by);
         if let Some(Paint::Radial { centre, .. }) = &mut self.fill {
             *centre += by;
