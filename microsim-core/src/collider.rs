@@ -76,7 +76,8 @@ pub struct ContactPoint {
 }
 
 impl ContactPoint {
-    /// The same contact as the partner feels it, if that is an organism.
+    /// The same contact as the partner feels it, if that is an organism; across a periodic side its point stays where it is, see
+    /// [`crate::World::contacts_of`].
     #[must_use]
     pub fn flipped(self) -> Option<Self> {
         let (organism, node) = (self.partner.organism()?, self.partner_node?);

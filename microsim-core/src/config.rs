@@ -45,6 +45,11 @@ pub enum Substrate {
 /// Size of the largest body, units: beyond an open side it is removed only when all of it is.
 const LARGEST_BODY: f32 = 10_000.0;
 
+/// Shortest length between periodic sides, in ways at the speed limit in a step: a particle meets one image of another.
+const SHORTEST_PERIOD: f32 = 4.0;
+/// What that length is a multiple of, units: the distance of origins of positions, so that images are displaced exactly.
+const PERIOD_GRID: f32 = 1.0 / 256.0;
+
 /// What one side of the room is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Side {
@@ -54,6 +59,11 @@ pub enum Side {
     /// Nothing: what has the centres of all its discs beyond it is removed at the end of the step, fluid particle by particle, with
     /// [`Event::Drained`](crate::Event::Drained).
     Open,
+    /// The opposite side: the room repeats beyond it. What goes out here comes in there, and near it things touch images of what is
+    /// near the opposite one, which has to be periodic as well. The room's length between the two is a multiple of 1/256, and at least
+    /// four times the way at the speed limit in a step. What such a room cannot hold is refused by name: membranes, chemicals and
+    /// controllers among others.
+    Periodic,
 }
 
 /// What the sides of the room are.
@@ -150,10 +160,39 @@ impl WorldConfig {
         in_range("gravity.y", self.gravity.y, -1000.0, 1000.0)?;
         self.check_damping("damping", self.damping)?;
         in_range("max_speed", self.max_speed, 0.1, 1000.0)?;
+        self.check_periodic_sides()?;
         count_in_range("max_particles", self.max_particles, 1, 4_000_000)
     }
 
-    /// Lower left and upper right corner of what the walls enclose, infinitely far where a side is open.
+    #[inline(never)]
+    fn check_periodic_sides(&self) -> Result<(), Error> {
+        let Sides { bottom, top, left, right } = self.sides;
+        for (pair, field) in [([left, right], "sides.right"), ([bottom, top], "sides.top")] {
+            if pair[0] != pair[1] && pair.contains(&Side::Periodic) {
+                return Err(Error::unsupported(field, "a side that is periodic if and only if the opposite one is"));
+            }
+        }
+        if self.period_lengths() != Vec2::ZERO && self.substrate == Substrate::Surfaces {
+            return Err(Error::unsupported("substrate", "the slide in a room with periodic sides"));
+        }
+        for (length, field) in self.period_lengths().to_array().into_iter().zip(["size.x", "size.y"]) {
+            let least = SHORTEST_PERIOD * self.max_displacement();
+            if length > 0.0 && (length < least || (length / PERIOD_GRID).fract() != 0.0) {
+                let accepted = format!("a multiple of 1/256 of at least {least:.3} between periodic sides");
+                return Err(out_of_range(field, length.into(), accepted));
+            }
+        }
+        Ok(())
+    }
+
+    /// The room's lengths between periodic sides, 0 between others.
+    pub(crate) fn period_lengths(&self) -> Vec2 {
+        let Sides { bottom, left, .. } = self.sides;
+        let or_zero = |side: Side, length: f32| if side == Side::Periodic { length } else { 0.0 };
+        Vec2::new(or_zero(left, self.size.x), or_zero(bottom, self.size.y))
+    }
+
+    /// Lower left and upper right corner of what the walls enclose, infinitely far where a side is none.
     pub(crate) fn walls(&self) -> [Vec2; 2] {
         let Sides { bottom, top, left, right } = self.sides;
         let or = |side: Side, wall: f32, far: f32| if side == Side::Wall { wall } else { far };

@@ -154,10 +154,11 @@ fn serial(world: &mut World, phase: impl FnOnce(&mut World) + Send) {
 }
 
 fn steer(world: &mut World, inputs: &Inputs) {
+    let period = world.period();
     let World { config, particles, organisms, blocks, sleep, fluids, obstacles, chemicals, events, scratch, .. } =
         world;
     let (size, dt, others) = (config.size, config.dt, &sensing::others(organisms, particles));
-    let environment = senses::Environment { size, dt, chemicals, obstacles, others };
+    let environment = senses::Environment { size, period, dt, chemicals, obstacles, others };
     steer_organisms(organisms, inputs, particles, &environment, &mut scratch.drives, &mut scratch.tows, events);
     let own = scratch.drives.len();
     drive::begin_tows(&scratch.tows, particles);
@@ -167,7 +168,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
     scratch.forces.clear();
-    actuation::actuate(organisms, inputs, particles, &mut scratch.forces, dt);
+    actuation::actuate(organisms, inputs, particles, &mut scratch.forces, dt, period);
     // An organism with a drive or a force stays awake, even if it is blocked.
     let driven = scratch.drives.iter().map(|drive| (drive.particle, drive.velocity));
     let towed = scratch.tows.iter().map(|tow| (tow.first, tow.velocity));
@@ -183,8 +184,9 @@ fn steer(world: &mut World, inputs: &Inputs) {
 }
 
 fn find_neighbours(world: &mut World) {
+    let period = world.period();
     let World { config, particles, fluids, scratch, .. } = world;
-    scratch.fluid.find_neighbours(fluids, particles, config.walls());
+    scratch.fluid.find_neighbours(fluids, particles, config.walls(), period);
 }
 
 fn stop_sleepers(world: &mut World) {
@@ -375,5 +377,6 @@ fn conclude(world: &mut World) {
     // Sleepers have not moved.
     let awake = outside_of(sleep.sleepers(blocks.iter().map(Block::range)), particles.len());
     integrate::for_each_chunk(particles, awake, *dispatch, integrate::move_origins);
+    world.return_to_room();
     world.supply();
 }

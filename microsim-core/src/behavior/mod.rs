@@ -41,7 +41,8 @@ pub(crate) fn steer_organisms(
         let before = tow::wanted_velocity(organism, senses.at);
         let own = decide(organism, &senses);
         let intent = inputs.get(id);
-        let steering = intent.map_or(own, |intent| intent.goal().map(Steering::to));
+        let nearest = |goal: Vec2| Steering::to(environment.period.nearest_image(goal, senses.at));
+        let steering = intent.map_or(own, |intent| intent.goal().map(nearest));
         let may_move = organism.obey(intent.is_some_and(|intent| intent.digests())) && !organism.is_held();
         organism.goal = steering.filter(|steering| may_move && steering.relative_speed != 0.0).map(|it| it.goal);
         organism.relative_speed = steering.map_or(1.0, |steering| steering.relative_speed);

@@ -111,13 +111,21 @@ impl Progress {
 mod tests {
     use super::super::controller::senses::Environment;
     use super::*;
+    use crate::geometry::period::Period;
     use crate::geometry::ring::ellipse;
     use crate::id::OrganismId;
 
     /// Escapes, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
     fn escapes(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
         const DT: f32 = 0.1;
-        let around = Environment { size: Vec2::splat(100.0), dt: DT, chemicals: &[], obstacles: &[], others: &[] };
+        let around = Environment {
+            size: Vec2::splat(100.0),
+            period: Period::NONE,
+            dt: DT,
+            chemicals: &[],
+            obstacles: &[],
+            others: &[],
+        };
         let (mut progress, mut rng) = (Progress::default(), Rng::new(1, 1));
         let way_out = |step: u32| {
             let at = Vec2::new(30.0, 30.0) + velocity * (step as f32 * DT);

@@ -26,6 +26,11 @@ impl Aabb {
         self.0.zw()
     }
 
+    /// The box elsewhere.
+    pub(super) fn moved(self, by: Vec2) -> Self {
+        Self(self.0 + Vec4::new(-by.x, -by.y, by.x, by.y))
+    }
+
     pub(super) fn centre(self) -> Vec2 {
         (self.low() + self.high()) * 0.5
     }

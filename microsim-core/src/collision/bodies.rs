@@ -6,9 +6,12 @@
 //!
 //! The discs of sleepers are hardly ever asked for, so only their boxes are made.
 
+mod across;
+
 use super::aabb::{Aabb, LaneBoxes};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::exemptions::Exemptions;
+use super::images::Images;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
 use super::{Contact, Mobility};
@@ -218,6 +221,7 @@ impl Bodies {
         filter: PairFilter<'_>,
         margins: &mut SpeculativeMargins,
         next: f32,
+        images: Option<&Images>,
         found: &mut Vec<Contact>,
     ) {
         let mut near = Vec::new();
@@ -227,13 +231,15 @@ impl Bodies {
             }
             for other in self.in_box(body.aabb.low(), body.aabb.high()) {
                 let Some(mobility) = filter.mobility(body, other) else { continue };
-                let is_lifted = other.block != NO_BLOCK && margins.remaining(other.block, other.lane).is_infinite();
-                let slack = if is_lifted { 0.0 } else { other.slack };
+                let slack = margins.slack_of(other);
                 self.pairs_between([body, other], filter.particles, slack, &mut near, |a, b| {
                     if !a.is_within(b, body.slack + slack) {
                         found.extend(filter.contact(a, b, mobility));
                     }
                 });
+            }
+            if let Some(images) = images {
+                self.late_pairs_of_images(body, images, filter, margins, found);
             }
             margins.lift(body.block, body.lane);
         }
@@ -356,6 +362,14 @@ impl PairFilter<'_> {
         let (p, i, j) = (self.particles, a.index as usize, b.index as usize);
         let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
         collide.then(|| Contact::new(p, i, j, mobility, self.longest))
+    }
+}
+
+impl SpeculativeMargins {
+    /// How much smaller the margin of a body is than the largest displacement, if it has not been lifted.
+    fn slack_of(&self, body: &BodyProxy) -> f32 {
+        let is_lifted = body.block != NO_BLOCK && self.remaining(body.block, body.lane).is_infinite();
+        if is_lifted { 0.0 } else { body.slack }
     }
 }
 

@@ -8,14 +8,17 @@
 //! [`disc_grid`]: super::disc_grid
 //! [`speculative_margin`]: super::speculative_margin
 
+use super::aabb::Aabb as SearchBox;
 use super::bodies::{Bodies, BodyProxy, PairFilter};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
+use super::images::Images;
 use super::obstacle::Obstacle;
 use super::obstacle_path::ObstaclePath;
 use super::ring::{Containment, Ring, RingContacts, RingQuery};
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
 use super::{Contact, Contacts, Mobility, ObstacleContact};
+use crate::geometry::period::Period;
 use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::Sleep;
@@ -38,6 +41,8 @@ pub(crate) struct BroadPhase {
     membranes: DiscGrid,
     fluid: DiscGrid,
     fluid_changes: FluidChanges,
+    /// Of a room with periodic sides.
+    images: Option<Images>,
 }
 
 /// What a pair search needs to know of the world.
@@ -56,6 +61,9 @@ pub(crate) struct SearchInput<'a> {
     pub containments: &'a [Containment],
     /// Upper right corner of the room.
     pub size: Vec2,
+    pub period: Period,
+    /// How many of the obstacles, the first ones, are walls as long as the room and its images.
+    pub walls: usize,
     pub limits: DisplacementLimits,
     pub dispatch: Dispatch,
 }
@@ -76,7 +84,7 @@ impl BroadPhase {
         }
         let sleep = &*sleep;
         self.bodies.make_discs(input.blocks, input.particles, sleep);
-        let Self { contacts, bodies, membranes, fluid, fluid_changes, .. } = self;
+        let Self { contacts, bodies, membranes, fluid, fluid_changes, images, .. } = self;
         let contacts = contacts.get_mut_or(Contacts::blank);
         contacts.clear();
         let Contacts { strips, others } = contacts;
@@ -97,6 +105,10 @@ impl BroadPhase {
         if fluid_changes.find(fluid, input.particles) {
             fluid_changes.pairs(fluid, input.particles, consider);
         }
+        if let Some(images) = *images {
+            bodies.pairs_across(&images, filter, others);
+            fluid_across(bodies, fluid, &images, input, others);
+        }
         self.find_obstacle_contacts(input, sleep);
         self.find_ring_contacts(input);
     }
@@ -110,11 +122,11 @@ impl BroadPhase {
         sleep: &Sleep,
         next: f32,
     ) -> &mut [Contact] {
-        let Self { contacts, bodies, margins, .. } = self;
+        let Self { contacts, bodies, margins, images, .. } = self;
         let known = contacts.others.len();
         if margins.any_below(next) {
             let filter = PairFilter { particles, exemptions, sleep, longest: next };
-            bodies.late_pairs(filter, margins, next, &mut contacts.others);
+            bodies.late_pairs(filter, margins, next, images.as_ref(), &mut contacts.others);
         }
         &mut contacts.others[known..]
     }
@@ -132,6 +144,10 @@ impl BroadPhase {
             boxes.flat_map(|aabb| bodies.in_box(aabb.mins, aabb.maxs)).filter(|body| sleep.is_asleep(body.block));
         let mut woken = bodies.woken(sleep);
         woken.extend(in_grids.chain(pushed).map(|body| body.block));
+        if let Some(images) = &self.images {
+            woken.extend(bodies.woken_across(images, sleep));
+            woken.extend(self.woken_by_images(images, input, sleep));
+        }
         for block in woken {
             sleep.keep_awake(block);
         }
@@ -156,7 +172,7 @@ impl BroadPhase {
 
     /// Sorts the colliding particles into bodies, membranes and fluid.
     fn sort(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
-        let SearchInput { particles: p, blocks, size, limits, dispatch, .. } = input;
+        let SearchInput { particles: p, blocks, size, period, limits, dispatch, .. } = input;
         let Self { bodies, membranes, fluid, margins, .. } = self;
         membranes.found.clear();
         fluid.found.clear();
@@ -175,6 +191,31 @@ impl BroadPhase {
             membranes.sort(size);
             fluid.sort(size);
         });
+        self.images = (!period.is_none()).then(|| self.images_in(period));
+    }
+
+    #[cold]
+    fn images_in(&self, period: Period) -> Images {
+        let fluid = self.fluid.iter().fold(SearchBox::EMPTY, |all, disc| all.union(disc.aabb()));
+        Images { period, bounds: self.bodies.bounds().union(fluid) }
+    }
+
+    /// Blocks of sleepers of which an image is near fluid or an obstacle that moves.
+    #[cold]
+    #[inline(never)]
+    fn woken_by_images(&self, images: &Images, input: SearchInput<'_>, sleep: &Sleep) -> Vec<u32> {
+        let Self { bodies, fluid, .. } = self;
+        let is_in_fluid = |body: &&BodyProxy| {
+            let places = images.of(body.aabb).map(|shift| body.aabb.moved(shift));
+            !fluid.is_empty()
+                && places.into_iter().any(|place| fluid.in_box(place.low(), place.high()).next().is_some())
+        };
+        let wet = bodies.sleepers(sleep).filter(is_in_fluid).map(|body| body.block);
+        let boxes = input.paths.iter().map(|path| path.aabb(&input.obstacles[path.obstacle as usize]));
+        let places = boxes.map(|aabb| SearchBox::new(aabb.mins, aabb.maxs));
+        let places = places.flat_map(|aabb| images.of(aabb).map(move |shift| aabb.moved(shift)));
+        let pushed = places.flat_map(|place| bodies.in_box(place.low(), place.high()));
+        wet.chain(pushed.map(|body| body.block).filter(|block| sleep.is_asleep(*block))).collect()
     }
 
     fn find_obstacle_contacts(&mut self, input: SearchInput<'_>, sleep: &Sleep) {
@@ -190,8 +231,19 @@ impl BroadPhase {
         }
     }
 
-    /// Finds the discs that may touch an obstacle in this box.
+    /// Finds the discs that may touch an obstacle in this box, or an image of it.
     fn find_contacts_of(&mut self, obstacle: u32, aabb: Aabb, input: SearchInput<'_>, sleep: &Sleep) {
+        self.find_contacts_at(Vec2::ZERO, obstacle, aabb, input, sleep);
+        if let Some(images) = self.images.filter(|_| obstacle as usize >= input.walls) {
+            for shift in images.of(SearchBox::new(aabb.mins, aabb.maxs)) {
+                let place = Aabb { mins: aabb.mins + shift, maxs: aabb.maxs + shift };
+                self.find_contacts_at(shift, obstacle, place, input, sleep);
+            }
+        }
+    }
+
+    /// Finds those that may touch an image of it that is in this box.
+    fn find_contacts_at(&mut self, shift: Vec2, obstacle: u32, aabb: Aabb, input: SearchInput<'_>, sleep: &Sleep) {
         let Self { obstacle_contacts, sensor_contacts, bodies, membranes, fluid, .. } = self;
         let (low, high) = (aabb.mins, aabb.maxs);
         let Obstacle { groups, is_sensor, .. } = input.obstacles[obstacle as usize];
@@ -205,7 +257,26 @@ impl BroadPhase {
         let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high).copied());
         let near = of_bodies.chain(of_grids).filter(is_near);
         let contacts = if is_sensor { sensor_contacts } else { obstacle_contacts };
-        contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle }));
+        contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle, shift }));
+    }
+}
+
+/// Adds the contacts of fluid with images of bodies, and of other fluid.
+#[cold]
+#[inline(never)]
+fn fluid_across(bodies: &Bodies, fluid: &DiscGrid, images: &Images, input: SearchInput<'_>, found: &mut Vec<Contact>) {
+    if fluid.is_empty() {
+        return;
+    }
+    let mut consider = |image: &Disc, other: &Disc, shift: Vec2| {
+        found.extend(contact(image, other, input).map(|contact| contact.with_image(shift)));
+    };
+    bodies.pairs_across_with(images, fluid, input.particles, &mut consider);
+    for disc in fluid.iter() {
+        for shift in images.ahead(disc.aabb()) {
+            let image = disc.moved(shift);
+            fluid.near(&image).for_each(|other| consider(&image, other, shift));
+        }
     }
 }
 
@@ -246,148 +317,4 @@ fn may_collide(p: &Particles, a: usize, b: usize, exemptions: &Exemptions) -> bo
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::particle::{CollisionGroups, LANES, Particle};
-    use crate::rng::Rng;
-    use crate::solver::block::subtract_displacement;
-    use crate::solver::testing::{disc, overlapping, search_input};
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn nodes_of_a_membrane_collide_unless_a_link_joins_them() {
-        let mut p = Particles::default();
-        let ring: Vec<u32> = (0..6).map(|k| p.insert(&disc(Vec2::new(k as f32, 0.0), 1.0))).collect();
-        p.link_ring(&ring);
-        let collides = |a: usize, b: usize| may_collide(&p, a, b, &Exemptions::default());
-        assert!(!collides(0, 1) && !collides(1, 0) && !collides(5, 0));
-        assert!(collides(0, 2) && collides(2, 0) && collides(4, 0) && collides(0, 3));
-    }
-
-    fn random_discs(seed: u64, count: u32) -> Particles {
-        let mut rng = Rng::new(seed, 1);
-        let mut particles = Particles::default();
-        for owner in 0..count {
-            let position = Vec2::new(rng.range(0.0, 40.0), rng.range(0.0, 30.0));
-            let mut particle = disc(position, 1.0);
-            particle.radius = if owner % 13 == 0 { rng.range(2.0, 4.0) } else { rng.range(0.2, 0.5) };
-            particle.owner = owner / 3;
-            particle.fluid = u32::from(owner % 5 == 0) + u32::from(owner % 10 == 0);
-            particles.insert(&particle);
-        }
-        let ring: Vec<u32> = (0..count).filter(|&i| i % 7 == 0 && particles.fluid[i as usize] == 0).collect();
-        particles.link_ring(&ring);
-        particles
-    }
-
-    fn found(particles: &Particles, exemptions: &Exemptions) -> Vec<(u32, u32)> {
-        let mut broad = BroadPhase::default();
-        let limits = DisplacementLimits { step: 0.1, substep: 0.1, dt: 0.01 };
-        broad.find_pairs(search_input(particles, exemptions, limits), &mut Sleep::default(), 1);
-        pairs_of(&broad).into_iter().collect()
-    }
-
-    #[test]
-    fn finds_exactly_the_pairs_that_brute_force_finds() {
-        for seed in 0..5 {
-            let particles = random_discs(seed, 400);
-            let mut exemptions = Exemptions::default();
-            exemptions.set(0, 1, true);
-            let mut expected = Vec::new();
-            for i in 0..particles.len() {
-                for j in i + 1..particles.len() {
-                    let gap = (particles.position(i) - particles.position(j)).length();
-                    let is_near = gap < particles.radius[i] + particles.radius[j] + 0.2;
-                    if is_near && may_collide(&particles, i, j, &exemptions) {
-                        expected.push((i as u32, j as u32));
-                    }
-                }
-            }
-            assert_eq!(found(&particles, &exemptions), expected, "seed {seed}");
-            assert!(!expected.is_empty());
-        }
-    }
-
-    const LIMITS: DisplacementLimits = DisplacementLimits { step: 0.8, substep: 0.1, dt: 0.02 };
-
-    /// Bodies of four discs in blocks, somewhere, some of them fast, those of the first block large.
-    fn random_blocks(rng: &mut Rng, count: u32) -> (Particles, Vec<BlockRange>) {
-        let mut p = Particles::default();
-        let ranges: Vec<_> = (0..count).map(|_| BlockRange { base: p.extend(4 * LANES) as usize, slots: 4 }).collect();
-        for (block, k) in ranges.iter().zip(0..) {
-            for lane in 0..LANES {
-                let at = Vec2::new(rng.range(0.0, 20.0), rng.range(0.0, 15.0));
-                let velocity = Vec2::new(0.0, rng.range(-9.0, 9.0).max(0.0));
-                let size = if k == 0 { 4.0 } else { 1.0 };
-                for slot in 0..4 {
-                    let place = at + Vec2::new(0.5 * size * slot as f32, rng.range(-0.2, 0.2));
-                    let owner = 8 * k + lane as u32;
-                    let particle = Particle { owner, radius: 0.3 * size, velocity, ..disc(place, 1.0) };
-                    p.set(block.entry(slot, lane), &particle);
-                }
-            }
-        }
-        (p, ranges)
-    }
-
-    /// Moves half of the bodies as far as they can in a substep, the others a little, to either side, and notes how far.
-    fn move_all(p: &mut Particles, blocks: &[BlockRange], broad: &mut BroadPhase, rng: &mut Rng) {
-        for (block, left) in blocks.iter().zip(broad.margins.blocks_mut()) {
-            for lane in 0..LANES {
-                let way = if lane < 4 { LIMITS.substep } else { rng.range(0.0, 0.03) };
-                let way = if lane % 2 == 0 { way } else { -way };
-                for i in (0..4).map(|slot| block.entry(slot, lane)) {
-                    (p.prev_x[i], p.prev_y[i]) = (p.x[i], p.y[i]);
-                    p.x[i] += way;
-                }
-            }
-            subtract_displacement(&mut p.columns().part(block.base..block.end()), left);
-        }
-    }
-
-    #[test]
-    fn late_pairs_complete_the_pairs_of_bodies_that_exceed_their_margin() {
-        let (mut widened, mut missed_at_first) = (0, 0);
-        for seed in 0..20 {
-            let mut rng = Rng::new(seed, 1);
-            let (mut p, blocks) = random_blocks(&mut rng, 12);
-            let (exemptions, sleep) = (Exemptions::default(), &mut Sleep::default());
-            let mut broad = BroadPhase::default();
-            let input = search_input(&p, &exemptions, LIMITS);
-            broad.find_pairs(SearchInput { blocks: &blocks, size: Vec2::new(20.0, 15.0), ..input }, sleep, 1);
-            let at_first = pairs_of(&broad);
-            for substep in 0..8 {
-                move_all(&mut p, &blocks, &mut broad, &mut rng);
-                let known = pairs_of(&broad);
-                assert_eq!(known.len(), broad.contacts.iter().count(), "a pair was found twice");
-                for pair in overlapping(&p) {
-                    missed_at_first += usize::from(!at_first.contains(&pair));
-                    assert!(known.contains(&pair), "seed {seed}, substep {substep}: {pair:?}");
-                }
-                broad.find_late_pairs(&p, &exemptions, sleep, LIMITS.substep);
-                widened += broad.contacts.iter().count() - known.len();
-            }
-        }
-        assert!(widened > 100 && missed_at_first > 10, "{widened} {missed_at_first}");
-    }
-
-    fn pairs_of(broad: &BroadPhase) -> BTreeSet<(u32, u32)> {
-        broad.contacts.iter().map(|c| (c.i.min(c.j), c.i.max(c.j))).collect()
-    }
-
-    #[test]
-    fn owners_groups_and_exemptions_keep_pairs_apart() {
-        let mut particles = Particles::default();
-        for owner in [0, 0, 1] {
-            particles.insert(&Particle { owner, ..disc(Vec2::new(5.0, 5.0), 1.0) });
-        }
-        let none = Exemptions::default();
-        assert_eq!(found(&particles, &none), [(0, 2), (1, 2)]);
-        let mut exempt = Exemptions::default();
-        exempt.set(0, 1, true);
-        assert_eq!(found(&particles, &exempt), []);
-        let groups = [(1, 2), (4, 2), (2, 1)];
-        *particles.groups = groups.map(|(memberships, filter)| CollisionGroups { memberships, filter }).to_vec();
-        assert_eq!(found(&particles, &none), [(0, 2)]);
-    }
-}
+mod tests;

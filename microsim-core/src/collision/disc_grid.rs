@@ -68,6 +68,11 @@ impl Disc {
         Aabb::new(self.at - self.swept_radius, self.at + self.swept_radius)
     }
 
+    /// An image of it.
+    pub(super) fn moved(self, by: Vec2) -> Self {
+        Self { at: self.at + by, ..self }
+    }
+
     /// Whether the two may touch during the step.
     #[inline(always)]
     pub(super) fn is_near(&self, other: &Self) -> bool {

@@ -5,6 +5,7 @@ mod bodies;
 pub(crate) mod broad_phase;
 mod disc_grid;
 pub(crate) mod exemptions;
+mod images;
 mod link_group;
 pub(crate) mod obstacle;
 pub(crate) mod obstacle_path;
@@ -67,6 +68,11 @@ impl Contact {
             mobility,
         }
     }
+
+    /// That of the image of `i` that is displaced by `shift`.
+    fn with_image(self, shift: Vec2) -> Self {
+        Self { between_origins: self.between_origins - shift, ..self }
+    }
 }
 
 /// The contacts of a step, in lists that were filled independently of each other.
@@ -105,6 +111,8 @@ impl Contacts {
 pub(crate) struct ObstacleContact {
     pub particle: u32,
     pub obstacle: u32,
+    /// Displacement of the image of the obstacle; 0 for the obstacle itself.
+    pub shift: Vec2,
 }
 
 /// Friction and restitution of two surfaces on each other.

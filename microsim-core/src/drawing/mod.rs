@@ -4,12 +4,13 @@
 //! upwards.
 
 mod chemical;
+mod images;
 mod obstacle;
 mod organism;
 pub mod palette;
 pub mod shape;
 
-use crate::View;
+use crate::{OrganismView, View};
 use glam::Vec2;
 use palette::{PAGE, ROOM, ROOM_EDGE, WALL};
 use shape::{DrawnPart, Geometry, Item, Paint, Stroke};
@@ -45,22 +46,45 @@ impl DrawingLayer {
 #[must_use]
 pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<Item> {
     let [low, high] = window;
+    let config = view.world().config();
     let is_seen = |(from, to): (Vec2, Vec2)| from.cmple(high).all() && to.cmpge(low).all();
-    let mut organisms: Vec<_> = view.organisms().filter(|organism| is_seen(organism.bounds())).collect();
+    let images = |organism: &OrganismView<'_>| {
+        let (from, to) = organism.bounds();
+        let shifts = images::shifts(config, [from, to]).into_iter();
+        shifts.filter(move |shift| is_seen((from + *shift, to + *shift)))
+    };
+    let is_near = |organism: &OrganismView<'_>| is_seen(organism.bounds()) || images(organism).next().is_some();
+    let mut organisms: Vec<_> = view.organisms().filter(is_near).collect();
     organisms.sort_by_cached_key(|organism| organism.drawn_look().layer);
-    let size = view.world().config().size;
+    let size = config.size;
     let mut items = Vec::new();
     for layer in layers {
         match layer {
             DrawingLayer::Room => items.push(room(size)),
             DrawingLayer::Chemicals => items.extend(chemical::draw(view)),
-            DrawingLayer::Halos => items.extend(organisms.iter().copied().filter_map(organism::halo)),
+            DrawingLayer::Halos => {
+                for &organism in &organisms {
+                    let first = items.len();
+                    items.extend(organism::halo(organism));
+                    images::add(first, images(&organism), &mut items);
+                }
+            }
             DrawingLayer::Obstacles => {
                 let world = view.world();
                 let obstacles = world.obstacles().filter_map(|id| world.obstacle(id));
-                items.extend(obstacles.filter(|obstacle| obstacle.is_solid()).flat_map(obstacle::draw));
+                for obstacle in obstacles.filter(|obstacle| obstacle.is_solid()) {
+                    let (first, aabb) = (items.len(), obstacle.shape.compute_aabb(&obstacle.pose));
+                    items.extend(obstacle::draw(obstacle));
+                    images::add(first, images::shifts(config, [aabb.mins, aabb.maxs]), &mut items);
+                }
             }
-            DrawingLayer::Organisms => organisms.iter().for_each(|&organism| organism::draw(organism, &mut items)),
+            DrawingLayer::Organisms => {
+                for &organism in &organisms {
+                    let first = items.len();
+                    organism::draw(organism, &mut items);
+                    images::add(first, images(&organism), &mut items);
+                }
+            }
             DrawingLayer::Walls => items.extend(walls(size)),
         }
     }
@@ -91,7 +115,7 @@ fn corners(size: Vec2) -> [Vec2; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{AgarSpec, AmoeboidCellSpec, Placement, World, WorldConfig};
+    use crate::{AgarSpec, AmoeboidCellSpec, Placement, Side, Sides, World, WorldConfig};
 
     const EVERYWHERE: [Vec2; 2] = [Vec2::MIN, Vec2::MAX];
 
@@ -125,5 +149,18 @@ mod tests {
         world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
         assert!(parts(&world, [Vec2::splat(15.0), Vec2::splat(19.9)]).contains(&DrawnPart::Bead));
         assert!(!parts(&world, [Vec2::splat(40.0), Vec2::splat(50.0)]).contains(&DrawnPart::Bead));
+    }
+
+    #[test]
+    fn what_reaches_over_a_periodic_side_is_drawn_at_both() {
+        let sides = Sides { left: Side::Periodic, right: Side::Periodic, ..Sides::default() };
+        let mut world = World::new(WorldConfig { sides, ..WorldConfig::default() }).unwrap();
+        world.spawn(&AgarSpec::default().into(), Placement::at(159.5, 20.0)).unwrap();
+        let items = draw(world.view(), EVERYWHERE, &[DrawingLayer::Organisms]);
+        let discs = items.iter().filter(|item| item.part == DrawnPart::Bead).map(|item| item.geometry.segments());
+        let centres: Vec<_> = discs.flatten().collect();
+        let circle = |x: f32| shape::Segment::Circle(Vec2::new(x, 20.0), 0.84);
+        assert_eq!(centres, [circle(159.5), circle(-0.5)]);
+        assert!(parts(&world, [Vec2::ZERO, Vec2::new(0.3, 40.0)]).contains(&DrawnPart::Bead));
     }
 }

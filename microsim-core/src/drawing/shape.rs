@@ -88,6 +88,16 @@ impl Geometry {
         }
     }
 
+    /// The same elsewhere.
+    pub(super) fn moved(mut self, by: Vec2) -> Self {
+        match &mut self {
+            Self::Discs(discs) => discs.iter_mut().for_each(|(centre, _)| *centre += by),
+            Self::Outline(points) | Self::Curve(points) => points.iter_mut().for_each(|point| *point += by),
+            Self::Polygons(lines) | Self::Lines(lines) => lines.iter_mut().flatten().for_each(|point| *point += by),
+        }
+        self
+    }
+
     /// The shape as circles, straight lines and cubic curves.
     #[must_use]
     pub fn segments(&self) -> Vec<Segment> {
@@ -203,6 +213,15 @@ impl Item {
     #[must_use]
     pub fn stroked(part: DrawnPart, geometry: Geometry, stroke: Stroke) -> Self {
         Self { part, geometry, fill: None, stroke: Some(stroke), owner: None }
+    }
+
+    /// The same elsewhere.
+    pub(super) fn moved(mut self, by: Vec2) -> Self {
+        self.geometry = self.geometry.moved(by);
+        if let Some(Paint::Radial { centre, .. }) = &mut self.fill {
+            *centre += by;
+        }
+        self
     }
 }
 

@@ -6,6 +6,7 @@
 
 pub(crate) mod coverage;
 pub mod outline;
+pub(crate) mod period;
 pub mod polygon;
 pub mod ring;
 pub mod segment;

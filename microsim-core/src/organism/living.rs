@@ -160,6 +160,11 @@ impl Organism {
         slowed.map_or(self.speed, |engulfer| self.speed * engulfer.params.digestion_speed)
     }
 
+    /// Whether it is fluid that no membrane holds: what happens to it happens to its particles one by one.
+    pub(crate) fn is_free_fluid(&self) -> bool {
+        matches!(self.body, Storage::Loose { membrane: None, .. }) && !self.is_quarantined
+    }
+
     /// Whether it is crawling in this step.
     pub(crate) fn crawls(&self) -> bool {
         self.locomotion.crawling_front().is_some()

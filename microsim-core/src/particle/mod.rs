@@ -59,6 +59,11 @@ impl Particle {
     pub(crate) fn position(&self) -> Vec2 {
         self.origin + self.offset
     }
+
+    /// The same elsewhere, by a displacement on the grid of origins.
+    pub(crate) fn moved(self, by: Vec2) -> Self {
+        Self { origin: self.origin + by, ..self }
+    }
 }
 
 /// The store: one column per property, all of the same length. Clones share the columns that seldom change; positions at the
@@ -303,6 +308,12 @@ impl Particles {
         (self.origin_x[i], self.origin_y[i]) = origin.into();
         (self.x[i], self.y[i]) = offset.into();
         (self.prev_x[i], self.prev_y[i]) = offset.into();
+    }
+
+    /// Moves entry `i` by a displacement on the grid of origins, its place at the start of the substep with it.
+    pub(crate) fn displace(&mut self, i: usize, by: Vec2) {
+        self.origin_x[i] += by.x;
+        self.origin_y[i] += by.y;
     }
 
     /// Notes which nodes follow each other in a membrane.

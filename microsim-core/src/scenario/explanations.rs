@@ -37,7 +37,10 @@ const WORDS: &[(&str, &str)] = &[
         "world.substrate",
         "What gives rigid and amoeboid cells their grip: the slide, everywhere, or only the surfaces that they touch.",
     ),
-    ("world.sides", "What the sides of the room are: a wall, or open, which removes what goes beyond it."),
+    (
+        "world.sides",
+        "What the sides of the room are: a wall; open, which removes what goes beyond it; or periodic with the opposite one.",
+    ),
     ("world.sides.bottom", "At y = 0."),
     ("world.sides.top", "At the room's height."),
     ("world.sides.left", "At x = 0."),

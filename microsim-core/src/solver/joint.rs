@@ -50,6 +50,8 @@ impl Law {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub ends: [End; 2],
+    /// Displacement of the second end from the image of it that is joined.
+    pub shift: Vec2,
     pub law: Law,
     /// Largest force in a substep so far.
     pub force: f32,
@@ -114,7 +116,8 @@ impl Joint {
     fn project(&mut self, list: &[u32], p: &mut Particles, h: f32) {
         let [a, b] = self.ends.each_ref().map(|end| end.present(list, p));
         // A weight on a joint of 10 units stretches it by 4e-5 units in a substep, of which `f32` would lose a fiftieth.
-        let across = [0, 1].map(|k| f64::from(b.origin[k] - a.origin[k]) + f64::from(b.offset[k] - a.offset[k]));
+        let between_origins = b.origin - a.origin - self.shift;
+        let across = [0, 1].map(|k| f64::from(between_origins[k]) + f64::from(b.offset[k] - a.offset[k]));
         let length = length_of(across);
         let weight = a.inv_mass + b.inv_mass;
         // What is no longer finite harms nobody else.
@@ -217,7 +220,7 @@ mod tests {
 
     fn joints(law: Law) -> Joints {
         let end = |k: usize| End::Particles { range: k..k + 1, is_static: false };
-        let joint = Joint { ends: [end(0), end(1)], law, force: 0.0, is_broken: false };
+        let joint = Joint { ends: [end(0), end(1)], shift: Vec2::ZERO, law, force: 0.0, is_broken: false };
         Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }
     }
 
@@ -268,7 +271,7 @@ mod tests {
     fn the_centre_of_a_body_is_moved_as_a_whole() {
         let mut p = line(2.0, [1.0, 0.5]);
         let ends = [End::Particles { range: 0..2, is_static: false }, End::place(Vec2::Y, Vec2::ZERO)];
-        let joint = Joint { ends, law: Law::rigid(0.0), force: 0.0, is_broken: false };
+        let joint = Joint { ends, shift: Vec2::ZERO, law: Law::rigid(0.0), force: 0.0, is_broken: false };
         Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }.project(&mut p, H);
         assert!((p.x[0] + 4.0 / 3.0).abs() < 1e-6 && (p.x[1] - 2.0 / 3.0).abs() < 1e-6 && p.y == [1.0, 1.0]);
     }

@@ -34,8 +34,9 @@ pub(crate) fn project(
     for contact in contacts {
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
         let path = path_of(paths, contact.obstacle);
-        if let Some(Stop { away, depth, has_passed }) = separate(i, obstacle, path.as_deref(), particles) {
-            let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(particles.position(i)));
+        if let Some(Stop { away, depth, has_passed }) = separate(contact, obstacle, path.as_deref(), particles) {
+            let at = particles.position(i) - contact.shift;
+            let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(at));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
             if restitution > 0.0 || has_passed {
                 impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
@@ -61,7 +62,7 @@ pub(crate) fn project(
     // In a corner the friction on one wall may have moved a disc into the other.
     for contact in contacts {
         let path = path_of(paths, contact.obstacle);
-        separate(contact.particle as usize, &obstacles[contact.obstacle as usize], path.as_deref(), particles);
+        separate(contact, &obstacles[contact.obstacle as usize], path.as_deref(), particles);
     }
     if !paths.is_empty() {
         move_back(contacts, obstacles, paths, particles);
@@ -73,22 +74,34 @@ fn move_back(contacts: &[ObstacleContact], obstacles: &[Obstacle], paths: &mut [
     for contact in contacts {
         let Some(path) = path_of(paths, contact.obstacle) else { return };
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
-        if let Some(Stop { away, depth, .. }) = overlap(i, obstacle, Some(path), p) {
-            path.give_way(depth, path.displacement(p.position(i)), away);
+        if let Some(Stop { away, depth, .. }) = overlap(contact, obstacle, Some(path), p) {
+            path.give_way(depth, path.displacement(p.position(i) - contact.shift), away);
         }
     }
 }
 
 /// Moves a disc out of an obstacle; returns the way out and how deep it was, if it was inside.
-fn separate(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &mut Particles) -> Option<Stop> {
-    let stop = overlap(i, obstacle, path, particles)?;
-    shift(particles, i, stop.away * stop.depth);
+fn separate(
+    contact: &ObstacleContact,
+    obstacle: &Obstacle,
+    path: Option<&ObstaclePath>,
+    particles: &mut Particles,
+) -> Option<Stop> {
+    let stop = overlap(contact, obstacle, path, particles)?;
+    shift(particles, contact.particle as usize, stop.away * stop.depth);
     Some(stop)
 }
 
 /// The way out of an obstacle and how deep a disc is in it, or beyond where it met it, if it is.
-fn overlap(i: usize, obstacle: &Obstacle, path: Option<&ObstaclePath>, particles: &Particles) -> Option<Stop> {
-    let (position, last) = (particles.position(i), particles.last_position(i));
+fn overlap(
+    contact: &ObstacleContact,
+    obstacle: &Obstacle,
+    path: Option<&ObstaclePath>,
+    particles: &Particles,
+) -> Option<Stop> {
+    let i = contact.particle as usize;
+    // As the obstacle itself would see what its image does.
+    let (position, last) = (particles.position(i) - contact.shift, particles.last_position(i) - contact.shift);
     // Where it came from, beside the obstacle as it stands now.
     let from = last + path.map_or(Vec2::ZERO, |path| path.displacement(last));
     let radius = particles.radius[i];
@@ -146,7 +159,7 @@ mod tests {
         let obstacle = Obstacle::new(shape, Pose::translation(10.0, 5.0));
         let mut p = line(100.0, [1.0, 1.0]);
         (p.x[0], p.y[0]) = (start.x, start.y);
-        let contact = ObstacleContact { particle: 0, obstacle: 0 };
+        let contact = ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO };
         project(
             &[contact],
             std::slice::from_ref(&obstacle),

@@ -4,6 +4,7 @@ use crate::collision::broad_phase::{BroadPhase, SearchInput};
 use crate::collision::exemptions::Exemptions;
 use crate::collision::ring::{Containment, Ring, RingContacts};
 use crate::collision::speculative_margin::DisplacementLimits;
+use crate::geometry::period::Period;
 use crate::geometry::ring::unit_vector;
 use crate::instruction_set::Dispatch;
 use crate::particle::sleep::Sleep;
@@ -42,6 +43,8 @@ pub(crate) fn search_input<'a>(
         rings: &[],
         containments: &[],
         size,
+        period: Period::NONE,
+        walls: 0,
         limits,
         dispatch: Dispatch::default(),
     }

@@ -13,7 +13,8 @@ impl World {
     /// Adds a chemical, in the concentration that its spec says.
     ///
     /// # Errors
-    /// Names the field out of its range, which may depend on the room, the time step and the other chemicals.
+    /// Names the field out of its range, which may depend on the room, the time step and the other chemicals. A room with periodic
+    /// sides has none.
     pub fn add_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
         let id = with_default_float_environment(|| self.insert_chemical(spec))?;
         self.changed(|| WorldChange::AddChemical(spec));
@@ -21,6 +22,7 @@ impl World {
     }
 
     fn insert_chemical(&mut self, spec: ChemicalSpec) -> Result<ChemicalId, Error> {
+        self.check_chemicals_allowed()?;
         spec.cells_beside(self.chemicals.iter().map(|other| other.values().len()).sum(), &self.config)?;
         let mut chemical = Chemical::new(spec, &self.config)?;
         let shut = self.solid_obstacles().filter(|obstacle| obstacle.stops_chemicals());

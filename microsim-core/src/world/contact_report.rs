@@ -75,7 +75,8 @@ impl World {
             if contact.organism == id {
                 Some(*contact)
             } else {
-                contact.flipped().filter(|flipped| flipped.organism == id)
+                let flipped = contact.flipped().filter(|flipped| flipped.organism == id);
+                flipped.map(|flipped| self.beside_own_node(flipped))
             }
         };
         self.contacts().iter().filter_map(felt)
@@ -127,7 +128,17 @@ impl World {
             ContactPoint { organism: owner(node)?, partner, node, partner_node, point, normal, speed, impulse };
         let is_own = partner == Collider::Organism(contact.organism);
         let flipped = contact.flipped().filter(|flipped| flipped.organism < contact.organism);
-        (!is_own).then_some(flipped.unwrap_or(contact))
+        (!is_own).then(|| self.beside_own_node(flipped.unwrap_or(contact)))
+    }
+
+    /// A contact with its point on the side of a periodic room where its organism is.
+    fn beside_own_node(&self, contact: ContactPoint) -> ContactPoint {
+        let period = self.period();
+        if period.is_none() {
+            return contact;
+        }
+        let node = self.particles.position(contact.node as usize);
+        ContactPoint { point: node + period.nearest(contact.point - node), ..contact }
     }
 
     /// An obstacle or wall by its index among all of them.

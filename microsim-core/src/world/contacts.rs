@@ -1,11 +1,13 @@
 //! Contacts: the search for pairs, the pairs that it found, and one begin and one end event per pair of organisms.
 
 use super::World;
+use super::obstacle::WALLS;
 use crate::collision::broad_phase::SearchInput;
 use crate::collision::ring::{Link, Ring, RingContact};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::collision::{Contact, Mobility};
 use crate::event::Event;
+use crate::geometry::period::Period;
 use crate::id::OrganismId;
 use crate::organism::table::Organisms;
 use crate::particle::{BlockRange, Particles};
@@ -92,6 +94,8 @@ impl World {
             rings,
             containments,
             size,
+            period: Period(config.period_lengths()),
+            walls: WALLS,
             limits,
             dispatch: *dispatch,
         };
@@ -136,7 +140,8 @@ impl World {
         let pair = match near {
             Near::Discs { i, j, touched } => {
                 let (a, b) = (i as usize, j as usize);
-                NearPair { i, j, gap: p.between(a, b).length() - p.radius[a] - p.radius[b], touched }
+                let way = self.period().nearest(p.between(a, b));
+                NearPair { i, j, gap: way.length() - p.radius[a] - p.radius[b], touched }
             }
             Near::DiscAndLink { i, link, touched } => {
                 let (j, gap) = ring_contact::gap(i, link, p);

@@ -13,7 +13,7 @@ impl World {
     ///
     /// # Errors
     /// When the handle is stale, a field is out of range, the controller senses a chemical that this world does not have, the
-    /// organism cannot move or has no outline to sense with, or it could not follow a random walk.
+    /// organism cannot move or has no outline to sense with, it could not follow a random walk, or the room has periodic sides.
     pub fn set_controller(&mut self, id: OrganismId, controller: Controller) -> Result<(), Error> {
         self.organism_or_stale(id, "organism")?;
         with_default_float_environment(|| controller.validate()).map_err(|error| error.within("controller"))?;
@@ -35,6 +35,7 @@ impl World {
         speed: f32,
         has_outline: bool,
     ) -> Result<(), Error> {
+        self.check_periodic_controller(controller)?;
         controller.chemicals().try_for_each(|chemical| self.check_chemical(chemical, "controller.chemical"))?;
         if *locomotion == Locomotion::None && *controller != Controller::Still {
             return Err(Error::unsupported("controller", "an organism that moves"));

@@ -4,7 +4,7 @@ use super::World;
 use super::mass::MASSES;
 use super::occupancy::bounds_of;
 use super::scale::{LARGEST, SCALES};
-use super::spawn::{discs, is_blocked};
+use super::spawn::discs;
 use crate::capability::division::Divider;
 use crate::capability::progress::Progress;
 use crate::error::{Error, ErrorKind, in_range};
@@ -118,6 +118,7 @@ impl World {
         self.check_controller(&organism.controller, &blueprint.locomotion, speed, has_outline)?;
         let scale = self.scale_of(organism) * half.scale;
         self.check_scale_of_half(&template, scale)?;
+        self.check_period(&blueprint, scale)?;
         self.check_kicks(&blueprint, scale, organism.linear_damping)?;
         let transfer = Transfer { nodes: template.nodes(), scale, groups: self.groups_of(organism, whole) };
         let planned = self.particles_of_half(organism, whole, half, &transfer);
@@ -213,20 +214,13 @@ impl World {
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
             }
         }
-        let bounds = bounds_of(discs(&all));
-        let mut near = self.obstacles_near(&bounds).into_iter();
-        if near.any(|obstacle| all.iter().any(|disc| is_blocked(obstacle, disc))) {
-            return Err(Error::new(ErrorKind::Overlap { with: "an obstacle".to_owned() }, "at"));
-        }
         let share = if half.template.outline().is_empty() { OVERLAP } else { TOUCHING };
         let is_other = |world: &Self, organism: &Organism| {
             organism.first_node().is_none_or(|i| world.particles.owner[i as usize] != id.index)
         };
-        let hit = self.first_near(&bounds, |world, organism| {
-            is_other(world, organism)
-                && (world.touches(organism, &all, &bounds, share) || world.encloses(organism, &all))
+        let with = self.first_hit(&all, |world, organism, all, bounds| {
+            is_other(world, organism) && (world.touches(organism, all, bounds, share) || world.encloses(organism, all))
         });
-        let with = hit.and_then(|hit| self.with_its_place(self.organisms.id_at(hit)?));
         with.map_or(Ok(()), |with| Err(Error::new(ErrorKind::Overlap { with }, "at")))
     }
 

@@ -59,9 +59,11 @@ impl World {
         self.fields.iter().map(|(handle, field)| (FieldId::of(handle), &**field))
     }
 
-    /// Acceleration by all force fields at a point, without gravity, units/s2.
+    /// Acceleration by all force fields at a point, without gravity, units/s2. Beyond a periodic side it is that at the image in the
+    /// room.
     #[must_use]
     pub fn field_at(&self, point: Vec2) -> Vec2 {
+        let point = self.in_room(point);
         self.fields.iter().map(|(_, field)| field.acceleration_at(point)).sum()
     }
 

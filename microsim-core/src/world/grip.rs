@@ -75,7 +75,7 @@ impl World {
     fn grips_on_obstacles(&self) -> impl Iterator<Item = Grip> + '_ {
         let p = &self.particles;
         let contacts = self.scratch.broad_phase.obstacle_contacts.iter();
-        contacts.filter_map(|&ObstacleContact { particle, obstacle }| {
+        contacts.filter_map(|&ObstacleContact { particle, obstacle, .. }| {
             let (i, obstacle) = (particle as usize, &self.obstacles[obstacle as usize]);
             let (surface, is_inside) = obstacle.nearest(p.position(i));
             let way = p.position(i) - surface;

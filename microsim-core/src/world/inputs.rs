@@ -23,8 +23,12 @@ impl World {
                 ));
             }
         }
-        for (id, node, _) in inputs.actuations() {
+        for (id, node, actuation) in inputs.actuations() {
             let organism = self.named(id, "actuation.organism")?;
+            let needs_centre = node.is_none() && (actuation.torque != 0.0 || actuation.target.is_some());
+            if needs_centre && organism.is_free_fluid() && !self.period().is_none() {
+                return Err(Error::unsupported("actuation", "a force or an impulse on fluid with periodic sides"));
+            }
             if node.is_some_and(|node| organism.particle_of(node).is_none()) {
                 let accepted = format!("a node below {}", organism.particles().count());
                 return Err(Error::reference("actuation.node", accepted));

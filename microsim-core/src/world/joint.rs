@@ -64,8 +64,8 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// Names the number that is out of its range, the handle that is stale, the node that does not exist, or the end that cannot
-    /// be joined. Nothing is changed then.
+    /// Names the number that is out of its range, the handle that is stale, the node that does not exist, the end that cannot
+    /// be joined, or in a room with periodic sides a length of half of it or more. Nothing is changed then.
     pub fn add_joint(&mut self, spec: JointSpec) -> Result<JointId, Error> {
         let record = with_default_float_environment(|| self.joint_record(spec))?;
         self.wake_up_joined(&spec);
@@ -113,13 +113,15 @@ impl World {
     }
 
     fn joint_view(&self, id: JointId, record: &JointRecord) -> Option<JointView> {
-        let ends = [self.end_position(record, 0)?, self.end_position(record, 1)?];
+        let [a, b] = [self.end_position(record, 0)?, self.end_position(record, 1)?];
+        let ends = [a, b - self.joint_shift(record)];
         Some(JointView { id, spec: record.spec, ends, force: record.force })
     }
 
     /// Checks a joint and finds what it holds.
     fn joint_record(&self, spec: JointSpec) -> Result<JointRecord, Error> {
         spec.check(&self.config)?;
+        self.check_joint_period(&spec)?;
         let a = self.joined_particle(spec.a).map_err(|error| error.within("a"))?;
         let b = self.joined_particle(spec.b).map_err(|error| error.within("b"))?;
         let mut record = JointRecord { spec, particles: [a, b], length: 0.0, force: 0.0 };
@@ -129,7 +131,7 @@ impl World {
             return Err(Error::unsupported("b", "another end than a; one of the two must be able to move"));
         }
         if let (Some(a), Some(b)) = (self.end_position(&record, 0), self.end_position(&record, 1)) {
-            record.length = a.distance(b);
+            record.length = a.distance(b - self.joint_shift(&record));
         }
         Ok(record)
     }
@@ -144,6 +146,9 @@ impl World {
         let Some(organism) = self.organisms.get(id).filter(|organism| !organism.is_quarantined) else {
             return Err(Error::unsupported("organism", "an organism that is not frozen"));
         };
+        if organism.is_free_fluid() && matches!(end, JointEnd::Centre(_)) && !self.period().is_none() {
+            return Err(Error::unsupported("organism", "a body in a room with periodic sides"));
+        }
         let JointEnd::Node { node, .. } = end else { return Ok(None) };
         let accepted = || format!("a node below {}", organism.particles().count());
         organism.particle_of(node).map(Some).ok_or_else(|| Error::reference("node", accepted()))
@@ -182,6 +187,17 @@ impl World {
         let list = self.end_particles(record, k)?;
         let centre = MassProperties::of(&self.particles, &list).map(|body| body.position(&self.particles));
         centre.or_else(|| list.first().map(|&i| self.particles.position(i as usize)))
+    }
+
+    /// How far the second end is from the image of it that is nearest to the first one.
+    fn joint_shift(&self, record: &JointRecord) -> Vec2 {
+        let period = self.period();
+        if period.is_none() {
+            return Vec2::ZERO;
+        }
+        let ends = [0, 1].map(|k| self.end_position(record, k));
+        let [Some(a), Some(b)] = ends else { return Vec2::ZERO };
+        period.whole(b - a)
     }
 
     fn wake_up_joined(&mut self, spec: &JointSpec) {
@@ -259,7 +275,13 @@ impl World {
                     obstacle: id.index + WALLS as u32,
                     at,
                 }));
-                gathered.list.push(Joint { ends: [a, b], law: record.law(), force: 0.0, is_broken: false });
+                gathered.list.push(Joint {
+                    ends: [a, b],
+                    shift: self.joint_shift(record),
+                    law: record.law(),
+                    force: 0.0,
+                    is_broken: false,
+                });
             }
         }
         self.scratch.joints = gathered;

@@ -20,6 +20,7 @@ mod muscle;
 pub(crate) mod obstacle;
 mod occupancy;
 mod own_medium;
+mod periodic;
 mod phagocytosis;
 mod push;
 mod quarantine;

@@ -85,6 +85,17 @@ impl World {
         self.scratch.occupancy.near(aabb).filter(meets).min()
     }
 
+    /// Lower left and upper right corner of the box around all organisms.
+    #[cold]
+    pub(super) fn occupied(&mut self) -> [Vec2; 2] {
+        if self.scratch.occupancy.boxes.is_empty() {
+            self.note_all();
+        }
+        let boxes = self.scratch.occupancy.boxes.iter();
+        let all = boxes.fold(Aabb::new_invalid(), |all, (_, aabb)| all.merged(aabb));
+        [all.mins, all.maxs]
+    }
+
     /// Notes where a new organism is, if the others are noted.
     pub(super) fn note_place(&mut self, slot: u32, aabb: Aabb) {
         if !self.scratch.occupancy.boxes.is_empty() {

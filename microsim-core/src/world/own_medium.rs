@@ -63,11 +63,14 @@ impl World {
     /// exp(-damping t) of itself. Cells that divide pass it on.
     ///
     /// # Errors
-    /// When the handle is stale, or the damping is not finite or out of its range.
+    /// When the handle is stale, the damping is not finite or out of its range, or it is of fluid in a room with periodic sides.
     pub fn set_angular_damping(&mut self, id: OrganismId, damping: f32) -> Result<(), Error> {
         let organism = self.organisms.get(id).ok_or_else(|| Error::stale("organism"))?;
         let linear = organism.linear_damping;
         with_default_float_environment(|| self.config.check_damping("damping", damping))?;
+        if damping != 0.0 && organism.is_free_fluid() && !self.period().is_none() {
+            return Err(Error::unsupported("damping", "0 for fluid in a room with periodic sides"));
+        }
         self.organisms.set_damping(id, [linear, damping]);
         self.changed(|| WorldChange::SetAngularDamping(id, damping));
         Ok(())

@@ -21,7 +21,8 @@ impl World {
     ///
     /// # Errors
     /// When the handle is stale; when the organism is frozen, held by another, or holds fluid, whose size is that of its spec; and
-    /// when the scale is not 0.1 to 10, or makes a disc larger than 100 000 units or than there is room for between two walls, or
+    /// when the scale is not 0.1 to 10, or makes a disc larger than 100 000 units or than there is room for between two walls, a body
+    /// wider than half of a room between periodic sides, or a disc
     /// so small that a thermal field would kick it beyond the speed limit.
     pub fn set_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
         with_default_float_environment(|| self.check_scale(id, scale))?;
@@ -48,6 +49,7 @@ impl World {
         let room = 0.5 * self.config.width_between_walls();
         let most = if room < LARGEST { room } else { LARGEST } / (largest * organism.spawn_scale);
         in_range("scale", scale, 0.1, if most < 10.0 { most } else { 10.0 })?;
+        self.check_width(nodes, organism.spawn_scale * scale)?;
         self.check_kicks_at_scale(organism, scale)
     }
 

@@ -133,7 +133,8 @@ impl World {
         }
         let discs = self.colliding_discs(organism);
         let (p, size) = (&self.particles, self.config.size);
-        let is_inside = |i: usize| p.position(i).cmpge(Vec2::ZERO).all() && p.position(i).cmple(size).all();
+        let repeats = self.period().0.cmpgt(Vec2::ZERO);
+        let is_inside = |i: usize| (p.position(i).cmpge(Vec2::ZERO) & p.position(i).cmple(size) | repeats).all();
         if groups.meets(CollisionGroups::ALL) && !discs.iter().all(|&i| is_inside(i)) {
             let accepted = format!("an organism within 0 to {} by 0 to {}", size.x, size.y);
             return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "organism"));
@@ -168,6 +169,7 @@ impl World {
         if params.mode == FluidMode::Granular {
             self.config.check_grains()?;
         }
+        self.check_fluid_period(params)?;
         self.config.check_viscosity(params.viscosity)
     }
 }

@@ -28,7 +28,7 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// When a side is not finite or out of its range, when something lies outside of the new walls, or beyond an open side farther than
+    /// When a side is not finite or out of its range, when the length between periodic sides would change, when something lies outside of the new walls, or beyond an open side farther than
     /// the new room is large, and when a chemical would have too many cells or spread too fast for them. Nothing is changed then.
     pub fn set_size(&mut self, size: Vec2) -> Result<(), Error> {
         with_default_float_environment(|| self.resize(size))?;
@@ -39,6 +39,11 @@ impl World {
     fn resize(&mut self, size: Vec2) -> Result<(), Error> {
         let config = WorldConfig { size, ..self.config.clone() };
         config.validate()?;
+        for (axis, field) in ["size.x", "size.y"].into_iter().enumerate() {
+            if self.period().0[axis] > 0.0 && size[axis] != self.config.size[axis] {
+                return Err(Error::unsupported(field, "a length that stays as it is between periodic sides"));
+            }
+        }
         self.check_room(&config)?;
         self.chemicals = self.resized_chemicals(&config)?;
         self.config = config;

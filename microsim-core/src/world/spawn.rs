@@ -32,7 +32,8 @@ impl World {
     /// # Errors
     /// When a field of the spec or the placement is out of range, when the organism would lie outside the walls, inside a membrane
     /// or overlap what is already there, when substeps are too long for its membrane, when a thermal field would kick it beyond the
-    /// speed limit, or when the world would hold too many particles.
+    /// speed limit, when a room with periodic sides cannot hold it ([`Side::Periodic`](crate::Side::Periodic)), or when the world would
+    /// hold too many particles.
     /// Nothing is changed then.
     pub fn spawn(&mut self, spec: &OrganismSpec, placement: Placement) -> Result<OrganismId, Error> {
         let spawn = || self.spawn_blueprint(spec.blueprint()?, placement.clone());
@@ -139,6 +140,7 @@ impl World {
         self.config.check_damping("linear_damping", placement.linear_damping)?;
         self.config.check_damping("angular_damping", placement.angular_damping)?;
         self.check_substeps(blueprint)?;
+        self.check_periodic_placement(blueprint, placement)?;
         self.check_kicks(blueprint, placement.scale, placement.linear_damping)?;
         self.check_controller(&placement.controller, &blueprint.locomotion, blueprint.speed, has_outline(blueprint))?;
         check_fluid(blueprint, placement)?;
@@ -155,9 +157,10 @@ impl World {
     fn check_place(&mut self, planned: &[Particle], ring: &[Particle], share: f32) -> Result<(), Error> {
         let size = self.config.size;
         let colliding = |p: &&Particle| p.groups.memberships != 0;
+        let may_reach = self.may_reach_over(planned);
         for p in planned {
-            let is_inside =
-                p.position().cmpge(Vec2::splat(p.radius)).all() && p.position().cmple(size - p.radius).all();
+            let (low, high) = (Vec2::splat(p.radius), size - p.radius);
+            let is_inside = (p.position().cmpge(low) & p.position().cmple(high) | may_reach).all();
             if !is_inside {
                 let accepted = format!("everything within 0 to {} by 0 to {}", size.x, size.y);
                 return Err(Error::new(ErrorKind::OutsideWorld { accepted }, "at"));
@@ -174,26 +177,39 @@ impl World {
         if planned.is_empty() {
             return None;
         }
-        let bounds = bounds_of(discs(planned));
-        let mut near = self.obstacles_near(&bounds).into_iter();
-        if near.any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
-            return Some("an obstacle".to_owned());
-        }
         let outline: Vec<Vec2> = ring.iter().map(Particle::position).collect();
         let groups = ring.first().map_or(CollisionGroups::NONE, |node| node.groups);
-        let hit = self.first_near(&bounds, |world, organism| {
-            world.touches(organism, planned, &bounds, share)
+        self.first_hit(planned, |world, organism, planned, bounds| {
+            world.touches(organism, planned, bounds, share)
                 || world.encloses(organism, planned)
                 || world.is_enclosed(organism, &outline, groups)
-        })?;
-        self.with_its_place(self.organisms.id_at(hit)?)
+        })
+    }
+
+    /// Describes an obstacle, or an organism that `meets` discs and the box around them, if there is one. Of images of the discs too.
+    pub(super) fn first_hit(
+        &mut self,
+        planned: &[Particle],
+        meets: impl Fn(&Self, &Organism, &[Particle], &Aabb) -> bool,
+    ) -> Option<String> {
+        let bounds = bounds_of(discs(planned));
+        for shift in self.shifts_over_all([bounds.mins, bounds.maxs]) {
+            let planned: Vec<Particle> = planned.iter().map(|disc| disc.moved(shift)).collect();
+            let bounds = Aabb { mins: bounds.mins + shift, maxs: bounds.maxs + shift };
+            let mut near = self.obstacles_near(&bounds).into_iter();
+            if near.any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
+                return Some("an obstacle".to_owned());
+            }
+            if let Some(hit) = self.first_near(&bounds, |world, organism| meets(world, organism, &planned, &bounds)) {
+                return self.with_its_place(self.organisms.id_at(hit)?);
+            }
+        }
+        None
     }
 
     /// Describes an organism that a new obstacle would overlap, if there is one.
     pub(super) fn overlapped_by(&self, obstacle: &Obstacle) -> Option<String> {
-        let is_hit =
-            |organism: &Organism| organism.particles().any(|i| is_blocked(obstacle, &self.particles.get(i as usize)));
-        let (hit, _) = self.organisms.iter().find(|(_, organism)| is_hit(organism))?;
+        let (hit, _) = self.organisms.iter().find(|(_, organism)| self.is_in_obstacle(organism, obstacle))?;
         self.with_its_place(hit)
     }
 

@@ -10,7 +10,7 @@ use crate::float_environment::with_default_float_environment;
 use crate::force_field::Region;
 use crate::id::{DrainId, EmitterId, OrganismId};
 use crate::kind::Kind;
-use crate::organism::{Blueprint, Organism, Placement, Storage};
+use crate::organism::{Blueprint, Placement};
 use crate::rng::Rng;
 use crate::supply::{Drain, Emitter, Recipe};
 use glam::Vec2;
@@ -181,7 +181,7 @@ impl World {
         let mut places = Vec::new();
         for (id, organism) in self.organisms.iter().filter(|(_, organism)| !organism.is_held()) {
             let place = |at, particle| Place { at, organism: id, kind: organism.kind, particle };
-            if is_loose_fluid(organism) {
+            if organism.is_free_fluid() {
                 let particles = organism.fluid_particles.iter();
                 places.extend(particles.map(|&i| place(self.particles.position(i as usize), Some(i))));
             } else {
@@ -198,7 +198,7 @@ impl World {
         for id in ids {
             let Some(organism) = self.organisms.get(id).filter(|organism| !organism.is_held()) else { continue };
             let is_gone = |i: &u32| is_beyond(self.particles.position(*i as usize), side, size);
-            let is_fluid = is_loose_fluid(organism);
+            let is_fluid = organism.is_free_fluid();
             let gone: Vec<u32> = organism.particles().filter(is_gone).collect();
             if is_fluid || gone.len() as u32 == self.size_of(id) {
                 self.take(Outlet::Side(side), id, gone.len() as u32, !is_fluid);
@@ -249,6 +249,7 @@ impl World {
         emitter.validate()?;
         let blueprint = self.blueprint_of(&emitter.recipe)?;
         self.check_substeps(&blueprint)?;
+        self.check_period(&blueprint, 1.0)?;
         self.check_kicks(&blueprint, 1.0, 0.0)
     }
 
@@ -305,11 +306,6 @@ impl Place {
     fn is_a(&self, kind: Option<Kind>) -> bool {
         kind.is_none_or(|kind| kind == self.kind)
     }
-}
-
-/// Whether outlets take an organism particle by particle.
-fn is_loose_fluid(organism: &Organism) -> bool {
-    matches!(organism.body, Storage::Loose { membrane: None, .. }) && !organism.is_quarantined
 }
 
 impl EmitterRecord {

@@ -23,6 +23,7 @@ impl World {
         if !self.fields.iter().any(|(_, field)| matches!(field.kind, FieldKind::Thermal { .. })) {
             return;
         }
+        let period = self.period();
         let Self { config, fields, organisms, particles, sleep, step_index, .. } = self;
         let step = *step_index + 1;
         for (id, organism) in organisms.iter() {
@@ -34,6 +35,7 @@ impl World {
             let list: Vec<u32> = organism.particles().collect();
             let Some(body) = MassProperties::of(particles, &list) else { continue };
             let at = body.position(particles);
+            let at = at + period.into_room(at);
             let mobility: f32 = fields.iter().map(|(_, field)| field.mobility_at(at)).sum();
             let radius = (organism.full_area().abs() / PI).sqrt();
             if mobility <= 0.0 || radius <= 0.0 {

@@ -17,8 +17,11 @@ impl World {
     /// Wakes all organisms in and around the box of an obstacle.
     pub(super) fn wake_up_near(&mut self, obstacle: &Obstacle) {
         let near = obstacle.aabb().loosened(self.config.max_displacement());
-        let p = &self.particles;
-        let is_near = |&i: &u32| near.loosened(p.radius[i as usize]).contains_local_point(p.position(i as usize));
+        let (p, period) = (&self.particles, self.period());
+        let is_near = |&i: &u32| {
+            let (at, near) = (p.position(i as usize), near.loosened(p.radius[i as usize]));
+            period.shifts([at; 2], [near.mins, near.maxs]).any(|shift| near.contains_local_point(at + shift))
+        };
         let organisms = self.organisms.iter().filter(|(_, organism)| organism.particles().any(|i| is_near(&i)));
         for id in organisms.map(|(id, _)| id).collect::<Vec<_>>() {
             self.wake_up(id);

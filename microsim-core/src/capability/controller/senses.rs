@@ -2,6 +2,7 @@
 
 use crate::chemical::Chemical;
 use crate::collision::obstacle::Obstacle;
+use crate::geometry::period::Period;
 use crate::geometry::ring::direction_or;
 use crate::id::{ChemicalId, OrganismId};
 use glam::Vec2;
@@ -36,6 +37,7 @@ impl Steering {
 pub(crate) struct Environment<'a> {
     /// Upper right corner of the room.
     pub size: Vec2,
+    pub period: Period,
     /// Time of a step, s.
     pub dt: f32,
     pub chemicals: &'a [Chemical],

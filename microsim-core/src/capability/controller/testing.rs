@@ -4,6 +4,7 @@ use super::Controller;
 use super::senses::{Environment, Other, Senses, Steering};
 use crate::chemical::{Chemical, ChemicalSpec};
 use crate::config::WorldConfig;
+use crate::geometry::period::Period;
 use crate::geometry::ring::{direction_or, ellipse};
 use crate::id::OrganismId;
 use crate::rng::Rng;
@@ -31,8 +32,14 @@ impl Bench {
     }
 
     pub(super) fn decide(&mut self) -> Option<Steering> {
-        let around =
-            Environment { size: ROOM, dt: self.dt, chemicals: &self.chemicals, obstacles: &[], others: &self.others };
+        let around = Environment {
+            size: ROOM,
+            period: Period::NONE,
+            dt: self.dt,
+            chemicals: &self.chemicals,
+            obstacles: &[],
+            others: &self.others,
+        };
         let outline: Vec<Vec2> = ellipse(Vec2::ONE, 16).into_iter().map(|arm| self.at + arm).collect();
         let (at, velocity, speed) = (self.at, self.velocity, self.speed);
         let senses = Senses {

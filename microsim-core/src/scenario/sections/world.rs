@@ -10,7 +10,8 @@ impl Keyword for Substrate {
 }
 
 impl Keyword for Side {
-    const KEYWORDS: &'static [(&'static str, Self)] = &[("wall", Self::Wall), ("open", Self::Open)];
+    const KEYWORDS: &'static [(&'static str, Self)] =
+        &[("wall", Self::Wall), ("open", Self::Open), ("periodic", Self::Periodic)];
 }
 
 /// The settings of the world but for its size, and the size if the file has it. What is wrong falls back to the default.

@@ -14,6 +14,7 @@ mod neighbours;
 mod settle;
 
 use crate::error::Error;
+use crate::geometry::period::Period;
 use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::Particles;
@@ -141,15 +142,16 @@ impl Fluid {
     }
 
     /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
-    pub(crate) fn mean_compression(&self, particles: &Particles) -> f32 {
+    pub(crate) fn mean_compression(&self, particles: &Particles, period: Period) -> f32 {
         let mut sorted = Sorted::default();
         let support_radius = SUPPORT * self.params.spacing;
-        sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0]);
+        sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0], period);
         sorted.read(particles, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         for group in &sorted.groups {
             let compression = density::sum(group, &sorted.neighbours).compression(rest_density);
-            sum += compression[..group.members.len()].iter().sum::<f32>();
+            let is_own = |l: &usize| !sorted.is_image(group.members.start + l);
+            sum += (0..group.members.len()).filter(is_own).map(|l| compression[l]).sum::<f32>();
         }
         if self.particles.is_empty() { 0.0 } else { sum / self.particles.len() as f32 }
     }
@@ -157,11 +159,17 @@ impl Fluid {
 
 impl Workspace {
     /// Finds the neighbours of all particles for the step that begins, between walls of which these are the lower left and the upper
-    /// right corner.
-    pub(crate) fn find_neighbours(&mut self, fluids: &[Fluid], particles: &Particles, walls: [Vec2; 2]) {
+    /// right corner, in a room of this period.
+    pub(crate) fn find_neighbours(
+        &mut self,
+        fluids: &[Fluid],
+        particles: &Particles,
+        walls: [Vec2; 2],
+        period: Period,
+    ) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
         for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()]);
+            sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()], period);
         }
     }
 
@@ -219,6 +227,7 @@ impl Workspace {
                     );
                 }
             }
+            sorted.hold_images(shifts);
             sorted.shift(shifts, support_radius, particles);
         }
     }
@@ -253,12 +262,14 @@ fn find_shares(sorted: &mut Sorted, sums: &mut [Sums], dispatch: Dispatch) {
 }
 
 /// Writes what was found for each particle where its neighbours read it.
-fn tell_neighbours(Sorted { groups, neighbours, .. }: &mut Sorted, sums: &[Sums]) {
+fn tell_neighbours(sorted: &mut Sorted, sums: &[Sums]) {
+    let Sorted { groups, neighbours, .. } = sorted;
     for (group, sums) in groups.iter().zip(sums) {
         for (neighbour, multiplier) in neighbours[group.members.clone()].iter_mut().zip(sums.multiplier) {
             neighbour.multiplier = multiplier;
         }
     }
+    sorted.tell_images();
 }
 
 fn find_density_shifts(

@@ -11,6 +11,7 @@
 //! candidates that are not neighbours. Cells are as high as the support radius and [`COLUMN_WIDTH`] wide.
 
 use crate::collision::uniform_grid::UniformGrid;
+use crate::geometry::period::Period;
 use crate::instruction_set::each;
 use crate::particle::Particles;
 use crate::solver::lanes::LANES;
@@ -61,6 +62,16 @@ pub(super) struct Sorted {
     pub walls: Walls,
     /// Position in the world that their coordinates are relative to.
     low: Vec2,
+    images: Vec<Image>,
+}
+
+/// An entry that stands for a particle in a room that repeats: a neighbour like others, but what is found for the particle holds for it.
+#[derive(Clone, Copy, Debug)]
+struct Image {
+    /// Its place in the cell order, and that of the particle.
+    place: usize,
+    original: usize,
+    shift: Vec2,
 }
 
 /// The walls in the coordinates of the neighbours.
@@ -78,10 +89,13 @@ impl Sorted {
         particles: &Particles,
         walls: [Vec2; 2],
         [support_radius, margin]: [f32; 2],
+        period: Period,
     ) {
         let inverse = 1.0 / support_radius;
         self.found.clear();
         self.found.extend(indices.iter().map(|&i| particles.position(i as usize)));
+        let shifts =
+            if period.is_none() { Vec::new() } else { self.find_images(period, (1.0 + margin) * support_radius) };
         let (low, high) = bounds(&self.found);
         // On the grid of origins, so that differences from origins are exact.
         self.low = low.floor();
@@ -89,7 +103,12 @@ impl Sorted {
         let cell = Vec2::new(COLUMN_WIDTH, 1.0 + margin) * support_radius;
         self.grid.fill(low, high, cell, self.found.len(), |k| self.found[k]);
         self.particles.clear();
-        self.particles.extend(self.grid.order().iter().map(|&k| indices[k as usize]));
+        self.images.clear();
+        if shifts.is_empty() {
+            self.particles.extend(self.grid.order().iter().map(|&k| indices[k as usize]));
+        } else {
+            self.place_images(&shifts, indices);
+        }
         self.find_groups((1.0 + margin) * support_radius);
     }
 
@@ -99,6 +118,10 @@ impl Sorted {
         let Self { particles: sorted, neighbours, low, .. } = self;
         neighbours.clear();
         neighbours.extend(sorted.iter().map(|&i| neighbour(particles, i as usize, *low, inverse)));
+        for image in &self.images {
+            let i = sorted[image.place] as usize;
+            neighbours[image.place] = neighbour(particles, i, *low - image.shift, inverse);
+        }
         separate_coincident(neighbours);
         let nowhere = Neighbour { x: NOWHERE.x, y: NOWHERE.y, ..Neighbour::default() };
         neighbours.resize(sorted.len() + LANES, nowhere);
@@ -111,6 +134,54 @@ impl Sorted {
                 particles.x[i as usize] += shift_x[l] * support_radius;
                 particles.y[i as usize] += shift_y[l] * support_radius;
             }
+        }
+    }
+
+    /// Adds the images of what was found that are within `reach` of anything; returns of which each is, and its displacement.
+    #[cold]
+    #[inline(never)]
+    fn find_images(&mut self, period: Period, reach: f32) -> Vec<(u32, Vec2)> {
+        let (low, high) = bounds(&self.found);
+        let onto = [low - reach, high + reach];
+        let images = |(&at, k): (&Vec2, u32)| period.image_shifts([at; 2], onto).map(move |shift| (k, shift));
+        let shifts: Vec<(u32, Vec2)> = self.found.iter().zip(0..).flat_map(images).collect();
+        for &(k, shift) in &shifts {
+            self.found.push(self.found[k as usize] + shift);
+        }
+        shifts
+    }
+
+    /// Fills the cell order with particles and the images that come after them in what was found.
+    #[cold]
+    #[inline(never)]
+    fn place_images(&mut self, shifts: &[(u32, Vec2)], indices: &[u32]) {
+        let mut places = vec![0; self.found.len()];
+        self.grid.order().iter().enumerate().for_each(|(place, &k)| places[k as usize] = place);
+        let of = |k: u32| k.checked_sub(indices.len() as u32).map_or(k, |image| shifts[image as usize].0);
+        self.particles.extend(self.grid.order().iter().map(|&k| indices[of(k) as usize]));
+        let images = shifts.iter().zip(&places[indices.len()..]);
+        self.images.extend(images.map(|(&(k, shift), &place)| Image { place, original: places[k as usize], shift }));
+        self.images.sort_unstable_by_key(|image| image.place);
+    }
+
+    /// Whether a place in the cell order is that of an image.
+    pub(super) fn is_image(&self, place: usize) -> bool {
+        self.images.binary_search_by_key(&place, |image| image.place).is_ok()
+    }
+
+    /// Gives images the multipliers of their particles.
+    pub(super) fn tell_images(&mut self) {
+        for image in &self.images {
+            self.neighbours[image.place].multiplier = self.neighbours[image.original].multiplier;
+        }
+    }
+
+    /// Takes back what was found for images: only particles move.
+    pub(super) fn hold_images(&self, shifts: &mut [[Lanes; 2]]) {
+        for image in &self.images {
+            let group = self.groups.partition_point(|group| group.members.end <= image.place);
+            let lane = image.place - self.groups[group].members.start;
+            shifts[group].iter_mut().for_each(|lanes| lanes[lane] = 0.0);
         }
     }
 
@@ -203,7 +274,7 @@ mod tests {
         let indices: Vec<u32> = (0..600).map(|_| particles.insert(&disc(place(), 1.0))).collect();
         for [support_radius, margin] in [[2.0, 0.0], [1.0, 0.25]] {
             let mut sorted = Sorted::default();
-            sorted.sort(&indices, &particles, [Vec2::ZERO, Vec2::INFINITY], [support_radius, margin]);
+            sorted.sort(&indices, &particles, [Vec2::ZERO, Vec2::INFINITY], [support_radius, margin], Period::NONE);
             for group in &sorted.groups {
                 let seen: Vec<u32> = group.windows.iter().flat_map(|w| &sorted.particles[w.clone()]).copied().collect();
                 for &member in &sorted.particles[group.members.clone()] {

@@ -1,6 +1,7 @@
 //! Fluid at rest in a room, for what is spawned: found by projecting its constraints alone, without time.
 
 use super::{Fluid, FluidMode, FluidParams, Workspace};
+use crate::geometry::period::Period;
 use crate::instruction_set::Dispatch;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
 use glam::Vec2;
@@ -36,7 +37,7 @@ pub(crate) fn settle(points: &mut [Vec2], params: FluidParams, confine: impl Fn(
             (particles.prev_x[i], particles.prev_y[i]) = at.into();
             (particles.x[i], particles.y[i]) = (at + INERTIA * (at - before)).into();
         }
-        workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY]);
+        workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
         workspace.project(&fluids, &mut particles, SUBSTEP, Dispatch::default());
         for i in 0..points.len() {
             (particles.x[i], particles.y[i]) = (far + confine(particles.offset(i) - far)).into();

@@ -25,7 +25,7 @@ fn project(fluid: &Fluid, particles: &mut Particles) {
 
 fn project_in(size: Vec2, fluid: &Fluid, particles: &mut Particles) {
     let (fluids, mut workspace) = (std::slice::from_ref(fluid), Workspace::default());
-    workspace.find_neighbours(fluids, particles, [Vec2::ZERO, size]);
+    workspace.find_neighbours(fluids, particles, [Vec2::ZERO, size], Period::NONE);
     workspace.project(fluids, particles, 1.0 / 480.0, Dispatch::default());
 }
 
@@ -41,9 +41,9 @@ fn are_near(a: [f64; 2], b: [f64; 2], distance: f64) -> bool {
 #[test]
 fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
     let (fluid, mut particles) = block(FluidMode::Density, 0.7);
-    let (before, start) = (fluid.mean_compression(&particles), centre(&particles));
+    let (before, start) = (fluid.mean_compression(&particles, Period::NONE), centre(&particles));
     (0..60).for_each(|_| project(&fluid, &mut particles));
-    let after = fluid.mean_compression(&particles);
+    let after = fluid.mean_compression(&particles, Period::NONE);
     assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
     assert!(are_near(centre(&particles), start, 1e-3), "momentum");
 }
@@ -136,20 +136,20 @@ fn neighbours_found_once_per_step_are_enough() {
         let after = |searches: usize| {
             let (fluid, mut particles) = block(mode, spacing);
             let (fluids, mut workspace) = ([Fluid::new(fluid.params, true), fluid], Workspace::default());
-            workspace.find_neighbours(&fluids[1..], &particles, [Vec2::ZERO, Vec2::INFINITY]);
+            workspace.find_neighbours(&fluids[1..], &particles, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
             for substep in 0..8 {
                 for i in 0..200 {
                     (particles.prev_x[i], particles.prev_y[i]) = (particles.x[i], particles.y[i]);
                     particles.x[i] += 0.005 * (particles.y[i] - 50.0);
                 }
                 if substep < searches {
-                    workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY]);
+                    workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
                 }
                 workspace.project(&fluids, &mut particles, 1.0 / 480.0, Dispatch::default());
             }
             let gap = |i: usize, j: usize| (particles.position(i) - particles.position(j)).length();
             let least = |i: usize| (0..200).filter(|&j| j != i).map(|j| gap(i, j)).fold(f32::INFINITY, f32::min);
-            (fluids[1].mean_compression(&particles), (0..200).map(least).sum::<f32>() / 200.0)
+            (fluids[1].mean_compression(&particles, Period::NONE), (0..200).map(least).sum::<f32>() / 200.0)
         };
         let (once, each) = (after(1), after(8));
         assert!((once.0 - each.0).abs() < 0.005 && (once.1 - each.1).abs() < 0.005, "{mode:?}: {once:?} {each:?}");
@@ -166,4 +166,32 @@ fn particles_in_one_place_come_apart() {
     (0..20).for_each(|_| project(&fluid, &mut particles));
     let spread = (0..4).map(|i| (particles.position(i) - Vec2::splat(50.0)).length()).sum::<f32>();
     assert!(spread > 0.1 && spread.is_finite(), "spread {spread}");
+}
+
+#[test]
+fn a_block_across_a_periodic_side_is_projected_as_elsewhere() {
+    let period = Period(Vec2::new(40.0, 0.0));
+    for mode in [FluidMode::Density, FluidMode::Granular] {
+        let moves = |aside: f32| {
+            let (fluid, mut p) = block(mode, 0.8);
+            for i in 0..p.len() {
+                p.displace(i, Vec2::new(aside - 40.0, 0.0));
+                p.displace(i, period.into_room(p.position(i)));
+                (p.prev_x[i], p.prev_y[i]) = (p.x[i] - 0.01 * (i % 3) as f32, p.y[i]);
+            }
+            let (fluids, mut workspace) = (std::slice::from_ref(&fluid), Workspace::default());
+            workspace.find_neighbours(fluids, &p, [Vec2::new(-f32::INFINITY, 0.0), Vec2::INFINITY], period);
+            let before: Vec<Vec2> = (0..p.len()).map(|i| p.offset(i)).collect();
+            workspace.project(fluids, &mut p, 1.0 / 480.0, Dispatch::default());
+            let moved: Vec<Vec2> = before.iter().enumerate().map(|(i, before)| p.offset(i) - *before).collect();
+            (moved, fluid.mean_compression(&p, period), fluid.mean_compression(&p, Period::NONE))
+        };
+        let ([here, there], compressed) = ([0.0, 22.0].map(|aside| moves(aside).0), moves(22.0));
+        let largest = here.iter().map(|moved| moved.length()).fold(0.0, f32::max);
+        let differ = here.iter().zip(&there).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        assert!(largest > 0.01 && differ < 1e-4, "{mode:?}: {differ} of {largest}");
+        let momentum: Vec2 = there.iter().sum();
+        assert!(momentum.length() < 1e-3, "{mode:?}: {momentum}");
+        assert!(compressed.1 > compressed.2 + 1e-3, "images count as neighbours: {compressed:?}");
+    }
 }

@@ -186,7 +186,7 @@ impl World {
         let fluids = self.fluids.iter().filter(|fluid| !fluid.particles.is_empty());
         let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
             let share = fluid.particles.len() as f32;
-            (sum + fluid.mean_compression(&self.particles) * share, count + share)
+            (sum + fluid.mean_compression(&self.particles, self.period()) * share, count + share)
         });
         if count > 0.0 { sum / count } else { 0.0 }
     }

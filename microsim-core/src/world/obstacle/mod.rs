@@ -27,7 +27,8 @@ impl World {
     ///
     /// # Errors
     /// When the pose is not finite, the shape's box is not finite, a material number is out of range, a one-way platform has no
-    /// direction, or the obstacle would overlap an organism. Nothing is changed then.
+    /// direction, the obstacle would overlap an organism, or it is outside of a room with periodic sides or longer than two of it.
+    /// Nothing is changed then.
     pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<ObstacleId, Error> {
         let record = ObstacleRecord::of(&obstacle).map(Box::new);
         let id = with_default_float_environment(|| self.insert_obstacle(obstacle))?;
@@ -168,6 +169,10 @@ impl World {
             let is_there = table.id_at(index).is_some();
             let obstacle = if is_there { read.next().ok_or("obstacles: some are missing")? } else { nothing() };
             check(&obstacle).map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
+            if is_there {
+                let checked = self.check_obstacle_period(&obstacle);
+                checked.map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
+            }
             count += usize::from(is_there);
             self.obstacles.push(obstacle);
         }
@@ -184,6 +189,7 @@ impl World {
 
     /// Checks that an obstacle overlaps no organism.
     fn check_clear(&self, obstacle: &Obstacle) -> Result<(), Error> {
+        self.check_obstacle_period(obstacle)?;
         let overlapped = if obstacle.is_solid() { self.overlapped_by(obstacle) } else { None };
         overlapped.map_or(Ok(()), |with| Err(Error::new(ErrorKind::Overlap { with }, "pose")))
     }

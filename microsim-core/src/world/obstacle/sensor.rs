@@ -1,6 +1,7 @@
 //! Sensors: zones without contacts that report what enters and leaves them.
 
 use super::WALLS;
+use crate::collision::ObstacleContact;
 use crate::event::Event;
 use crate::id::{ObstacleId, OrganismId};
 use crate::world::World;
@@ -28,7 +29,7 @@ impl World {
         if contacts.is_empty() && self.presences.0.is_empty() {
             return;
         }
-        let found = contacts.iter().filter_map(|contact| self.presence(contact.particle as usize, contact.obstacle));
+        let found = contacts.iter().filter_map(|contact| self.presence(contact));
         let asleep = self.presences.0.iter().filter(|presence| self.stays_asleep(presence)).copied();
         let mut now: Vec<Presence> = found.chain(asleep).collect();
         now.sort_unstable();
@@ -44,14 +45,15 @@ impl World {
     }
 
     /// What a particle near a sensor is inside it as.
-    fn presence(&self, i: usize, obstacle: u32) -> Option<Presence> {
-        let (p, sensor) = (&self.particles, &self.obstacles[obstacle as usize]);
-        let (surface, is_inside) = sensor.nearest(p.position(i));
-        let is_present = is_inside || (p.position(i) - surface).length() < p.radius[i];
+    fn presence(&self, &ObstacleContact { particle, obstacle, shift }: &ObstacleContact) -> Option<Presence> {
+        let (p, i, sensor) = (&self.particles, particle as usize, &self.obstacles[obstacle as usize]);
+        let at = p.position(i) - shift;
+        let (surface, is_inside) = sensor.nearest(at);
+        let is_present = is_inside || (at - surface).length() < p.radius[i];
         let id = self.obstacle_table.id_at(obstacle - WALLS as u32)?;
         let owner = self.organisms.id_at(p.owner[i]).filter(|_| is_present && p.groups[i].meets(sensor.groups))?;
         let is_free = p.fluid[i] != 0 && self.organisms.get(owner)?.body.membrane().is_none();
-        Some((id, owner, is_free.then_some(i as u32)))
+        Some((id, owner, is_free.then_some(particle)))
     }
 
     fn stays_asleep(&self, &(sensor, organism, _): &Presence) -> bool {

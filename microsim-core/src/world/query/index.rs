@@ -33,6 +33,12 @@ impl<E: Entry> Index<E> {
         Self(classes.into_iter().map(|(_, entries)| SizeClass::new(&entries, size)).collect())
     }
 
+    /// Lower left and upper right corner of the box around all entries.
+    pub(super) fn bounds(&self) -> [Vec2; 2] {
+        let all = [Vec2::INFINITY, Vec2::NEG_INFINITY];
+        self.0.iter().fold(all, |[low, high], class| [low.min(class.low), high.max(class.high)])
+    }
+
     /// Entries that may reach into a box.
     pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &E> {
         self.0.iter().flat_map(move |class| class.in_box(low, high))

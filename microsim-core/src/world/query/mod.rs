@@ -1,6 +1,7 @@
 //! Queries: organisms at a point, in a circle, in a box; and [`Queries`]: rays, casts of discs, nearest points and overlaps with
 //! organisms, obstacles and walls. The world is sorted for them once after each change.
 
+mod across;
 mod area;
 mod entry;
 mod filter;
@@ -54,6 +55,10 @@ pub struct NearestPoint {
 ///
 /// Numbers that are not finite find nothing. A sensor is found if the filter says so, a disabled obstacle never.
 ///
+/// In a room with periodic sides queries see images of everything: a ray goes on at the opposite side, for at most 32 lengths of
+/// the room along an axis. What they find has its place where it lies itself, with its centre in the room, so from the origin of a ray
+/// its distance leads to that place or to an image of it.
+///
 /// ```
 /// # use microsim_core::{AgarSpec, Collider, Placement, QueryFilter, Wall, World, WorldConfig, glam::Vec2};
 /// let mut world = World::new(WorldConfig::default())?;
@@ -86,14 +91,20 @@ impl World {
     /// since the last step, or since another change, looks at every particle.
     pub fn organisms_in_circle(&self, centre: Vec2, radius: f32) -> impl Iterator<Item = OrganismId> + '_ {
         let extent = Vec2::splat(if radius < 0.0 { 0.0 } else { radius });
-        let meets = move |disc: Vec2, r: f32| (disc - centre).length() <= r + radius;
-        self.find([centre - extent, centre + extent], meets, Some((centre, radius)))
+        self.find_images([centre - extent, centre + extent], move |shift| {
+            let centre = centre + shift;
+            let meets = move |disc: Vec2, r: f32| (disc - centre).length() <= r + radius;
+            self.find([centre - extent, centre + extent], meets, Some((centre, radius)))
+        })
     }
 
     /// Organisms with a disc that reaches into the box from `low` to `high`.
     pub fn organisms_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = OrganismId> + '_ {
         let high = high.max(low);
-        self.find([low, high], move |disc, r| (disc - disc.clamp(low, high)).length() <= r, None)
+        self.find_images([low, high], move |shift| {
+            let (low, high) = (low + shift, high + shift);
+            self.find([low, high], move |disc, r| (disc - disc.clamp(low, high)).length() <= r, None)
+        })
     }
 
     /// Organisms near a box with a disc that `meets`, or an area that a disc, centre and radius, reaches into; by index.
@@ -144,7 +155,11 @@ impl Queries<'_> {
         radius: f32,
         filter: &QueryFilter<'_>,
     ) -> Option<RayHit> {
-        let mut ray = Ray::new(origin, direction, length, radius)?;
+        let ray = Ray::new(origin, direction, length, radius)?;
+        self.first_of_images(ray, |ray| self.first_hit(ray, filter))
+    }
+
+    fn first_hit(&self, mut ray: Ray, filter: &QueryFilter<'_>) -> Option<RayHit> {
         let first = self.first_surface(&ray, filter);
         ray.length = first.map_or(ray.length, |hit| hit.distance);
         let disc = self.first_disc(&ray, filter);
@@ -156,9 +171,12 @@ impl Queries<'_> {
     pub fn cast_ray_all(&self, origin: Vec2, direction: Vec2, length: f32, filter: &QueryFilter<'_>) -> Vec<RayHit> {
         let Some(ray) = Ray::new(origin, direction, length, 0.0) else { return Vec::new() };
         let mut hits = Vec::new();
-        self.visit_surfaces(&ray, filter, |_, hit| hits.push(hit), |_| false);
-        if filter.organisms {
-            self.world.sorted_discs().along(&ray, |disc, _| hits.extend(self.disc_hit(&ray, disc, filter)), |_| false);
+        for ray in self.images_of_ray(ray) {
+            self.visit_surfaces(&ray, filter, |_, hit| hits.push(hit), |_| false);
+            if filter.organisms {
+                let visit = |disc: &Disc, _| hits.extend(self.disc_hit(&ray, disc, filter));
+                self.world.sorted_discs().along(&ray, visit, |_| false);
+            }
         }
         let by_distance = |a: &RayHit, b: &RayHit| a.distance.total_cmp(&b.distance);
         hits.sort_by(|a, b| (a.collider.cmp(&b.collider)).then(by_distance(a, b)).then(a.node.cmp(&b.node)));
@@ -173,6 +191,10 @@ impl Queries<'_> {
         if !(point.is_finite() && distance >= 0.0) {
             return None;
         }
+        self.nearest_of_images(point, distance, |point, distance| self.nearest_to(point, distance, filter))
+    }
+
+    fn nearest_to(&self, point: Vec2, distance: f32, filter: &QueryFilter<'_>) -> Option<NearestPoint> {
         let first = self.nearest_surface(point, distance, filter);
         let disc = self.nearest_disc(point, first.map_or(distance, |first| first.distance), filter);
         disc.or(first)
@@ -199,10 +221,12 @@ impl Queries<'_> {
 
     fn overlap(&self, area: &QueryArea<'_>, filter: &QueryFilter<'_>) -> Vec<Collider> {
         let Some(bounds) = area.aabb() else { return Vec::new() };
-        let mut found = if filter.organisms { self.organisms_in(area, &bounds, filter) } else { Vec::new() };
-        found.extend(self.surfaces_in(area, &bounds, filter));
-        found.sort_unstable();
-        found
+        self.found_by_images(area, &bounds, |area, bounds| {
+            let mut found = if filter.organisms { self.organisms_in(area, bounds, filter) } else { Vec::new() };
+            found.extend(self.surfaces_in(area, bounds, filter));
+            found.sort_unstable();
+            found
+        })
     }
 
     fn organisms_in(&self, area: &QueryArea<'_>, bounds: &Aabb, filter: &QueryFilter<'_>) -> Vec<Collider> {

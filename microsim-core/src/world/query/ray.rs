@@ -25,6 +25,11 @@ impl Ray {
         is_sound.then_some(Self { origin, direction, length, radius })
     }
 
+    /// The same ray elsewhere.
+    pub(super) fn moved(self, by: Vec2) -> Self {
+        Self { origin: self.origin + by, ..self }
+    }
+
     pub(super) fn point_at(&self, distance: f32) -> Vec2 {
         self.origin + self.direction * distance
     }

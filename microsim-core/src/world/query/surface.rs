@@ -91,6 +91,7 @@ impl<'w> Queries<'w> {
         let (collider, obstacle) = (self.world.collider_at(k)?, &self.world.obstacles[k as usize]);
         let is_of_kind = if let Collider::Wall(_) = collider { filter.walls } else { filter.obstacles };
         let is_asked_for = is_of_kind
+            && obstacle.is_enabled
             && (filter.sensors || !obstacle.is_sensor)
             && obstacle.groups.meets(filter.groups)
             && filter.accepts(collider);

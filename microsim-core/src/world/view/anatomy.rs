@@ -31,7 +31,11 @@ impl<'a> View<'a> {
     /// nearer node.
     pub fn contacts(self) -> impl Iterator<Item = [Vec2; 2]> + 'a {
         let touching = self.world.near_pairs().filter(|pair| pair.touched);
-        touching.map(move |pair| [pair.i, pair.j].map(|i| self.position(i)))
+        let period = self.world.period();
+        touching.map(move |pair| {
+            let [a, b] = [pair.i, pair.j].map(|i| self.position(i));
+            [a, if period.is_none() { b } else { a + period.nearest(b - a) }]
+        })
     }
 
     fn bonds_of(self, organism: &'a Organism) -> Vec<(Bond<'a>, [u32; 2])> {

@@ -68,7 +68,10 @@ impl View<'_> {
         let steps = ((self.world.time() - earlier.time) / f64::from(self.world.config.dt)) as f32 + 1.0;
         let farthest = 2.0 * steps * self.world.config.max_displacement();
         let near = |before: &Vec2| (*before - now).length_squared() <= farthest * farthest;
-        earlier.positions.get(i).copied().filter(near).filter(|_| was_there).unwrap_or(now)
+        // What has come in on the other side was that image of itself that is nearest to where it is.
+        let period = self.world.period();
+        let beside = |before: Vec2| if period.is_none() { before } else { now + period.nearest(before - now) };
+        earlier.positions.get(i).copied().map(beside).filter(near).filter(|_| was_there).unwrap_or(now)
     }
 }
 

@@ -54,7 +54,11 @@ impl Choices<'_> {
             protects_membranes: self.byte() < 230,
             max_particles: if self.byte() < 230 { 2500 } else { 150 },
             substrate: if self.byte() < 200 { Substrate::Slide } else { Substrate::Surfaces },
-            sides: if self.byte() < 200 { Sides::default() } else { self.sides() },
+            sides: match self.byte() {
+                0..200 => Sides::default(),
+                200..230 => self.sides(),
+                _ => repeating(self.sides()),
+            },
             ..Default::default()
         }
     }
@@ -158,4 +162,10 @@ impl Choices<'_> {
             _ => Controller::wander(seconds, 0.5),
         }
     }
+}
+
+/// A room that repeats from left to right, and upwards if its top is open.
+fn repeating(sides: Sides) -> Sides {
+    let sides = Sides { left: Side::Periodic, right: Side::Periodic, ..sides };
+    if sides.top == Side::Open { Sides { bottom: Side::Periodic, top: Side::Periodic, ..sides } } else { sides }
 }

@@ -76,7 +76,8 @@ fn check_joints(world: &World) -> Check {
     let none = Subject::default();
     none.must(world.joints.is_sound(), || "the free slots of joints are not the empty ones".to_owned())?;
     for ((k, _), joint) in world.joints.iter() {
-        joint.spec.check(&world.config).map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
+        let checked = joint.spec.check(&world.config).and_then(|()| world.check_joint_period(&joint.spec));
+        checked.map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
         none.must_range(&format!("length of joint {k}"), joint.length, 0.0, f32::MAX)?;
         none.must_range(&format!("force of joint {k}"), joint.force, 0.0, f32::INFINITY)?;
         let is_node = [joint.spec.a, joint.spec.b].map(|end| matches!(end, JointEnd::Node { .. }));
@@ -202,6 +203,7 @@ fn check_parameters(world: &World, organism: &Organism, has_outline: bool) -> Re
     world.config.check_damping("angular_damping", organism.angular_damping)?;
     controller.validate().map_err(|error| error.within("controller"))?;
     world.check_controller(controller, &organism.locomotion, organism.speed, has_outline)?;
+    world.check_periodic_organism(organism)?;
     for exchange in exchanges {
         let is_known = world.check_chemical(exchange.chemical, "chemical").and_then(|()| exchange.validate());
         is_known.map_err(|error| error.within("exchanges"))?;
