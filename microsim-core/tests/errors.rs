@@ -12,9 +12,9 @@ use microsim_core::{
     AccelerationGrid, Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec,
     CoccusSpec, CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error,
     ErrorKind, Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Half, Inputs, Intent,
-    JointEnd, JointId, JointKind, JointSpec, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion, OrganismId,
-    OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region, RigidCellSpec,
-    Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
+    JointEnd, JointId, JointKind, JointSpec, LinkDrag, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion,
+    OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region,
+    RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
 };
 use sources::sources;
 use std::collections::BTreeSet;
@@ -286,6 +286,8 @@ const CASES: &[Case] = &[
     ("TemplateBuilder::build", "BadReference", "muscles", |_| build(|b| _ = b.muscle(0, Rope { a: 0, b: 1, max_length: 1.0 }))),
     ("TemplateBuilder::build", "OutOfRange", "channels[0].active", |_| build(|b| _ = b.channel([1.0, 0.0]))),
     ("TemplateBuilder::build", "OutOfRange", "constraints[0].breaking_strain", |_| build(|b| _ = b.constraint(YieldingDistance { breaking_strain: 0.0, ..SPRING.into() }))),
+    ("TemplateBuilder::build", "OutOfRange", "constraints[0].across", |_| build(|b| _ = b.constraint(LinkDrag { a: 0, b: 1, along: 1.0, across: f32::NAN }))),
+    ("TemplateBuilder::build", "OutOfRange", "constraints[0].along", |_| build(|b| _ = b.constraint(LinkDrag { a: 0, b: 1, along: -1.0, across: 1.0 }))),
     ("JointSpec::validate", "OutOfRange", "kind.max_force", |r| r.joint(JointKind::mouse(-1.0)).validate().unwrap_err()),
     ("World::add_joint", "OutOfRange", "kind.length", |r| r.world.add_joint(r.joint(JointKind::Distance { length: f32::NAN })).unwrap_err()),
     ("World::add_joint", "Stale", "a.organism", |r| r.world.add_joint(JointSpec { a: JointEnd::Centre(r.stale), ..r.joint(JointKind::Pin) }).unwrap_err()),

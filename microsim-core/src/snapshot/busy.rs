@@ -5,9 +5,9 @@ use crate::{
     AccelerationGrid, AgarSpec, AmoeboidCellSpec, AvoidanceParams, Bend, BrownianParams, ChemicalId, ChemicalSpec,
     ChemotaxisParams, CoccusSpec, Collider, ConservativeDistance, ContactPoint, ContactReporting, Controller, Crawl,
     Distance, Drain, Emitter, EmitterId, Event, Exchange, FieldKind, FleeParams, FluidBlockSpec, ForceField, Half,
-    Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, Node, Obstacle, ObstacleId, ObstacleMotion,
-    OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement, Propulsion, PseudopodParams, PursueParams,
-    Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
+    Inputs, Intent, JointEnd, JointId, JointKind, JointSpec, Kind, LinkDrag, Node, Obstacle, ObstacleId,
+    ObstacleMotion, OrganismId, OrganismSpec, Outlet, PersistentWalkParams, Placement, Propulsion, PseudopodParams,
+    PursueParams, Recipe, Refusal, Region, RigidCellSpec, Rope, RunAndTumbleParams, Template, Wall, World, WorldConfig,
     YieldingDistance,
 };
 use glam::Vec2;
@@ -192,6 +192,7 @@ fn roped(world: &mut World) {
     let spring = ConservativeDistance { a: b, b: c, rest_length: 1.0, compliance: 1.0, damping: 0.1 };
     let yielding = Distance { a: b, b: c, rest_length: 2.0, compliance: 1.0, damping: 0.1 };
     builder.constraint(spring).constraint(YieldingDistance { breaking_strain: 2.0, ..yielding.into() });
+    builder.constraint(LinkDrag { a, b, along: 1.0, across: 2.0 });
     builder.propulsion(Propulsion { speed: 5.0, max_acceleration: 50.0 });
     let template = world.add_template(builder.build().unwrap());
     world.spawn_template(template, Placement::at(120.0, 75.0).damped(1.0, 2.0)).unwrap();

@@ -184,7 +184,7 @@ pub(crate) fn subtract_displacement(block: &mut Columns<'_>, margins: &mut [f32;
 
 #[cfg(test)]
 mod tests {
-    use super::super::constraint::{Anchor, Area, Bend, Distance, MinDistance, Rope, TORN, YieldingDistance};
+    use super::super::constraint::{Anchor, Area, Bend, Distance, LinkDrag, MinDistance, Rope, TORN, YieldingDistance};
     use super::super::testing::disc;
     use super::*;
     use glam::Vec2;
@@ -204,6 +204,7 @@ mod tests {
         list.push(Anchor { node: 3, anchor: 0, rest_length: 1.0, max_length: 4.4, compliance: 1e-4 }.into());
         let spring = Distance { a: 0, b: 4, rest_length: 3.0, compliance: 1e-4, damping: 0.01 };
         list.push(YieldingDistance::from(spring).into());
+        list.push(LinkDrag { a: 1, b: 4, along: 30.0, across: 50.0 }.into());
         for is_upper_bound in [false, true] {
             list.push(Area { ring: vec![0, 1, 2, 4], rest_area: 1.0, compliance: 1e-3, is_upper_bound }.into());
         }

@@ -7,6 +7,7 @@
 #![allow(clippy::disallowed_types, reason = "measures time, outside the worlds")]
 
 mod colony;
+mod flagellum;
 mod jellyfish;
 mod rollback;
 mod rope_and_wheel;
@@ -55,6 +56,7 @@ const TOYS: &[Toy] = toys! {
     slime_platformer;
     jellyfish;
     worm;
+    flagellum;
     stenosis with "../../../microsim-core/examples/blood/vessel.rs";
     colony with "../../../microsim-core/examples/colony/rods.rs";
     rope_and_wheel;

@@ -224,6 +224,8 @@ fn the_panel_of_a_simulation_fits_a_small_window() {
         let mut items: Vec<String> = plain.map(|key| format!("> * {}", text(key))).collect();
         let spawns = of_groups(&["spawn-"]).map(|(_, key)| key).chain([Key::KindAgar]);
         items.extend(spawns.map(|key| format!("> * {}  {} >", text(Key::ToolSpawn), text(key))));
+        let fields = of_groups(&["field-"]).map(|(_, key)| key);
+        items.extend(fields.map(|key| format!("> * {}  {} >", text(Key::ToolField), text(key))));
         items.push(format!("> {}  0,25 x >", text(Key::PanelSpeed)));
         items.extend(
             [Key::ActionDebugView, Key::ActionPlots].map(|key| format!("> {}  {} >", text(key), text(Key::MenuOff))),

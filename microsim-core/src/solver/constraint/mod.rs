@@ -5,6 +5,7 @@ mod area;
 mod bend;
 mod conservative_distance;
 mod distance;
+mod link_drag;
 mod min_distance;
 mod rope;
 mod yielding_distance;
@@ -15,6 +16,7 @@ pub(super) use area::MeasuredRing;
 pub use bend::Bend;
 pub use conservative_distance::ConservativeDistance;
 pub use distance::Distance;
+pub use link_drag::LinkDrag;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
 pub(crate) use yielding_distance::TORN;
@@ -47,6 +49,7 @@ pub enum Constraint {
     Bend(Bend),
     ConservativeDistance(ConservativeDistance),
     YieldingDistance(YieldingDistance),
+    LinkDrag(LinkDrag),
 }
 
 /// What every kind of constraint says of itself.
@@ -90,6 +93,7 @@ impl Constraint {
             Self::Bend(c) => task.run(c),
             Self::ConservativeDistance(c) => task.run(c),
             Self::YieldingDistance(c) => task.run(c),
+            Self::LinkDrag(c) => task.run(c),
         }
     }
 
@@ -176,7 +180,7 @@ mod tests {
     use super::*;
 
     /// One of each kind, between nodes 0, 1 and 2.
-    fn kinds() -> [Constraint; 8] {
+    fn kinds() -> [Constraint; 9] {
         let (a, b, rest_length, compliance) = (0, 1, 1.0, 0.0);
         [
             Constraint::from(Distance { a, b, rest_length, compliance, damping: 0.0 }),
@@ -187,6 +191,7 @@ mod tests {
             Bend::new([0, 1, 2], 0.0, compliance).into(),
             ConservativeDistance { a, b, rest_length, compliance, damping: 0.0 }.into(),
             YieldingDistance::from(Distance { a, b, rest_length, compliance, damping: 0.0 }).into(),
+            LinkDrag { a, b, along: 1.0, across: 2.0 }.into(),
         ]
     }
 
@@ -207,11 +212,12 @@ mod tests {
     }
 
     #[test]
-    fn each_kind_is_drawn_between_its_nodes_and_only_bends_are_no_muscles() {
+    fn each_kind_is_drawn_between_its_nodes_and_what_has_no_lengths_is_no_muscle() {
         for kind in kinds() {
             let (links, is_muscle) = match kind {
                 Constraint::Area(_) => (vec![[0, 1], [1, 2], [2, 0]], true),
                 Constraint::Bend(_) => (vec![[0, 1], [1, 2]], false),
+                Constraint::LinkDrag(_) => (vec![[0, 1]], false),
                 _ => (vec![[0, 1]], true),
             };
             assert_eq!((kind.links(), kind.has_lengths()), (links, is_muscle), "{kind:?}");

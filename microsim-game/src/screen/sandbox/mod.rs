@@ -1,9 +1,11 @@
 //! Simulation mode: any scenario, without rules or hints, to look at and to meddle with.
 
 mod anatomy;
+mod building;
 mod ghost;
 mod panel;
 mod plots;
+mod spawns;
 mod tools;
 mod undo;
 
@@ -87,16 +89,26 @@ impl Sandbox {
     /// Uses the tool as the mouse says; what it does to the world can be undone.
     fn use_tool(&mut self, input: &Input, is_on_panel: bool, context: &mut AppContext) {
         let begins = input.is_clicked && !is_on_panel;
-        let before = (begins && self.tools.tool.is_act()).then(|| self.stage.clone());
+        let acts = (begins || self.tools.ends(input)) && self.tools.tool.is_act();
+        let before = acts.then(|| self.stage.clone());
         let digests = context.settings.digests(input);
         let told = self.tools.use_on(&mut self.stage, &self.viewer.camera, input, is_on_panel, digests);
         let stands = begins && self.is_paused && self.tools.tool.needs_time();
         match (told.or(stands.then(|| words::text(Key::SandboxStopped).to_owned())), before) {
             (Some(problem), _) => context.tell(problem),
-            (None, Some(before)) => self.undo.keep(before),
-            (None, None) => {}
+            (None, Some(before)) if self.is_done(&before, begins) => self.undo.keep(before),
+            _ => {}
         }
         self.tools.foresee(self.stage.world(), self.viewer.camera.to_room(input.cursor), is_on_panel);
+    }
+
+    /// Whether the tool has done something that can be undone: a click is an act, unless it builds nothing.
+    fn is_done(&self, before: &Stage, begins: bool) -> bool {
+        let built = |stage: &Stage| {
+            let world = stage.world();
+            [world.joints().count(), world.obstacles().count(), world.fields().count()]
+        };
+        if self.tools.tool.builds() { built(before) != built(&self.stage) } else { begins }
     }
 
     fn press(&mut self, input: &Input) {

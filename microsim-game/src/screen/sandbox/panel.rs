@@ -28,8 +28,8 @@ pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
     let tool = |(tool, label)| {
         let mark = if tool == sandbox.tools.tool { "* " } else { "" };
         let label = format!("{mark}{}", words::text(label));
-        let spawn = (tool == Tool::Spawn).then(|| words::text(sandbox.tools.spawn_name()).to_owned());
-        MenuItem { value: spawn, ..MenuItem::new(label) }
+        let value = sandbox.tools.value(tool).map(|key| words::text(key).to_owned());
+        MenuItem { value, ..MenuItem::new(label) }
     };
     let others = [
         MenuItem::new(Key::PanelUndo),

@@ -1,6 +1,8 @@
-//! What the mouse does in a simulation: steer, drag, push, spawn, remove, follow.
+//! What the mouse does in a simulation: steer, drag, push, spawn, remove, follow, build.
 
+use super::building::{Building, draw_fields, draw_joints};
 use super::ghost::Ghost;
+use super::spawns::{SPAWNS, controller, refusal};
 use crate::camera::Camera;
 use crate::draw::palette::{HALO, READY, fade};
 use crate::guide::identify::{name_at, organism_at};
@@ -11,10 +13,7 @@ use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
-use microsim_core::{
-    AgarSpec, AmoeboidCellSpec, BacillusSpec, CoccusSpec, Controller, Error, ErrorKind, FluidBlockSpec, Intent,
-    OrganismId, OrganismSpec, Placement, PlateletSpec, ProbeSpec, RedCellSpec, RigidCellSpec, View, World,
-};
+use microsim_core::{Intent, OrganismId, Placement, View, World};
 
 /// How near the cursor must be to something, pixels.
 const NEAR: f32 = 12.0;
@@ -39,11 +38,14 @@ pub(super) enum Tool {
     Follow,
     Ask,
     Look,
+    Join,
+    Wall,
+    Field,
 }
 
 impl Tool {
     /// All of them, with their labels in the panel.
-    pub(super) const ALL: [(Self, Key); 8] = [
+    pub(super) const ALL: [(Self, Key); 11] = [
         (Self::Steer, Key::ToolSteer),
         (Self::Drag, Key::ToolDrag),
         (Self::Push, Key::ToolPush),
@@ -52,13 +54,21 @@ impl Tool {
         (Self::Follow, Key::ToolFollow),
         (Self::Ask, Key::ToolAsk),
         (Self::Look, Key::ToolLook),
+        (Self::Join, Key::ToolJoin),
+        (Self::Wall, Key::ToolWall),
+        (Self::Field, Key::ToolField),
     ];
 }
 
 impl Tool {
     /// Whether its use changes the world at once, and so can be undone.
     pub(super) fn is_act(self) -> bool {
-        matches!(self, Self::Drag | Self::Push | Self::Spawn | Self::Remove)
+        matches!(self, Self::Drag | Self::Push | Self::Spawn | Self::Remove) || self.builds()
+    }
+
+    /// Whether it builds something, of which there is more or less after that.
+    pub(super) fn builds(self) -> bool {
+        matches!(self, Self::Join | Self::Wall | Self::Field)
     }
 
     /// Whether it does something only while time passes.
@@ -66,22 +76,6 @@ impl Tool {
         matches!(self, Self::Steer | Self::Drag | Self::Push)
     }
 }
-
-/// Makes what a tool puts into the world.
-type Make = fn() -> OrganismSpec;
-
-/// What can be put into the room.
-const SPAWNS: [(Key, Make); 9] = [
-    (Key::KindAgar, || AgarSpec::default().into()),
-    (Key::SpawnCoccus, || CoccusSpec::default().into()),
-    (Key::SpawnBacillus, || BacillusSpec::default().into()),
-    (Key::SpawnRigidCell, || RigidCellSpec::default().into()),
-    (Key::SpawnAmoeboid, || AmoeboidCellSpec::default().into()),
-    (Key::SpawnPlatelet, || PlateletSpec::default().into()),
-    (Key::SpawnRedCell, || RedCellSpec::default().into()),
-    (Key::SpawnProbe, || ProbeSpec::default().into()),
-    (Key::SpawnFluid, || FluidBlockSpec::default().into()),
-];
 
 /// The tool in hand.
 #[derive(Debug, Default)]
@@ -96,20 +90,35 @@ pub(super) struct Tools {
     /// The point of the room that follows the cursor while looking around.
     grip: Option<Vec2>,
     ghost: Ghost,
+    building: Building,
+    /// Where the cursor is in the room.
+    cursor: Vec2,
 }
 
 impl Tools {
-    /// What would be put into the room.
-    pub(super) fn spawn_name(&self) -> Key {
-        SPAWNS[self.spawn].0
+    /// What a tool would put into the room.
+    pub(super) fn value(&self, tool: Tool) -> Option<Key> {
+        match tool {
+            Tool::Spawn => Some(SPAWNS[self.spawn].0),
+            Tool::Field => Some(self.building.field_name()),
+            _ => None,
+        }
     }
 
-    /// Takes a tool in hand. Chosen again, the one that spawns changes to the next thing, or the one before.
+    /// Takes a tool in hand. Chosen again, one that puts things in changes to the next thing, or the one before.
     pub(super) fn choose(&mut self, tool: Tool, is_back: bool) {
-        if tool == Tool::Spawn && self.tool == tool {
-            self.change_spawn(is_back);
+        match tool {
+            Tool::Spawn if self.tool == tool => self.change_spawn(is_back),
+            Tool::Field if self.tool == tool => self.building.change_field(),
+            _ => {}
         }
         self.tool = tool;
+        self.building.let_go();
+    }
+
+    /// Whether the button was held and no longer is.
+    pub(super) fn ends(&self, input: &Input) -> bool {
+        self.hand.is_some() && !input.is_held
     }
 
     /// The next thing to put into the room, or the one before.
@@ -127,7 +136,8 @@ impl Tools {
         digests: bool,
     ) -> Option<String> {
         let at = camera.to_room(input.cursor);
-        let begins = input.is_clicked && !is_on_panel;
+        let (begins, ends) = (input.is_clicked && !is_on_panel, self.ends(input));
+        self.cursor = at;
         let goes_on = input.is_held && (begins || self.hand.is_some());
         self.hand = goes_on.then_some(at);
         if !goes_on {
@@ -135,7 +145,14 @@ impl Tools {
         }
         let goal = self.hand.filter(|_| self.tool == Tool::Steer).and_then(|at| Intent::toward(at).ok());
         stage.steer(goal.unwrap_or(Intent::REST).digesting(digests));
-        if begins { self.begin(stage, camera, at) } else { None }
+        match begins {
+            true => self.begin(stage, camera, at),
+            false if ends => {
+                let told = self.building.end_wall(stage.world_mut(), at, NEAR / camera.scale());
+                told.map(|key| words::text(key).to_owned())
+            }
+            false => None,
+        }
     }
 
     /// Begins to use the tool at a point. Returns what went wrong, or why it does nothing.
@@ -160,6 +177,9 @@ impl Tools {
             (Tool::Remove, Some(id)) => return stage.world_mut().remove(id).err().map(|error| error.to_string()),
             (Tool::Follow, _) => stage.set_player(found),
             (Tool::Drag, _) => self.grasped = found,
+            (Tool::Join, _) => return self.building.join(stage.world_mut(), at, within).and_then(told),
+            (Tool::Wall, _) => self.building.begin_wall(stage.world_mut(), at, within),
+            (Tool::Field, _) => return self.building.put_field(stage.world_mut(), at).and_then(told),
             _ => {}
         }
         None
@@ -173,6 +193,7 @@ impl Tools {
     /// Lets go of what is held.
     pub(super) fn let_go(&mut self) {
         (self.grasped, self.hand, self.grip) = (None, None, None);
+        self.building.let_go();
     }
 
     /// Shows what a click would put in.
@@ -218,6 +239,11 @@ impl Tools {
     /// Draws what the tool is about to do.
     pub(super) fn draw(&self, pen: &mut Pen, view: View<'_>, camera: &Camera) {
         self.ghost.draw(pen.canvas(), camera);
+        draw_joints(pen.canvas(), view.world(), camera);
+        self.building.draw(pen.canvas(), view.world(), camera, self.cursor);
+        if self.tool == Tool::Field {
+            draw_fields(pen.canvas(), view.world(), camera);
+        }
         let Some(hand) = self.hand else { return };
         let (at, width) = (camera.to_screen(hand), 0.12 * pen.line(TextSize::Body));
         match self.tool {
@@ -234,27 +260,6 @@ impl Tools {
 
 fn can_crawl(stage: &Stage) -> bool {
     stage.player().and_then(|id| stage.world().view().organism(id)).is_some_and(|organism| organism.speed() > 0.0)
-}
-
-/// Why something is not put in, for people.
-fn refusal(name: Key, error: &Error) -> String {
-    let name = words::text(name);
-    let told = |key| words::text_with(key, &[("what", name.into())]);
-    match error.kind() {
-        ErrorKind::Overlap { .. } => told(Key::SandboxOverlap),
-        ErrorKind::OutsideWorld { .. } => told(Key::SandboxOutside),
-        ErrorKind::TooMany { .. } => words::text(Key::SandboxCrowded).to_owned(),
-        _ => format!("{name}: {error}"),
-    }
-}
-
-/// How something moves that was put in: animals wander, things lie still.
-fn controller(name: Key) -> Controller {
-    match name {
-        Key::SpawnRigidCell | Key::SpawnAmoeboid => Controller::wander([1.0, 5.0], 0.2),
-        Key::SpawnCoccus | Key::SpawnBacillus => Controller::wander([0.05, 0.3], 0.0),
-        _ => Controller::Still,
-    }
 }
 
 fn drag(world: &mut World, id: OrganismId, hand: Vec2) {
@@ -282,7 +287,7 @@ fn push_away(world: &mut World, hand: Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use microsim_core::WorldConfig;
+    use microsim_core::{AgarSpec, WorldConfig};
 
     fn stage() -> Stage {
         Stage::new("test".to_owned(), World::new(WorldConfig::default()).unwrap(), None)
@@ -295,7 +300,8 @@ mod tests {
             let tools = Tools { tool: Tool::Spawn, spawn, ..Tools::default() };
             let at = Vec2::new(60.0, 45.0);
             tools.put_in(&mut stage, at).unwrap();
-            let id = organism_at(stage.world(), at, 1.0).unwrap_or_else(|| panic!("{:?}", tools.spawn_name()));
+            let id = organism_at(stage.world(), at, 1.0)
+                .unwrap_or_else(|| panic!("{:?}", tools.value(Tool::Spawn).unwrap()));
             let hand = Vec2::new(90.0, 45.0);
             for _ in 0..90 {
                 drag(stage.world_mut(), id, hand);
@@ -303,12 +309,12 @@ mod tests {
             }
             let moved = stage.world().centroid(id).unwrap().x - 60.0;
             // A platelet's rope lets it go so far only, and cytoplasm at rest does not like to move.
-            let least = match tools.spawn_name() {
+            let least = match tools.value(Tool::Spawn).unwrap() {
                 Key::SpawnPlatelet => 0.3,
                 Key::SpawnAmoeboid => 3.0,
                 _ => 12.0,
             };
-            assert!(moved > least, "{:?} {moved}", tools.spawn_name());
+            assert!(moved > least, "{:?} {moved}", tools.value(Tool::Spawn).unwrap());
             stage.world_mut().remove(id).unwrap();
             assert_eq!(stage.world().organisms().count(), 0);
         }
@@ -323,7 +329,7 @@ mod tests {
         for (tool, _) in Tool::ALL {
             let mut tools = Tools { tool, ..Tools::default() };
             let told = tools.use_on(&mut stage, &camera, &click, false, false);
-            assert_eq!(told.is_none(), matches!(tool, Tool::Spawn | Tool::Ask), "{tool:?}: {told:?}");
+            assert_eq!(told.is_none(), matches!(tool, Tool::Spawn | Tool::Ask) || tool.builds(), "{tool:?}: {told:?}");
             stage = super::tests::stage();
         }
         let agar = stage.world_mut().spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
