@@ -13,7 +13,7 @@ const COLUMNS: u8 = 2 * WAVE + 1;
 pub(crate) fn scene() -> Scene {
     let mut world = World::new(WorldConfig { size: Vec2::new(96.0, 54.0), damping: 0.0, ..WorldConfig::default() })?;
     let template = world.add_template(flagellum()?);
-    let places = (0..6u8).map(|k| Placement::at(20.0 + f32::from(k % 2) * 36.0, 9.0 + 7.0 * f32::from(k)));
+    let places = (0..6u8).map(|k| Placement::at(40.0 + 30.0 * f32::from(k % 2), 9.0 + 7.0 * f32::from(k)));
     let swimmers = places.map(|place| world.spawn_template(template, place)).collect::<Result<Vec<_>, _>>()?;
     let act = move |world: &mut World, inputs: &mut Inputs, keys: super::Keys| {
         let turn = 0.1 * (f32::from(u8::from(keys.left)) - f32::from(u8::from(keys.right)));

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::draw::canvas::Canvas;
-use crate::draw::palette::{HALO, READY, WAIT, fade};
+use crate::draw::palette::{READY, WAIT, fade};
 use crate::words::Key;
 use microsim_core::geometry::nearest_on_segment;
 use microsim_core::glam::Vec2;
@@ -122,7 +122,7 @@ pub(super) fn draw_joints(canvas: &mut Canvas, world: &World, camera: &Camera) {
 
 /// Draws the fields of a world faintly: their edges, and strokes with a dot at the end to which they push.
 pub(super) fn draw_fields(canvas: &mut Canvas, world: &World, camera: &Camera) {
-    let colour = fade(HALO, 0.4);
+    let colour = fade(WAIT, 0.7);
     for (_, field) in world.fields() {
         let Region::Circle { centre, radius } = field.region else { continue };
         canvas.circle(camera.to_screen(centre), radius * camera.scale(), 1.5, colour);
@@ -247,7 +247,7 @@ mod tests {
             let camera = Camera::whole(world.config().size, Vec2::new(640.0, 360.0));
             let mut canvas = Canvas::bare();
             draw_fields(&mut canvas, &world, &camera);
-            assert!(canvas.count(fade(HALO, 0.4)) > 8);
+            assert!(canvas.count(fade(WAIT, 0.7)) > 8);
             assert_eq!(building.put_field(&mut world, at + Vec2::X), None);
             assert_eq!(counts(&world), [0; 3]);
             building.change_field();
