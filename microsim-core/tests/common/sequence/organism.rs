@@ -3,8 +3,8 @@
 use super::{Choices, Outcome, Sequence};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    Actuation, Bend, ChemicalSpec, Distance, Error, Exchange, Half, Intent, Node, OrganismId, Propulsion, Rope,
-    Template, YieldingDistance,
+    Actuation, Bend, ChemicalSpec, Distance, Error, Exchange, Half, Intent, LinkDrag, Node, OrganismId, Propulsion,
+    Rope, Template, YieldingDistance,
 };
 
 impl Sequence<'_> {
@@ -144,6 +144,10 @@ impl Sequence<'_> {
         }
         if count > 2 {
             builder.constraint(Bend::new([0, 1, 2], c.number(-3.0, 3.0), c.number(0.0, 1e-2)));
+        }
+        if count > 3 {
+            // Without a draw of its own, so that what is in the corpus stays what it is.
+            builder.constraint(LinkDrag { a: 0, b: count - 1, along: 10f32.powi(count as i32 - 4), across: 1e4 });
         }
         if c.byte() < 40 {
             let slots: Vec<u32> = (0..1 + c.below(6) as u32).collect();
