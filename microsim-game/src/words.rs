@@ -74,11 +74,8 @@ impl Language {
     /// The next one, or the one before.
     #[must_use]
     pub fn next(&self, is_back: bool) -> &'static Self {
-        &LANGUAGES[(self.index() + if is_back { LANGUAGES.len() - 1 } else { 1 }) % LANGUAGES.len()]
-    }
-
-    fn index(&self) -> usize {
-        LANGUAGES.iter().position(|language| language == self).unwrap_or(0)
+        let at = LANGUAGES.iter().position(|language| language == self).unwrap_or(0);
+        &LANGUAGES[(at + if is_back { LANGUAGES.len() - 1 } else { 1 }) % LANGUAGES.len()]
     }
 
     /// Its texts; those that are not in the program are taken from `fetch`. `None` if they are not there yet, or of another version.
@@ -96,8 +93,8 @@ impl Language {
 }
 
 thread_local! {
-    /// Which language the texts have. Of a thread, so that tests of other languages do not disturb each other.
-    static CURRENT: Cell<usize> = const { Cell::new(0) };
+    /// The language of the texts, or the first. Of a thread, so that tests of other languages do not disturb each other.
+    static CURRENT: Cell<Option<&'static Language>> = const { Cell::new(None) };
 }
 
 /// Chooses the language of all texts from now on, and returns whether it is another one. `fetch` has those that are not in the
@@ -105,7 +102,7 @@ thread_local! {
 pub fn choose(language: &'static Language, fetch: impl FnOnce() -> Option<Vec<u8>>) -> bool {
     let changes = current() != language && language.texts(fetch).is_some();
     if changes {
-        CURRENT.set(language.index());
+        CURRENT.set(Some(language));
     }
     changes
 }
@@ -113,7 +110,7 @@ pub fn choose(language: &'static Language, fetch: impl FnOnce() -> Option<Vec<u8
 /// The language of the texts.
 #[must_use]
 pub fn current() -> &'static Language {
-    &LANGUAGES[CURRENT.get()]
+    CURRENT.get().unwrap_or(&LANGUAGES[0])
 }
 
 fn pattern(language: &'static Language, key: Key) -> &'static str {

@@ -147,7 +147,7 @@ impl Sequence<'_> {
         }
         if count > 3 {
             // Without a draw of its own, so that what is in the corpus stays what it is.
-            builder.constraint(LinkDrag { a: 0, b: count - 1, along: 10f32.powi(count as i32 - 4), across: 1e4 });
+            builder.constraint(LinkDrag { a: 0, b: count - 1, along: count as f32, across: 1e4 });
         }
         if c.byte() < 40 {
             let slots: Vec<u32> = (0..1 + c.below(6) as u32).collect();
