@@ -1,7 +1,7 @@
 //! Rooms that repeat along their axes, and the displacements of the images of something: copies of it, each a whole number of
 //! periods away.
 
-use glam::Vec2;
+use glam::{IVec2, Vec2};
 
 /// Most periods between something and an image of it.
 const FARTHEST: f32 = 64.0;
@@ -57,21 +57,48 @@ impl Period {
 
     /// The displacements by which the images of a box come to lie over another one, that of the box itself among them. Without a
     /// period there is only that, wherever the boxes are.
-    pub(crate) fn shifts(self, [low, high]: [Vec2; 2], onto: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
+    pub(crate) fn shifts(self, [low, high]: [Vec2; 2], onto: [Vec2; 2]) -> Shifts {
         let along = |axis: usize| {
             let length = self.0[axis];
             let least = (onto[0][axis] - high[axis]) / length - ROUNDING;
             let most = (onto[1][axis] - low[axis]) / length + ROUNDING;
-            let [least, most] = [least.ceil(), most.floor()].map(|k| k.clamp(-FARTHEST, FARTHEST) as i32);
-            (if length > 0.0 { least..=most } else { 0..=0 }).map(move |k| k as f32 * length)
+            let range = [least.ceil(), most.floor()].map(|k| k.clamp(-FARTHEST, FARTHEST) as i32);
+            if length > 0.0 { range } else { [0, 0] }
         };
-        let (columns, rows) = (along(0), along(1));
-        rows.flat_map(move |y| columns.clone().map(move |x| Vec2::new(x, y)))
+        let ([left, right], [bottom, top]) = (along(0), along(1));
+        let least = IVec2::new(left, bottom);
+        Shifts { period: self.0, least, most: IVec2::new(right, top), next: least }
     }
 
     /// The same without that of the box itself.
     pub(crate) fn image_shifts(self, of: [Vec2; 2], onto: [Vec2; 2]) -> impl Iterator<Item = Vec2> {
         self.shifts(of, onto).filter(|shift| *shift != Vec2::ZERO)
+    }
+}
+
+/// Displacements by whole periods, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Shifts {
+    period: Vec2,
+    /// Periods along both axes.
+    least: IVec2,
+    most: IVec2,
+    next: IVec2,
+}
+
+impl Iterator for Shifts {
+    type Item = Vec2;
+
+    fn next(&mut self) -> Option<Vec2> {
+        if self.least.x > self.most.x || self.next.y > self.most.y {
+            return None;
+        }
+        let shift = self.next.as_vec2() * self.period;
+        self.next.x += 1;
+        if self.next.x > self.most.x {
+            self.next = IVec2::new(self.least.x, self.next.y + 1);
+        }
+        Some(shift)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::World;
 use super::mass::MASSES;
 use super::occupancy::bounds_of;
-use super::scale::{LARGEST, SCALES};
+use super::scale::SCALES;
 use super::spawn::discs;
 use crate::capability::division::Divider;
 use crate::capability::progress::Progress;
@@ -117,7 +117,8 @@ impl World {
         let has_outline = !template.outline().is_empty();
         self.check_controller(&organism.controller, &blueprint.locomotion, speed, has_outline)?;
         let scale = self.scale_of(organism) * half.scale;
-        self.check_scale_of_half(&template, scale)?;
+        let most = self.greatest_scale(template.nodes());
+        in_range("scale", scale, SCALES[0], if most < SCALES[1] { most } else { SCALES[1] })?;
         self.check_period(&blueprint, scale)?;
         self.check_kicks(&blueprint, scale, organism.linear_damping)?;
         let transfer = Transfer { nodes: template.nodes(), scale, groups: self.groups_of(organism, whole) };
@@ -137,14 +138,6 @@ impl World {
                 .template_named(&half.template)
                 .ok_or_else(|| Error::reference("template", "the name of a template of this world")),
         }
-    }
-
-    fn check_scale_of_half(&self, template: &Template, scale: f32) -> Result<(), Error> {
-        let largest =
-            template.nodes().iter().fold(0.0, |most, node| if node.radius > most { node.radius } else { most });
-        let room = 0.5 * self.config.width_between_walls();
-        let most = if room < LARGEST { room } else { LARGEST } / largest;
-        in_range("scale", scale, SCALES[0], if most < SCALES[1] { most } else { SCALES[1] })
     }
 
     /// Groups that an organism was given besides those of its nodes: what its discs have lost of theirs is left out.

@@ -7,6 +7,7 @@ use crate::float_environment::with_default_float_environment;
 use crate::id::OrganismId;
 use crate::organism::{Organism, Storage};
 use crate::solver::lanes::LANES;
+use crate::template::Node;
 
 /// Largest radius of a disc that is scaled, units: of a template's node times the scale of its placement.
 pub(in crate::world) const LARGEST: f32 = 1e5;
@@ -22,8 +23,8 @@ impl World {
     /// # Errors
     /// When the handle is stale; when the organism is frozen, held by another, or holds fluid, whose size is that of its spec; and
     /// when the scale is not 0.1 to 10, or makes a disc larger than 100 000 units or than there is room for between two walls, a body
-    /// wider than half of a room between periodic sides, or a disc
-    /// so small that a thermal field would kick it beyond the speed limit.
+    /// wider than half of a room between periodic sides, or a disc so small that a thermal field would kick it beyond the speed
+    /// limit.
     pub fn set_scale(&mut self, id: OrganismId, scale: f32) -> Result<(), Error> {
         with_default_float_environment(|| self.check_scale(id, scale))?;
         with_default_float_environment(|| self.scale_body(id, scale));
@@ -45,12 +46,16 @@ impl World {
             return Err(Error::unsupported("organism", "one that is not frozen or held"));
         }
         let nodes = self.templates[self.blocks[block as usize].template as usize].nodes();
-        let largest = nodes.iter().fold(0.0, |most, node| if node.radius > most { node.radius } else { most });
-        let room = 0.5 * self.config.width_between_walls();
-        let most = if room < LARGEST { room } else { LARGEST } / (largest * organism.spawn_scale);
-        in_range("scale", scale, 0.1, if most < 10.0 { most } else { 10.0 })?;
+        let most = self.greatest_scale(nodes) / organism.spawn_scale;
+        in_range("scale", scale, 0.1, smaller(most, 10.0))?;
         self.check_width(nodes, organism.spawn_scale * scale)?;
         self.check_kicks_at_scale(organism, scale)
+    }
+
+    /// Greatest scale at which none of these nodes is larger than a disc may be, or than there is room for between two walls.
+    pub(in crate::world) fn greatest_scale(&self, nodes: &[Node]) -> f32 {
+        let largest = nodes.iter().fold(0.0, |most, node| if node.radius > most { node.radius } else { most });
+        smaller(0.5 * self.config.width_between_walls(), LARGEST) / largest
     }
 
     /// Scale of an organism's constraints.

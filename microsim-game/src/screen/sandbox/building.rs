@@ -80,14 +80,11 @@ impl Building {
     /// Ends the wall that was begun. Returns why there is none.
     pub(super) fn end_wall(&mut self, world: &mut World, to: Vec2, within: f32) -> Option<Key> {
         let from = self.from.take()?;
-        let way = to - from;
-        if way.length() < within {
+        if from.distance(to) < within {
             return Some(Key::SandboxShort);
         }
-        let met = world.queries().cast_disc(from, way, way.length(), WALL, &QueryFilter::organisms());
         let wall = Obstacle::new(SharedShape::capsule(from, to, WALL), Pose::IDENTITY);
-        let stands = met.is_none() && world.add_obstacle(wall).is_ok();
-        (!stands).then_some(Key::SandboxOccupied)
+        world.add_obstacle(wall).err().map(|_| Key::SandboxOccupied)
     }
 
     /// Takes away the field around a point, or puts one there.
