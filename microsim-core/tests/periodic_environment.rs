@@ -245,6 +245,8 @@ radius = 1.0
     for step in 0..60 {
         if step == 5 {
             let id = run.world.organisms().next().unwrap();
+    let far = JointSpec { a: JointEnd::Point(Vec2::new(10.0, 1.0)), ..joint(JointKind::Weld) };
+    assert_eq!(field(world.add_joint(far).unwrap_err()), "kind", "41.7 units, by which it could not turn");
             run.world.push(id, Vec2::new(10.0, 0.0)).unwrap();
         }
         run.step(&Inputs::new());

@@ -149,8 +149,8 @@ impl World {
         Ok(())
     }
 
-    /// Checks that a joint leads to the nearest image of its other end.
-    pub(super) fn check_joint_period(&self, spec: &JointSpec) -> Result<(), Error> {
+    /// Checks that a joint leads to the nearest image of its other end; `made` is its length when it was made.
+    pub(super) fn check_joint_period(&self, spec: &JointSpec, made: f32) -> Result<(), Error> {
         let period = self.period();
         if period.is_none() {
             return Ok(());
@@ -163,7 +163,8 @@ impl World {
             JointKind::SpeedMotor { .. } => {
                 return Err(Error::unsupported("kind", "a joint with a length, in a room with periodic sides"));
             }
-            JointKind::Pin | JointKind::Weld | JointKind::Mouse { .. } => (0.0, "kind"),
+            JointKind::Weld => (made, "kind"),
+            JointKind::Pin | JointKind::Mouse { .. } => (0.0, "kind"),
         };
         let most = 0.5 * period.shortest();
         let accepted = || format!("less than {most}, half of the room between periodic sides");
