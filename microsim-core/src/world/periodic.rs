@@ -42,6 +42,7 @@ impl World {
             self.organisms().collect::<Vec<_>>().into_iter().for_each(|id| self.return_organism(id, period));
         }
     }
+            self.return_contact_points();
 
     #[cold]
     fn return_organism(&mut self, id: OrganismId, period: Period) {
