@@ -4,7 +4,7 @@
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    AgarSpec, Collider, ContactReporting, FluidBlockSpec, FluidMode, FluidParams, Inputs, JointEnd, JointKind,
+    AgarSpec, Collider, ContactReporting, Event, FluidBlockSpec, FluidMode, FluidParams, Inputs, JointEnd, JointKind,
     JointSpec, Material, Node, Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec, QueryFilter, RedCellSpec,
     Side, Sides, Template, TemplateId, World, WorldConfig,
 };
@@ -288,6 +288,33 @@ fn queries_and_contacts_see_over_a_side() {
         assert_eq!(felt.len(), 1);
         assert!((felt[0].point - world.centroid(id).unwrap()).length() < 1.1, "{:?}", felt[0]);
     }
+}
+
+#[test]
+fn contacts_and_hits_are_told_beside_their_bodies_in_the_step_in_which_those_come_in() {
+    let mut world = room(everywhere(), 0.0);
+    let ball = ball(&mut world);
+    let ids = [70.0, 72.01].map(|x| world.spawn_template(ball, Placement::at(x, 50.0)).unwrap());
+    let kind = JointKind::Spring { length: 1.0, frequency: 2.0, damping_ratio: 1.0 };
+    world.add_joint(JointSpec::new(JointEnd::Centre(ids[0]), JointEnd::Centre(ids[1]), kind)).unwrap();
+    ids.iter().for_each(|&id| world.push(id, Vec2::new(10.0, 9.0)).unwrap());
+    world.set_contact_reporting(Some(ContactReporting { hit_speed: Some(0.0) })).unwrap();
+    let (mut seen, mut hits) = (0, 0);
+    for _ in 0..180 {
+        run(&mut world, 1);
+        let felt = ids.iter().flat_map(|&id| world.contacts_of(id));
+        let hit = world.events().iter().filter_map(|event| match event {
+            Event::Hit { contact } => Some(*contact),
+            _ => None,
+        });
+        hits += hit.clone().count();
+        for contact in felt.chain(hit) {
+            let away = contact.point.distance(world.centroid(contact.organism).unwrap());
+            assert!(away < 1.4, "{contact:?} is {away} away");
+            seen += 1;
+        }
+    }
+    assert!(seen > 300 && hits > 0, "{seen} {hits}");
 }
 
 /// Mean density in strips of the room over that of all, and mean velocity, of free fluid.

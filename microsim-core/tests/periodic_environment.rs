@@ -60,6 +60,38 @@ fn a_lift_wakes_and_raises_what_lies_on_its_image() {
 }
 
 #[test]
+fn an_obstacle_moves_within_the_room_and_turns_if_it_is_short() {
+    let mut world = room(0.0);
+    let pushes =
+        |shape, x| Obstacle { motion: ObstacleMotion::Push, ..Obstacle::new(shape, Pose::translation(x, 20.0)) };
+    let block = world.add_obstacle(pushes(SharedShape::cuboid(4.0, 1.0), 70.0)).unwrap();
+    let far = world.move_obstacle(block, Pose::translation(30.0 + 70.0 * SIZE.x, 20.0));
+    assert_eq!(far.unwrap_err().field(), "target", "its images would be too far away");
+    assert_eq!(world.move_obstacle(block, Pose::translation(84.5, 20.0)).unwrap_err().field(), "target");
+    let long = world.add_obstacle(pushes(SharedShape::cuboid(79.5, 0.5), 40.0)).unwrap();
+    let longer = world.add_obstacle(pushes(SharedShape::cuboid(1.0, 84.0), 40.0)).unwrap();
+    let turned = |x: f32| Pose::new(Vec2::new(x, 20.0), 1.2);
+    world.move_obstacle(long, turned(40.0)).unwrap();
+    assert_eq!(world.move_obstacle(longer, turned(40.0)).unwrap_err().field(), "target.rotation");
+    let hand = SharedShape::cuboid(1.0, 1.0);
+    let hand = SharedShape::compound(vec![(Pose::translation(-70.0, 0.0), hand)]);
+    let pose = Pose::new(Vec2::new(50.0, 20.0), -0.78);
+    let hand = world.add_obstacle(Obstacle { pose, ..pushes(hand, 50.0) }).unwrap();
+    world.move_obstacle(hand, Pose::new(Vec2::new(50.0, 20.0), 0.78)).unwrap();
+    world.move_obstacle(block, Pose::translation(83.5, 20.0)).unwrap();
+    let mut swings_out = false;
+    for _ in 0..800 {
+        run(&mut world, &Inputs::new(), 1);
+        let hand = world.obstacle(hand).unwrap();
+        swings_out |= hand.shape.compute_aabb(&hand.pose).maxs.x < 0.0;
+        #[cfg(feature = "snapshot")]
+        World::from_snapshot(&world.to_snapshot().unwrap()).unwrap();
+    }
+    assert!(swings_out, "and is read there");
+    assert!([long, hand, block].iter().all(|&id| world.obstacle_target(id).is_none()), "they have arrived");
+}
+
+#[test]
 fn a_sensor_is_entered_over_a_side() {
     let mut world = room(0.0);
     let zone =
@@ -213,6 +245,8 @@ fn what_such_a_room_cannot_hold_is_refused_by_name() {
     assert_eq!(field(world.add_joint(joint(JointKind::Rope { max_length: 40.0 })).unwrap_err()), "kind.max_length");
     let motor = JointKind::SpeedMotor { speed: 1.0, max_force: 1.0 };
     assert_eq!(field(world.add_joint(joint(motor)).unwrap_err()), "kind");
+    let far = JointSpec { a: JointEnd::Point(Vec2::new(10.0, 1.0)), ..joint(JointKind::Weld) };
+    assert_eq!(field(world.add_joint(far).unwrap_err()), "kind", "41.7 units, by which it could not turn");
     assert_eq!(field(world.set_controller(ball, Controller::thrash(0.1, 0.1)).unwrap_err()), "controller");
     world.remove(ball).unwrap();
     assert!(before != 0 && world.organisms().count() == 0);

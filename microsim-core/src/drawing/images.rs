@@ -1,6 +1,6 @@
 //! Images of what reaches over a periodic side.
 
-use super::shape::Item;
+use super::shape::{Geometry, Item};
 use crate::{Side, WorldConfig};
 use glam::Vec2;
 
@@ -18,12 +18,17 @@ pub(super) fn shifts(config: &WorldConfig, [low, high]: [Vec2; 2]) -> Vec<Vec2> 
     all.filter(|shift| *shift != Vec2::ZERO).collect()
 }
 
-/// Adds images of all items from one on.
-pub(super) fn add(first: usize, shifts: impl IntoIterator<Item = Vec2>, items: &mut Vec<Item>) {
+/// Adds images of all items from one on; of discs, those that are seen in a room of this size.
+pub(super) fn add(first: usize, shifts: impl IntoIterator<Item = Vec2>, size: Vec2, items: &mut Vec<Item>) {
     let end = items.len();
     for shift in shifts {
         for k in first..end {
-            items.push(items[k].clone().moved(shift));
+            let mut image = items[k].clone().moved(shift);
+            if let Geometry::Discs(discs) = &mut image.geometry {
+                // Those of a fluid are all around the room.
+                discs.retain(|&(at, radius)| (at + radius).cmpge(Vec2::ZERO).all() && (at - radius).cmple(size).all());
+            }
+            items.push(image);
         }
     }
 }

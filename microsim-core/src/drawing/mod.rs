@@ -66,7 +66,7 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
                 for &organism in &organisms {
                     let first = items.len();
                     items.extend(organism::halo(organism));
-                    images::add(first, images(&organism), &mut items);
+                    images::add(first, images(&organism), size, &mut items);
                 }
             }
             DrawingLayer::Obstacles => {
@@ -75,14 +75,14 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
                 for obstacle in obstacles.filter(|obstacle| obstacle.is_solid()) {
                     let (first, aabb) = (items.len(), obstacle.shape.compute_aabb(&obstacle.pose));
                     items.extend(obstacle::draw(obstacle));
-                    images::add(first, images::shifts(config, [aabb.mins, aabb.maxs]), &mut items);
+                    images::add(first, images::shifts(config, [aabb.mins, aabb.maxs]), size, &mut items);
                 }
             }
             DrawingLayer::Organisms => {
                 for &organism in &organisms {
                     let first = items.len();
                     organism::draw(organism, &mut items);
-                    images::add(first, images(&organism), &mut items);
+                    images::add(first, images(&organism), size, &mut items);
                 }
             }
             DrawingLayer::Walls => items.extend(walls(size)),
@@ -115,7 +115,7 @@ fn corners(size: Vec2) -> [Vec2; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{AgarSpec, AmoeboidCellSpec, Placement, Side, Sides, World, WorldConfig};
+    use crate::{AgarSpec, AmoeboidCellSpec, FluidBlockSpec, Inputs, Placement, Side, Sides, World, WorldConfig};
 
     const EVERYWHERE: [Vec2; 2] = [Vec2::MIN, Vec2::MAX];
 
@@ -162,5 +162,21 @@ mod tests {
         let circle = |x: f32| shape::Segment::Circle(Vec2::new(x, 20.0), 0.84);
         assert_eq!(centres, [circle(159.5), circle(-0.5)]);
         assert!(parts(&world, [Vec2::ZERO, Vec2::new(0.3, 40.0)]).contains(&DrawnPart::Bead));
+    }
+
+    #[test]
+    fn of_fluid_that_reaches_over_a_periodic_side_only_what_is_seen_there_is_drawn_again() {
+        let sides = Sides { left: Side::Periodic, right: Side::Periodic, ..Sides::default() };
+        let mut world = World::new(WorldConfig { sides, ..WorldConfig::default() }).unwrap();
+        let block = FluidBlockSpec { size: Vec2::new(160.0, 4.0), ..FluidBlockSpec::default() };
+        let id = world.spawn(&block.into(), Placement::at(80.0, 20.0)).unwrap();
+        world.push(id, Vec2::new(3.0, 0.0)).unwrap();
+        (0..10).for_each(|_| world.step(&Inputs::new()));
+        let items = draw(world.view(), EVERYWHERE, &[DrawingLayer::Organisms]);
+        let discs: Vec<_> = items.iter().flat_map(|item| item.geometry.segments()).collect();
+        let is_near = |segment: &shape::Segment| matches!(*segment, shape::Segment::Circle(at, radius) if at.x > -radius && at.x < 160.0 + radius);
+        assert!(discs.iter().all(is_near));
+        let beyond = |segment: &&shape::Segment| matches!(**segment, shape::Segment::Circle(at, _) if at.x < 0.0);
+        assert!(discs.iter().filter(beyond).count() > 3, "those of the right side are drawn at the left one");
     }
 }

@@ -128,7 +128,21 @@ impl World {
             ContactPoint { organism: owner(node)?, partner, node, partner_node, point, normal, speed, impulse };
         let is_own = partner == Collider::Organism(contact.organism);
         let flipped = contact.flipped().filter(|flipped| flipped.organism < contact.organism);
-        (!is_own).then(|| self.beside_own_node(flipped.unwrap_or(contact)))
+        (!is_own).then(|| flipped.unwrap_or(contact))
+    }
+
+    /// Puts the points of the step's contacts where their organisms have come to in a periodic room.
+    pub(super) fn return_contact_points(&mut self) {
+        let mut points = std::mem::take(&mut self.contact_reports.points);
+        points.iter_mut().for_each(|contact| *contact = self.beside_own_node(*contact));
+        self.contact_reports.points = points;
+        let mut events = std::mem::take(&mut self.events);
+        for event in &mut events {
+            if let Event::Hit { contact } = event {
+                *contact = self.beside_own_node(*contact);
+            }
+        }
+        self.events = events;
     }
 
     /// A contact with its point on the side of a periodic room where its organism is.

@@ -121,7 +121,6 @@ impl World {
     /// Checks a joint and finds what it holds.
     fn joint_record(&self, spec: JointSpec) -> Result<JointRecord, Error> {
         spec.check(&self.config)?;
-        self.check_joint_period(&spec)?;
         let a = self.joined_particle(spec.a).map_err(|error| error.within("a"))?;
         let b = self.joined_particle(spec.b).map_err(|error| error.within("b"))?;
         let mut record = JointRecord { spec, particles: [a, b], length: 0.0, force: 0.0 };
@@ -133,6 +132,7 @@ impl World {
         if let (Some(a), Some(b)) = (self.end_position(&record, 0), self.end_position(&record, 1)) {
             record.length = a.distance(b - self.joint_shift(&record));
         }
+        self.check_joint_period(&spec, record.length)?;
         Ok(record)
     }
 

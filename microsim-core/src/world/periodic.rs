@@ -4,6 +4,7 @@ use super::World;
 use super::spawn::is_blocked;
 use crate::capability::controller::Controller;
 use crate::collision::obstacle::Obstacle;
+use crate::collision::obstacle_path::extent;
 use crate::error::{Error, out_of_range};
 use crate::geometry::period::Period;
 use crate::id::OrganismId;
@@ -14,6 +15,7 @@ use crate::solver::constraint::Constraint;
 use crate::solver::fluid::FluidParams;
 use crate::template::{Node, Role};
 use glam::{BVec2, Vec2};
+use parry2d::math::Pose;
 
 /// Largest diameter of a body as it is made, as a share of the shorter period: it touches neither its own image nor two of another.
 const WIDEST: f32 = 0.5;
@@ -40,6 +42,7 @@ impl World {
         let period = self.period();
         if !period.is_none() {
             self.organisms().collect::<Vec<_>>().into_iter().for_each(|id| self.return_organism(id, period));
+            self.return_contact_points();
         }
     }
 
@@ -131,8 +134,37 @@ impl World {
         self.period().is_none().then_some(()).ok_or_else(refused)
     }
 
-    /// Checks that an obstacle is near the room, and no larger than it and one image.
+    /// Checks that an obstacle is in the room, and no larger than it and one image.
     pub(super) fn check_obstacle_period(&self, obstacle: &Obstacle) -> Result<(), Error> {
+        self.check_obstacle_near(obstacle, 0.0)
+    }
+
+    /// The same of one that was read, and of its target: in the middle of a turn it may be outside, by less than the room is long.
+    #[cfg(feature = "snapshot")]
+    pub(super) fn check_read_obstacle_period(&self, obstacle: &Obstacle, target: Option<Pose>) -> Result<(), Error> {
+        self.check_obstacle_near(obstacle, 1.0)?;
+        target.map_or(Ok(()), |target| self.check_target_period(obstacle, &target))
+    }
+
+    /// Checks that an obstacle is in the room at its target, and near it all the way.
+    pub(super) fn check_target_period(&self, obstacle: &Obstacle, target: &Pose) -> Result<(), Error> {
+        if self.period().is_none() {
+            return Ok(());
+        }
+        let accepted = "a target at which it is in the room between periodic sides, and at most two lengths of it long";
+        let there = Obstacle { pose: *target, ..obstacle.clone() };
+        self.check_obstacle_period(&there).map_err(|_| Error::unsupported("target", accepted))?;
+        let turns = obstacle.pose.rotation != target.rotation;
+        if turns && 2.0 * extent(obstacle) > LARGEST_OBSTACLE * self.period().shortest() {
+            let accepted =
+                "its own, for a shape that is not within a length of the room between periodic sides from its place";
+            return Err(Error::unsupported("target.rotation", accepted));
+        }
+        Ok(())
+    }
+
+    /// Checks that an obstacle is at most so many periods beyond a periodic side, and not too large.
+    fn check_obstacle_near(&self, obstacle: &Obstacle, beyond: f32) -> Result<(), Error> {
         let (period, aabb) = (self.period(), obstacle.aabb());
         for axis in (0..2).filter(|&axis| period.0[axis] > 0.0) {
             let length = period.0[axis];
@@ -142,15 +174,15 @@ impl World {
                     "a shape of at most two lengths of the room between periodic sides",
                 ));
             }
-            if aabb.maxs[axis] < 0.0 || aabb.mins[axis] > length {
+            if aabb.maxs[axis] < -beyond * length || aabb.mins[axis] > (1.0 + beyond) * length {
                 return Err(Error::unsupported("pose", "a place in the room between periodic sides"));
             }
         }
         Ok(())
     }
 
-    /// Checks that a joint leads to the nearest image of its other end.
-    pub(super) fn check_joint_period(&self, spec: &JointSpec) -> Result<(), Error> {
+    /// Checks that a joint leads to the nearest image of its other end; `made` is its length when it was made.
+    pub(super) fn check_joint_period(&self, spec: &JointSpec, made: f32) -> Result<(), Error> {
         let period = self.period();
         if period.is_none() {
             return Ok(());
@@ -163,7 +195,8 @@ impl World {
             JointKind::SpeedMotor { .. } => {
                 return Err(Error::unsupported("kind", "a joint with a length, in a room with periodic sides"));
             }
-            JointKind::Pin | JointKind::Weld | JointKind::Mouse { .. } => (0.0, "kind"),
+            JointKind::Weld => (made, "kind"),
+            JointKind::Pin | JointKind::Mouse { .. } => (0.0, "kind"),
         };
         let most = 0.5 * period.shortest();
         let accepted = || format!("less than {most}, half of the room between periodic sides");

@@ -170,7 +170,7 @@ impl World {
             let obstacle = if is_there { read.next().ok_or("obstacles: some are missing")? } else { nothing() };
             check(&obstacle).map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
             if is_there {
-                let checked = self.check_obstacle_period(&obstacle);
+                let checked = self.check_read_obstacle_period(&obstacle, table.target(index));
                 checked.map_err(|error| error.within(&format!("obstacles[{count}]")).to_string())?;
             }
             count += usize::from(is_there);

@@ -38,8 +38,8 @@ impl World {
     /// ```
     ///
     /// # Errors
-    /// When the handle is stale, the obstacle is fixed or disabled, the target is not finite, or more than a quarter turn away, or a
-    /// half-space is to turn.
+    /// When the handle is stale, the obstacle is fixed or disabled, the target is not finite, or more than a quarter turn away, a
+    /// half-space is to turn, or the obstacle would be outside of a room with periodic sides, or turn in one that it is too long for.
     pub fn move_obstacle(&mut self, id: ObstacleId, target: Pose) -> Result<(), Error> {
         let obstacle = self.known_obstacle(id)?;
         if obstacle.motion == ObstacleMotion::Fixed {
@@ -61,6 +61,7 @@ impl World {
         if a != b && extent(obstacle) > LARGEST_TURNED {
             return Err(Error::unsupported("target.rotation", "its own, for a shape without an end"));
         }
+        self.check_target_period(obstacle, &target)?;
         self.obstacle_table.set_target(id.index, Some(&target));
         self.changed(|| WorldChange::MoveObstacle(id, record(&target)));
         Ok(())

@@ -71,6 +71,7 @@ impl Building {
 
     /// Takes away the obstacle at a point, or begins a wall there.
     pub(super) fn begin_wall(&mut self, world: &mut World, at: Vec2, within: f32) {
+        self.from = None;
         match nearest(world, at, 0.25 * within, &QueryFilter::surfaces()) {
             Some((Collider::Obstacle(id), _)) => _ = world.remove_obstacle(id),
             _ => self.from = Some(at),
@@ -231,6 +232,11 @@ mod tests {
         assert_eq!(counts(&world), [0, 1, 0]);
         let (there, away) = (Vec2::new(50.0, 51.0), Vec2::new(90.0, 51.0));
         assert_eq!((wall(&mut world, there, away), counts(&world)), (None, [0; 3]));
+        // What was begun by a click that never ended is forgotten.
+        assert_eq!(wall(&mut world, Vec2::new(40.0, 50.0), Vec2::new(60.0, 52.0)), None);
+        building.begin_wall(&mut world, Vec2::new(20.0, 20.0), 1.0);
+        building.begin_wall(&mut world, there, 1.0);
+        assert_eq!((building.end_wall(&mut world, away, 1.0), counts(&world)), (None, [0; 3]));
     }
 
     #[test]

@@ -76,7 +76,8 @@ fn check_joints(world: &World) -> Check {
     let none = Subject::default();
     none.must(world.joints.is_sound(), || "the free slots of joints are not the empty ones".to_owned())?;
     for ((k, _), joint) in world.joints.iter() {
-        let checked = joint.spec.check(&world.config).and_then(|()| world.check_joint_period(&joint.spec));
+        let checked =
+            joint.spec.check(&world.config).and_then(|()| world.check_joint_period(&joint.spec, joint.length));
         checked.map_err(|error| none.violation(format!("joints[{k}]: {error}")))?;
         none.must_range(&format!("length of joint {k}"), joint.length, 0.0, f32::MAX)?;
         none.must_range(&format!("force of joint {k}"), joint.force, 0.0, f32::INFINITY)?;
