@@ -2,7 +2,10 @@
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 use microsim_core::glam::Vec2;
-use microsim_core::{Distance, Inputs, LinkDrag, Node, OrganismId, Placement, Template, World, WorldConfig};
+use microsim_core::{
+    Distance, FieldKind, ForceField, Inputs, LinkDrag, Node, OrganismId, Placement, Region, Template, World,
+    WorldConfig,
+};
 use std::f32::consts::TAU;
 
 /// Columns of nodes in a wave, and in the filament: muscles on both sides of a strand that keeps its length and has the drag, a unit
@@ -206,4 +209,20 @@ fn what_rests_in_a_viscous_medium_stays() {
     (0..120).for_each(|_| world.step(&inputs));
     let moved = before.iter().zip(middle(&world, id)).map(|(a, b)| a.distance(b)).fold(0.0, f32::max);
     assert!(moved < 1e-3, "{moved}");
+}
+
+#[test]
+fn no_world_has_links_with_drag_and_a_thermal_field() {
+    let mut builder = Template::builder();
+    let [a, b] = [0.0, 1.0].map(|x| builder.node(Node::disc(Vec2::new(x, 0.0), 1.0, 0.5)));
+    builder.link(a, b, 0.0).constraint(LinkDrag { a, b, along: 1.0, across: 2.0 });
+    let heat = ForceField { region: Region::All, kind: FieldKind::Thermal { mobility: 0.1 } };
+    let mut world = World::new(WorldConfig::default()).unwrap();
+    let rod = world.add_template(builder.build().unwrap());
+    let id = world.spawn_template(rod, Placement::at(50.0, 50.0)).unwrap();
+    assert!(world.add_field(heat.clone()).unwrap_err().to_string().contains("drag of links"));
+    world.remove(id).unwrap();
+    world.add_field(heat).unwrap();
+    let refused = world.spawn_template(rod, Placement::at(50.0, 50.0)).unwrap_err();
+    assert!(refused.field() == "template" && world.validate().is_ok(), "{refused}");
 }

@@ -47,7 +47,7 @@ impl World {
         self.template_of(organism).is_some_and(|template| template.cut().is_some())
     }
 
-    fn template_of(&self, organism: &Organism) -> Option<&Template> {
+    pub(in crate::world) fn template_of(&self, organism: &Organism) -> Option<&Template> {
         let Storage::Lane { block, .. } = organism.body else { return None };
         self.templates.get(self.blocks.get(block as usize)?.template as usize)
     }

@@ -8,6 +8,8 @@ use crate::id::FieldId;
 use crate::organism::{Blueprint, Organism, Storage};
 use crate::particle::mass_properties::MassProperties;
 use crate::rng::Rng;
+use crate::solver::constraint::Constraint;
+use crate::template::Template;
 use glam::Vec2;
 use std::f32::consts::PI;
 
@@ -65,6 +67,7 @@ impl World {
     pub(super) fn check_kicks(&self, blueprint: &Blueprint, scale: f32, own: f32) -> Result<(), Error> {
         let is_kicked = blueprint.template.is_some() && blueprint.rim.is_none();
         let area = if is_kicked { blueprint.area * (scale * scale) } else { 0.0 };
+        check_drag(blueprint.template.as_ref(), self.most_mobile())?;
         check(area, own, self.most_mobile(), &self.config)
     }
 
@@ -98,10 +101,16 @@ impl World {
 
     fn check_bodies(&self, mobility: f32, config: &WorldConfig) -> Result<(), Error> {
         let mut bodies = self.organisms.iter().filter(|(_, organism)| organism.slots > 0);
-        bodies.try_for_each(|(_, organism)| check(organism.full_area(), organism.linear_damping, mobility, config))?;
+        bodies.try_for_each(|(_, organism)| {
+            check_drag(self.template_of(organism), mobility)?;
+            check(organism.full_area(), organism.linear_damping, mobility, config)
+        })?;
         let emitted = self.emitters.iter().filter_map(|(_, record)| self.blueprint_of(&record.emitter.recipe).ok());
         let mut emitted = emitted.filter(|blueprint| blueprint.template.is_some() && blueprint.rim.is_none());
-        emitted.try_for_each(|blueprint| check(blueprint.area, 0.0, mobility, config))
+        emitted.try_for_each(|blueprint| {
+            check_drag(blueprint.template.as_ref(), mobility)?;
+            check(blueprint.area, 0.0, mobility, config)
+        })
     }
 }
 
@@ -124,6 +133,16 @@ fn most_mobile<'a>(fields: impl Iterator<Item = &'a ForceField>) -> f32 {
         over.map(|other| mobility(other)).sum::<f32>()
     });
     sums.fold(0.0, |most, sum| if sum > most { sum } else { most })
+}
+
+/// Checks that the links of a body have no drag, which would take from the kicks more than they know of.
+fn check_drag(template: Option<&Template>, mobility: f32) -> Result<(), Error> {
+    let has_drag =
+        |template: &Template| template.constraints().iter().any(|link| matches!(link, Constraint::LinkDrag(_)));
+    if mobility > 0.0 && template.is_some_and(has_drag) {
+        return Err(Error::unsupported("template", "one without drag of links, in a world with a thermal field"));
+    }
+    Ok(())
 }
 
 /// Checks that a body of this area and with this damping of its own is not kicked beyond the speed limit.

@@ -5,10 +5,10 @@ use crate::draw::canvas::Canvas;
 use crate::draw::palette::{READY, WAIT, fade};
 use crate::words::Key;
 use microsim_core::geometry::nearest_on_segment;
-use microsim_core::glam::Vec2;
+use microsim_core::glam::{BVec2, Vec2};
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    Collider, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Obstacle, QueryFilter, Region, World,
+    Collider, FieldKind, ForceField, JointEnd, JointKind, JointSpec, Obstacle, QueryFilter, Region, Side, World,
 };
 
 /// Half the thickness of walls, and the radius of fields, units.
@@ -64,7 +64,8 @@ impl Building {
             return None;
         };
         let places = place_of(world, first).zip(place_of(world, end));
-        let rope = places.map(|(a, b)| JointSpec::new(first, end, JointKind::Rope { max_length: a.distance(b) }));
+        let rope = |max_length| JointSpec::new(first, end, JointKind::Rope { max_length });
+        let rope = places.map(|(a, b)| rope(distance(world, a, b)));
         let joined = rope.is_some_and(|rope| world.add_joint(rope).is_ok());
         (!joined).then_some(Key::SandboxNothing)
     }
@@ -166,10 +167,17 @@ fn place_of(world: &World, end: JointEnd) -> Option<Vec2> {
     }
 }
 
+/// Distance of a place to the nearest image of another.
+fn distance(world: &World, from: Vec2, to: Vec2) -> f32 {
+    let (config, way) = (world.config(), to - from);
+    let repeats = BVec2::new(config.sides.left == Side::Periodic, config.sides.bottom == Side::Periodic);
+    Vec2::select(repeats, way - (way / config.size).round() * config.size, way).length()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use microsim_core::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, WorldConfig};
+    use microsim_core::{AgarSpec, AmoeboidCellSpec, Inputs, Intent, Placement, Sides, WorldConfig};
 
     fn room() -> World {
         World::new(WorldConfig::default()).unwrap()
@@ -199,6 +207,21 @@ mod tests {
             let told = building.join(&mut world, at, 1.0);
             assert_eq!(told.is_some(), at.x > 25.0, "nothing is held at either end");
         }
+    }
+
+    #[test]
+    fn a_rope_over_a_periodic_side_is_as_long_as_the_way_there() {
+        let sides = Sides { left: Side::Periodic, right: Side::Periodic, ..Sides::default() };
+        let mut world = World::new(WorldConfig { sides, ..WorldConfig::default() }).unwrap();
+        for x in [4.0, 156.0] {
+            world.spawn(&AgarSpec::default().into(), Placement::at(x, 40.0)).unwrap();
+        }
+        let mut building = Building::default();
+        for x in [4.0, 156.0] {
+            assert_eq!(building.join(&mut world, Vec2::new(x, 40.0), 1.0), None);
+        }
+        let rope = world.joints().next().unwrap().spec.kind;
+        assert!(matches!(rope, JointKind::Rope { max_length } if (max_length - 8.0).abs() < 1e-3), "{rope:?}");
     }
 
     #[test]
