@@ -1,11 +1,13 @@
 //! The scene that a program commands (`examples/digests/commanded`): its golden digests, the same with any number of threads and
-//! any instruction set, and all that it is meant to show.
+//! any instruction set, and all that it is meant to show. The golden digests of a room that repeats (`examples/digests/periodic.rs`).
 //!
 //! `UPDATE_GOLDEN=1` writes them, as for `golden.rs`. `.ci/cross` compares its digests between platforms.
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 #[path = "../examples/digests/commanded/mod.rs"]
 mod commanded;
+#[path = "../examples/digests/periodic.rs"]
+mod periodic;
 
 use commanded::Commanded;
 use microsim_core::{Event, InstructionSet, World};
@@ -41,9 +43,28 @@ fn the_scene_ends_in_its_golden_digests_and_shows_everything() {
         "ContactBegan Divided Drained Emitted Hit JointBroken LinkTorn SensorEntered SensorLeft TouchBegan TouchEnded";
     let missing: Vec<&str> = expected.split(' ').filter(|&name| !events.contains(name)).collect();
     assert!(missing.is_empty(), "nothing of {missing:?} happens, only {events:?}");
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/commanded.txt");
+    assert_golden(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/commanded.txt"), &lines);
+}
+
+#[test]
+fn a_room_that_repeats_ends_in_its_golden_digests() {
+    let mut scene = periodic::Periodic::build().unwrap();
+    let mut lines = String::new();
+    for steps in [1, 60, 120] {
+        while scene.world.step_index() < steps {
+            scene.step().unwrap();
+        }
+        scene.world.validate().unwrap();
+        let particles = scene.world.census().particles;
+        writeln!(lines, "step {steps} particles {particles} digest {:016x}", scene.world.digest()).unwrap();
+    }
+    assert_eq!(scene.world.census().quarantined, 0);
+    assert_golden(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/periodic.txt"), &lines);
+}
+
+fn assert_golden(file: &str, lines: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(file, &lines).unwrap();
+        std::fs::write(file, lines).unwrap();
     }
     let golden = std::fs::read_to_string(file).unwrap_or_default();
     assert_eq!(lines, golden, "{file} differs: if that is meant, write it with UPDATE_GOLDEN=1");

@@ -1,5 +1,5 @@
-//! Prints a line for each built-in scenario, and a scene that a program commands, and each of some numbers of steps: what
-//! `.ci/cross` compares.
+//! Prints a line for each built-in scenario, a scene that a program commands and a room that repeats, and each of some numbers of
+//! steps: what `.ci/cross` compares.
 //!
 //! `digests [baseline|best] [THREADS]` where there is a command line; without one, everything at its default.
 #![allow(clippy::disallowed_methods, reason = "compares what differs between platforms, and reads the command line")]
@@ -7,11 +7,13 @@
 mod arithmetic;
 mod commanded;
 mod output;
+mod periodic;
 
 use commanded::Commanded;
 use microsim_core::scenario::{Built, Scenario, builtins};
 use microsim_core::{InstructionSet, World};
 use output::print;
+use periodic::Periodic;
 
 /// After so many steps; the lines of 1 and 60 are also in the core's golden files.
 const STEPS: [u64; 3] = [1, 60, 120];
@@ -24,6 +26,7 @@ fn main() {
     on_threads(threads, || {
         builtins().iter().for_each(|scenario| run(scenario.name, scenario.text, set));
         run_commanded(set);
+        run_periodic(set);
     });
 }
 
@@ -66,6 +69,17 @@ fn run_commanded(set: InstructionSet) {
             scene.step().expect("calls that are accepted");
         }
         print(&line("commanded", &scene.world));
+    }
+}
+
+fn run_periodic(set: InstructionSet) {
+    let mut scene = Periodic::build().expect("a scene");
+    scene.world.set_instruction_set(set);
+    for steps in STEPS {
+        while scene.world.step_index() < steps {
+            scene.step().expect("inputs that are accepted");
+        }
+        print(&line("periodic", &scene.world));
     }
 }
 
