@@ -118,10 +118,10 @@ impl Sorted {
         let Self { particles: sorted, neighbours, low, .. } = self;
         neighbours.clear();
         neighbours.extend(sorted.iter().map(|&i| neighbour(particles, i as usize, *low, inverse)));
-        for image in &self.images {
-            let i = sorted[image.place] as usize;
-            neighbours[image.place] = neighbour(particles, i, *low - image.shift, inverse);
+        if !self.images.is_empty() {
+            self.read_images(particles, inverse);
         }
+        let Self { particles: sorted, neighbours, .. } = self;
         separate_coincident(neighbours);
         let nowhere = Neighbour { x: NOWHERE.x, y: NOWHERE.y, ..Neighbour::default() };
         neighbours.resize(sorted.len() + LANES, nowhere);
@@ -162,6 +162,15 @@ impl Sorted {
         let images = shifts.iter().zip(&places[indices.len()..]);
         self.images.extend(images.map(|(&(k, shift), &place)| Image { place, original: places[k as usize], shift }));
         self.images.sort_unstable_by_key(|image| image.place);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn read_images(&mut self, particles: &Particles, inverse: f32) {
+        for image in &self.images {
+            let i = self.particles[image.place] as usize;
+            self.neighbours[image.place] = neighbour(particles, i, self.low - image.shift, inverse);
+        }
     }
 
     /// Whether a place in the cell order is that of an image.
@@ -238,6 +247,7 @@ fn bounds(positions: &[Vec2]) -> (Vec2, Vec2) {
     if low.x <= high.x { (low, high) } else { (Vec2::ZERO, Vec2::ZERO) }
 }
 
+#[inline(always)]
 fn neighbour(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Neighbour {
     let at = ((particles.origin(i) - low) + particles.offset(i)) * inverse;
     let is_somewhere = at.x.abs() < -NOWHERE.x && at.y.abs() < -NOWHERE.y;
