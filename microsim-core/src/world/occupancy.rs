@@ -2,7 +2,9 @@
 //! there are organisms to put into it.
 
 use super::World;
+use super::spawn::{discs, is_blocked};
 use crate::organism::Organism;
+use crate::particle::Particle;
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
@@ -73,6 +75,27 @@ impl Occupancy {
 }
 
 impl World {
+    /// Describes an obstacle, or an organism that `meets` discs and the box around them, if there is one. Of images of the discs too.
+    pub(super) fn first_hit(
+        &mut self,
+        planned: &[Particle],
+        meets: impl Fn(&Self, &Organism, &[Particle], &Aabb) -> bool,
+    ) -> Option<String> {
+        let bounds = bounds_of(discs(planned));
+        for shift in self.shifts_over_all([bounds.mins, bounds.maxs]) {
+            let planned: Vec<Particle> = planned.iter().map(|disc| disc.moved(shift)).collect();
+            let bounds = Aabb { mins: bounds.mins + shift, maxs: bounds.maxs + shift };
+            let mut near = self.obstacles_near(&bounds).into_iter();
+            if near.any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
+                return Some("an obstacle".to_owned());
+            }
+            if let Some(hit) = self.first_near(&bounds, |world, organism| meets(world, organism, &planned, &bounds)) {
+                return self.with_its_place(self.organisms.id_at(hit)?);
+            }
+        }
+        None
+    }
+
     /// The first organism of those near a box that `meets`.
     pub(super) fn first_near(&mut self, aabb: &Aabb, meets: impl Fn(&Self, &Organism) -> bool) -> Option<u32> {
         if self.scratch.occupancy.boxes.is_empty() {

@@ -186,27 +186,6 @@ impl World {
         })
     }
 
-    /// Describes an obstacle, or an organism that `meets` discs and the box around them, if there is one. Of images of the discs too.
-    pub(super) fn first_hit(
-        &mut self,
-        planned: &[Particle],
-        meets: impl Fn(&Self, &Organism, &[Particle], &Aabb) -> bool,
-    ) -> Option<String> {
-        let bounds = bounds_of(discs(planned));
-        for shift in self.shifts_over_all([bounds.mins, bounds.maxs]) {
-            let planned: Vec<Particle> = planned.iter().map(|disc| disc.moved(shift)).collect();
-            let bounds = Aabb { mins: bounds.mins + shift, maxs: bounds.maxs + shift };
-            let mut near = self.obstacles_near(&bounds).into_iter();
-            if near.any(|obstacle| planned.iter().any(|disc| is_blocked(obstacle, disc))) {
-                return Some("an obstacle".to_owned());
-            }
-            if let Some(hit) = self.first_near(&bounds, |world, organism| meets(world, organism, &planned, &bounds)) {
-                return self.with_its_place(self.organisms.id_at(hit)?);
-            }
-        }
-        None
-    }
-
     /// Describes an organism that a new obstacle would overlap, if there is one.
     pub(super) fn overlapped_by(&self, obstacle: &Obstacle) -> Option<String> {
         let (hit, _) = self.organisms.iter().find(|(_, organism)| self.is_in_obstacle(organism, obstacle))?;
