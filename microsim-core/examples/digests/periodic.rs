@@ -32,6 +32,11 @@ impl Periodic {
             world.spawn(&PlateletSpec::default().into(), Placement::at(6.0 + 12.0 * f32::from(k), 12.0))?;
             world.spawn(&RedCellSpec::default().into(), Placement::at(6.0 + 12.0 * f32::from(k), 34.0))?;
         }
+        for (x, speed) in [(4.0, -15.0), (76.0, 15.0)] {
+            // They meet over the right side.
+            let id = world.spawn(&RedCellSpec::default().into(), Placement::at(x, 5.0))?;
+            world.push(id, Vec2::new(speed, 0.0))?;
+        }
         let ends =
             [(1.0, 24.0), (79.0, 24.0)].map(|(x, y)| world.spawn(&AgarSpec::default().into(), Placement::at(x, y)));
         let [a, b] = [ends[0].clone()?, ends[1].clone()?].map(|organism| JointEnd::Node { organism, node: 0 });
