@@ -2,9 +2,8 @@
 
 use super::World;
 use super::mass::MASSES;
-use super::occupancy::bounds_of;
+use super::occupancy::{bounds_of, discs};
 use super::scale::SCALES;
-use super::spawn::discs;
 use crate::capability::division::Divider;
 use crate::capability::progress::Progress;
 use crate::error::{Error, ErrorKind, in_range};

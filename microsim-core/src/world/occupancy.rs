@@ -2,8 +2,8 @@
 //! there are organisms to put into it.
 
 use super::World;
-use super::spawn::{discs, is_blocked};
-use crate::organism::Organism;
+use crate::collision::obstacle::Obstacle;
+use crate::organism::{Organism, TOUCHING};
 use crate::particle::Particle;
 use glam::Vec2;
 use parry2d::bounding_volume::{Aabb, BoundingVolume};
@@ -133,6 +133,18 @@ impl World {
             scratch.occupancy.add(id.index, bounds_of(discs), config.size);
         }
     }
+}
+
+/// Whether a disc overlaps an obstacle.
+pub(super) fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
+    let (surface, is_inside) = obstacle.nearest(disc.position());
+    let gap = (disc.position() - surface).length();
+    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - TOUCHING))
+}
+
+/// Places and radii of planned particles.
+pub(super) fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
+    planned.iter().map(|disc| (disc.position(), disc.radius))
 }
 
 /// Axis-aligned box around discs.

@@ -1,7 +1,7 @@
 //! Rooms with periodic sides: what cannot be in them, and how what goes out on one side comes in on the other.
 
 use super::World;
-use super::spawn::is_blocked;
+use super::occupancy::is_blocked;
 use crate::capability::controller::Controller;
 use crate::collision::obstacle::Obstacle;
 use crate::collision::obstacle_path::extent;

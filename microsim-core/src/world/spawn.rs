@@ -2,7 +2,7 @@
 
 use super::World;
 use super::change::WorldChange;
-use super::occupancy::bounds_of;
+use super::occupancy::{bounds_of, discs};
 use super::vacancies::Vacancy;
 use crate::capability::Locomotion;
 use crate::capability::division::{Divider, DivisionParams};
@@ -355,18 +355,6 @@ fn plan_particles(blueprint: &Blueprint, placement: &Placement, scale: f32, owne
         })
     });
     body.chain(fluid).collect()
-}
-
-/// Whether a disc overlaps an obstacle.
-pub(super) fn is_blocked(obstacle: &Obstacle, disc: &Particle) -> bool {
-    let (surface, is_inside) = obstacle.nearest(disc.position());
-    let gap = (disc.position() - surface).length();
-    disc.groups.meets(obstacle.groups) && (is_inside || gap < disc.radius * (1.0 - TOUCHING))
-}
-
-/// Places and radii of planned particles.
-pub(super) fn discs(planned: &[Particle]) -> impl Iterator<Item = (Vec2, f32)> {
-    planned.iter().map(|disc| (disc.position(), disc.radius))
 }
 
 fn has_outline(blueprint: &Blueprint) -> bool {
