@@ -7,22 +7,30 @@ static IS_ASKED: AtomicBool = AtomicBool::new(false);
 static IS_TOO_LONG: AtomicBool = AtomicBool::new(false);
 static SIGNAL: AtomicUsize = AtomicUsize::new(0);
 
-#[cfg(unix)]
-const SIGNALS: [i32; 3] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP];
-#[cfg(not(unix))]
-const SIGNALS: [i32; 2] = [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM];
-
 /// Begins to listen. Without a handler the system's own applies, which is no reason to fail.
+#[cfg(unix)]
 pub(crate) fn listen() {
-    for signal in SIGNALS.into_iter().filter(|signal| !is_ignored(*signal)) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    for signal in [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal)) {
         // In this order: what asks to stop must not end the process at once.
         let _ = signal_hook::flag::register_conditional_shutdown(signal, 128 + signal, &IS_ASKED);
         let _ = signal_hook::flag::register_usize(signal, &SIGNAL, signal as usize);
         let _ = signal_hook::flag::register(signal, &IS_ASKED);
     }
     // A file at the limit of its length (`ulimit -f`) is an error of a write, which has words; nobody asks the flag.
-    #[cfg(unix)]
-    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, &IS_TOO_LONG);
+    let _ = signal_hook::flag::register(SIGXFSZ, &IS_TOO_LONG);
+}
+
+/// Begins to listen: to Ctrl-C, Ctrl-Break and the closing of the console, all of which count as SIGINT.
+#[cfg(windows)]
+pub(crate) fn listen() {
+    const SIGINT: usize = 2;
+    let _ = ctrlc::set_handler(|| {
+        SIGNAL.store(SIGINT, Ordering::Relaxed);
+        if IS_ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(exit_code()));
+        }
+    });
 }
 
 /// Whether the user asked to stop.
@@ -36,6 +44,7 @@ pub(crate) fn exit_code() -> u8 {
 }
 
 /// Whether the process was started with the signal ignored, as by `nohup`; known on Linux.
+#[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
