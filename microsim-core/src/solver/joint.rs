@@ -1,6 +1,7 @@
 //! Joints: two places are held at a length, by a spring, or with a limited force.
 //!
-//! `C = |b - a| - l`, one XPBD iteration per substep (see [`super::constraint::Distance`]), where a place is a point or the
+//! `C = |b - a| - l`, two XPBD iterations per substep (see [`super::constraint::Distance`]), forwards and backwards, so that joints
+//! of any number and order make no energy (see `template/sweep.rs`), where a place is a point or the
 //! centre of mass of some particles, which moves with the inverse of their total mass. A spring of frequency `f` and damping
 //! ratio `z` has `k = w^2 / W`, `w = 2 pi f`, `W` the sum of inverse masses, and the damping time `2 z / w`. The multiplier
 //! over `h^2` is the force.
@@ -53,6 +54,8 @@ pub(crate) struct Joint {
     /// Displacement of the second end from the image of it that is joined.
     pub shift: Vec2,
     pub law: Law,
+    /// Multiplier in this substep so far.
+    pub lambda: f32,
     /// Largest force in a substep so far.
     pub force: f32,
     pub is_broken: bool,
@@ -103,10 +106,14 @@ impl Joints {
         }
     }
 
-    /// Projects each joint once, in a substep of `h` seconds.
+    /// Projects the joints forwards and backwards, the last one once, in a substep of `h` seconds.
     pub(crate) fn project(&mut self, p: &mut Particles, h: f32) {
         let Self { list, particles, .. } = self;
-        for joint in list.iter_mut().filter(|joint| !joint.is_broken) {
+        for joint in &mut *list {
+            joint.lambda = 0.0;
+            joint.project(particles, p, h);
+        }
+        for joint in list.iter_mut().rev().skip(1) {
             joint.project(particles, p, h);
         }
     }
@@ -114,6 +121,9 @@ impl Joints {
 
 impl Joint {
     fn project(&mut self, list: &[u32], p: &mut Particles, h: f32) {
+        if self.is_broken {
+            return;
+        }
         let [a, b] = self.ends.each_ref().map(|end| end.present(list, p));
         // A weight on a joint of 10 units stretches it by 4e-5 units in a substep, of which `f32` would lose a fiftieth.
         let between_origins = b.origin - a.origin - self.shift;
@@ -131,13 +141,15 @@ impl Joint {
         let (way, long) = if 2.0 * length_of(moved) < before { (earlier, before) } else { (across, length) };
         let cosine = (way[0] * across[0] + way[1] * across[1]) / (long * length);
         let normal = Vec2::from(way.map(|way| (way / long) as f32));
-        let lambda = self.law.multiplier([before, length], weight, cosine as f32, h);
+        let lambda = self.law.multiplier([before, length], weight, cosine as f32, self.lambda, h);
         let force = lambda.abs() / (h * h);
         self.is_broken = force > self.law.break_force;
         self.force = if force > self.force { force } else { self.force };
         if !self.is_broken {
-            self.ends[0].shift(normal * (-lambda * a.inv_mass), list, p);
-            self.ends[1].shift(normal * (lambda * b.inv_mass), list, p);
+            let more = lambda - self.lambda;
+            self.lambda = lambda;
+            self.ends[0].shift(normal * (-more * a.inv_mass), list, p);
+            self.ends[1].shift(normal * (more * b.inv_mass), list, p);
         }
     }
 }
@@ -147,23 +159,20 @@ fn length_of([x, y]: [f64; 2]) -> f64 {
 }
 
 impl Law {
-    /// Multiplier for ends that were so far apart when the substep began, and are now; `cosine` is that of the angle between the
-    /// line through them and the line along which they are moved.
-    fn multiplier(&self, [before, length]: [f64; 2], weight: f32, cosine: f32, h: f32) -> f32 {
+    /// Multiplier, which is `lambda` so far, for ends that were so far apart when the substep began, and are now; `cosine` is that of
+    /// the angle between the line through them and the line along which they are moved.
+    fn multiplier(&self, [before, length]: [f64; 2], weight: f32, cosine: f32, lambda: f32, h: f32) -> f32 {
         let wanted = self.speed.map_or(f64::from(self.length), |speed| before + f64::from(speed * h));
         let error = (length - if wanted > 0.0 { wanted } else { 0.0 }) as f32;
-        if self.only_pulls && error <= 0.0 {
-            return 0.0;
-        }
         let (alpha, gamma) = self.spring.map_or((0.0, 0.0), |[frequency, damping_ratio]| {
             let omega = TAU * frequency;
             let alpha = weight / (omega * omega * h * h);
             (alpha, 2.0 * damping_ratio / (omega * h) - alpha / (alpha + weight))
         });
         let opening = (length - before) as f32;
-        let lambda = ratio(-error - gamma * opening, (1.0 + gamma) * weight * cosine + alpha);
+        let lambda = lambda + ratio(-error - alpha * lambda - gamma * opening, (1.0 + gamma) * weight * cosine + alpha);
         let most = self.max_force * h * h;
-        lambda.clamp(-most, most)
+        lambda.clamp(-most, if self.only_pulls { 0.0 } else { most })
     }
 }
 
@@ -220,7 +229,7 @@ mod tests {
 
     fn joints(law: Law) -> Joints {
         let end = |k: usize| End::Particles { range: k..k + 1, is_static: false };
-        let joint = Joint { ends: [end(0), end(1)], shift: Vec2::ZERO, law, force: 0.0, is_broken: false };
+        let joint = Joint { ends: [end(0), end(1)], shift: Vec2::ZERO, law, lambda: 0.0, force: 0.0, is_broken: false };
         Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }
     }
 
@@ -271,7 +280,7 @@ mod tests {
     fn the_centre_of_a_body_is_moved_as_a_whole() {
         let mut p = line(2.0, [1.0, 0.5]);
         let ends = [End::Particles { range: 0..2, is_static: false }, End::place(Vec2::Y, Vec2::ZERO)];
-        let joint = Joint { ends, shift: Vec2::ZERO, law: Law::rigid(0.0), force: 0.0, is_broken: false };
+        let joint = Joint { ends, shift: Vec2::ZERO, law: Law::rigid(0.0), lambda: 0.0, force: 0.0, is_broken: false };
         Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }.project(&mut p, H);
         assert!((p.x[0] + 4.0 / 3.0).abs() < 1e-6 && (p.x[1] - 2.0 / 3.0).abs() < 1e-6 && p.y == [1.0, 1.0]);
     }

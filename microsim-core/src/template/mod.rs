@@ -7,6 +7,7 @@ mod cut;
 mod order;
 mod role;
 mod self_contact;
+pub(crate) mod sweep;
 
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;
@@ -16,7 +17,7 @@ use crate::solver::muscle::{Muscle, Scaled};
 pub use cut::Half;
 use cut::{Abilities, check_name};
 use glam::Vec2;
-use order::{in_order, rigid_links, scaled};
+use order::{in_order, scaled};
 pub use role::Role;
 use serde::{Deserialize, Serialize};
 
@@ -87,9 +88,6 @@ pub struct Template {
     channels: Vec<[f32; 2]>,
     /// By constraint.
     muscles: Vec<Muscle>,
-    /// Those of its constraints that are rigid links.
-    #[serde(skip)]
-    rigid_links: Vec<Constraint>,
     /// Those whose lengths are scaled: muscles and yielding links.
     #[serde(skip)]
     scaled: Vec<Scaled>,
@@ -166,11 +164,6 @@ impl Template {
     pub(crate) fn rest_state(&self) -> Vec<f32> {
         let links = self.yielding_links().map(|_| 0.0);
         self.channels.iter().map(|&[rest, _]| rest).chain(links).collect()
-    }
-
-    /// Its rigid links but for muscles, in their order.
-    pub(crate) fn rigid_links(&self) -> &[Constraint] {
-        &self.rigid_links
     }
 
     /// Farthest that a disc of it reaches from its place.
@@ -347,9 +340,8 @@ impl TemplateBuilder {
             check_ring("outline", &outline, nodes.len())?;
         }
         abilities.check(&nodes)?;
-        let rigid_links = rigid_links(&constraints, &muscles);
         let scaled = scaled(&constraints, &muscles, channels.len() as u32);
-        Ok(Template { name, nodes, constraints, outline, abilities, channels, muscles, rigid_links, scaled })
+        Ok(Template { name, nodes, constraints, outline, abilities, channels, muscles, scaled })
     }
 }
 

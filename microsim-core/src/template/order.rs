@@ -1,6 +1,6 @@
 //! Constraints of a template in the order in which they are projected, and those among them that are solved in a way of their own.
 
-use crate::solver::constraint::{Constraint, Distance};
+use crate::solver::constraint::Constraint;
 use crate::solver::muscle::{Muscle, Scaled};
 
 /// Constraints by kind, in the order of projection, those of one kind in their order; and the muscles among them.
@@ -29,14 +29,4 @@ pub(super) fn scaled(constraints: &[Constraint], muscles: &[Muscle], channels: u
         (channel.is_some() || link.is_some()).then_some(Scaled { constraint: k, channel, link })
     };
     constraints.iter().zip(0..).filter_map(of).collect()
-}
-
-/// The constraints that are rigid links and no muscles, in their order.
-pub(super) fn rigid_links(constraints: &[Constraint], muscles: &[Muscle]) -> Vec<Constraint> {
-    let is_muscle = |k: u32| muscles.binary_search_by_key(&k, |muscle| muscle.constraint).is_ok();
-    let is_rigid = |constraint: &Constraint| {
-        matches!(constraint, Constraint::Distance(Distance { compliance: 0.0, damping: 0.0, .. }))
-    };
-    let rigid = constraints.iter().zip(0..).filter(|&(constraint, k)| is_rigid(constraint) && !is_muscle(k));
-    rigid.map(|(constraint, _)| constraint.clone()).collect()
 }

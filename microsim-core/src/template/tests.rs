@@ -36,19 +36,6 @@ fn constraints_are_sorted_by_kind_with_limits_last() {
 }
 
 #[test]
-fn rigid_links_are_neither_soft_nor_muscles() {
-    let mut builder = Template::builder();
-    (0..4u8).for_each(|k| _ = builder.node(Node::disc(Vec2::new(f32::from(k), 0.0), 1.0, 0.1)));
-    let channel = builder.channel([1.0, 0.5]);
-    let link = |a, b, compliance| Distance { a, b, rest_length: 1.0, compliance, damping: 0.0 };
-    builder.constraint(YieldingDistance { breaking_strain: 0.5, ..link(0, 1, 1e-3).into() });
-    builder.constraint(Rope { a: 0, b: 3, max_length: 4.0 }).constraint(link(2, 3, 0.0)).constraint(link(0, 2, 1e-3));
-    builder.muscle(channel, link(1, 2, 0.0)).constraint(link(0, 1, 0.0));
-    let template = builder.build().unwrap();
-    assert_eq!(template.rigid_links(), [link(2, 3, 0.0).into(), link(0, 1, 0.0).into()]);
-}
-
-#[test]
 fn a_muscle_stays_one_when_constraints_are_sorted() {
     let mut builder = two_nodes();
     let [slow, fast] = [0.5, 0.8].map(|active| builder.channel([1.0, active]));

@@ -280,6 +280,7 @@ impl World {
                     shift: self.joint_shift(record),
                     law: record.law(),
                     force: 0.0,
+                    lambda: 0.0,
                     is_broken: false,
                 });
             }

@@ -69,6 +69,7 @@ use crate::solver::joint::Joints;
 use crate::solver::relink::Pressed;
 use crate::supply::Drain;
 use crate::template::Template;
+use crate::template::sweep::Sweep;
 use change::{Changes, WorldChange};
 use contact_report::ContactReports;
 use contacts::Touching;
@@ -126,6 +127,9 @@ pub struct World {
     pub(crate) contact_reports: ContactReports,
     pub(crate) emitters: Arena<Box<EmitterRecord>>,
     pub(crate) drains: Arena<Box<Drain>>,
+    /// Of each template.
+    #[serde(skip)]
+    pub(crate) sweeps: Shared<Vec<Sweep>>,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -191,6 +195,7 @@ impl Clone for World {
             contact_reports,
             emitters,
             drains,
+            sweeps,
             obstacles,
             changes,
             scratch,
@@ -216,6 +221,7 @@ impl Clone for World {
         self.contact_reports.clone_from(contact_reports);
         self.emitters.clone_from(emitters);
         self.drains.clone_from(drains);
+        self.sweeps.clone_from(sweeps);
         self.obstacles.clone_from(obstacles);
         self.changes.clone_from(changes);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
@@ -244,6 +250,7 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Shared::default(),
+            sweeps: Shared::default(),
             obstacle_table: ObstacleTable::default(),
             presences: Presences::default(),
             contact_reports: ContactReports::default(),

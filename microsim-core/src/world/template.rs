@@ -5,6 +5,7 @@ use super::change::WorldChange;
 use crate::float_environment::with_default_float_environment;
 use crate::id::TemplateId;
 use crate::template::Template;
+use crate::template::sweep::Sweep;
 
 impl World {
     /// Adds a template for custom bodies, see [`World::spawn_template`].
@@ -35,8 +36,14 @@ impl World {
     pub(crate) fn template_index(&mut self, template: Template) -> u32 {
         let known = with_default_float_environment(|| self.templates.iter().position(|other| *other == template));
         known.unwrap_or_else(|| {
-            self.templates.push(template);
+            self.push_template(template);
             self.templates.len() - 1
         }) as u32
+    }
+
+    /// Adds a template at the end.
+    pub(super) fn push_template(&mut self, template: Template) {
+        self.sweeps.push(Sweep::new(&template, self.config.substep()));
+        self.templates.push(template);
     }
 }

@@ -10,11 +10,12 @@
 //! a slow oscillation, which is then damped by `omega^4 h^3 / 2` per second, and 0 for one that a substep cannot follow, which
 //! stays stable as with implicit Euler.
 
-use super::{Constrain, Constraint, Distance, PULL};
+use super::{Constrain, Constraint, Distance, PULL, Row};
 use crate::error::Error;
 use crate::instruction_set::each;
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, ratio};
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance, like [`Distance`], whose oscillations lose energy by `damping` alone: for pendulums and
@@ -37,6 +38,14 @@ pub struct ConservativeDistance {
 impl Constrain for ConservativeDistance {
     fn order(&self) -> u8 {
         PULL + 4
+    }
+
+    fn half(&self) -> Option<Constraint> {
+        Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
+    }
+
+    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+        Row::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

@@ -7,11 +7,12 @@
 //! where `dx` is the move since the substep began. `n` is the vector between the nodes over its length: with
 //! numerator and denominator multiplied by that length as needed, one square root and one division do.
 
-use super::{Constrain, Constraint, MAX_LENGTH, PULL, check_nodes};
+use super::{Constrain, Constraint, MAX_LENGTH, PULL, Row, check_nodes};
 use crate::error::{Error, in_range};
 use crate::instruction_set::each;
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, ratio};
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// Two nodes at a fixed distance.
@@ -32,6 +33,14 @@ pub struct Distance {
 impl Constrain for Distance {
     fn order(&self) -> u8 {
         PULL
+    }
+
+    fn half(&self) -> Option<Constraint> {
+        Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
+    }
+
+    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+        Row::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

@@ -8,6 +8,7 @@ mod distance;
 mod link_drag;
 mod min_distance;
 mod rope;
+mod row;
 mod yielding_distance;
 
 pub use anchor::Anchor;
@@ -19,12 +20,14 @@ pub use distance::Distance;
 pub use link_drag::LinkDrag;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
+pub(crate) use row::Row;
 pub(crate) use yielding_distance::TORN;
 pub use yielding_distance::YieldingDistance;
 
 use super::lanes::Span;
 use crate::error::Error;
 use crate::particle::Columns;
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// Largest length or area that a constraint may ask for.
@@ -56,6 +59,16 @@ pub enum Constraint {
 pub(crate) trait Constrain {
     /// Place in the order of projection, counted from [`PULL`] or [`LIMIT`]; a different one for each kind.
     fn order(&self) -> u8;
+
+    /// What takes half of it, so that two do what it does: with twice the compliance. `None` for what is projected once, after all others.
+    fn half(&self) -> Option<Constraint> {
+        None
+    }
+
+    /// Its rows near a state in which nodes are at these places; none for what has no half.
+    fn rows(&self, _places: &[Vec2]) -> Vec<Row> {
+        Vec::new()
+    }
 
     /// Pairs of nodes that it acts between, for drawing.
     fn links(&self) -> Vec<[u32; 2]>;
@@ -106,6 +119,16 @@ impl Constraint {
     /// Whether it can be a muscle.
     pub(crate) fn has_lengths(&self) -> bool {
         self.run(Borrow).has_lengths()
+    }
+
+    /// What takes half of it, if it pulls.
+    pub(crate) fn half(&self) -> Option<Self> {
+        self.run(Borrow).half()
+    }
+
+    /// Its rows near a state in which nodes are at these places, if it pulls.
+    pub(crate) fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+        self.run(Borrow).rows(places)
     }
 
     /// Place of its kind in the order of projection.
@@ -177,7 +200,9 @@ pub(crate) fn check_ring(field: &str, ring: &[u32], nodes: usize) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::disc;
     use super::*;
+    use crate::particle::Particles;
 
     /// One of each kind, between nodes 0, 1 and 2.
     fn kinds() -> [Constraint; 9] {
@@ -221,6 +246,39 @@ mod tests {
                 _ => (vec![[0, 1]], true),
             };
             assert_eq!((kind.links(), kind.has_lengths()), (links, is_muscle), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn rows_are_what_a_projection_does_to_small_errors() {
+        let places = [Vec2::ZERO, Vec2::new(1.0, 0.2), Vec2::new(0.3, 1.1)];
+        let area = 0.5 * (places[1] - places[0]).perp_dot(places[2] - places[0]);
+        let [out, on] = [places[1] - places[0], places[2] - places[1]];
+        let turn = libm::atan2f(out.perp_dot(on), out.dot(on));
+        let (a, b, rest_length, compliance) = (0, 1, places[0].distance(places[1]), 1e-5);
+        let kinds: [Constraint; 5] = [
+            Distance { a, b, rest_length, compliance, damping: 0.0 }.into(),
+            YieldingDistance::from(Distance { a, b, rest_length, compliance, damping: 0.0 }).into(),
+            Area { ring: vec![0, 1, 2], rest_area: area, compliance, is_upper_bound: false }.into(),
+            Bend::new([0, 1, 2], turn, compliance).into(),
+            Distance { a, b, rest_length, compliance: 0.0, damping: 0.0 }.into(),
+        ];
+        let errors = [Vec2::new(0.7, -0.2), Vec2::new(-0.4, 0.5), Vec2::new(0.1, 0.9)].map(|error| 1e-3 * error);
+        let (masses, h) = ([1.0, 0.5, 2.0], 0.01);
+        for kind in kinds {
+            let mut particles = Particles::default();
+            for k in 0..3 {
+                particles.insert(&disc(places[k] + errors[k], masses[k]));
+            }
+            kind.run(Project { spans: &[Span::LOOSE], particles: &mut particles.columns(), h });
+            let Row { gradient, compliance } = &kind.rows(&places)[0];
+            let error: f32 = gradient.iter().map(|&(k, of)| of.dot(errors[k as usize])).sum();
+            let weight: f32 = gradient.iter().map(|&(k, of)| masses[k as usize] * of.length_squared()).sum();
+            for &(k, of) in gradient {
+                let moved = particles.position(k as usize) - places[k as usize] - errors[k as usize];
+                let expected = -of * masses[k as usize] * error / (weight + compliance / (h * h));
+                assert!((moved - expected).length() < 2e-6, "{kind:?}, node {k}: {moved} instead of {expected}");
+            }
         }
     }
 }

@@ -12,11 +12,12 @@
 //! `k (F alpha / l - y)` per second. In a substep the share `1 - exp(-k h)` of the excess flows, the exponential by its Taylor
 //! polynomial of third order. Where `e` exceeds the breaking strain the link is gone.
 
-use super::{Constrain, Constraint, Distance, MAX_LENGTH, PULL};
+use super::{Constrain, Constraint, Distance, MAX_LENGTH, PULL, Row};
 use crate::error::{Error, in_range};
 use crate::instruction_set::each;
 use crate::particle::Columns;
 use crate::solver::lanes::{Pair, Span, ratio};
+use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// Stands for the plastic strain of a link that tore: its length would be 0.
@@ -137,6 +138,14 @@ impl YieldingDistance {
 impl Constrain for YieldingDistance {
     fn order(&self) -> u8 {
         PULL + 5
+    }
+
+    fn half(&self) -> Option<Constraint> {
+        Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
+    }
+
+    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+        Row::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

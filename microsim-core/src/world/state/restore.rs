@@ -69,7 +69,7 @@ impl World {
         world.step_index = state.step_index;
         world.particles = state.particles;
         world.organisms = state.organisms;
-        world.templates = Shared::new(state.templates);
+        state.templates.into_iter().for_each(|template| world.push_template(template));
         world.blocks = Shared::new(state.blocks);
         world.sleep = state.sleep;
         world.fluids = state.fluids;
