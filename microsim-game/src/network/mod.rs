@@ -14,6 +14,7 @@ pub mod pacing;
 mod packet;
 mod post;
 pub mod relay;
+mod report;
 pub mod room;
 pub mod session;
 pub mod told;
