@@ -8,6 +8,8 @@
 
 pub mod contest;
 mod guest;
+#[cfg(any(test, fuzzing))]
+pub mod hostile;
 mod message;
 mod moment;
 pub mod pacing;
