@@ -1,11 +1,12 @@
 // A whole match in headless Chromium by data channels, against the real server: a page, another one as of a phone, and a bot outside
-// of the browser. One page is silent for 5 s, the phone is loaded again, and a third page comes late and watches.
+// of the browser. One page is silent for 5 s, the phone is loaded again, and a third page comes late and watches. The record of the
+// match is played by the command line.
 //
 //   node match.mjs SERVER PAGE BOT FOLDER     SERVER: microsim with the feature `serve`; PAGE: the built folder
 //                                                    BOT: the game's example room_bot with the feature `webrtc`
 //                                                    FOLDER: where pictures and records are kept
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import fs from "node:fs";
 import { createInterface } from "node:readline";
@@ -173,7 +174,7 @@ try {
     await draw(true);
     await laptop.waitForTimeout(2000);
     for (const [name, page] of Object.entries(pages)) await picture(page, `end-${name}`);
-    const [line] = await robot.line(/^match 1 digest .* desync None .*/, 60_000);
+    const [line, digest] = await robot.line(/^match 1 digest (\w+) .* desync None .*/, 60_000);
     const ofBot = fs.readFileSync(`${pictures}/bot.replay`).toString("base64");
     console.log(`    ${line}`);
     for (const [name, page] of Object.entries(pages)) {
@@ -181,7 +182,10 @@ try {
         console.log(`    ${name}: ${frames.length} frames of ${spread(frames)} ms; messages up/down: relay ${socket.join("/")}, channels ${channel.join("/")}; bytes ${bytes.join("/")}`);
         assert.equal(await record(page), ofBot, name);
     }
-    console.log("ok: all have the same record at the end, and no digest differed");
+    const played = JSON.parse(execFileSync(program, ["--quiet", "replay", "--json", `${pictures}/bot.replay`]));
+    assert.ok(played.is_complete);
+    assert.equal(played.digest, digest);
+    console.log("ok: all have the same record at the end, no digest differed, and the command line plays it to the same one");
 } finally {
     program_of_bot?.kill("SIGKILL");
     await browser.close();

@@ -1,4 +1,5 @@
-//! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`.
+//! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`,
+//! and over faulty ones: `... --example network_matrix [FRAMES] faults`.
 //!
 //! The players of a row are computed on one thread, rows on all cores; they are printed as they are done. A row fails unless all
 //! get the world that one process computes alone.
@@ -9,25 +10,35 @@ mod virtual_match;
 
 use microsim_game::network::pacing::Pacing;
 use std::sync::Mutex;
-use virtual_match::{Match, Weather};
+use virtual_match::{Cut, Match, Weather};
+
+/// A match of so many players at so many frames a second.
+struct Row {
+    players: usize,
+    hz: u32,
+    /// What is said of the weather.
+    sky: String,
+    weather: Weather,
+    /// Who says nothing to whom for a second, every five seconds.
+    silent: Vec<(usize, usize)>,
+}
 
 fn main() {
-    let number = |k: usize| std::env::args().nth(k).and_then(|text| text.parse().ok());
-    let (frames, only): (f32, Option<f32>) = (number(1).unwrap_or(10_000.0), number(2));
+    let frames: f32 = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(10_000.0);
+    let only = std::env::args().nth(2);
+    let (sky, rows) = match only.as_deref() {
+        Some("faults") => ("fault", faults()),
+        only => ("one way, ms | loss", matrix(only.and_then(|text| text.parse().ok()))),
+    };
     println!(
-        "| players | Hz | one way, ms | loss | frame p50/p99/max, ms | rollbacks | repeated a frame, most | waits | up, down B/s |"
+        "| players | Hz | {sky} | frame p50/p99/max, ms | rollbacks | repeated a frame, most | waits, most | up, down B/s |"
     );
-    println!("|---:|---:|---:|---:|---:|---:|---:|---:|---:|");
-    let latencies = [150.0, 80.0, 20.0].into_iter().filter(|latency| only.is_none_or(|only| only == *latency));
-    let paces = || [(30, Pacing::USUAL), (60, Pacing::QUICK)].into_iter();
-    let crowds =
-        latencies.flat_map(|latency| paces().flat_map(move |pace| [4, 3, 2].map(|players| (latency, pace, players))));
-    let all = Mutex::new(crowds.flat_map(|crowd| [0.0, 0.03, 0.1].map(|loss| (crowd, loss))));
-    let next = || all.lock().expect("no row fails with it").next();
+    println!("|{}", "---:|".repeat(8 + sky.matches('|').count()));
+    let rows = Mutex::new(rows.into_iter());
+    let next = || rows.lock().expect("no row fails with it").next();
     let work = || {
-        while let Some(((latency, (hz, pacing), players), loss)) = next() {
-            let weather = Weather { latency, jitter: 0.25 * latency, loss, ..Weather::default() };
-            row(players, hz, frames, pacing, weather);
+        while let Some(row) = next() {
+            row.print(frames);
         }
     };
     std::thread::scope(|scope| {
@@ -37,26 +48,66 @@ fn main() {
     });
 }
 
-fn row(players: usize, hz: u32, frames: f32, pacing: Pacing, weather: Weather) {
-    let mut game = Match::new(players, frames / hz as f32, pacing, weather, 1);
-    game.play();
-    game.check();
-    game.frame_ms.sort_by(f64::total_cmp);
-    let part = |share: f64| game.frame_ms[((game.frame_ms.len() - 1) as f64 * share) as usize];
-    let (session, seconds) = (&game.sessions[0], game.now / 1000.0);
-    let (tally, taken) = (session.tally(), session.frame() as f32);
-    let Weather { latency, loss, .. } = weather;
-    println!(
-        "| {players} | {hz} | {latency} | {:.0} % | {:.1}/{:.1}/{:.1} | {:.0} % | {:.2}, {} | {:.1} % | {:.0}, {:.0} |",
-        100.0 * loss,
-        part(0.5),
-        part(0.99),
-        part(1.0),
-        100.0 * tally.rollbacks as f32 / taken,
-        tally.repeated as f32 / taken,
-        tally.deepest,
-        100.0 * tally.waits as f32 / taken,
-        tally.sent as f32 / seconds,
-        tally.received as f32 / seconds,
-    );
+/// All latencies, or one, with all losses.
+fn matrix(only: Option<f32>) -> Vec<Row> {
+    let latencies = [150.0, 80.0, 20.0].into_iter().filter(|latency| only.is_none_or(|only| only == *latency));
+    let crowds = latencies.flat_map(|latency| [30, 60].map(|hz| (latency, hz)));
+    let crowds = crowds.flat_map(|(latency, hz)| [4, 3, 2].map(|players| (latency, hz, players)));
+    let row = |((latency, hz, players), loss): ((f32, u32, usize), f32)| {
+        let weather = Weather { latency, jitter: 0.25 * latency, loss, ..Weather::default() };
+        Row { players, hz, sky: format!("{latency} | {:.0} %", 100.0 * loss), weather, silent: Vec::new() }
+    };
+    crowds.flat_map(|crowd| [0.0, 0.03, 0.1].map(|loss| (crowd, loss))).map(row).collect()
+}
+
+/// Each fault for itself, and all at once.
+fn faults() -> Vec<Row> {
+    let fair = Weather { latency: 80.0, jitter: 20.0, ..Weather::default() };
+    let all = Weather { latency: 80.0, jitter: 80.0, loss: 0.1, doubled: 0.2, bursts: 0.1 };
+    let kinds = [
+        ("none", fair, 0),
+        ("20 % come twice", Weather { doubled: 0.2, ..fair }, 0),
+        ("0 to 160 ms: out of order", Weather { jitter: 80.0, ..fair }, 0),
+        ("10 % of the time all is lost, 200 ms each", Weather { bursts: 0.1, ..fair }, 0),
+        ("nothing from the first to the last for 1 s of 5", fair, 1),
+        ("nothing from the first to anybody for 1 s of 5", fair, 2),
+        ("all of these, and 10 % loss", all, 2),
+    ];
+    let row = |players: usize, (sky, weather, cuts): (&str, Weather, u32)| {
+        let to = if cuts == 1 { players - 1..players } else { 1..players };
+        let silent = to.filter(|_| cuts > 0).map(|to| (0, to)).collect();
+        Row { players, hz: 30, sky: sky.to_owned(), weather, silent }
+    };
+    [2, 4].into_iter().flat_map(|players| kinds.map(|kind| row(players, kind))).collect()
+}
+
+impl Row {
+    fn print(self, frames: f32) {
+        let Self { players, hz, sky, weather, silent } = self;
+        let pacing = if hz == 60 { Pacing::QUICK } else { Pacing::USUAL };
+        let mut game = Match::new(players, frames / hz as f32, pacing, weather, 1);
+        let times = (2000..).step_by(5000).take(200);
+        let cut = |(from, to): (usize, usize)| times.clone().map(move |at| Cut { from, to, time: at..at + 1000 });
+        game.cuts = silent.into_iter().flat_map(cut).collect();
+        game.play();
+        game.check();
+        game.frame_ms.sort_by(f64::total_cmp);
+        let part = |share: f64| game.frame_ms[((game.frame_ms.len() - 1) as f64 * share) as usize];
+        // Of those who hear the first one, if that is what fails.
+        let (session, seconds) = (&game.sessions[players - 1], game.now / 1000.0);
+        let (tally, taken) = (session.tally(), session.frame() as f32);
+        println!(
+            "| {players} | {hz} | {sky} | {:.1}/{:.1}/{:.1} | {:.0} % | {:.2}, {} | {:.1} %, {} | {:.0}, {:.0} |",
+            part(0.5),
+            part(0.99),
+            part(1.0),
+            100.0 * tally.rollbacks as f32 / taken,
+            tally.repeated as f32 / taken,
+            tally.deepest,
+            100.0 * tally.waits as f32 / taken,
+            game.longest_wait[players - 1],
+            tally.sent as f32 / seconds,
+            tally.received as f32 / seconds,
+        );
+    }
 }

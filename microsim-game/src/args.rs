@@ -137,10 +137,11 @@ impl Args {
                 Arg::Short(_) => return Err(arg.unexpected().into()),
             }
         }
-        let has_scene = args.play || args.seed.is_some() || !args.scenes.is_empty() || !args.overrides.is_empty();
-        let kinds = [has_scene, args.replay.is_some(), args.room.is_some()];
+        let has_scene = args.play || !args.scenes.is_empty() || !args.overrides.is_empty();
+        let has_seed = args.seed.is_some() && args.room.is_none();
+        let kinds = [has_scene || has_seed, args.replay.is_some(), args.room.is_some()];
         if kinds.into_iter().filter(|&is_asked| is_asked).count() > 1 {
-            let kinds = "a scenario with --play, --set, --seed; --replay; --room";
+            let kinds = "a scenario with --play, --set, --seed; --replay; --room with --seed";
             return Err(Answer::Mistake(format!("more than one thing to play; accepted is one of: {kinds}")));
         }
         Ok(args)
@@ -255,12 +256,13 @@ mod tests {
 
     #[test]
     fn mistakes_are_refused_with_what_is_accepted() {
-        assert!(args("--replay a.replay").replay.is_some() && parsed("--room ab12 demo").is_err());
+        assert!(args("--replay a.replay").replay.is_some() && args("--room ab12 --seed 3").seed == Some(3));
         let numbers = ["--size 10x10", "--size big", "--frames 0", "--frames", "--seed -1", "--seed"];
         let words = ["--wrong", "-x", "--set x", "--set =1", "--optics x", "--language x", "--quality x", "--play=1"];
         let replays = ["--play", "demo", "--set a=1", "--seed 1", "--room ab12"]
             .map(|other| format!("--replay a.replay {other}"));
-        for line in numbers.into_iter().chain(words).chain(replays.iter().map(String::as_str)) {
+        let rooms = ["--room ab12 demo", "--room ab12 --set a=1"];
+        for line in numbers.into_iter().chain(words).chain(rooms).chain(replays.iter().map(String::as_str)) {
             assert!(matches!(parsed(line), Err(Answer::Mistake(_))), "{line}");
         }
         let Err(Answer::Mistake(mistake)) = parsed("--optics x") else { panic!("accepted") };

@@ -212,7 +212,8 @@ mod tests {
         assert!(matches!(start("demo").unwrap(), (MainScreen::Simulation(stage), _) if stage.name() == "demo"));
         let (first, game) = start("--play --seed 3 --set game.time=10").unwrap();
         assert!(matches!(first, MainScreen::Round) && game.seed == Some(3) && game.time() == Some(10.0));
-        assert!(matches!(start("--room ab12").unwrap().0, MainScreen::Room(code) if code == "ab12"));
+        let (first, game) = start("--room ab12 --seed 3").unwrap();
+        assert!(matches!(first, MainScreen::Room(code) if code == "ab12") && game.seed == Some(3));
         for line in [
             "nonsense",
             "--play empty",

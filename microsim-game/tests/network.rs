@@ -12,9 +12,9 @@ use microsim_game::network::told::Told;
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use proptest::prelude::*;
-use virtual_match::{Match, Weather, round};
+use virtual_match::{Cut, Match, Weather, round};
 
-const WILD: Weather = Weather { latency: 80.0, jitter: 60.0, loss: 0.1, doubled: 0.1, bursts: 0.1, cut: [0, 0] };
+const WILD: Weather = Weather { latency: 80.0, jitter: 60.0, loss: 0.1, doubled: 0.1, bursts: 0.1 };
 
 fn play(players: usize, pacing: Pacing, weather: Weather) -> Match {
     let mut game = Match::new(players, 3.0, pacing, weather, 1);
@@ -41,8 +41,44 @@ fn messages_that_are_late_lost_doubled_and_out_of_order_make_the_same_world() {
 
 #[test]
 fn a_cut_stops_the_others_and_no_longer_than_it_lasts() {
-    let game = play(2, Pacing::USUAL, Weather { latency: 30.0, cut: [500, 1700], ..Weather::default() });
+    let mut game = Match::new(2, 3.0, Pacing::USUAL, Weather { latency: 30.0, ..Weather::default() }, 1);
+    game.cuts = vec![Cut { from: 0, to: 1, time: 500..1700 }];
+    game.play();
+    game.check();
     assert!(game.sessions[1].tally().waits >= 15 && game.now < 8000.0, "{:?}, {}", game.sessions[1].tally(), game.now);
+}
+
+/// By member: frames that were left out to wait for others, of those that were taken, and the most in a row.
+fn waits(game: &Match) -> Vec<(f32, u32)> {
+    let share = |session: &Session| session.tally().waits as f32 / session.frame() as f32;
+    game.sessions.iter().map(share).zip(game.longest_wait.iter().copied()).collect()
+}
+
+#[test]
+fn clocks_that_differ_by_three_in_a_hundred_cost_single_frames() {
+    let slow = |member, _| if member == 0 { 0.97 } else { 1.0 };
+    let fast = |member, _| if member == 0 { 1.03 } else { 1.0 };
+    for (players, speed) in [(2, slow as fn(usize, f32) -> f32), (2, fast), (3, slow)] {
+        let mut game = Match::new(players, 12.0, Pacing::USUAL, Weather { latency: 40.0, ..Weather::default() }, 6);
+        game.speed = speed;
+        game.play();
+        game.check();
+        let waits = waits(&game);
+        assert!(waits.iter().all(|&(share, longest)| share < 0.05 && longest <= 1), "{waits:?}");
+        assert!(waits.iter().any(|&(share, _)| share > 0.02), "the faster one waits: {waits:?}");
+        assert!(game.sessions.iter().all(|session| session.tally().deepest < 4), "nobody is far ahead");
+    }
+}
+
+#[test]
+fn one_who_makes_every_second_frame_for_a_while_halves_the_pace_and_stops_nobody() {
+    let mut game = Match::new(3, 9.0, Pacing::USUAL, Weather { latency: 40.0, jitter: 10.0, ..Weather::default() }, 6);
+    game.speed = |member, now| if member == 2 && (2000.0..5000.0).contains(&now) { 0.5 } else { 1.0 };
+    game.play();
+    game.check();
+    let waits = waits(&game);
+    assert!(waits[2] == (0.0, 0) && waits.iter().all(|&(_, longest)| longest <= 3), "{waits:?}");
+    assert!(game.now < 11_000.0, "the match takes as much longer as the half of 3 s: {} ms", game.now);
 }
 
 #[test]
@@ -56,7 +92,7 @@ fn a_bot_takes_over_from_those_who_leave_in_the_same_frame_for_all() {
     }
 }
 
-const ROUGH: Weather = Weather { latency: 60.0, jitter: 50.0, loss: 0.05, doubled: 0.05, bursts: 0.05, cut: [0, 0] };
+const ROUGH: Weather = Weather { latency: 60.0, jitter: 50.0, loss: 0.05, doubled: 0.05, bursts: 0.05 };
 
 /// Frames in which a player's own hand steered.
 fn steered(session: &Session, player: usize, frames: std::ops::Range<usize>) -> usize {
@@ -120,6 +156,50 @@ fn worlds_that_differ_are_found_within_two_seconds() {
         }
     }
     assert_eq!(sessions.iter().map(Session::desync).collect::<Vec<_>>(), [Some(60), Some(60)]);
+}
+
+prop_compose! {
+    fn weather()(
+        latency in 0.0f32..150.0,
+        jitter in 0.0f32..120.0,
+        loss in 0.0f32..0.3,
+        doubled in 0.0f32..0.5,
+        bursts in 0.0f32..0.3,
+    ) -> Weather {
+        Weather { latency, jitter, loss, doubled, bursts }
+    }
+}
+
+/// One-way cuts between any two of so many players.
+fn cuts(players: usize) -> impl Strategy<Value = Vec<Cut>> {
+    let cut = (0..players, 0..players, 0..3000u32, 0..2500u32);
+    prop::collection::vec(cut.prop_map(|(from, to, at, length)| Cut { from, to, time: at..at + length }), 0..5)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 10, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Packets that are late, lost, doubled, out of order, in bursts, or cut off one way; one may leave and come back.
+    #[test]
+    fn any_schedule_of_packets_makes_the_world_of_one_process(
+        (players, cuts) in (2usize..=4).prop_flat_map(|players| (Just(players), cuts(players))),
+        is_quick in any::<bool>(),
+        weather in weather(),
+        seed in any::<u64>(),
+        leaves in prop::option::of((0u32..4000, 500u32..3000)),
+    ) {
+        let pacing = if is_quick { Pacing::QUICK } else { Pacing::USUAL };
+        let mut game = Match::new(players, 4.0, pacing, weather, seed);
+        game.cuts = cuts;
+        if let Some((left, away)) = leaves {
+            let who = seed as usize % players;
+            (game.leaving, game.coming) = (vec![(who, left)], vec![(who, left + away)]);
+        }
+        game.play();
+        game.check();
+        let tallies: Vec<_> = game.sessions.iter().map(Session::tally).collect();
+        prop_assert!(leaves.is_some() || tallies.iter().all(|tally| tally.refused == 0 && tally.deepest <= pacing.window), "{tallies:?}");
+    }
 }
 
 proptest! {

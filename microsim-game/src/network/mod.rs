@@ -8,12 +8,15 @@
 
 pub mod contest;
 mod guest;
+#[cfg(any(test, fuzzing))]
+pub mod hostile;
 mod message;
 mod moment;
 pub mod pacing;
 mod packet;
 mod post;
 pub mod relay;
+mod report;
 pub mod room;
 pub mod session;
 pub mod told;

@@ -20,7 +20,9 @@ impl Session {
     /// A packet for a player, or for one who watches, of whom `track` is known.
     pub(super) fn packet(&self, track: &Track, to: Option<usize>, now: u32) -> Vec<u8> {
         let run = |(player, other): (usize, &Track)| {
-            let is_passed_on = self.own == Some(player) || other.has_left && to != Some(player) && self.own.is_some();
+            // One who takes over from a bot soon after it came needs what its cell was told before.
+            let is_needed = if to == Some(player) { track.known[player] < other.since } else { other.has_left };
+            let is_passed_on = self.own == Some(player) || is_needed && self.own.is_some();
             let most = if to.is_some() { LONGEST_RUN } else { LONGEST_HISTORY };
             let (first, told) = (track.known[player], other.since(track.known[player], most).to_vec());
             let is_sent = (is_passed_on || to.is_none()) && !told.is_empty();

@@ -29,10 +29,10 @@ pub struct Session {
     pub(super) own: Option<usize>,
     /// Its number in the room, if it has come to watch.
     pub(super) member: Option<Member>,
-    now: Moment,
+    pub(super) now: Moment,
     pub(super) frame: u32,
     /// Moments before the last frames, by frame.
-    kept: Vec<Moment>,
+    pub(super) kept: Vec<Moment>,
     pub(super) tracks: Vec<Track>,
     /// Those who watch, and the last takeover of each cell.
     pub(super) guests: Vec<Guest>,
@@ -201,6 +201,9 @@ impl Session {
         self.check();
         self.heard.clear();
         self.gains.clear();
+        if self.desync.is_some() {
+            return false;
+        }
         let most = if self.own.is_some() { self.pacing.window } else { 0 };
         if self.frame >= self.final_frame().saturating_add(most) || self.is_ahead() {
             self.tally.waits += 1;
@@ -348,48 +351,6 @@ impl Session {
     #[must_use]
     pub fn frames_over(&self) -> u32 {
         self.over_at.map_or(0, |end| self.frame - end)
-    }
-
-    /// The step before which the worlds of two players were found to differ.
-    #[must_use]
-    pub fn desync(&self) -> Option<u64> {
-        self.desync.map(|frame| u64::from(frame) * u64::from(self.pacing.steps))
-    }
-
-    /// Those who are there, by number.
-    pub fn present(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.tracks.len()).filter(|&k| !self.tracks[k].has_left)
-    }
-
-    /// The longest way to another player and back, ms, and the greatest share of packets that were lost.
-    #[must_use]
-    pub fn way(&self) -> (Option<u32>, f32) {
-        let pings = self.others().filter_map(|k| self.tracks[k].ping);
-        (pings.max(), self.others().map(|k| self.tracks[k].loss()).fold(0.0, f32::max))
-    }
-
-    /// What going back cost.
-    #[must_use]
-    pub fn tally(&self) -> Tally {
-        self.tally
-    }
-
-    /// Digests of what is final, by frame.
-    #[must_use]
-    pub fn digests(&self) -> &[(u32, u64)] {
-        &self.digests
-    }
-
-    /// The number of this player, from 0 on; none if it watches.
-    #[must_use]
-    pub fn own(&self) -> Option<usize> {
-        self.own
-    }
-
-    /// What a player told its cell in each frame that is known, and the frame from which on a bot steers.
-    #[must_use]
-    pub fn told(&self, player: usize) -> (&[Told], Option<u32>) {
-        self.tracks.get(player).map_or((&[], None), |track| (track.since(0, usize::MAX), track.end))
     }
 }
 

@@ -131,3 +131,21 @@ fn a_takeover_from_a_far_frame_on_is_refused() {
         assert_eq!((session.tally().refused, session.successor(1)), expected);
     }
 }
+
+#[test]
+fn who_takes_over_before_it_knows_what_its_cell_was_told_is_told_that() {
+    let mut session = session(0);
+    session.receive(1, &packet(Vec::new(), run(1, 4)), 0);
+    session.leave(1);
+    let mut guest = Session::watch(round_of(3, 1).unwrap(), 3, Pacing::USUAL);
+    let told = Packet::read(&packet(Vec::new(), Vec::new()), 3).unwrap();
+    session.receive_guest(3, &Packet { wants: true, ..told }.write(), 0);
+    session.seat(1, 3);
+    assert_eq!((session.successor(1), guest.own()), (Some(3), None));
+    for now in 0..2 {
+        let packets = session.packets(now);
+        let (_, bytes) = packets.into_iter().find(|(to, _)| *to == 1).unwrap();
+        guest.receive(0, &bytes, now);
+    }
+    assert_eq!((guest.own(), guest.told(1).0.len()), (Some(1), session.told(1).0.len()));
+}

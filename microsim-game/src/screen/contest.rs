@@ -9,6 +9,8 @@ use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
 use crate::network::contest::Match;
 use crate::platform;
+use crate::rules::round::Round;
+use crate::store::files::PlayerFolder;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
 use microsim_core::Intent;
@@ -20,7 +22,7 @@ const ADVICE_TIME: f64 = 7.0;
 const LEAVING_TIME: f32 = 3.0;
 /// Frames without a new one after which the player is told that others are waited for.
 const WAITING_FRAMES: u32 = 15;
-/// Frames after the end for which a last word of the others is waited for.
+/// Frames after the end, or after worlds were found to differ, for which the others are told and heard.
 const LAST_WORD: u32 = 60;
 /// The same after which a match with somebody who does not answer is a draw.
 const LONGEST_WAIT: u32 = 900;
@@ -85,14 +87,8 @@ impl Contest {
     fn outcome(&self, context: &mut AppContext) -> Option<String> {
         let session = self.game.session();
         let round = session.round();
-        if let Some(step) = session.desync() {
-            let parts = [round.record(), round.world().to_snapshot().ok()];
-            let kept = [RECORD, WORLD].into_iter().zip(parts);
-            let kept = kept.filter_map(|(name, bytes)| Some(context.store.write(name, &bytes?)));
-            let are_kept = kept.filter(Result::is_ok).count() == 2;
-            let told = words::text_with(Key::MatchDiffers, &[("step", (&step.to_string()).into())]);
-            let files = || words::text_with(Key::MatchKept, &[("record", RECORD.into()), ("world", WORLD.into())]);
-            return Some(if are_kept { format!("{told} {}", files()) } else { told });
+        if let (Some(step), Some(parted)) = (session.desync(), session.parted()) {
+            return (self.waiting >= LAST_WORD).then(|| keep_parted(parted, step, &context.store));
         }
         if self.waiting >= LONGEST_WAIT && !round.is_over() {
             return Some(words::text(Key::MatchSilent).to_owned());
@@ -243,6 +239,17 @@ impl Screen for Contest {
     }
 }
 
+/// Keeps the round of a match that came apart, as it was at a step. Says so.
+fn keep_parted(round: &Round, step: u64, store: &PlayerFolder) -> String {
+    let parts = [round.record(), round.world().to_snapshot().ok()];
+    let kept = [RECORD, WORLD].into_iter().zip(parts);
+    let kept = kept.filter_map(|(name, bytes)| Some(store.write(name, &bytes?)));
+    let are_kept = kept.filter(Result::is_ok).count() == 2;
+    let told = words::text_with(Key::MatchDiffers, &[("step", (&step.to_string()).into())]);
+    let files = || words::text_with(Key::MatchKept, &[("record", RECORD.into()), ("world", WORLD.into())]);
+    if are_kept { format!("{told} {}", files()) } else { told }
+}
+
 /// A player, for people.
 fn player(own: usize) -> String {
     let colour = words::text(PLAYERS[own % PLAYERS.len()].0);
@@ -252,4 +259,27 @@ fn player(own: usize) -> String {
 /// What a player is told at the beginning.
 fn player_advice(own: usize) -> String {
     words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::two_players;
+    use crate::store::files::tests::Folder;
+    use microsim_core::World;
+    use microsim_core::replay::{Player, Replay};
+    use microsim_core::scenario::Scenario;
+
+    #[test]
+    fn a_match_that_came_apart_is_kept_as_a_record_and_the_world_at_its_end() {
+        let (_folder, store) = Folder::new("parted");
+        let mut round = Round::new(&Scenario::parse(two_players::TEXT, &[]).unwrap()).unwrap();
+        (0..90).for_each(|_| round.step_all(&[Intent::REST, Intent::REST]));
+        let told = keep_parted(&round, 90, &store);
+        assert!([RECORD, WORLD, "90"].iter().all(|said| told.contains(said)), "{told}");
+        let world = World::from_snapshot(&store.read(WORLD).unwrap()).unwrap();
+        let mut player = Player::new(&Replay::read(&store.read(RECORD).unwrap()).unwrap()).unwrap();
+        assert_eq!(player.by_ref().filter(|played| played.is_ok()).count(), 90);
+        assert_eq!(player.world().digest(), world.digest());
+    }
 }

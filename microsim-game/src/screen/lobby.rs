@@ -61,7 +61,7 @@ impl Lobby {
 
 impl Screen for Lobby {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = new_seed(context);
+        let seed = context.game.seed.unwrap_or_else(|| new_seed(context));
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         if let Some(game) = room.update(clock(), seed, None) {
             return Next::Show(MainScreen::Contest(Box::new(game)));

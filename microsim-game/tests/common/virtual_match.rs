@@ -9,10 +9,14 @@ use microsim_game::network::transport::Member;
 use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
+use std::ops::Range;
 use std::time::Instant;
 
 /// Frames between two decisions of a bot: about as often as a hand turns.
 const DECISION: u32 = 6;
+
+/// Time after which a room knows that somebody has left, ms.
+const NOTICE: f32 = 50.0;
 
 /// How messages travel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,12 +29,20 @@ pub(crate) struct Weather {
     pub(crate) doubled: f32,
     /// Share of the time in which everything is lost, in pieces of 200 ms.
     pub(crate) bursts: f32,
-    /// From when to when nothing comes from the first player, ms.
-    pub(crate) cut: [u32; 2],
+}
+
+/// A time in which nothing comes from one member to another; the way back is its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Cut {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    /// From when to when, ms.
+    pub(crate) time: Range<u32>,
 }
 
 /// A message under way.
 struct Letter {
+    sent: f32,
     due: f32,
     from: usize,
     to: usize,
@@ -42,6 +54,11 @@ pub(crate) struct Match {
     pub(crate) sessions: Vec<Session>,
     /// Time that each frame took to compute, ms, for all players.
     pub(crate) frame_ms: Vec<f64>,
+    /// The most calls in a row in which a member took no frame, while the round was on.
+    pub(crate) longest_wait: Vec<u32>,
+    pub(crate) cuts: Vec<Cut>,
+    /// Frames that a member's machine makes of one of the match, at a time in ms.
+    pub(crate) speed: fn(usize, f32) -> f32,
     /// When players leave, ms.
     pub(crate) leaving: Vec<(usize, u32)>,
     /// When members come, or come back, ms: they watch until a bot's cell is theirs.
@@ -53,6 +70,10 @@ pub(crate) struct Match {
     letters: Vec<Letter>,
     bots: Vec<(Bot, Intent)>,
     rng: Rng,
+    seed: u64,
+    /// By member: frames that its machine owes, and calls in a row without a frame.
+    owed: [f32; 4],
+    waits: [u32; 4],
     pub(crate) now: f32,
 }
 
@@ -70,6 +91,9 @@ impl Match {
         Self {
             sessions: (0..players).map(|own| Session::new(start.clone(), own, pacing)).collect(),
             frame_ms: Vec::new(),
+            longest_wait: vec![0; 4],
+            cuts: Vec::new(),
+            speed: |_, _| 1.0,
             leaving: Vec::new(),
             coming: Vec::new(),
             players,
@@ -79,6 +103,9 @@ impl Match {
             letters: Vec::new(),
             bots: (0..4).map(|k| (Bot::new(Policy::Greedy, 50 + k as u64), Intent::REST)).collect(),
             rng: Rng::new(seed, 0),
+            seed,
+            owed: [0.0; 4],
+            waits: [0; 4],
             now: 0.0,
         }
     }
@@ -117,7 +144,7 @@ impl Match {
         self.sessions.iter().enumerate().all(|(k, session)| !self.is_there(k) || session.is_over())
     }
 
-    /// One frame of all.
+    /// The time of one frame.
     pub(crate) fn tick(&mut self) {
         let before = self.now;
         self.now += 1000.0 * self.pacing.steps as f32 / 60.0;
@@ -126,30 +153,43 @@ impl Match {
             self.coming.iter().filter(|(_, when)| is_due(*when)).map(|(member, _)| *member).collect();
         came.into_iter().for_each(|member| self.come(member));
         for member in (0..self.sessions.len()).filter(|&member| self.is_there(member)).collect::<Vec<_>>() {
-            let began = Instant::now();
-            self.deliver(member);
-            self.notice_those_who_left(member);
-            let told = self.decide(member);
-            let session = &mut self.sessions[member];
-            // As many as a window takes in a frame.
-            (0..20).take_while(|_| session.is_behind() && session.catch_up()).for_each(drop);
-            session.advance(told);
-            let (packets, guests) = (session.packets(self.now as u32), session.guest_packets(self.now as u32));
-            self.frame_ms.push(1000.0 * began.elapsed().as_secs_f64());
-            for (seat, bytes) in packets {
-                let to = self.sessions[member].successor(seat).map_or(seat, usize::from);
-                self.post(member, to, bytes);
+            self.owed[member] += (self.speed)(member, self.now);
+            while self.owed[member] >= 1.0 {
+                self.owed[member] -= 1.0;
+                self.call(member);
             }
-            guests.into_iter().for_each(|(to, bytes)| self.post(member, to.into(), bytes));
         }
     }
 
-    /// A room knows of those who have left a moment later, and gives their cells away.
+    /// A member's machine makes a frame.
+    fn call(&mut self, member: usize) {
+        let began = Instant::now();
+        self.deliver(member);
+        self.notice_those_who_left(member);
+        let told = self.decide(member);
+        let session = &mut self.sessions[member];
+        // As many as a window takes in a frame.
+        (0..20).take_while(|_| session.is_behind() && session.catch_up()).for_each(drop);
+        let is_taken = session.advance(told) || session.round().is_over();
+        self.waits[member] = if is_taken { 0 } else { self.waits[member] + 1 };
+        self.longest_wait[member] = self.longest_wait[member].max(self.waits[member]);
+        let (packets, guests) = (session.packets(self.now as u32), session.guest_packets(self.now as u32));
+        self.frame_ms.push(1000.0 * began.elapsed().as_secs_f64());
+        for (seat, bytes) in packets {
+            let to = self.sessions[member].successor(seat).map_or(seat, usize::from);
+            self.post(member, to, bytes);
+        }
+        guests.into_iter().for_each(|(to, bytes)| self.post(member, to.into(), bytes));
+    }
+
     /// A member receives the letters that have arrived by now.
     fn deliver(&mut self, member: usize) {
         let arrived: Vec<Letter> =
             self.letters.extract_if(.., |letter| letter.to == member && letter.due <= self.now).collect();
         for letter in arrived {
+            if self.is_stale(&letter) {
+                continue;
+            }
             match self.seat_of(&self.sessions[member], letter.from) {
                 Some(seat) => self.sessions[member].receive(seat, &letter.bytes, self.now as u32),
                 None => self.sessions[member].receive_guest(letter.from as Member, &letter.bytes, self.now as u32),
@@ -157,8 +197,18 @@ impl Match {
         }
     }
 
+    /// Whether it is of a connection that has ended: a room drops what comes of those who have left, and nothing waits for who comes.
+    fn is_stale(&self, letter: &Letter) -> bool {
+        let has_left = |&(who, when): &(usize, u32)| who == letter.from && letter.sent <= when as f32;
+        let has_come = |&(who, when): &(usize, u32)| who == letter.to && letter.sent < when as f32;
+        let is_known = |&(_, when): &(usize, u32)| when as f32 + NOTICE <= self.now;
+        self.leaving.iter().filter(|left| is_known(left)).any(has_left)
+            || self.coming.iter().any(|came| has_come(came) && came.1 as f32 <= self.now)
+    }
+
+    /// A room knows of those who have left a moment later, and gives their cells away.
     fn notice_those_who_left(&mut self, member: usize) {
-        let is_known = |&(who, when): &(usize, u32)| when as f32 + 50.0 <= self.now && !self.is_there(who);
+        let is_known = |&(who, when): &(usize, u32)| when as f32 + NOTICE <= self.now && !self.is_there(who);
         let gone: Vec<usize> = self.leaving.iter().copied().filter(is_known).map(|(who, _)| who).collect();
         for who in gone {
             if let Some(seat) = self.seat_of(&self.sessions[member], who) {
@@ -185,21 +235,27 @@ impl Match {
 
     fn post(&mut self, from: usize, to: usize, bytes: Vec<u8>) {
         let weather = self.weather;
-        let is_cut = from == 0 && (weather.cut[0]..weather.cut[1]).contains(&(self.now as u32));
-        let piece = Rng::new(9, (self.now / 200.0) as u64).unit();
+        let is_on = |cut: &Cut| (cut.from, cut.to) == (from, to) && cut.time.contains(&(self.now as u32));
+        let is_cut = self.cuts.iter().any(is_on);
+        let piece = Rng::new(self.seed, 1 + (self.now / 200.0) as u64).unit();
         if is_cut || piece < weather.bursts || self.rng.unit() < weather.loss {
             return;
         }
         let copies = if self.rng.unit() < weather.doubled { 2 } else { 1 };
         for _ in 0..copies {
             let due = self.now + (weather.latency + self.rng.range(-1.0, 1.0) * weather.jitter).max(0.0);
-            self.letters.push(Letter { due, from, to, bytes: bytes.clone() });
+            self.letters.push(Letter { sent: self.now, due, from, to, bytes: bytes.clone() });
         }
     }
 
     /// Checks that all have the world that one process computes from the same inputs. The digest of its end.
     pub(crate) fn check(&self) -> u64 {
-        let first = self.sessions.iter().enumerate().find(|(k, _)| self.is_there(*k)).expect("somebody is there").1;
+        let there: Vec<&Session> =
+            (0..self.sessions.len()).filter(|&k| self.is_there(k)).map(|k| &self.sessions[k]).collect();
+        for session in &there {
+            assert!(session.is_over() && session.desync().is_none(), "{:?}", session.tally());
+        }
+        let first = there.first().expect("somebody is there");
         let mut round = round(self.players, self.seconds);
         let cells: Vec<_> = round.players().collect();
         let mut bots: Vec<_> = (0..cells.len()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
@@ -217,8 +273,7 @@ impl Match {
             }
             frame += 1;
         }
-        for session in (0..self.sessions.len()).filter(|&k| self.is_there(k)).map(|k| &self.sessions[k]) {
-            assert!(session.is_over() && session.desync().is_none(), "{:?}", session.tally());
+        for session in there {
             assert_eq!(session.round().world().digest(), round.world().digest());
             assert_eq!((session.round().scores(), session.round().record()), (round.scores(), round.record()));
         }
