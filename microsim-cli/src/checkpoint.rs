@@ -110,9 +110,10 @@ pub(crate) fn give_up(outputs: &Outputs) -> Result<(), Failure> {
 
 /// Removes the files that only an unfinished run needs: the checkpoint first, which cannot be resumed without the `others`.
 pub(crate) fn remove(folder: &Path, others: Vec<PathBuf>) {
-    for path in std::iter::once(folder.join(CHECKPOINT)).chain(others) {
-        // It does no harm where it cannot be removed: `run.json` says that the run is finished.
-        let _ = output::remove(&path);
+    // It does no harm where it cannot be removed, as long as the others stay: `run.json` says that the run is finished.
+    let removed = output::remove(&folder.join(CHECKPOINT));
+    if removed.is_ok() || removed.is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+        others.iter().for_each(|path| _ = output::remove(path));
     }
 }
 
@@ -159,6 +160,24 @@ mod tests {
         assert!(parse(&bytes_of(apart(""), 0)).is_ok());
         "a,b".clone_into(&mut prepared.built.named[0].0);
         assert!(parse(&bytes_of(prepared, 0)).is_err_and(|why| why.contains("other names")));
+    }
+
+    #[test]
+    fn what_a_checkpoint_needs_stays_as_long_as_it_does() {
+        let folder = std::env::temp_dir().join(format!("microsim-needs-{}", std::process::id()));
+        let (checkpoint, rows) = (folder.join(CHECKPOINT), folder.join("rows"));
+        // A folder is not removed as a file is.
+        std::fs::create_dir_all(&checkpoint).unwrap();
+        let left = || {
+            std::fs::write(&rows, "").unwrap();
+            remove(&folder, vec![rows.clone()]);
+            rows.exists()
+        };
+        let beside_it = left();
+        std::fs::remove_dir(&checkpoint).unwrap();
+        let alone = left();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(beside_it && !alone);
     }
 
     #[test]

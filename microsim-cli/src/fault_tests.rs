@@ -59,6 +59,15 @@ const SCENARIO: &str = r#"
     width = 32
 "#;
 
+/// The scenario, with a table in every format that this build writes.
+fn scenario() -> String {
+    if cfg!(feature = "parquet") {
+        SCENARIO.replace("\"jsonl\"]", "\"jsonl\", \"parquet\"]")
+    } else {
+        SCENARIO.to_owned()
+    }
+}
+
 type Contents = BTreeMap<PathBuf, Vec<u8>>;
 
 /// A folder of its own that is removed at the end.
@@ -91,7 +100,7 @@ fn quiet() -> Console {
 }
 
 fn prepared(seed: u64, set: Vec<(String, String)>) -> Prepared {
-    let source = ScenarioText::new("faults".to_owned(), SCENARIO.to_owned());
+    let source = ScenarioText::new("faults".to_owned(), scenario());
     Prepared::new(source, &Changes { seed: Some(seed), set }).unwrap_or_else(|failure| panic!("{failure:?}"))
 }
 
@@ -278,7 +287,7 @@ fn a_file_survives(scratch: &Scratch, line: &str, file: &str) {
 fn pages_and_pictures_survive_every_fault() {
     let scratch = Scratch::new("files");
     let folder = scratch.0.display();
-    fs::write(scratch.0.join("a.toml"), SCENARIO).unwrap();
+    fs::write(scratch.0.join("a.toml"), scenario()).unwrap();
     run(&scratch.0.join("run"), false, 3).ok().unwrap();
     a_file_survives(&scratch, &format!("microsim report {folder}/run -o {folder}/page.html"), "page.html");
     for name in ["still.png", "film.gif", "film.apng"] {

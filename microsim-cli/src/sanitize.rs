@@ -1,10 +1,15 @@
-//! Text from outside, made harmless for a terminal or a table: the only place that does so.
+//! Text from outside, made harmless for a terminal, a page or a table: the only place that does so.
 
 use std::borrow::Cow;
 
 /// A name or a value as part of a line: nothing in it ends the line, moves the cursor, or turns the direction of writing.
 pub(crate) fn line(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c.is_control() || is_invisible(c))
+}
+
+/// Several lines of a page or a file.
+pub(crate) fn lines(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| !matches!(c, '\n' | '\t') && c.is_control() || is_invisible(c))
 }
 
 /// Several lines with colours, in which nothing else has an escape character.
@@ -48,12 +53,13 @@ fn is_invisible(c: char) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{cell, coloured, line};
+    use super::{cell, coloured, line, lines};
 
     #[test]
     fn nothing_controls_a_terminal() {
         assert_eq!(line("a\u{1b}[2Jb\nok\u{202e}\u{9b}"), "a\\u{1b}[2Jb\\u{a}ok\\u{202e}\\u{9b}");
         assert_eq!(coloured("\u{1b}[1ma\n\rµ\u{2028}"), "\u{1b}[1ma\n\\u{d}µ\\u{2028}");
+        assert_eq!(lines("a\n\tb\r\u{1b}\u{202e}"), "a\n\tb\\u{d}\\u{1b}\\u{202e}");
         let harmful = "\u{7f}\u{85}\u{90}\u{9d}\u{ad}\u{61c}\u{200b}\u{200d}\u{200f}\u{2029}\u{2060}\u{2069}\u{feff}\u{fffa}\u{e0041}";
         assert!(harmful.chars().all(|c| line(&c.to_string()) == c.escape_unicode().to_string()));
         assert!(["naïve", "日本", "µm², Ω"].iter().all(|text| line(text) == *text));

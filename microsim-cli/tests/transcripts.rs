@@ -112,24 +112,69 @@ fn verbs(folder: &Folder) -> Vec<String> {
     names.map(|name| name.trim_start_matches("microsim").trim_end_matches(".1").replace('-', " ")).collect()
 }
 
+/// What the examples need, and what stands for programs that are not here: those that hand out the tasks of a sweep run one.
+const SETUP: &str = r#"export HOME=$PWD SLURM_ARRAY_TASK_ID=1
+mkdir -p .config/fish/completions .local/share/bash-completion/completions docs
+microsim sweep plan empty --steps 1 --seeds 0..9 > plan.jsonl 2> /dev/null
+microsim sweep run plan.jsonl --store results 2> /dev/null
+command -v man > /dev/null || man() { cat; }
+sbatch() { sh -c "$3"; }
+parallel() { shift 2; "$@"; }
+hq() { shift 3; HQ_ENTRY=$(head -n 1 plan.jsonl) "$@"; }
+"#;
+
 #[test]
 fn every_example_in_a_help_can_be_run() {
     let folder = Folder::new("examples");
-    let setup = "export HOME=$PWD SLURM_ARRAY_TASK_ID=1\nmkdir -p .config/fish/completions \
-        .local/share/bash-completion/completions\nmicrosim sweep plan empty --steps 1 --seeds 0..9 > plan.jsonl 2> /dev/null\n\
-        microsim sweep run plan.jsonl --store results 2> /dev/null\ncommand -v man > /dev/null || man() { cat; }\n";
     let mut count = 0;
     for verb in verbs(&folder) {
         let help = transcript(&format!("microsim {verb} --help"), folder.root());
         // `fpath` is of another shell.
         for example in examples(&help).iter().filter(|example| !example.contains("fpath")) {
             let quick = example.replace("run hunt ", "run hunt --steps 2 ");
-            let text = transcript(&format!("{setup}{{ {quick}; }}"), folder.root());
+            let text = transcript(&format!("{SETUP}{{ {quick}; }}"), folder.root());
             assert!(!text.contains("[exit code"), "{verb}: {example}: {text}");
             count += 1;
         }
     }
     assert_eq!(count, 8, "as many as there are");
+}
+
+fn all_pages() -> Vec<PathBuf> {
+    let folders = ["../..", "..", "."].map(|folder| pages().join(folder));
+    let files = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()).map(|file| file.unwrap().path());
+    let mut found: Vec<_> = files.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
+    found.sort();
+    found
+}
+
+/// The lines of the ```sh blocks of a page that start this program, as if it were installed.
+fn shell_lines(page: &str) -> Vec<String> {
+    let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap().replace("\\\n", " "));
+    let of_program = |line: &str| match line.split_once(" -p microsim-cli ") {
+        Some((_, rest)) if line.starts_with("cargo run ") => Some(format!("microsim {}", rest.split_once("-- ")?.1)),
+        _ => line.contains("microsim ").then(|| line.to_owned()),
+    };
+    blocks.flat_map(|block| block.lines().filter_map(of_program).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn every_command_of_a_page_can_be_run() {
+    let folder = Folder::new("pages");
+    let mut count = 0;
+    for path in all_pages() {
+        // It would go on for ever; `serve.rs` runs it.
+        for line in shell_lines(&fs::read_to_string(&path).unwrap()).iter().filter(|line| !line.contains(" serve ")) {
+            let mut quick = line.replace("run demo ", "run demo --steps 2 ");
+            for (long, short) in [("--seconds 30 ", ""), ("VERB ...", "list"), ("yeast.toml", "empty --size 16x16")] {
+                quick = quick.replace(long, short);
+            }
+            let text = transcript(&format!("{SETUP}cp run.replay other.replay 2> /dev/null\n{quick}"), folder.root());
+            assert!(!text.contains("[exit code"), "{}: {line}: {text}", path.display());
+            count += 1;
+        }
+    }
+    assert_eq!(count, 10, "as many as there are");
 }
 
 #[test]

@@ -87,6 +87,34 @@ fn values_in_each_other_take_no_more_memory() {
 }
 
 #[test]
+fn mistakes_take_no_more_memory() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    for mistake in ["=\n", "[]\n", "= = \n", "[\n", "a b\n", "x=\"\\q\"\n", "\u{1}"] {
+        assert!(refused(&mistake.repeat(999_999 / mistake.len()), &[]).contains("accepted: TOML"), "{mistake:?}");
+    }
+    for key in ["a.a.a.a.a.a.a.a", "a . a . a . a", "1.1 .1 .1 .1 .1", "'a'.'='.\"a\".a"] {
+        let lines = [format!("[{key}]\n"), format!("{key}=1\n"), format!("{{{key}=1}},")];
+        for line in lines {
+            assert!(
+                refused(&line.repeat(999_000 / line.len()), &[]).contains("dots in keys (accepted: at most 50000)")
+            );
+        }
+    }
+    let keys: String = (0..110_000).map(|k| format!("a{k:x}=1\n")).collect();
+    assert!(refused(&keys, &[]).contains("and 109,980 more: unknown field"));
+}
+
+#[test]
+#[ignore = "measures time: by hand, in release"]
+fn twice_as_many_mistakes_take_twice_as_long() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    for mistake in ["=\n", "x=\"\\q\"\n", "x=1_\n", "x={a=1,a=2}\n"] {
+        let [few, many] = [45_000, 90_000].map(|bytes| time(&mistake.repeat(bytes / mistake.len())));
+        assert!(many < 3.0 * few, "{mistake:?}: {few} s and {many} s");
+    }
+}
+
+#[test]
 #[ignore = "measures time: by hand, in release"]
 fn problems_in_one_line_take_as_long_as_in_many() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -36,7 +36,7 @@ impl SceneSource {
         match self {
             Self::File(path) => {
                 let text = platform::read(path).map(String::from_utf8);
-                let text = text.and_then(|text| text.map_err(|_| io::Error::other(words::text(Key::FileNotText))));
+                let text = text.and_then(|text| text.map_err(|_| io::ErrorKind::InvalidData.into()));
                 text.map_err(|error| words::of_file(Key::FileUnreadable, path, &error))
             }
             Self::Builtin(name) => builtin_text(name).map(str::to_owned).ok_or_else(|| {

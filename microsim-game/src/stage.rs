@@ -1,6 +1,7 @@
 //! The scene that is running: a scenario's world, and who is followed in it.
 
 use crate::scene_source::SceneSource;
+use crate::words::{self, Key};
 use microsim_core::scenario::{Scenario, Script};
 use microsim_core::{Census, Intent, Kind, OrganismId, World};
 
@@ -32,7 +33,10 @@ impl Stage {
         let opened = Scenario::parse(&text, overrides).map_err(|diagnostics| diagnostics.to_string());
         opened.and_then(Self::of).map_err(|problem| match source {
             SceneSource::Builtin(_) => problem,
-            SceneSource::File(path) => format!("{}:\n{problem}", path.display()),
+            SceneSource::File(path) => {
+                let (file, problem) = (path.display().to_string(), format!("\n{problem}"));
+                words::text_with(Key::FileUnfit, &[("file", (&file).into()), ("problem", (&problem).into())])
+            }
         })
     }
 

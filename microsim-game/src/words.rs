@@ -4,7 +4,7 @@
 pub mod articles;
 
 use std::cell::Cell;
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -198,7 +198,26 @@ pub fn text_with(key: Key, args: &[(&str, Arg<'_>)]) -> String {
 /// What is wrong with a file.
 #[must_use]
 pub fn of_file(key: Key, path: &Path, error: &io::Error) -> String {
-    text_with(key, &[("file", (&path.display().to_string()).into()), ("error", (&error.to_string()).into())])
+    text_with(key, &[("file", (&path.display().to_string()).into()), ("error", of_error(error.kind()).into())])
+}
+
+/// Why something cannot be read, written or reached: the system's own words are for developers.
+#[must_use]
+pub fn of_error(kind: ErrorKind) -> &'static str {
+    text(match kind {
+        ErrorKind::NotFound => Key::ErrorMissing,
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Key::ErrorForbidden,
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Key::ErrorFull,
+        ErrorKind::InvalidInput | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Key::ErrorNoFile,
+        ErrorKind::FileTooLarge => Key::ErrorTooLong,
+        ErrorKind::InvalidData => Key::FileNotText,
+        ErrorKind::ConnectionRefused
+        | ErrorKind::ConnectionReset
+        | ErrorKind::HostUnreachable
+        | ErrorKind::NetworkUnreachable
+        | ErrorKind::TimedOut => Key::ErrorSilent,
+        _ => Key::ErrorOther,
+    })
 }
 
 /// A number with so many decimals.

@@ -254,7 +254,7 @@ room-waits = Kód { $code }. Zápas začne, až tu budou dva až čtyři hráči
 room-entering = Kód { $code }. Spojuje se se serverem ...
 room-cut = Spojení se serverem je přerušeno.
 room-unreachable = Nelze se spojit s počítačem { $host }: { $error }
-room-none = { $host } nemá místnosti: { $error }
+room-none = { $host } nemá místnosti
 room-strange = Server odpovídá jinak než server místností.
 room-code = Kód má 4 až 12 písmen a číslic.
 
@@ -371,6 +371,7 @@ sandbox-free = Teď nikoho nesleduješ.
 sandbox-overlap = Tady není místo: { $what }
 sandbox-outside = Za stěnami: { $what }
 sandbox-crowded = Víc se sem nevejde.
+sandbox-refused = Sem nelze vložit: { $what }
 
 ## Fotografie, soubory a hlášení
 
@@ -382,7 +383,15 @@ file-written = Uloženo: { $file }
 file-unwritable = Nelze zapsat { $file }: { $error }
 file-unreadable = Nelze přečíst { $file }: { $error }
 file-not-text = není to text v UTF-8
-file-senseless = Soubor { $file } nedává smysl: { $problem }
+file-senseless = Soubor { $file } nedává smysl
+file-unfit = { $file } nelze spustit jako simulaci: { $problem }
+error-missing = není tam
+error-forbidden = přístup je odepřen
+error-full = není už místo
+error-no-file = není to soubor
+error-too-long = je to příliš dlouhé
+error-silent = nikdo tam neodpovídá
+error-other = systém to odmítá
 file-put-aside = { $told }; odložen jako { $aside }
 file-added = { $file } je teď v seznamu simulací.
 files-added = { $count ->
@@ -392,7 +401,7 @@ files-added = { $count ->
    *[other] { $count } souborů je teď v seznamu simulací.
 }
 last-game-none = Zatím není odehraná žádná hra.
-last-game-broken = Poslední hra: { $problem }
+last-game-broken = Poslední hru nelze znovu přehrát: její záznam je poškozený nebo z jiné verze.
 last-game-unkept = Hru nelze uložit: { $error }
 settings-unkept = Nastavení nelze uložit: { $error }
 

@@ -242,7 +242,7 @@ room-waits = Code { $code }. The match begins when two to four are here and all 
 room-entering = Code { $code }. On the way to the server ...
 room-cut = the connection to the server is cut
 room-unreachable = cannot reach { $host }: { $error }
-room-none = { $host } has no rooms: { $error }
+room-none = { $host } has no rooms
 room-strange = the server says what no server of rooms says
 room-code = a code has 4 to 12 letters and digits
 
@@ -339,6 +339,7 @@ sandbox-free = Nobody is followed now.
 sandbox-overlap = No room here: { $what }
 sandbox-outside = Outside the walls: { $what }
 sandbox-crowded = The room is full.
+sandbox-refused = Cannot be put here: { $what }
 
 ## Photos, files and messages
 
@@ -350,7 +351,15 @@ file-written = wrote { $file }
 file-unwritable = cannot write { $file }: { $error }
 file-unreadable = cannot read { $file }: { $error }
 file-not-text = it is no text in UTF-8
-file-senseless = { $file } makes no sense: { $problem }
+file-senseless = { $file } makes no sense
+file-unfit = { $file } does not work as a simulation: { $problem }
+error-missing = it is not there
+error-forbidden = access is denied
+error-full = there is no room left
+error-no-file = it is no file
+error-too-long = it is too long
+error-silent = nobody answers there
+error-other = the system refuses it
 file-put-aside = { $told }; kept as { $aside }
 file-added = { $file } is in the list of simulations now.
 files-added = { $count ->
@@ -358,7 +367,7 @@ files-added = { $count ->
    *[other] { $count } files are in the list of simulations now.
 }
 last-game-none = No game has been played yet.
-last-game-broken = the last game: { $problem }
+last-game-broken = The last game cannot be played again: its record is damaged or of another version.
 last-game-unkept = cannot keep the game: { $error }
 settings-unkept = cannot keep the settings: { $error }
 

@@ -67,7 +67,8 @@ impl FileProgress {
             if !is_plain || name.is_empty() {
                 return refuse(format!("{name:?} is no name of a file in the folder"));
             }
-            read::open(&outputs.folder().join(name)).map_err(|error| Failure::file("read", Path::new(name), &error))?;
+            let path = outputs.folder().join(name);
+            read::open(&path).map_err(|error| Failure::file("read", &path, &error))?;
         }
         self.lengths.iter().try_for_each(|(name, &length)| outputs.check_resumable(name, length))
     }
@@ -322,10 +323,13 @@ mod tests {
         let progress = RunWriter::start(&outputs, scenario.output(), &built, 20).unwrap().progress().unwrap();
         assert!(progress.check(&outputs, scenario.output()).is_ok());
         fs::create_dir_all(folder.join("deep")).unwrap();
-        for name in ["deep/../.lock", ""] {
+        let missing = format!("cannot read {}: ", folder.join("deep/none").display());
+        for (name, words) in
+            [("deep/../.lock", "is no name of a file"), ("", "is no name of a file"), ("deep/none", &missing)]
+        {
             let progress = FileProgress { whole: vec![name.to_owned()], lengths: progress.lengths.clone(), events: 0 };
             let refused = format!("{:?}", progress.check(&outputs, scenario.output()));
-            assert!(refused.contains("is no name of a file"), "{refused}");
+            assert!(refused.contains(words), "{refused}");
         }
         drop(outputs);
         fs::remove_dir_all(&folder).unwrap();

@@ -7,6 +7,8 @@ use std::ops::Range;
 
 /// Diagnostics of one kind that are listed: the rest would be more of the same.
 const MAX_OF_A_KIND: usize = 20;
+/// Characters of a field, a message or what is accepted: a name in it may be as long as the file.
+const MAX_CHARACTERS: usize = 2000;
 
 /// One thing that is wrong with a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +32,11 @@ impl Diagnostic {
     fn place(&mut self, places: &mut Places<'_>) {
         let place = self.span.as_ref().map(|span| places.at(span.start));
         (self.line, self.column) = (place.map(|(line, _)| line), place.map(|(_, column)| column));
+    }
+
+    /// Cuts off what nobody would read.
+    fn shorten(&mut self) {
+        [&mut self.field, &mut self.message].into_iter().chain(&mut self.accepted).for_each(shorten);
     }
 }
 
@@ -156,13 +163,23 @@ impl Findings {
         let Self { mut listed, kinds } = self;
         listed.sort_by_key(|diagnostic| (diagnostic.span.is_none(), diagnostic.span.as_ref().map(|span| span.start)));
         let mut places = Places::of(text);
-        listed.iter_mut().for_each(|diagnostic| diagnostic.place(&mut places));
+        listed.iter_mut().for_each(|diagnostic| {
+            diagnostic.place(&mut places);
+            diagnostic.shorten();
+        });
         let left_out = |(kind, cases): (String, BTreeSet<String>)| {
             let count = cases.len().saturating_sub(MAX_OF_A_KIND);
             (count > 0).then_some(LeftOut { kind, count })
         };
         let left_out = kinds.into_iter().filter_map(left_out).collect();
         if listed.is_empty() { Ok(()) } else { Err(Diagnostics { listed, left_out }) }
+    }
+}
+
+fn shorten(text: &mut String) {
+    if let Some((end, _)) = text.char_indices().nth(MAX_CHARACTERS) {
+        text.truncate(end);
+        text.push('…');
     }
 }
 
@@ -294,6 +311,25 @@ mod tests {
         assert_eq!((described, found.len()), (MAX_OF_A_KIND, MAX_OF_A_KIND));
         assert_eq!(found.left_out(), [LeftOut { kind: "unknown field".into(), count: 199_980 }]);
         assert!(found.to_string().ends_with("\nand 199,980 more: unknown field"));
+    }
+
+    #[test]
+    fn what_nobody_would_read_is_cut_off() {
+        let text = |count| "µ".repeat(count);
+        let whole = Diagnostic {
+            field: text(MAX_CHARACTERS),
+            message: text(MAX_CHARACTERS + 1),
+            accepted: Some(text(900_000)),
+            span: None,
+            line: None,
+            column: None,
+        };
+        let mut findings = Findings::default();
+        findings.add("kind", String::new(), || whole.clone());
+        let found = findings.check("").unwrap_err();
+        let Diagnostic { field, message, accepted, .. } = found.iter().next().unwrap();
+        let cut = text(MAX_CHARACTERS) + "…";
+        assert_eq!((field, message, accepted), (&whole.field, &cut, &Some(cut.clone())));
     }
 
     #[test]

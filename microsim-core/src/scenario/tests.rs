@@ -95,6 +95,16 @@ fn a_bad_override_is_named_as_it_was_set() {
 }
 
 #[test]
+fn each_line_has_one_syntax_error_and_a_long_text_one_in_all() {
+    let count = |lines| Scenario::parse(&"=\n".repeat(lines), &[]).unwrap_err();
+    let lines: Vec<_> = count(3).iter().map(|error| error.line).collect();
+    assert_eq!(lines, [1, 2, 3].map(Some), "keys that are there twice are found later");
+    assert_eq!(count(60_000).iter().map(|error| error.line).collect::<Vec<_>>(), [Some(1)]);
+    let sound = ROOM.to_owned() + &"# long\n".repeat(30_000);
+    assert!(Scenario::parse(&sound, &[]).is_ok());
+}
+
+#[test]
 fn values_from_parameters_stand_where_the_parameter_does() {
     let text = "schema = 1\n[parameters]\nr = -1\n[world]\nsize = [9, 9]\n[agar.a]\nradius = '$r'\n";
     let errors = Scenario::parse(text, &[]).unwrap_err();

@@ -208,7 +208,7 @@ impl AppContext {
     }
 
     fn tell_error(&mut self, key: Key, error: &io::Error) {
-        self.tell(words::text_with(key, &[("error", (&error.to_string()).into())]));
+        self.tell(words::text_with(key, &[("error", words::of_error(error.kind()).into())]));
     }
 
     /// Keeps a round that was played to its end, to be watched again. `kept` says whether what it earned was kept.

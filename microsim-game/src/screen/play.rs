@@ -99,9 +99,9 @@ impl Play {
     /// When there is none, or it cannot be read.
     pub(super) fn replay(context: &AppContext) -> Result<Self, String> {
         let record = context.last_game.as_ref().ok_or_else(|| words::text(Key::LastGameNone))?;
-        let replay = Replay::read(record)
-            .map_err(|error| words::text_with(Key::LastGameBroken, &[("problem", (&error.to_string()).into())]))?;
-        Ok(Self::new(Round::again(&replay)?, Paused::Replay, context))
+        let replay = Replay::read(record).ok().and_then(|replay| Round::again(&replay).ok());
+        let round = replay.ok_or_else(|| words::text(Key::LastGameBroken))?;
+        Ok(Self::new(round, Paused::Replay, context))
     }
 
     fn new(round: Round, played: Paused, context: &AppContext) -> Self {

@@ -34,13 +34,12 @@ impl PlayerFolder {
         let Some(storage) = &self.0 else { return (T::default(), None) };
         let bytes = match storage.read(name) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return (T::default(), None),
-            bytes => bytes.map_err(|error| error.to_string()),
+            bytes => bytes.ok(),
         };
         match bytes.and_then(|bytes| parse(&bytes)) {
-            Ok(value) => (value, None),
-            Err(problem) => {
-                let told =
-                    words::text_with(Key::FileSenseless, &[("file", name.into()), ("problem", (&problem).into())]);
+            Some(value) => (value, None),
+            None => {
+                let told = words::text_with(Key::FileSenseless, &[("file", name.into())]);
                 let with = |aside: String| {
                     words::text_with(Key::FilePutAside, &[("told", (&told).into()), ("aside", (&aside).into())])
                 };
@@ -72,10 +71,8 @@ impl PlayerFolder {
     }
 }
 
-/// A value, or in one line why there is none.
-fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
-    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
-    toml::from_str(text).map_err(|error| error.message().lines().next().unwrap_or_default().to_owned())
+fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+    toml::from_str(std::str::from_utf8(bytes).ok()?).ok()
 }
 
 /// Gives a value a name that none has yet, so that it is not overwritten. Returns where it is then.

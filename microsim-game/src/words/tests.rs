@@ -48,6 +48,16 @@ fn plurals_and_decimals_are_those_of_the_language() {
 }
 
 #[test]
+fn errors_are_told_in_words_and_not_in_those_of_the_system() {
+    let told = |error: io::Error| of_file(Key::FileUnwritable, Path::new("a.png"), &error);
+    assert_eq!(told(ErrorKind::StorageFull.into()), "cannot write a.png: there is no room left");
+    assert_eq!(told(io::Error::other("code 5")), "cannot write a.png: the system refuses it");
+    assert_eq!(told(std::fs::read("nowhere").unwrap_err()), "cannot write a.png: it is not there");
+    choose(Language::named("cs").unwrap(), || None);
+    assert_eq!(told(ErrorKind::StorageFull.into()), "Nelze zapsat a.png: není už místo");
+}
+
+#[test]
 fn no_key_is_unused() {
     fn sources(folder: &Path, found: &mut String) {
         for entry in std::fs::read_dir(folder).unwrap().flatten() {

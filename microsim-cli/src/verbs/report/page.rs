@@ -1,5 +1,6 @@
 //! The parts of an HTML page.
 
+use crate::sanitize;
 use std::fmt::{Display, Write};
 
 /// A page that is being put together.
@@ -78,9 +79,13 @@ pub(super) fn folded(summary: &str, html: &str) -> String {
     format!("<details><summary>{}</summary>{html}</details>", escape(summary))
 }
 
-/// Text that cannot be taken for markup.
+/// Text that cannot be taken for markup, and turns no direction of writing.
 pub(super) fn escape(text: impl Display) -> String {
-    text.to_string().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    sanitize::lines(&text.to_string())
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -89,10 +94,11 @@ mod tests {
 
     #[test]
     fn nothing_in_a_name_becomes_markup() {
-        let mut page = Page::new("<script>alert(1)</script>", "\"&");
+        let mut page = Page::new("<script>alert(1)</script>\u{202e}", "\"&");
         page.warning(&["<b>".to_owned()]);
         let html = page.finish("<i>");
         assert!(!html.contains("<script") && !html.contains("<b>") && !html.contains("<i>"), "{html}");
+        assert!(!html.contains('\u{202e}'), "{html}");
         assert!(html.contains("&quot;&amp;"));
     }
 }

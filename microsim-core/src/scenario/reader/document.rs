@@ -10,6 +10,10 @@ use toml::de::{DeTable, DeValue};
 
 /// Most bytes of a text.
 const MAX_BYTES: usize = 1_000_000;
+/// Most dots in keys: each makes a table of a kilobyte, which keys of two bytes would make half a million times.
+const MAX_DOTS: usize = 50_000;
+/// Longest text of which all syntax errors are found, bytes: each takes memory, and there may be as many as bytes.
+const MAX_RECOVERED: usize = 100_000;
 /// Most values of a file, tables and arrays among them.
 const MAX_VALUES: usize = 200_000;
 
@@ -34,7 +38,9 @@ struct Spans {
 impl Document {
     /// Parses the text of this document.
     fn parse<'a>(&self, text: &'a str) -> Result<SpannedValue<'a>, Diagnostics> {
-        let (root, errors) = DeTable::parse_recoverable(text);
+        let (root, mut errors) = parse(text);
+        // Those that the parser finds later may stand before others.
+        errors.sort_by_key(|error| error.span().map(|span| span.start));
         // One syntax error for each line: others there are consequences of it.
         let mut places = Places::of(text);
         let mut last = None;
@@ -180,15 +186,43 @@ impl Document {
     }
 }
 
+/// The values of a text and what is no TOML in it: all of it, or the first of a text that nobody wrote by hand.
+fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<toml::de::Error>) {
+    if text.len() <= MAX_RECOVERED {
+        return DeTable::parse_recoverable(text);
+    }
+    match DeTable::parse(text) {
+        Ok(root) => (root, Vec::new()),
+        Err(first) => (Spanned::new(0..0, DeTable::new()), vec![first]),
+    }
+}
+
 /// Refuses texts before they are parsed that are so long that parsing would take much memory.
 fn check_length(text: &str, overrides: &[(String, String)]) -> Result<(), Diagnostics> {
+    let refuse = |message: String, accepted: String, at: usize| {
+        let span = Some(at..at);
+        let refused =
+            Diagnostic { field: String::new(), message, accepted: Some(accepted), span, line: None, column: None };
+        Err(Diagnostics::only(refused, text))
+    };
     let bytes = text.len() + overrides.iter().map(|(key, value)| key.len() + value.len()).sum::<usize>();
-    if bytes <= MAX_BYTES {
-        return Ok(());
+    if bytes > MAX_BYTES {
+        let message = format!("the file and what is set have {bytes} bytes");
+        return refuse(message, format!("at most {MAX_BYTES} bytes"), text.len().min(MAX_BYTES));
     }
-    let message = format!("the file and what is set have {bytes} bytes");
-    let end = text.len().min(MAX_BYTES);
-    let (accepted, span) = (Some(format!("at most {MAX_BYTES} bytes")), Some(end..end));
-    let refused = Diagnostic { field: String::new(), message, accepted, span, line: None, column: None };
-    Err(Diagnostics::only(refused, text))
+    let dots = dots_in_keys(text) + overrides.iter().map(|(_, value)| dots_in_keys(value)).sum::<usize>();
+    if dots > MAX_DOTS {
+        return refuse(format!("{dots} dots in keys"), format!("at most {MAX_DOTS}"), 0);
+    }
+    Ok(())
+}
+
+/// Dots of a text but for one within a number or a word, which takes more bytes.
+fn dots_in_keys(text: &str) -> usize {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric();
+    let dots = |word: &str| match word.split_once('.') {
+        Some((before, after)) if before.ends_with(is_plain) && after.starts_with(is_plain) && !after.contains('.') => 0,
+        _ => word.matches('.').count(),
+    };
+    text.split(|letter: char| letter.is_whitespace() || ",=[]{}".contains(letter)).map(dots).sum()
 }

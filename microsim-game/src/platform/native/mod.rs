@@ -117,12 +117,12 @@ pub fn rest(time: Duration) {
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     // Before it is opened, which waits for ever where nobody writes to a pipe.
     if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(ErrorKind::InvalidInput, "it is not a regular file"));
+        return Err(ErrorKind::InvalidInput.into());
     }
     let mut bytes = Vec::new();
     File::open(path)?.take(LONGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LONGEST {
-        return Err(io::Error::new(ErrorKind::FileTooLarge, "it is too long"));
+        return Err(ErrorKind::FileTooLarge.into());
     }
     Ok(bytes)
 }

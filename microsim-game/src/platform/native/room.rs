@@ -67,32 +67,32 @@ fn host(server: &str) -> Result<String, String> {
 struct Failure {
     key: Key,
     host: String,
-    error: String,
+    error: ErrorKind,
 }
 
 impl Failure {
     fn told(&self) -> String {
-        words::text_with(self.key, &[("host", (&self.host).into()), ("error", (&self.error).into())])
+        words::text_with(self.key, &[("host", (&self.host).into()), ("error", words::of_error(self.error).into())])
     }
 }
 
 fn connect(host: &str, way: &str) -> Result<WebSocket<TcpStream>, Failure> {
-    let failure = |key, error: String| Failure { key, host: host.to_owned(), error };
-    let unreachable = |error: io::Error| failure(Key::RoomUnreachable, error.to_string());
+    let failure = |key, error| Failure { key, host: host.to_owned(), error };
+    let unreachable = |error: io::Error| failure(Key::RoomUnreachable, error.kind());
     let stream = reach(host).map_err(unreachable)?;
     let config = WebSocketConfig::default()
         .max_message_size(Some(LONGEST_MESSAGE + 1))
         .max_frame_size(Some(LONGEST_MESSAGE + 1))
         .max_write_buffer_size(LONGEST_QUEUE);
     let connected = client::client_with_config(format!("ws://{host}/room/{way}"), stream, Some(config));
-    let (socket, _) = connected.map_err(|error| failure(Key::RoomNone, error.to_string()))?;
+    let (socket, _) = connected.map_err(|_| failure(Key::RoomNone, ErrorKind::Other))?;
     socket.get_ref().set_nonblocking(true).map_err(unreachable)?;
     Ok(socket)
 }
 
 fn reach(host: &str) -> io::Result<TcpStream> {
     let mut failed = ErrorKind::NotFound.into();
-    for address in host.to_socket_addrs()? {
+    for address in host.to_socket_addrs().map_err(|_| ErrorKind::NotFound)? {
         match TcpStream::connect_timeout(&address, TIMEOUT) {
             Ok(stream) => {
                 stream.set_nodelay(true)?;
@@ -234,7 +234,7 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
         }
         let [Notice::Closed(reason)] = &notices[..] else { panic!("{notices:?}") };
-        assert!(reason.starts_with("cannot reach "), "{reason}");
+        assert_eq!(*reason, format!("cannot reach {address}: nobody answers there"));
         assert!(room.poll().is_empty());
     }
 }

@@ -83,7 +83,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// When the page does not take it.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let is_taken = host::tell("download", &path.to_string_lossy(), bytes);
-    is_taken.then_some(()).ok_or_else(|| io::Error::other("the page refuses the download"))
+    is_taken.then_some(()).ok_or(io::ErrorKind::Other.into())
 }
 
 /// Files that were picked or dropped since they were last asked for.

@@ -39,7 +39,7 @@ impl Storage {
     /// # Errors
     /// When there is no room for it; the old value is as it was then.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        host::tell("keep", name, bytes).then_some(()).ok_or_else(|| io::Error::other("the browser has no room for it"))
+        host::tell("keep", name, bytes).then_some(()).ok_or(io::ErrorKind::StorageFull.into())
     }
 
     /// Gives a value another name.

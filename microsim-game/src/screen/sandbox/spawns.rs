@@ -30,7 +30,7 @@ pub(super) fn refusal(name: Key, error: &Error) -> String {
         ErrorKind::Overlap { .. } => told(Key::SandboxOverlap),
         ErrorKind::OutsideWorld { .. } => told(Key::SandboxOutside),
         ErrorKind::TooMany { .. } => words::text(Key::SandboxCrowded).to_owned(),
-        _ => format!("{name}: {error}"),
+        _ => told(Key::SandboxRefused),
     }
 }
 

@@ -174,7 +174,9 @@ impl Tools {
                 stage.set_player(None);
                 return told(Key::SandboxFree);
             }
-            (Tool::Remove, Some(id)) => return stage.world_mut().remove(id).err().map(|error| error.to_string()),
+            (Tool::Remove, Some(id)) => {
+                return stage.world_mut().remove(id).err().and_then(|_| told(Key::SandboxNothing));
+            }
             (Tool::Follow, _) => stage.set_player(found),
             (Tool::Drag, _) => self.grasped = found,
             (Tool::Join, _) => return self.building.join(stage.world_mut(), at, within).and_then(told),
