@@ -25,7 +25,7 @@ const LAYERS: &[(&str, &str)] = &[
     ("event", "collider id kind"),
     ("collision", "geometry instruction_set parallel particle shared"),
     ("solver", "collision config error geometry instruction_set parallel particle spec_field"),
-    ("template", "error float_environment geometry particle solver"),
+    ("template", "error float_environment geometry particle rng solver"),
     ("capability", "chemical collision::obstacle config error geometry id rng spec_field"),
     (
         "organism",

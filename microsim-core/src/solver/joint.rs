@@ -1,7 +1,7 @@
 //! Joints: two places are held at a length, by a spring, or with a limited force.
 //!
 //! `C = |b - a| - l`, two XPBD iterations per substep (see [`super::constraint::Distance`]), forwards and backwards, so that joints
-//! of any number and order make no energy (see `template/sweep.rs`), where a place is a point or the
+//! of any number and order make no energy (see `template/pass.rs`), where a place is a point or the
 //! centre of mass of some particles, which moves with the inverse of their total mass. A spring of frequency `f` and damping
 //! ratio `z` has `k = w^2 / W`, `w = 2 pi f`, `W` the sum of inverse masses, and the damping time `2 z / w`. The multiplier
 //! over `h^2` is the force.

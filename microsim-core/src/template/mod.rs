@@ -5,9 +5,9 @@
 
 mod cut;
 mod order;
+pub(crate) mod pass;
 mod role;
 mod self_contact;
-pub(crate) mod sweep;
 
 use crate::error::{Error, in_range};
 use crate::float_environment::with_default_float_environment;

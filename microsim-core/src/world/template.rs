@@ -5,7 +5,7 @@ use super::change::WorldChange;
 use crate::float_environment::with_default_float_environment;
 use crate::id::TemplateId;
 use crate::template::Template;
-use crate::template::sweep::Sweep;
+use crate::template::pass::Pass;
 
 impl World {
     /// Adds a template for custom bodies, see [`World::spawn_template`].
@@ -43,7 +43,7 @@ impl World {
 
     /// Adds a template at the end.
     pub(super) fn push_template(&mut self, template: Template) {
-        self.sweeps.push(Sweep::new(&template, self.config.substep()));
+        self.passes.push(Pass::new(&template, self.config.substep()));
         self.templates.push(template);
     }
 }

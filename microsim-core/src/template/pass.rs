@@ -27,7 +27,7 @@ const LARGE: f64 = 100.0;
 
 /// What a substep projects of a template.
 #[derive(Clone, Debug)]
-pub(crate) struct Sweep {
+pub(crate) struct Pass {
     /// In the order of projection.
     pub constraints: Vec<Constraint>,
     /// Those of them whose lengths are scaled.
@@ -36,7 +36,7 @@ pub(crate) struct Sweep {
     pub rigid_links: Vec<Constraint>,
 }
 
-impl Sweep {
+impl Pass {
     /// Once forwards where errors decay, in substeps of `h` seconds and at the size of the template, else forwards and backwards.
     pub(crate) fn new(template: &Template, h: f32) -> Self {
         let (constraints, scaled) = (template.constraints(), template.scaled());
@@ -204,7 +204,7 @@ mod tests {
     }
 
     fn is_there_and_back(template: &Template) -> bool {
-        Sweep::new(template, H).constraints.len() > template.constraints().len()
+        Pass::new(template, H).constraints.len() > template.constraints().len()
     }
 
     #[test]
@@ -260,7 +260,7 @@ mod tests {
         let template = builder.build().unwrap();
         // There and back: the last node has one link.
         let [first, second] = [link(2, 3, 0.0), link(0, 1, 0.0)].map(Constraint::from);
-        assert_eq!(Sweep::new(&template, H).rigid_links, [first.clone(), second.clone(), second, first]);
+        assert_eq!(Pass::new(&template, H).rigid_links, [first.clone(), second.clone(), second, first]);
     }
 
     #[test]
@@ -277,7 +277,7 @@ mod tests {
         }
         builder.constraint(Rope { a: 0, b: 3, max_length: 4.0 });
         let template = builder.build().unwrap();
-        let Sweep { constraints, scaled, .. } = Sweep::new(&template, H);
+        let Pass { constraints, scaled, .. } = Pass::new(&template, H);
         let all = template.constraints();
         assert_eq!((constraints.len(), &constraints[42]), (43, &all[21]));
         for k in 0..21 {
