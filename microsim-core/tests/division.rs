@@ -148,6 +148,26 @@ fn a_furrow_that_cannot_close_in_time_is_abandoned() {
     assert!(far / near < 1.15, "round again, {near} to {far}");
 }
 
+#[test]
+fn the_smallest_cells_that_may_divide_do_so_in_any_substep() {
+    let mut divided = 0;
+    for (radius, substeps) in
+        [6.0f32, 6.3, 6.6, 7.0].into_iter().flat_map(|radius| [4, 8, 32].map(|substeps| (radius, substeps)))
+    {
+        let mut world = World::new(WorldConfig { substeps, ..WorldConfig::default() }).unwrap();
+        let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), ..AmoeboidCellSpec::default() };
+        let cell = world.spawn(&spec.into(), Placement::at(CENTRE.x, CENTRE.y)).unwrap();
+        run(&mut world, &Inputs::new(), 10);
+        world.divide(cell).unwrap();
+        let event = finish(&mut world, "small");
+        let is_refused = matches!(event, Some(Event::DivisionRefused { reason: Refusal::TooSmall, .. }));
+        let is_divided = matches!(event, Some(Event::Divided { .. }));
+        assert!(is_refused || is_divided, "radius {radius}, {substeps} substeps: {event:?}");
+        divided += u32::from(is_divided);
+    }
+    assert!((3..12).contains(&divided), "both are tried: {divided}");
+}
+
 /// A cell of this radius with prey inside, taken in by one way.
 fn fed(way: IngestionWay, radius: f32, prey: &[OrganismSpec]) -> (World, OrganismId, Vec<OrganismId>) {
     let (phagocytosis, radii) = (by(way), Vec2::splat(radius));

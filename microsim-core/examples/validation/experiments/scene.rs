@@ -75,6 +75,11 @@ pub(crate) fn last_particle(world: &World, id: OrganismId) -> ParticleView {
     particles(world, id).pop().expect("organisms of these experiments have particles and stay")
 }
 
+pub(crate) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    sum / count
+}
+
 /// The line through points that is nearest to them: its slope and its value at 0.
 pub(crate) fn fit(points: &[[f64; 2]]) -> [f64; 2] {
     let count = points.len() as f64;

@@ -40,7 +40,8 @@ impl World {
         // What rounds up first is divided evenly then.
         let is_even = organism.body.membrane().is_some_and(Membrane::is_active);
         let smaller = |count: usize, all: usize| if is_even { all / 2 } else { count.min(all - count) };
-        let is_small = |count: usize, all: usize, least: u32| smaller(count, all) < least as usize;
+        // Some particles change sides until the furrow is closed.
+        let is_small = |count: usize, all: usize, least: u32| smaller(count, all) * 9 < least as usize * 10;
         if is_small(fluid.filter(|&at| ahead(at)).count(), organism.fluid_particles.len(), params.least_particles)
             || is_small(outline.iter().filter(|&&at| ahead(at)).count(), outline.len(), params.least_nodes)
         {

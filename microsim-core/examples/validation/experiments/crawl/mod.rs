@@ -3,7 +3,7 @@
 mod pseudopods;
 mod silhouette;
 
-use super::scene::Stepping;
+use super::scene::{Stepping, mean};
 use super::{Experiment, Order, Outcome, Row};
 use microsim_core::glam::Vec2;
 use microsim_core::{
@@ -135,11 +135,6 @@ fn of_a_film(film: &[Silhouette], tracker: &Tracker) -> Figures {
         voids: 0.0,
         leaks: 0,
     }
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    sum / count
 }
 
 fn deviation(values: &[f64]) -> f64 {
