@@ -1,4 +1,4 @@
-//! Ctrl-C (SIGINT), SIGTERM and SIGHUP: the first asks to stop at the next step, the second ends the process.
+//! Ctrl-C (SIGINT), on Unix SIGTERM and SIGHUP too: the first asks to stop at the next step, the second ends the process.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -21,7 +21,8 @@ pub(crate) fn listen() {
     let _ = signal_hook::flag::register(SIGXFSZ, &IS_TOO_LONG);
 }
 
-/// Begins to listen: to Ctrl-C, Ctrl-Break and the closing of the console, all of which count as SIGINT.
+/// Begins to listen: to Ctrl-C and Ctrl-Break, which count as SIGINT. When its console is closed, Windows ends the process at once:
+/// the run can be resumed from its last checkpoint.
 #[cfg(windows)]
 pub(crate) fn listen() {
     const SIGINT: usize = 2;

@@ -179,11 +179,12 @@ fn files_that_would_take_the_place_of_something_are_refused() {
     let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
     #[cfg(unix)]
     cases.extend([(vec!["--save", &socket], "not a regular file"), (vec!["--record", &socket], "not a regular file")]);
-    let link = folder.path("link");
+    let links = [("/dev/stdout", folder.path("to a device")), ("file", folder.path("to a file"))];
     #[cfg(unix)]
-    std::os::unix::fs::symlink("/dev/stdout", &link).unwrap();
-    #[cfg(unix)]
-    cases.extend([(vec!["--save", &link], "not a regular file"), (vec!["--record", &link], "not a regular file")]);
+    for (target, link) in &links {
+        std::os::unix::fs::symlink(target, link).unwrap();
+        cases.extend([(vec!["--save", link], "not a regular file"), (vec!["--record", link], "not a regular file")]);
+    }
     for (options, problem) in cases {
         refused(&[&["run", "empty", "--steps", "2"], &options[..]].concat(), problem);
     }

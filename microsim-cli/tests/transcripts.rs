@@ -118,8 +118,9 @@ mkdir -p .config/fish/completions .local/share/bash-completion/completions docs
 microsim sweep plan empty --steps 1 --seeds 0..9 > plan.jsonl 2> /dev/null
 microsim sweep run plan.jsonl --store results 2> /dev/null
 for player in ada ben; do # what a match that came apart leaves
+    [ $player = ada ] && seed=1 || seed=2
     mkdir -p $player
-    microsim run empty --steps 3 --record $player/desync.replay --snapshots 0.05 --out $player/run > /dev/null 2>&1
+    microsim run empty --steps 3 --seed $seed --record $player/desync.replay --snapshots 0.05 --out $player/run > /dev/null 2>&1
     cp $player/run/snapshots/*.snapshot $player/desync.snapshot
 done
 command -v man > /dev/null || man() { cat; }
@@ -175,7 +176,10 @@ fn every_command_of_a_page_can_be_run() {
                 quick = quick.replace(long, short);
             }
             let text = transcript(&format!("{SETUP}cp run.replay other.replay 2> /dev/null\n{quick}"), folder.root());
-            assert!(!text.contains("[exit code"), "{}: {line}: {text}", path.display());
+            let exit = if line.contains("ben/desync") { "[exit code 1]" } else { "" };
+            let is_as_expected =
+                text.split_once("[exit code").map_or(exit.is_empty(), |_| text.contains(exit) && !exit.is_empty());
+            assert!(is_as_expected, "{}: {line}: {text}", path.display());
             count += 1;
         }
     }

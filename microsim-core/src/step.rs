@@ -219,13 +219,13 @@ fn project_fluids(world: &mut World, h: f32) {
 }
 
 fn project_constraints(world: &mut World, h: f32, substep: u32) {
-    let World { config, particles, passes, blocks, sleep, organisms, obstacles, scratch, dispatch, .. } = world;
+    let World { config, particles, projections, blocks, sleep, organisms, obstacles, scratch, dispatch, .. } = world;
     let share = (substep + 1) as f32 / config.substeps as f32;
     let margins = scratch.broad_phase.margins.blocks_mut();
     let awake = blocks.iter().zip(margins).zip(0..).filter(|(_, k)| !sleep.is_asleep(*k)).map(|(block, _)| block);
     let mut awake: Vec<_> = awake.collect();
     parallel::for_each(block::batches(&mut awake, particles), |mut batch| {
-        let pass = &passes[batch.template()];
+        let projection = &projections[batch.template()];
         dispatch.run(
             #[inline(always)]
             || {
@@ -240,7 +240,7 @@ fn project_constraints(world: &mut World, h: f32, substep: u32) {
                 );
             },
         );
-        batch.project(&pass.constraints, &pass.scaled, share, h, *dispatch);
+        batch.project(&projection.constraints, &projection.scaled, share, h, *dispatch);
     });
     membrane::project(membranes(organisms), particles, h, *dispatch);
     contraction::project(&scratch.contractions, particles, h);
@@ -270,7 +270,7 @@ fn project_contacts(world: &mut World) {
 
 /// Discs push each other apart; in long substeps, and where they press hard, bodies get their links back.
 fn project_discs(world: &mut World) {
-    let World { config, particles, passes, blocks, organisms, exemptions, sleep, scratch, dispatch, .. } = world;
+    let World { config, particles, projections, blocks, organisms, exemptions, sleep, scratch, dispatch, .. } = world;
     let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
     let late = broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     bound_driven_discs(late.iter_mut(), particles, organisms);
@@ -281,7 +281,7 @@ fn project_discs(world: &mut World) {
         });
     }
     broad_phase.contacts.lists_mut().for_each(|contacts| pressed.note_neighbours(contacts));
-    pressed.relink(blocks, |template| &passes[template].rigid_links, particles, contact_records, *dispatch);
+    pressed.relink(blocks, |template| &projections[template].rigid_links, particles, contact_records, *dispatch);
 }
 
 fn update_velocities(world: &mut World, h: f32) {

@@ -100,6 +100,14 @@ fn mistakes_take_no_more_memory() {
             );
         }
     }
+    let nested = format!("[{}]\n{}", "k".repeat(400_000), (0..50_000).map(|k| format!("a{k}=1\n")).collect::<String>());
+    assert!(refused(&nested, &[]).contains("names that are too long"));
+    let many = ("output.snapshots".to_owned(), format!("[{}]", vec!["-1"; 199_000].join(",")));
+    assert!(refused(ROOM, &[many]).contains("more: -… is out of range, as set by"));
+    let deep = ("world.".repeat(150_000) + "x", "1".to_owned());
+    assert!(refused(ROOM, &[deep]).contains("a path of 150001 parts"));
+    let long = ("k".repeat(400_000), "1".to_owned());
+    assert!(refused(ROOM, &[long]).contains("unknown parameter"));
     let keys: String = (0..110_000).map(|k| format!("a{k:x}=1\n")).collect();
     assert!(refused(&keys, &[]).contains("and 109,980 more: unknown field"));
 }

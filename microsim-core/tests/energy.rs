@@ -3,10 +3,12 @@
 
 #![allow(clippy::disallowed_methods, reason = "tests may use all of the standard library's numbers")]
 
+use microsim_core::geometry::polygon::signed_area;
 use microsim_core::glam::Vec2;
+
 use microsim_core::{
-    Actuation, CollisionGroups, Inputs, JointEnd, JointKind, JointSpec, Node, OrganismId, Placement, Rng, Template,
-    World, WorldConfig,
+    Actuation, Anchor, Area, CollisionGroups, Distance, Inputs, JointEnd, JointKind, JointSpec, Node, OrganismId,
+    Placement, Rng, Template, World, WorldConfig, YieldingDistance,
 };
 use std::f32::consts::TAU;
 
@@ -60,6 +62,36 @@ fn body(shape: usize, rng: &mut Rng) -> (Template, Vec<f32>) {
     (builder.build().unwrap(), nodes.into_iter().map(|(_, mass)| mass).collect())
 }
 
+/// A body of links of all kinds, and the area of a ring. No bends: a corner that folds over by more than half a turn makes energy.
+fn body_of_kinds(shape: usize, rng: &mut Rng) -> (Template, Vec<f32>) {
+    let nodes = nodes(rng);
+    let count = nodes.len() as u32;
+    let mut builder = Template::builder();
+    for &(place, mass) in &nodes {
+        builder.node(Node { groups: CollisionGroups::NONE, ..Node::disc(place, mass, 0.01) });
+    }
+    for [a, b] in pairs(shape, count, rng) {
+        let rest_length = nodes[a as usize].0.distance(nodes[b as usize].0);
+        let link = Distance { a, b, rest_length, compliance: one_of(&[0.0, 1e-8, 1e-6, 1e-4], rng), damping: 0.0 };
+        match rng.next_u32() % 4 {
+            0 => builder.constraint(YieldingDistance::from(Distance { compliance: 1e-7, ..link })),
+            1 => builder.constraint(Anchor {
+                node: a,
+                anchor: b,
+                rest_length,
+                max_length: 2.0 * rest_length,
+                compliance: link.compliance,
+            }),
+            _ => builder.constraint(link),
+        };
+    }
+    let ring: Vec<u32> = (1..count).collect();
+    let outline: Vec<Vec2> = nodes[1..].iter().map(|node| node.0).collect();
+    let compliance = one_of(&[0.0, 1e-6, 1e-4], rng);
+    builder.constraint(Area { rest_area: signed_area(&outline), ring, compliance, is_upper_bound: false });
+    (builder.build().unwrap(), nodes.into_iter().map(|(_, mass)| mass).collect())
+}
+
 /// Gives all nodes random velocities, and returns the largest share of their energy that they have in five seconds.
 fn most_energy(world: &mut World, bodies: &[(OrganismId, Vec<f32>)], rng: &mut Rng) -> f64 {
     let (mut kick, mut given) = (Inputs::new(), 0.0);
@@ -90,6 +122,22 @@ fn a_body_of_any_links_makes_no_energy() {
         let (template, masses) = body(case, &mut rng);
         let template = world.add_template(template);
         let id = world.spawn_template(template, Placement::at(200.0, 200.0)).unwrap();
+        let most = most_energy(&mut world, &[(id, masses)], &mut rng);
+        assert!(most < MOST, "case {case}: {most}");
+    }
+}
+
+#[test]
+fn a_body_of_any_kinds_and_mass_makes_no_energy() {
+    let mut rng = Rng::new(8, 8);
+    for case in 0..200 {
+        let mut world = room(one_of(&[1, 4, 8, 16], &mut rng));
+        let (template, masses) = body_of_kinds(case, &mut rng);
+        let template = world.add_template(template);
+        let id = world.spawn_template(template, Placement::at(200.0, 200.0)).unwrap();
+        let lighter = one_of(&[1e-4, 1e-2, 1.0, 100.0], &mut rng);
+        world.set_mass(id, lighter * masses.iter().sum::<f32>()).unwrap();
+        let masses = masses.iter().map(|mass| lighter * mass).collect();
         let most = most_energy(&mut world, &[(id, masses)], &mut rng);
         assert!(most < MOST, "case {case}: {most}");
     }

@@ -211,9 +211,13 @@ pub fn of_error(kind: ErrorKind) -> &'static str {
         ErrorKind::InvalidInput | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Key::ErrorNoFile,
         ErrorKind::FileTooLarge => Key::ErrorTooLong,
         ErrorKind::InvalidData => Key::FileNotText,
-        ErrorKind::ConnectionRefused
+        ErrorKind::AddrNotAvailable
+        | ErrorKind::BrokenPipe
+        | ErrorKind::ConnectionAborted
+        | ErrorKind::ConnectionRefused
         | ErrorKind::ConnectionReset
         | ErrorKind::HostUnreachable
+        | ErrorKind::NetworkDown
         | ErrorKind::NetworkUnreachable
         | ErrorKind::TimedOut => Key::ErrorSilent,
         _ => Key::ErrorOther,

@@ -85,7 +85,7 @@ impl Outputs {
         let Some(name) = name.filter(|_| !path.is_dir()) else {
             return Err(Failure::Message(format!("{} is not the name of a file", path.display())));
         };
-        // A device, a pipe or a link to one would be replaced by a file.
+        // A device, a pipe or a link would be replaced by a file.
         if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
             return Err(Failure::Message(format!("{} is not a regular file", path.display())));
         }

@@ -1,7 +1,7 @@
 //! Joints: two places are held at a length, by a spring, or with a limited force.
 //!
 //! `C = |b - a| - l`, two XPBD iterations per substep (see [`super::constraint::Distance`]), forwards and backwards, so that joints
-//! of any number and order make no energy (see `template/pass.rs`), where a place is a point or the
+//! of any number and order make no energy (see `template/projection.rs`), where a place is a point or the
 //! centre of mass of some particles, which moves with the inverse of their total mass. A spring of frequency `f` and damping
 //! ratio `z` has `k = w^2 / W`, `w = 2 pi f`, `W` the sum of inverse masses, and the damping time `2 z / w`. The multiplier
 //! over `h^2` is the force.
@@ -13,6 +13,7 @@ use crate::particle::Particles;
 use crate::particle::mass_properties::movable;
 use glam::Vec2;
 use std::f32::consts::TAU;
+use std::iter;
 use std::ops::Range;
 
 /// One end in a step.
@@ -90,6 +91,15 @@ struct Place {
     inv_mass: f32,
 }
 
+/// What a joint does to its ends.
+struct Pull {
+    /// Multiplier in this substep, with what was done so far.
+    lambda: f32,
+    /// From the first end to the second.
+    normal: Vec2,
+    inv_masses: [f32; 2],
+}
+
 impl Joints {
     pub(crate) fn clear(&mut self) {
         self.list.clear();
@@ -109,20 +119,49 @@ impl Joints {
     /// Projects the joints forwards and backwards, the last one once, in a substep of `h` seconds.
     pub(crate) fn project(&mut self, p: &mut Particles, h: f32) {
         let Self { list, particles, .. } = self;
-        for joint in &mut *list {
+        let Some((last, others)) = list.split_last_mut() else { return };
+        for joint in &mut *others {
             joint.lambda = 0.0;
-            joint.project(particles, p, h);
+            joint.project_forwards(particles, p, h);
         }
-        for joint in list.iter_mut().rev().skip(1) {
-            joint.project(particles, p, h);
+        last.lambda = 0.0;
+        for joint in iter::once(last).chain(others.iter_mut().rev()) {
+            joint.project_backwards(particles, p, h);
         }
     }
 }
 
 impl Joint {
-    fn project(&mut self, list: &[u32], p: &mut Particles, h: f32) {
+    /// With no more than what breaks it: that is decided on the way back.
+    fn project_forwards(&mut self, list: &[u32], p: &mut Particles, h: f32) {
+        let Some(pull) = self.pull(list, p, h) else { return };
+        let most = self.law.break_force * h * h;
+        self.exert(Pull { lambda: pull.lambda.clamp(-most, most), ..pull }, list, p);
+    }
+
+    /// With the force of this substep, which is measured, or which breaks it.
+    fn project_backwards(&mut self, list: &[u32], p: &mut Particles, h: f32) {
+        let Some(pull) = self.pull(list, p, h) else { return };
+        let force = pull.lambda.abs() / (h * h);
+        self.is_broken = force > self.law.break_force;
+        self.force = if force > self.force { force } else { self.force };
+        if !self.is_broken {
+            self.exert(pull, list, p);
+        }
+    }
+
+    /// Moves the ends by what a multiplier is more than the one so far.
+    fn exert(&mut self, Pull { lambda, normal, inv_masses: [a, b] }: Pull, list: &[u32], p: &mut Particles) {
+        let more = lambda - self.lambda;
+        self.lambda = lambda;
+        self.ends[0].shift(normal * (-more * a), list, p);
+        self.ends[1].shift(normal * (more * b), list, p);
+    }
+
+    /// What it asks for now; `None` where nothing is to be done.
+    fn pull(&self, list: &[u32], p: &Particles, h: f32) -> Option<Pull> {
         if self.is_broken {
-            return;
+            return None;
         }
         let [a, b] = self.ends.each_ref().map(|end| end.present(list, p));
         // A weight on a joint of 10 units stretches it by 4e-5 units in a substep, of which `f32` would lose a fiftieth.
@@ -132,7 +171,7 @@ impl Joint {
         let weight = a.inv_mass + b.inv_mass;
         // What is no longer finite harms nobody else.
         if !(length > 0.0 && length < f64::INFINITY && weight > 0.0) {
-            return;
+            return None;
         }
         let moved = (b.moved - a.moved).to_array().map(f64::from);
         let earlier = [0, 1].map(|k| across[k] - moved[k]);
@@ -142,15 +181,7 @@ impl Joint {
         let cosine = (way[0] * across[0] + way[1] * across[1]) / (long * length);
         let normal = Vec2::from(way.map(|way| (way / long) as f32));
         let lambda = self.law.multiplier([before, length], weight, cosine as f32, self.lambda, h);
-        let force = lambda.abs() / (h * h);
-        self.is_broken = force > self.law.break_force;
-        self.force = if force > self.force { force } else { self.force };
-        if !self.is_broken {
-            let more = lambda - self.lambda;
-            self.lambda = lambda;
-            self.ends[0].shift(normal * (-more * a.inv_mass), list, p);
-            self.ends[1].shift(normal * (more * b.inv_mass), list, p);
-        }
+        Some(Pull { lambda, normal, inv_masses: [a.inv_mass, b.inv_mass] })
     }
 }
 
@@ -265,6 +296,28 @@ mod tests {
         let before = p.x.clone();
         (0..2).for_each(|_| breaking.project(&mut p, H));
         assert!(breaking.list[0].is_broken && p.x == before);
+    }
+
+    #[test]
+    fn what_the_way_back_takes_off_is_no_force() {
+        // The first joint takes the disc from 2 to 1, the second one to 0.5, and the first one back to 1.
+        let first = |break_force| {
+            let mut p = line(1.0, [1.0, 1.0]);
+            p.x[0] = 2.0;
+            let joint = |(length, break_force)| {
+                let ends = [End::place(Vec2::ZERO, Vec2::ZERO), End::Particles { range: 0..1, is_static: false }];
+                let law = Law { break_force, ..Law::rigid(length) };
+                Joint { ends, shift: Vec2::ZERO, law, lambda: 0.0, force: 0.0, is_broken: false }
+            };
+            let list = [(1.0, break_force), (0.5, f32::INFINITY)].map(joint).to_vec();
+            let mut joints = Joints { list, particles: vec![0], held: Vec::new() };
+            joints.project(&mut p, H);
+            assert_eq!(p.x[0], 1.0);
+            joints.list.remove(0)
+        };
+        let whole = 1.0 / (H * H);
+        assert!((first(f32::INFINITY).force - 0.5 * whole).abs() < 1e-2 * whole);
+        assert!(!first(0.75 * whole).is_broken);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Position-based dynamics over the particle store: constraints, contacts and fluid. Knows no biology.
 //!
-//! Small substeps, one iteration each, multipliers not stored (Macklin et al. 2019). Each kind of constraint is one file in
+//! Small substeps, one iteration each, or one there and back, multipliers not stored (Macklin et al. 2019). Each kind of constraint is one file in
 //! [`constraint`]; all of them run over any number of lanes ([`lanes`]).
 
 pub(crate) mod block;

@@ -5,7 +5,7 @@
 
 mod cut;
 mod order;
-pub(crate) mod pass;
+pub(crate) mod projection;
 mod role;
 mod self_contact;
 

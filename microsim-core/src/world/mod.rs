@@ -69,7 +69,7 @@ use crate::solver::joint::Joints;
 use crate::solver::relink::Pressed;
 use crate::supply::Drain;
 use crate::template::Template;
-use crate::template::pass::Pass;
+use crate::template::projection::Projection;
 use change::{Changes, WorldChange};
 use contact_report::ContactReports;
 use contacts::Touching;
@@ -129,7 +129,7 @@ pub struct World {
     pub(crate) drains: Arena<Box<Drain>>,
     /// Of each template.
     #[serde(skip)]
-    pub(crate) passes: Shared<Vec<Pass>>,
+    pub(crate) projections: Shared<Vec<Projection>>,
     /// The walls, then those of the table.
     #[serde(skip)]
     pub(crate) obstacles: Shared<Vec<Obstacle>>,
@@ -195,7 +195,7 @@ impl Clone for World {
             contact_reports,
             emitters,
             drains,
-            passes,
+            projections,
             obstacles,
             changes,
             scratch,
@@ -221,7 +221,7 @@ impl Clone for World {
         self.contact_reports.clone_from(contact_reports);
         self.emitters.clone_from(emitters);
         self.drains.clone_from(drains);
-        self.passes.clone_from(passes);
+        self.projections.clone_from(projections);
         self.obstacles.clone_from(obstacles);
         self.changes.clone_from(changes);
         self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
@@ -250,7 +250,7 @@ impl World {
             config,
             particles: Particles::default(),
             templates: Shared::default(),
-            passes: Shared::default(),
+            projections: Shared::default(),
             obstacle_table: ObstacleTable::default(),
             presences: Presences::default(),
             contact_reports: ContactReports::default(),

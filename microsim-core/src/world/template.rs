@@ -4,8 +4,9 @@ use super::World;
 use super::change::WorldChange;
 use crate::float_environment::with_default_float_environment;
 use crate::id::TemplateId;
+use crate::shared::Shared;
 use crate::template::Template;
-use crate::template::pass::Pass;
+use crate::template::projection::Projection;
 
 impl World {
     /// Adds a template for custom bodies, see [`World::spawn_template`].
@@ -43,7 +44,14 @@ impl World {
 
     /// Adds a template at the end.
     pub(super) fn push_template(&mut self, template: Template) {
-        self.passes.push(Pass::new(&template, self.config.substep()));
+        self.projections.push(Projection::new(&template, self.config.substep()));
         self.templates.push(template);
+    }
+
+    /// Finds how all templates are projected, which is no part of the state.
+    pub(super) fn find_projections(&mut self) {
+        let h = self.config.substep();
+        let found = self.templates.iter().map(|template| Projection::new(template, h)).collect();
+        self.projections = Shared::new(found);
     }
 }

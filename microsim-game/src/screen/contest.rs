@@ -3,7 +3,7 @@
 use super::context::AppContext;
 use super::lobby::clock;
 use super::steer::{Hands, draw_prey};
-use super::{MainScreen, Next, Screen, new_seed};
+use super::{MainScreen, Next, Screen, seed_of_match};
 use crate::draw::palette::PLAYERS;
 use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
@@ -73,8 +73,10 @@ impl Contest {
             let round = game.session().round();
             let cell = game.own().and_then(|own| round.players().nth(own));
             let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
+            let was_equal = game.session().desync().is_none();
             let is_taken = room.advance(game, intent, clock());
-            *waiting = if is_taken { 0 } else { *waiting + 1 };
+            let parts = was_equal && game.session().desync().is_some();
+            *waiting = if is_taken || parts { 0 } else { *waiting + 1 };
             heard.extend_from_slice(game.session().heard());
             gains.add(game.session().gains().iter().copied());
             game.session().round().world()
@@ -162,7 +164,7 @@ impl Contest {
 
 impl Screen for Contest {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = new_seed(context);
+        let seed = seed_of_match(context);
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         let current = if self.cut_since.is_none() { Some(&mut self.game) } else { None };
         // No other match begins while this one is on; after a cut this one begins again.

@@ -2,7 +2,7 @@
 
 use super::context::AppContext;
 use super::page::MenuPage;
-use super::{MainScreen, Next, Screen, new_seed};
+use super::{MainScreen, Next, Screen, seed_of_match};
 use crate::draw::palette::PLAYERS;
 use crate::input::{Input, Move};
 use crate::network::room::{Room, Seat};
@@ -61,7 +61,7 @@ impl Lobby {
 
 impl Screen for Lobby {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = context.game.seed.unwrap_or_else(|| new_seed(context));
+        let seed = seed_of_match(context);
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         if let Some(game) = room.update(clock(), seed, None) {
             return Next::Show(MainScreen::Contest(Box::new(game)));

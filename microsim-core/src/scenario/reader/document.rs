@@ -16,6 +16,10 @@ const MAX_DOTS: usize = 50_000;
 const MAX_RECOVERED: usize = 100_000;
 /// Most values of a file, tables and arrays among them.
 const MAX_VALUES: usize = 200_000;
+/// Most bytes of the paths of all values: a long name of a table is part of the path of each value in it.
+const MAX_PATHS: usize = 20_000_000;
+/// Most characters of an override that a message repeats.
+const MAX_REPEATED: usize = 80;
 
 /// The text and the spans of every value in it, by dotted path.
 ///
@@ -26,7 +30,12 @@ pub(crate) struct Document {
     pub text: String,
     pub overrides: Vec<(String, String)>,
     spans: BTreeMap<String, Spans>,
+    /// Bytes of all paths.
+    paths: usize,
 }
+
+/// The path of a value, what is wrong, and what is accepted.
+type TooMuch = (String, &'static str, String);
 
 /// Where a value and its key stand, bytes of the text.
 #[derive(Clone, Debug)]
@@ -62,7 +71,7 @@ impl Document {
         overrides: &'a [(String, String)],
     ) -> Result<(DeTable<'a>, Self), Diagnostics> {
         check_length(text, overrides)?;
-        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), spans: BTreeMap::new() };
+        let mut document = Self { text: text.to_owned(), overrides: overrides.to_vec(), ..Self::default() };
         let mut root = document.parse(text)?;
         let mut found = Findings::default();
         for (index, (key, value)) in overrides.iter().enumerate() {
@@ -77,9 +86,8 @@ impl Document {
                 document.diagnostic_at(span, field.to_owned(), message, Some(accepted))
             });
         });
-        if let Err(path) = document.record("", 0..0, &root) {
-            let accepted = format!("at most {MAX_VALUES} values in a file");
-            found.add_diagnostic(document.diagnostic(&path, "one value too many", Some(accepted)));
+        if let Err((path, message, accepted)) = document.record("", 0..0, &root) {
+            found.add_diagnostic(document.diagnostic(&path, message, Some(accepted)));
         }
         found.check(text)?;
         match root.into_inner() {
@@ -114,7 +122,10 @@ impl Document {
     ) -> Diagnostic {
         let beyond = span.start.checked_sub(self.text.len() + 1);
         if let Some((key, value)) = beyond.and_then(|index| self.overrides.get(index)) {
-            message = format!("{message}, as set by `{key}={value}`");
+            let whole = format!("{key}={value}");
+            let mut repeated: String = whole.chars().take(MAX_REPEATED).collect();
+            repeated.push_str(if repeated.len() < whole.len() { "…" } else { "" });
+            message = format!("{message}, as set by `{repeated}`");
         }
         let span = beyond.is_none().then_some(span);
         Diagnostic { field, message, accepted, span, line: None, column: None }
@@ -162,10 +173,15 @@ impl Document {
         }
     }
 
-    /// Records a value and all that it holds; an error with the path of the first value that is one too many.
-    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) -> Result<(), String> {
+    /// Records a value and all that it holds; of the first one that is too much its path, what is wrong, and what is accepted.
+    fn record(&mut self, path: &str, key: Range<usize>, value: &SpannedValue<'_>) -> Result<(), TooMuch> {
+        self.paths += path.len();
         if self.spans.len() == MAX_VALUES {
-            return Err(path.to_owned());
+            return Err((path.to_owned(), "one value too many", format!("at most {MAX_VALUES} values in a file")));
+        }
+        if self.paths > MAX_PATHS {
+            let accepted = format!("paths of all values of at most {MAX_PATHS} bytes together");
+            return Err((path.to_owned(), "names that are too long", accepted));
         }
         let spans = Spans { key, value: value.span() };
         self.spans.insert(path.to_owned(), spans);

@@ -12,6 +12,9 @@ const SETTABLE: [&str; 4] = ["name", "description", "seed", "duration"];
 /// Tables that a path may name although the file does not have them.
 const OPTIONAL: [&str; 7] = ["world", "step", "invariants", "output", "measures", "trajectories", "frames"];
 
+/// Most parts of a path; no value lies as deep.
+const MAX_PARTS: usize = 16;
+
 /// What is wrong, and what would be accepted.
 type Refusal = (String, String);
 
@@ -37,6 +40,10 @@ fn path_of<'a>(root: &SpannedValue<'_>, key: &'a str) -> Result<Vec<&'a str>, Re
         return Ok(vec!["parameters", name]);
     }
     let is_field = name == key && (key.contains('.') || SETTABLE.contains(&key));
+    let parts = name.split('.').count();
+    if is_field && parts > MAX_PARTS {
+        return Err((format!("a path of {parts} parts"), format!("at most {MAX_PARTS}")));
+    }
     if !is_field {
         let (message, accepted) = unknown("parameter", name, names.into_iter().chain(SETTABLE));
         return Err((message, format!("{accepted}, or a path such as world.damping")));

@@ -3,7 +3,7 @@
 //! Two inequality constraints on `d = |x - anchor|`: `d <= l_rest` with compliance `alpha` (the pull home), then
 //! `d <= l_max` rigidly (the bound). The anchor is a node of infinite mass that collides with nothing.
 
-use super::{Constrain, Constraint, MAX_LENGTH, PULL, Row, check_nodes};
+use super::{Constrain, Constraint, JacobianRow, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::particle::Columns;
 use crate::solver::lanes::{Span, pull_within};
@@ -34,8 +34,8 @@ impl Constrain for Anchor {
         Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
     }
 
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
-        Row::of_pair([self.node, self.anchor], self.compliance, places)
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
+        JacobianRow::of_pair([self.node, self.anchor], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

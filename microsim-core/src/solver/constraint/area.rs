@@ -3,7 +3,7 @@
 //! `C = 1/2 sum_i (x_i y_{i+1} - x_{i+1} y_i) - A`, gradient of node `i` = `1/2 (y_{i+1} - y_{i-1}, x_{i-1} - x_{i+1})`
 //! (Mueller et al. 2007, section 4.3, volume conservation, in two dimensions).
 
-use super::{Constrain, Constraint, MAX_LENGTH, PULL, Row, check_ring};
+use super::{Constrain, Constraint, JacobianRow, MAX_LENGTH, PULL, check_ring};
 use crate::error::{Error, in_range};
 use crate::instruction_set::each;
 use crate::particle::Columns;
@@ -33,11 +33,11 @@ impl Constrain for Area {
         Some(Self { compliance: 2.0 * self.compliance, ..self.clone() }.into())
     }
 
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
         let n = self.ring.len();
         let place = |k: usize| places[self.ring[k % n] as usize];
         let gradient = (0..n).map(|k| (self.ring[k], -0.5 * (place(k + 1) - place(k + n - 1)).perp())).collect();
-        vec![Row { gradient, compliance: self.compliance }]
+        vec![JacobianRow { gradient, compliance: self.compliance }]
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

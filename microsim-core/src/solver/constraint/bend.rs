@@ -5,7 +5,7 @@
 //! and the cosine of `theta - phi` times `|e| |f|`, so that no angle is computed. Gradients are `(1 + C^2 / 4)` times those of
 //! `theta`: `perp(e) / |e|^2` at `a`, `perp(f) / |f|^2` at `c`, and minus their sum at `b`.
 
-use super::{Constrain, Constraint, MAX_LENGTH, PULL, Row, check_nodes};
+use super::{Constrain, Constraint, JacobianRow, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::geometry::ring::unit_vector;
 use crate::instruction_set::each;
@@ -48,11 +48,11 @@ impl Constrain for Bend {
     }
 
     /// At rest `C` changes as the turn does.
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
         let [a, b, c] = [self.a, self.b, self.c].map(|slot| places[slot as usize]);
         let [at_a, at_c] = [b - a, c - b].map(|part| part.perp() / part.length_squared());
         let gradient = vec![(self.a, at_a), (self.b, -at_a - at_c), (self.c, at_c)];
-        if (at_a + at_c).is_finite() { vec![Row { gradient, compliance: self.compliance }] } else { Vec::new() }
+        if (at_a + at_c).is_finite() { vec![JacobianRow { gradient, compliance: self.compliance }] } else { Vec::new() }
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

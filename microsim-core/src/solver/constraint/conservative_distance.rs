@@ -10,7 +10,7 @@
 //! a slow oscillation, which is then damped by `omega^4 h^3 / 2` per second, and 0 for one that a substep cannot follow, which
 //! stays stable as with implicit Euler.
 
-use super::{Constrain, Constraint, Distance, PULL, Row};
+use super::{Constrain, Constraint, Distance, JacobianRow, PULL};
 use crate::error::Error;
 use crate::instruction_set::each;
 use crate::particle::Columns;
@@ -44,8 +44,8 @@ impl Constrain for ConservativeDistance {
         Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
     }
 
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
-        Row::of_pair([self.a, self.b], self.compliance, places)
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
+        JacobianRow::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

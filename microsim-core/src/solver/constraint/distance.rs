@@ -7,7 +7,7 @@
 //! where `dx` is the move since the substep began. `n` is the vector between the nodes over its length: with
 //! numerator and denominator multiplied by that length as needed, one square root and one division do.
 
-use super::{Constrain, Constraint, MAX_LENGTH, PULL, Row, check_nodes};
+use super::{Constrain, Constraint, JacobianRow, MAX_LENGTH, PULL, check_nodes};
 use crate::error::{Error, in_range};
 use crate::instruction_set::each;
 use crate::particle::Columns;
@@ -39,8 +39,8 @@ impl Constrain for Distance {
         Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
     }
 
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
-        Row::of_pair([self.a, self.b], self.compliance, places)
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
+        JacobianRow::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

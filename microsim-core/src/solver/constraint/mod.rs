@@ -5,10 +5,10 @@ mod area;
 mod bend;
 mod conservative_distance;
 mod distance;
+mod jacobian_row;
 mod link_drag;
 mod min_distance;
 mod rope;
-mod row;
 mod yielding_distance;
 
 pub use anchor::Anchor;
@@ -17,10 +17,10 @@ pub(super) use area::MeasuredRing;
 pub use bend::Bend;
 pub use conservative_distance::ConservativeDistance;
 pub use distance::Distance;
+pub(crate) use jacobian_row::JacobianRow;
 pub use link_drag::LinkDrag;
 pub use min_distance::MinDistance;
 pub use rope::Rope;
-pub(crate) use row::Row;
 pub(crate) use yielding_distance::TORN;
 pub use yielding_distance::YieldingDistance;
 
@@ -60,13 +60,14 @@ pub(crate) trait Constrain {
     /// Place in the order of projection, counted from [`PULL`] or [`LIMIT`]; a different one for each kind.
     fn order(&self) -> u8;
 
-    /// What takes half of it, so that two do what it does: with twice the compliance. `None` for what is projected once, after all others.
+    /// What takes half of it, so that two do what it does: with twice the compliance; for what pulls. `None` for what limits, which
+    /// is projected once, after all that pulls.
     fn half(&self) -> Option<Constraint> {
         None
     }
 
-    /// Its rows near a state in which nodes are at these places; none for what has no half.
-    fn rows(&self, _places: &[Vec2]) -> Vec<Row> {
+    /// For what pulls: its gradients near a state in which nodes are at these places, by which one tells whether it makes energy.
+    fn rows(&self, _places: &[Vec2]) -> Vec<JacobianRow> {
         Vec::new()
     }
 
@@ -127,7 +128,7 @@ impl Constraint {
     }
 
     /// Its rows near a state in which nodes are at these places, if it pulls.
-    pub(crate) fn rows(&self, places: &[Vec2]) -> Vec<Row> {
+    pub(crate) fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
         self.run(Borrow).rows(places)
     }
 
@@ -228,6 +229,17 @@ mod tests {
     }
 
     #[test]
+    fn what_has_a_half_has_rows_and_comes_first() {
+        let places = [Vec2::ZERO, Vec2::X, Vec2::new(0.3, 1.1)];
+        let mut kinds = kinds();
+        kinds.sort_by_key(Constraint::order);
+        for kind in &kinds {
+            assert_eq!(kind.half().is_some(), !kind.rows(&places).is_empty(), "{kind:?}");
+        }
+        assert!(kinds.is_sorted_by_key(|kind| kind.half().is_none()), "{kinds:?}");
+    }
+
+    #[test]
     fn a_ring_has_three_different_nodes_that_exist() {
         let check = |ring: &[u32]| check_ring("ring", ring, 4).map_err(|error| error.field().to_owned());
         assert_eq!((check(&[0, 1, 2]), check(&[3, 0, 1, 2])), (Ok(()), Ok(())));
@@ -256,12 +268,13 @@ mod tests {
         let [out, on] = [places[1] - places[0], places[2] - places[1]];
         let turn = libm::atan2f(out.perp_dot(on), out.dot(on));
         let (a, b, rest_length, compliance) = (0, 1, places[0].distance(places[1]), 1e-5);
-        let kinds: [Constraint; 5] = [
+        let kinds: [Constraint; 6] = [
             Distance { a, b, rest_length, compliance, damping: 0.0 }.into(),
             YieldingDistance::from(Distance { a, b, rest_length, compliance, damping: 0.0 }).into(),
             Area { ring: vec![0, 1, 2], rest_area: area, compliance, is_upper_bound: false }.into(),
             Bend::new([0, 1, 2], turn, compliance).into(),
             Distance { a, b, rest_length, compliance: 0.0, damping: 0.0 }.into(),
+            ConservativeDistance { a, b, rest_length, compliance: 0.0, damping: 0.0 }.into(),
         ];
         let errors = [Vec2::new(0.7, -0.2), Vec2::new(-0.4, 0.5), Vec2::new(0.1, 0.9)].map(|error| 1e-3 * error);
         let (masses, h) = ([1.0, 0.5, 2.0], 0.01);
@@ -271,7 +284,7 @@ mod tests {
                 particles.insert(&disc(places[k] + errors[k], masses[k]));
             }
             kind.run(Project { spans: &[Span::LOOSE], particles: &mut particles.columns(), h });
-            let Row { gradient, compliance } = &kind.rows(&places)[0];
+            let JacobianRow { gradient, compliance } = &kind.rows(&places)[0];
             let error: f32 = gradient.iter().map(|&(k, of)| of.dot(errors[k as usize])).sum();
             let weight: f32 = gradient.iter().map(|&(k, of)| masses[k as usize] * of.length_squared()).sum();
             for &(k, of) in gradient {

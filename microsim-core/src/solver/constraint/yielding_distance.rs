@@ -12,7 +12,7 @@
 //! `k (F alpha / l - y)` per second. In a substep the share `1 - exp(-k h)` of the excess flows, the exponential by its Taylor
 //! polynomial of third order. Where `e` exceeds the breaking strain the link is gone.
 
-use super::{Constrain, Constraint, Distance, MAX_LENGTH, PULL, Row};
+use super::{Constrain, Constraint, Distance, JacobianRow, MAX_LENGTH, PULL};
 use crate::error::{Error, in_range};
 use crate::instruction_set::each;
 use crate::particle::Columns;
@@ -144,8 +144,8 @@ impl Constrain for YieldingDistance {
         Some(Self { compliance: 2.0 * self.compliance, ..*self }.into())
     }
 
-    fn rows(&self, places: &[Vec2]) -> Vec<Row> {
-        Row::of_pair([self.a, self.b], self.compliance, places)
+    fn rows(&self, places: &[Vec2]) -> Vec<JacobianRow> {
+        JacobianRow::of_pair([self.a, self.b], self.compliance, places)
     }
 
     fn links(&self) -> Vec<[u32; 2]> {

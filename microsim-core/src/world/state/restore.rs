@@ -69,7 +69,7 @@ impl World {
         world.step_index = state.step_index;
         world.particles = state.particles;
         world.organisms = state.organisms;
-        state.templates.into_iter().for_each(|template| world.push_template(template));
+        world.templates = Shared::new(state.templates);
         world.blocks = Shared::new(state.blocks);
         world.sleep = state.sleep;
         world.fluids = state.fluids;
@@ -86,6 +86,7 @@ impl World {
         validate::structure::check(&world)
             .and_then(|()| validate::numbers::check(&world))
             .map_err(|violation| violation.to_string())?;
+        world.find_projections();
         // Measures need the pairs of the last step, which are not part of the state.
         if world.step_index > 0 {
             world.find_pairs();
