@@ -195,3 +195,10 @@ fn a_block_across_a_periodic_side_is_projected_as_elsewhere() {
         assert!(compressed.1 > compressed.2 + 1e-3, "images count as neighbours: {compressed:?}");
     }
 }
+
+#[test]
+fn shorter_substeps_correct_less_of_a_lack_of_spacing_and_longer_ones_no_more() {
+    let [half, whole, double] = [0.5, 1.0, 2.0].map(|share| density::spacing_share(share / 480.0));
+    assert!((half - 1.0 / 13.0).abs() < 1e-6, "four times as soft as a quarter: {half}");
+    assert_eq!((whole, double), (0.25, 0.25));
+}
