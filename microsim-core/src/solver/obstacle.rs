@@ -225,4 +225,14 @@ mod tests {
             assert_eq!(impacts.len(), made, "restitution {restitution}");
         }
     }
+
+    #[test]
+    fn a_disc_on_the_surface_itself_goes_back_where_it_came_from() {
+        let obstacle = Obstacle::new(SharedShape::cuboid(2.0, 1.0), Pose::translation(10.0, 5.0));
+        let mut p = line(100.0, [1.0, 1.0]);
+        (p.x[0], p.y[0], p.prev_x[0], p.prev_y[0]) = (10.5, 6.0, 10.5, 6.25);
+        let contact = ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO };
+        let stop = overlap(&contact, &obstacle, None, &p).unwrap();
+        assert_eq!((stop.away, stop.depth), (Vec2::Y, 0.5));
+    }
 }

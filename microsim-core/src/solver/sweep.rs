@@ -177,7 +177,9 @@ mod tests {
     #[test]
     fn where_nothing_stops_it_a_disc_goes_on_by_the_gap_or_by_a_share_of_its_size() {
         for (gap, distance, way) in [(0.7, 1.7, 0.7), (0.4, 1.4, 0.5), (0.2, 0.6, 0.3), (0.0, 0.1, 0.1)] {
-            assert_eq!(slide(gap, distance, 1.0), way, "a gap of {gap} at {distance}");
+            for size in [1.0, 2.0] {
+                assert_eq!(slide(size * gap, size * distance, size), size * way, "a gap of {gap} at {distance}");
+            }
         }
     }
 
