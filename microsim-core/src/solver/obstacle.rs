@@ -219,7 +219,7 @@ mod tests {
             let obstacle = Obstacle::new(SharedShape::cuboid(2.0, 1.0), Pose::IDENTITY);
             let obstacle = Obstacle { material: Material { friction: 0.0, restitution }, ..obstacle };
             let (mut p, mut impacts) = (line(100.0, [1.0, 1.0]), Vec::new());
-            p.y[0] = 1.3;
+            (p.y[0], p.vy[0]) = (1.3, -3.0);
             let contacts = [ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO }];
             project(&contacts, &[obstacle], &mut [], &mut p, &mut impacts, &mut ContactRecorder::default(), 0.01);
             assert_eq!(impacts.len(), made, "restitution {restitution}");
