@@ -123,3 +123,27 @@ impl Divider {
         self.lobes = if self.lobes > 2.0 { 0.5 * self.lobes } else { 1.0 };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_out_of_their_range_are_refused() {
+        assert!(DivisionParams::default().validate().is_ok());
+        assert!(DivisionParams { furrow_speed: 0.0, ..DivisionParams::default() }.validate().is_err());
+        assert!(DivisionParams { least_nodes: 7, ..DivisionParams::default() }.validate().is_err());
+    }
+
+    #[test]
+    fn a_membrane_of_two_circles_becomes_one_at_its_rate() {
+        let mut divider = Divider { lobes: 2.0, ..Divider::new(DivisionParams::default()) };
+        divider.relax(0.5);
+        assert_eq!(divider.lobes, 2.0 - 0.5 / ROUNDING_TIME);
+        (0..4).for_each(|_| divider.relax(0.5));
+        assert_eq!(divider.lobes, 1.0);
+        divider.furrow = Some(Furrow { nodes: [0, 1], width: 6.0, elapsed: 0.0 });
+        divider.relax(0.5);
+        assert_eq!(divider.lobes, 1.0 + 2.0 * divider.params.furrow_speed / 6.0 * 0.5);
+    }
+}

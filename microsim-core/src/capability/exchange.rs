@@ -21,3 +21,15 @@ impl Exchange {
         in_range("uptake", self.uptake, 0.0, 1e6)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_out_of_their_range_are_refused() {
+        let is_sound = |secretion, uptake| Exchange { chemical: ChemicalId(0), secretion, uptake }.validate().is_ok();
+        assert!(is_sound(0.0, 0.0) && is_sound(1e6, 1e6));
+        assert!(!is_sound(-1.0, 0.0) && !is_sound(0.0, 2e6) && !is_sound(f32::NAN, 0.0));
+    }
+}

@@ -203,4 +203,18 @@ mod tests {
         path.finish();
         assert!((path.pose().translation.x - 10.06).abs() < 1e-5 && path.is_blocked);
     }
+
+    #[test]
+    fn a_point_of_a_surface_that_turns_comes_as_far_as_its_poses_say() {
+        let mut path = ObstaclePath::new(0, &bar(), Pose::new(Vec2::new(10.5, 5.2), 1.4), 100.0, 4);
+        let local = Vec2::new(1.5, -0.4);
+        for _ in 0..4 {
+            let before = path.pose();
+            path.advance();
+            let (now, point) = (path.pose(), path.pose().transform_point(local));
+            let way = point - before.transform_point(local);
+            assert!((path.displacement(point) - way).length() < 1e-5, "{way}, not {}", path.displacement(point));
+            assert!((Vec2::new(now.rotation.re, now.rotation.im).length() - 1.0).abs() < 1e-6, "{now:?}");
+        }
+    }
 }

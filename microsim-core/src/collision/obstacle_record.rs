@@ -180,4 +180,43 @@ mod tests {
             assert_eq!(pose_of(broken), None, "{broken:?}");
         }
     }
+
+    #[cfg(feature = "snapshot")]
+    #[test]
+    fn a_shape_is_the_same_after_its_record_and_a_broken_record_is_none() {
+        let [a, b, c] = [Vec2::ZERO, Vec2::new(2.0, 0.0), Vec2::new(0.5, 1.5)];
+        let polygon = || parry2d::shape::ConvexPolygon::from_convex_polyline_unmodified(vec![a, b, c]).unwrap();
+        for shape in [
+            SharedShape::ball(0.7),
+            SharedShape::cuboid(2.0, 1.0),
+            SharedShape::round_cuboid(2.0, 1.0, 0.2),
+            SharedShape::capsule(a, b, 0.3),
+            SharedShape::segment(a, b),
+            SharedShape::triangle(a, b, c),
+            SharedShape::round_triangle(a, b, c, 0.2),
+            SharedShape::new(polygon()),
+            SharedShape::new(RoundShape { inner_shape: polygon(), border_radius: 0.2 }),
+            SharedShape::polyline(vec![a, b, c], None),
+        ] {
+            let record = ShapeRecord::of(&shape).unwrap_or_else(|| panic!("{:?}", shape.shape_type()));
+            let back = record.clone().restore().unwrap();
+            assert_eq!((back.shape_type(), ShapeRecord::of(&back)), (shape.shape_type(), Some(record)));
+        }
+        let oriented = Polyline::with_flags(vec![a, b, c], None, PolylineFlags::all());
+        assert_eq!(ShapeRecord::of(&SharedShape::new(oriented)), None);
+        let nowhere = Vec2::new(0.0, f32::NAN);
+        for broken in [
+            ShapeRecord::Ball(-1.0),
+            ShapeRecord::Cuboid(Vec2::new(1.0, f32::INFINITY), 0.0),
+            ShapeRecord::Capsule(a, nowhere, 1.0),
+            ShapeRecord::Segment(a, nowhere),
+            ShapeRecord::Triangle([a, b, nowhere], 0.0),
+            ShapeRecord::ConvexPolygon(vec![a, b, c], f32::NAN),
+            ShapeRecord::Polyline(vec![a, b], Vec::new()),
+            ShapeRecord::Polyline(vec![a, b], vec![[0, 2]]),
+            ShapeRecord::Polyline(vec![a, nowhere], vec![[0, 1]]),
+        ] {
+            assert!(broken.clone().restore().is_none(), "{broken:?}");
+        }
+    }
 }

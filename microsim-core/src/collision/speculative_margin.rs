@@ -96,6 +96,8 @@ mod tests {
             assert!((LIMITS.slack(LIMITS.margin(speed)) + margin - 0.8).abs() < 1e-6);
         }
         let one_substep = DisplacementLimits { substep: 0.8, ..LIMITS };
+        let just_as_large = DisplacementLimits { step: 1.0, substep: 1.0 - START, ..LIMITS };
+        assert_eq!(just_as_large.margin(0.0), f32::INFINITY);
         for unlimited in
             [LIMITS.margin(40.0), LIMITS.margin(f32::INFINITY), LIMITS.margin(f32::NAN), one_substep.margin(0.0)]
         {
@@ -108,7 +110,8 @@ mod tests {
         let mut p = Particles::default();
         let block = BlockRange { base: p.extend(3 * LANES) as usize, slots: 3 };
         (p.vx[block.entry(1, 2)], p.vy[block.entry(2, 2)], p.vy[block.entry(0, 5)]) = (1.0, -10.0, 40.0);
+        (p.vx[block.entry(0, 6)], p.vy[block.entry(0, 6)]) = (-6.0, -8.0);
         let (still, fast, unlimited) = (LIMITS.margin(0.0), LIMITS.margin(10.0), f32::INFINITY);
-        assert_eq!(margins_of(&block, &p, LIMITS), [still, still, fast, still, still, unlimited, still, still]);
+        assert_eq!(margins_of(&block, &p, LIMITS), [still, still, fast, still, still, unlimited, fast, still]);
     }
 }

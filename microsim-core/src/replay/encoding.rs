@@ -283,4 +283,24 @@ mod tests {
         assert_eq!(steps(vec![acts(Actuation::default())], &[]), None, "no change");
         assert_eq!(steps(vec![beats(2.0)], &[]), None, "no activation");
     }
+
+    #[test]
+    fn changes_of_the_world_are_read_as_they_were_written() {
+        let (mut encoder, change) = (Encoder::default(), WorldChange::SetDamping(0.5));
+        encoder.note(&[], &Inputs::new());
+        assert!(!encoder.has_changes() && encoder.write_world().is_none());
+        encoder.note(std::slice::from_ref(&change), &Inputs::new());
+        assert!(encoder.has_changes());
+        let content = encoder.write_world().unwrap();
+        assert_eq!(world_changes(&content), Some(vec![(1, change.clone())]));
+        assert_eq!(world_changes(&[content.as_slice(), &[0]].concat()), None, "more than its content");
+        let others = |steps: &[u32]| {
+            let changes: Vec<_> = steps.iter().map(|&step| (step, change.clone())).collect();
+            world_changes(&postcard::to_stdvec(&changes).unwrap()).is_some()
+        };
+        assert!(others(&[1, 1, 2]) && !others(&[2, 1]) && !others(&[]));
+        let steps = encoder.write(None);
+        let in_step = |step| Decoder::default().record(&steps, vec![(step, change.clone())]).is_some();
+        assert_eq!([0, 1, 2, 3].map(in_step), [true, true, false, false], "two steps");
+    }
 }

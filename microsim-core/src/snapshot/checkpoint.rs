@@ -66,3 +66,23 @@ impl Checkpoint {
         pairs.find(|(one, other)| one != other).map(|((name, _), _)| name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{Scenario, builtin};
+
+    #[test]
+    fn a_run_comes_back_and_what_differs_beside_the_worlds_is_named() {
+        let scenario = Scenario::parse(builtin("empty").unwrap().text, &[]).unwrap();
+        let run = || Checkpoint { origin: scenario.origin(), run: scenario.build().unwrap() };
+        let (one, mut other) = (run(), run());
+        let back = Checkpoint::from_bytes(&one.to_bytes().unwrap()).unwrap();
+        assert_eq!([&back, &other].map(|other| one.difference_beside_worlds(other)), [None, None]);
+        let nobody = OrganismId { index: 0, generation: 0 };
+        other.run.named.push(("nobody".to_owned(), nobody));
+        assert_eq!(one.difference_beside_worlds(&other), Some("names"));
+        other.run.player = Some(nobody);
+        assert_eq!(one.difference_beside_worlds(&other), Some("player"));
+    }
+}

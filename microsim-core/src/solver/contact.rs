@@ -291,4 +291,11 @@ mod tests {
         assert_eq!(of(Vec2::X, 0.0, Vec2::ZERO), Some(0.0));
         assert_eq!([of(-Vec2::X, 0.5, Vec2::ZERO), of(Vec2::X, 0.5, 3.0 * Vec2::X)], [None; 2]);
     }
+
+    #[test]
+    fn only_what_is_more_than_the_largest_ratio_heavier_is_heavy() {
+        for (inv_mass, heavy) in [(1.1, false), (1.0, false), (0.9, true)] {
+            assert_eq!(is_heavy(&line(1.0, [inv_mass, HEAVIEST]), 0, 1), heavy, "{inv_mass}");
+        }
+    }
 }

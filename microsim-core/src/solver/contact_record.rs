@@ -82,3 +82,34 @@ impl ContactRecorder {
         self.records.push(ContactRecord { particle, touched, point, normal, speed, impulse });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::line;
+    use super::*;
+
+    #[test]
+    fn the_impulse_is_that_of_the_rebound_or_of_the_depth_whichever_is_greater() {
+        let mut p = line(3.0, [1.0, 1.0]);
+        let mut impulse = |speed: f32, restitution: f32, is_on: bool| {
+            p.vx[0] = -speed;
+            let mut recorder = ContactRecorder::default();
+            recorder.begin(is_on, 0.01);
+            recorder.note(&p, || Projected {
+                particle: 0,
+                touched: Touched::Disc(1),
+                normal: Vec2::X,
+                depth: 0.01,
+                weight: 0.5,
+                restitution,
+                velocity: Vec2::ZERO,
+            });
+            let records = recorder.sorted().iter().map(|record| (record.speed, record.impulse));
+            records.collect::<Vec<_>>()
+        };
+        assert_eq!(impulse(4.0, 0.0, true), [(4.0, 2.0)]);
+        assert_eq!(impulse(4.0, 0.5, true), [(4.0, 12.0)]);
+        assert_eq!(impulse(0.5, 0.5, true), [(0.5, 2.0)]);
+        assert_eq!(impulse(4.0, 0.5, false), []);
+    }
+}

@@ -191,4 +191,28 @@ mod tests {
         apply(&[Drive::pull(0, Vec2::new(3.0, 4.0))], &mut p, 1.0 / 60.0);
         assert!((p.velocity(0).length() - 10.0).abs() < 1e-3, "at most twice the change");
     }
+
+    #[test]
+    fn what_pulls_takes_on_its_velocity_in_both_directions_and_pushes_back() {
+        let mut p = line(1.0, [1.0, 0.5]);
+        let drives = vec![Drive::new(0, Vec2::new(3.0, 4.0), f32::INFINITY)];
+        pull(&[Traction { drives, along: None, on: vec![1] }], &mut p, 0.01);
+        assert_eq!([p.velocity(0), p.velocity(1)], [Vec2::new(3.0, 4.0), Vec2::new(-1.5, -2.0)]);
+    }
+
+    #[test]
+    fn a_tow_turns_a_rod_about_its_centre_as_fast_as_its_acceleration_allows() {
+        let mut p = Particles::default();
+        p.extend(3 * LANES);
+        for slot in 0..3 {
+            p.set(slot * LANES, &super::super::testing::disc(Vec2::new(-(slot as f32), 0.0), 1.0));
+        }
+        let [velocity, heading] = [Vec2::new(5.0, 0.0), Vec2::Y];
+        let rates =
+            Tow { first: 0, slots: 3, velocity, heading, max_acceleration: 100.0, own_damping: 0.0, at_once: 0.0 };
+        let config = WorldConfig { damping: 0.0, ..WorldConfig::default() };
+        apply_tows(&[rates], &mut p, &config, 0.01);
+        let velocities = [0, LANES, 2 * LANES].map(|i| p.velocity(i));
+        assert_eq!(velocities, [Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(1.0, -1.0)]);
+    }
 }

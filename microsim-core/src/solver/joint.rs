@@ -337,4 +337,10 @@ mod tests {
         Joints { list: vec![joint], particles: vec![0, 1], held: Vec::new() }.project(&mut p, H);
         assert!((p.x[0] + 4.0 / 3.0).abs() < 1e-6 && (p.x[1] - 2.0 / 3.0).abs() < 1e-6 && p.y == [1.0, 1.0]);
     }
+
+    #[test]
+    fn fixed_particles_are_where_the_first_of_them_is() {
+        let place = Place::of(&[0, 1], false, &line(3.0, [0.0, 0.0]));
+        assert_eq!((place.offset, place.moved, place.inv_mass), (Vec2::ZERO, Vec2::ZERO, 0.0));
+    }
 }

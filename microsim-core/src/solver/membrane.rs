@@ -330,4 +330,25 @@ mod tests {
         let reached = [share(0.01, 0.25), share(0.25, 0.25), share(0.0, 0.25)];
         assert!((reached[0] - 0.04).abs() < 2e-3 && reached[1] == 0.5 && reached[2] == 0.0, "{reached:?}");
     }
+
+    #[test]
+    fn a_driven_membrane_accepts_a_share_of_an_excess_up_to_a_limit() {
+        let circle = TAU * ((80.0 / PI).sqrt() + 0.58) * polygon_over_circle(40.0);
+        let indices: Vec<u32> = (0..40).collect();
+        for (slack, gain, limit) in [(None, PERIMETER_DRIVEN, EXCESS_LIMIT), (Some(0.3), 0.3, 1.3 * EXCESS_PROTRUDING)]
+        {
+            let (driven, most) = ((PERIMETER_AT_REST + gain) * circle, limit * circle);
+            let half = 0.5 * (driven + most);
+            for (perimeter, accepted) in [(0.9 * driven, driven), (half, half), (2.0 * most, most)] {
+                let p = ring(40, perimeter / (80.0 * unit_vector(PI / 40.0).y));
+                let mut membrane = Membrane::new(1.0, 0.5, 0.58, 40);
+                let content = MembraneContent { area: 80.0, lobes: 1.0, folds: 0.0 };
+                let flexibility = Flexibility { slack, stiffness: &[] };
+                (0..3).for_each(|_| membrane.relax(&indices, &p, content, true, flexibility, 1e6));
+                let expected = driven + EXCESS_ACCEPTED * (accepted - driven);
+                let reached = membrane.rest_perimeter;
+                assert!((reached / expected - 1.0).abs() < 1e-3, "{perimeter}: {reached}, not {expected}");
+            }
+        }
+    }
 }

@@ -152,6 +152,7 @@ fn direction(from_surface: Vec2, is_inside: bool, came_from: Vec2) -> (Vec2, f32
 mod tests {
     use super::super::testing::line;
     use super::*;
+    use crate::particle::Material;
     use parry2d::math::Pose;
     use parry2d::shape::SharedShape;
 
@@ -197,5 +198,41 @@ mod tests {
     #[test]
     fn discs_apart_are_left_alone() {
         assert!((out_of(SharedShape::ball(1.0), Vec2::new(10.0, 8.0)) - 2.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_one_way_platform_holds_what_begins_clear_above_it() {
+        let platform = Obstacle::new(SharedShape::cuboid(4.0, 0.1), Pose::translation(10.0, 5.0));
+        let platform = Obstacle { one_way: Some(Vec2::Y), ..platform };
+        let passes = |from: f32, to: f32| stop_on_way(&platform, [from, to].map(|y| Vec2::new(10.0, y)), 0.5);
+        let stop = passes(6.1, -20.0).unwrap();
+        assert!(stop.has_passed && stop.away.y > 0.99 && (stop.depth - 25.6).abs() < 0.01, "{stop:?}");
+        assert!(passes(3.9, 30.0).is_none() && passes(5.3, -20.0).is_none());
+        let is_above = |x: f32, y: f32| is_above(Vec2::new(x, y), 0.5, &platform, Vec2::Y);
+        assert_eq!([5.6, 5.3, 5.0, 4.4].map(|y| is_above(10.0, y)), [true, false, false, false]);
+        assert!(!is_above(14.6, 5.0) && !is_above(14.6, 5.2) && is_above(14.1, 5.7));
+    }
+
+    #[test]
+    fn only_surfaces_that_bounce_make_impacts() {
+        for (restitution, made) in [(0.0, 0), (0.5, 1)] {
+            let obstacle = Obstacle::new(SharedShape::cuboid(2.0, 1.0), Pose::IDENTITY);
+            let obstacle = Obstacle { material: Material { friction: 0.0, restitution }, ..obstacle };
+            let (mut p, mut impacts) = (line(100.0, [1.0, 1.0]), Vec::new());
+            (p.y[0], p.vy[0]) = (1.3, -3.0);
+            let contacts = [ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO }];
+            project(&contacts, &[obstacle], &mut [], &mut p, &mut impacts, &mut ContactRecorder::default(), 0.01);
+            assert_eq!(impacts.len(), made, "restitution {restitution}");
+        }
+    }
+
+    #[test]
+    fn a_disc_on_the_surface_itself_goes_back_where_it_came_from() {
+        let obstacle = Obstacle::new(SharedShape::cuboid(2.0, 1.0), Pose::translation(10.0, 5.0));
+        let mut p = line(100.0, [1.0, 1.0]);
+        (p.x[0], p.y[0], p.prev_x[0], p.prev_y[0]) = (10.5, 6.0, 10.5, 6.25);
+        let contact = ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO };
+        let stop = overlap(&contact, &obstacle, None, &p).unwrap();
+        assert_eq!((stop.away, stop.depth), (Vec2::Y, 0.5));
     }
 }

@@ -297,6 +297,19 @@ mod tests {
     }
 
     #[test]
+    fn what_is_farther_on_the_wrong_side_than_the_contact_distance_is_not_through() {
+        let (p, contacts, _) = ring_and_disc(&square(), Vec2::new(2.0, -0.7), 0);
+        let links = contacts.found.links_of(&contacts.contacts[0]);
+        let relation = |found: &FoundLink| Relation::of(4, found.link, &p);
+        let bottom = links.iter().find(|found| relation(found).squared < 0.5).unwrap();
+        for (radius_sum, through) in [(0.6, false), (0.8, true), (2.0, true)] {
+            let mut contact = contacts.contacts[0].clone();
+            contact.radius_sum = radius_sum;
+            assert_eq!(is_through(&contact, bottom.link, &relation(bottom), links), through, "at {radius_sum}");
+        }
+    }
+
+    #[test]
     fn a_heavy_disc_does_not_crush_a_light_ring() {
         let (mut p, mut contacts, _) = ring_and_disc(&square(), Vec2::new(2.0, -0.3), 1);
         p.inv_mass[4] = 1e-4;

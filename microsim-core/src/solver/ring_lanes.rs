@@ -350,4 +350,28 @@ mod tests {
             assert_eq!((&side_by_side.x, &side_by_side.y), (&alone.x, &alone.y), "{rings} rings of {count}");
         }
     }
+
+    #[test]
+    fn slack_links_grow_more_slowly_in_shorter_substeps_and_grow() {
+        let nodes: Vec<u32> = (0..40).collect();
+        let grown = |h: f32| {
+            let mut p = super::super::testing::ring(40, 6.4);
+            let around = |p: &Particles| (0..40).map(|k| p.between(k, (k + 1) % 40).length()).sum::<f32>();
+            let before = around(&p);
+            let target = RingTarget {
+                ring: &nodes,
+                length: before / 40.0 / 0.97,
+                rises: [0.0; 2],
+                area: 0.0,
+                fastest: 0.0,
+                faster: 0.0,
+                slack: 0.0,
+                stiffness: &[],
+            };
+            Targets::<1>::of(std::slice::from_ref(&target)).tighten(&nodes, &Span::LOOSE, &mut p.columns(), h);
+            around(&p) - before
+        };
+        let [whole, half] = [1.0, 0.5].map(|share| grown(share * SUBSTEP));
+        assert!(half > 0.05 * whole && half < 0.9 * whole, "{half} of {whole}");
+    }
 }

@@ -173,4 +173,21 @@ mod tests {
         assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 1.6), Vec2::new(9.0, 1.6)).is_none());
         assert!(stop_at(SharedShape::ball(1.0), Vec2::new(-9.0, 0.0), Vec2::new(-2.0, 0.0)).is_none());
     }
+
+    #[test]
+    fn where_nothing_stops_it_a_disc_goes_on_by_the_gap_or_by_a_share_of_its_size() {
+        for (gap, distance, way) in [(0.7, 1.7, 0.7), (0.4, 1.4, 0.5), (0.2, 0.6, 0.3), (0.0, 0.1, 0.1)] {
+            for size in [1.0, 2.0] {
+                assert_eq!(slide(size * gap, size * distance, size), size * way, "a gap of {gap} at {distance}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_disc_that_comes_past_too_many_surfaces_is_stopped_where_it_got_to() {
+        let obstacle = Obstacle::new(SharedShape::cuboid(500.0, 1.0), Pose::translation(0.0, -1.0));
+        let way = [Vec2::new(-100.0, 0.5), Vec2::new(100.0, 0.5)];
+        let Stop { away, depth, has_passed } = first_stop(&obstacle, way, 0.5, |_| false).unwrap();
+        assert!(away.x < -0.99 && depth > 100.0 && depth < 180.0 && has_passed, "{away}, {depth}");
+    }
 }

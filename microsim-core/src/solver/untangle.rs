@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn broken_rings_are_left_to_quarantine() {
-        for far in [300.0, f32::NAN, f32::INFINITY] {
+        for far in [50.0, 300.0, f32::NAN, f32::INFINITY] {
             let (ring, mut p) = ring_of(&square(&[(2, [1.0, -far]), (3, [0.9, 1.0])]));
             let before = outline(&ring, &p);
             assert_eq!(untangle(&ring, &mut p), 0);

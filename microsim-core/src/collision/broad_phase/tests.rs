@@ -10,9 +10,11 @@ fn nodes_of_a_membrane_collide_unless_a_link_joins_them() {
     let mut p = Particles::default();
     let ring: Vec<u32> = (0..6).map(|k| p.insert(&disc(Vec2::new(k as f32, 0.0), 1.0))).collect();
     p.link_ring(&ring);
+    let within = p.insert(&disc(Vec2::new(2.0, 1.0), 1.0)) as usize;
     let collides = |a: usize, b: usize| may_collide(&p, a, b, &Exemptions::default());
     assert!(!collides(0, 1) && !collides(1, 0) && !collides(5, 0));
     assert!(collides(0, 2) && collides(2, 0) && collides(4, 0) && collides(0, 3));
+    assert!(!collides(0, within) && !collides(within, 0), "no membrane and no fluid");
 }
 
 fn random_discs(seed: u64, count: u32) -> Particles {
@@ -219,4 +221,45 @@ fn late_pairs_complete_those_of_images() {
         }
     }
     assert!(late > 50, "{late}");
+}
+
+/// Blocks of one disc each, in the first lane.
+fn single_discs<const N: usize>(p: &mut Particles, discs: [(f32, f32); N]) -> [BlockRange; N] {
+    let mut owner = 0;
+    discs.map(|(x, inv_mass)| {
+        let block = BlockRange { base: p.extend(LANES) as usize, slots: 1 };
+        p.set(block.base, &Particle { owner, ..disc(Vec2::new(x, 7.0), inv_mass) });
+        owner += 1;
+        block
+    })
+}
+
+#[test]
+fn bodies_meet_what_is_fixed_and_fixed_ones_do_not_meet() {
+    let (mut p, mut broad, none) = (Particles::default(), BroadPhase::default(), Exemptions::default());
+    let blocks = single_discs(&mut p, [(5.0, 0.0), (5.5, 0.0), (6.0, 1.0)]);
+    let input = SearchInput { blocks: &blocks, ..search_input(&p, &none, LIMITS) };
+    broad.find_pairs(input, &mut Sleep::default(), 1);
+    let index = |k: usize| blocks[k].base as u32;
+    assert_eq!(pairs_of(&broad), BTreeSet::from([(index(0), index(2)), (index(1), index(2))]));
+}
+
+#[test]
+fn what_moves_near_an_image_of_a_sleeper_wakes_its_block_and_no_other() {
+    for is_fluid in [false, true] {
+        let (mut p, mut sleep, none) = (Particles::default(), Sleep::default(), Exemptions::default());
+        let blocks = single_discs(&mut p, [(10.0, 1.0), (0.4, 1.0), (if is_fluid { 5.0 } else { 19.7 }, 1.0)]);
+        if is_fluid {
+            p.insert(&Particle { owner: 3, fluid: 1, ..disc(Vec2::new(19.7, 7.0), 1.0) });
+        } else {
+            p.vx[blocks[2].base] = 9.0;
+        }
+        (0..3).for_each(|block| sleep.wake_up(block, 0));
+        sleep.fall_asleep(1);
+        sleep.update_sleep_times(blocks.iter().copied(), &p, 1.0, 1);
+        let input =
+            SearchInput { blocks: &blocks, size: ROOM, period: Period(ROOM), ..search_input(&p, &none, LIMITS) };
+        BroadPhase::default().find_pairs(input, &mut sleep, 1);
+        assert_eq!([0, 1, 2].map(|block| sleep.is_asleep(block)), [true, false, is_fluid], "fluid: {is_fluid}");
+    }
 }

@@ -107,6 +107,11 @@ mod tests {
     }
 
     #[test]
+    fn two_halves_side_by_side_are_as_stiff_as_the_whole() {
+        assert_eq!(constraint(1e-3).half(), Some(constraint(2e-3).into()));
+    }
+
+    #[test]
     fn what_rounding_makes_negative_has_the_root_zero() {
         assert_eq!([-1e-9, 0.0, 4.0].map(root), [0.0, 0.0, 2.0]);
     }

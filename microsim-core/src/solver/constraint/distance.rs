@@ -133,6 +133,10 @@ mod tests {
         constraint(1e-4).project(&[Span::LOOSE], &mut p.columns(), 0.01);
         // alpha / h^2 = 1, so a third of the error stays.
         assert!((p.x[1] - p.x[0] - (2.0 - 2.0 / 3.0)).abs() < 1e-6, "length {}", p.x[1] - p.x[0]);
+        let mut p = line(2.0, [1.0, 1.0]);
+        Distance { damping: 0.02, ..constraint(1e-4) }.project(&[Span::LOOSE], &mut p.columns(), 0.01);
+        // Damping divides as the mass would that is three times as large: two sevenths go.
+        assert!((p.x[1] - p.x[0] - (2.0 - 2.0 / 7.0)).abs() < 1e-6, "length {}", p.x[1] - p.x[0]);
     }
 
     #[test]

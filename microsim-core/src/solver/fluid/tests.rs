@@ -70,6 +70,43 @@ fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
 }
 
 #[test]
+fn compression_is_the_same_at_any_spacing() {
+    let (fluid, mut p) = block(FluidMode::Density, 0.8);
+    let compression = fluid.mean_compression(&p, Period::NONE);
+    let mut wide = Fluid::new(FluidParams { spacing: 2.0 * fluid.params.spacing, ..fluid.params }, false);
+    wide.particles.clone_from(&fluid.particles);
+    [&mut p.x, &mut p.y].into_iter().for_each(|places| places.iter_mut().for_each(|place| *place *= 2.0));
+    let twice = wide.mean_compression(&p, Period::NONE);
+    assert!(compression > 0.1 && (twice - compression).abs() < 1e-3, "{compression}, {twice} at twice the spacing");
+}
+
+#[test]
+fn each_wall_pushes_inwards() {
+    let (fluid, particles) = block(FluidMode::Density, 0.9);
+    let edge = |most: fn(f32, f32) -> f32| {
+        particles.live().map(|i| particles.position(i)).reduce(|a, b| Vec2::new(most(a.x, b.x), most(a.y, b.y)))
+    };
+    let (low, high) = (edge(f32::min).unwrap(), edge(f32::max).unwrap());
+    let far = Vec2::splat(1e4);
+    for (offset, size, push) in [
+        (Vec2::new(0.2 - low.x, 0.0), far, Vec2::X),
+        (Vec2::new(0.0, 0.2 - low.y), far, Vec2::Y),
+        (Vec2::ZERO, Vec2::new(high.x + 0.2, far.y), Vec2::NEG_X),
+        (Vec2::ZERO, Vec2::new(far.x, high.y + 0.2), Vec2::NEG_Y),
+    ] {
+        let mut p = particles.clone();
+        p.x.iter_mut().for_each(|x| *x += offset.x);
+        p.y.iter_mut().for_each(|y| *y += offset.y);
+        (p.prev_x, p.prev_y) = (p.x.clone(), p.y.clone());
+        let before = centre(&p);
+        project_in(size, &fluid, &mut p);
+        let after = centre(&p);
+        let moved = Vec2::new((after[0] - before[0]) as f32, (after[1] - before[1]) as f32);
+        assert!(moved.dot(push) > 1e-4 && moved.perp_dot(push).abs() < 1e-5, "{push}: {moved}");
+    }
+}
+
+#[test]
 fn fluid_at_rest_density_or_below_stays() {
     let (fluid, mut particles) = block(FluidMode::Density, 1.3);
     let before = particles.clone();
@@ -194,4 +231,11 @@ fn a_block_across_a_periodic_side_is_projected_as_elsewhere() {
         assert!(momentum.length() < 1e-3, "{mode:?}: {momentum}");
         assert!(compressed.1 > compressed.2 + 1e-3, "images count as neighbours: {compressed:?}");
     }
+}
+
+#[test]
+fn shorter_substeps_correct_less_of_a_lack_of_spacing_and_longer_ones_no_more() {
+    let [half, whole, double] = [0.5, 1.0, 2.0].map(|share| density::spacing_share(share / 480.0));
+    assert!((half - 1.0 / 13.0).abs() < 1e-6, "four times as soft as a quarter: {half}");
+    assert_eq!((whole, double), (0.25, 0.25));
 }
