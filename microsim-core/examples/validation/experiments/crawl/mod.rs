@@ -231,7 +231,7 @@ fn measure() -> Result<Outcome, Error> {
         rows,
         cause: "cytoplasm is incompressible in the plane, so the area of an outline hardly varies; that of a real cell does, by \
                 its thickness, which this model does not have. A keratocyte is almost convex and hardly changes its shape in \
-                reality either. Why splits of neutrophils and amoebae are narrower than their parameters is not known: shares and \
+                reality either. Why splits are narrower than their parameters is not known: shares and \
                 angles vary by some 2 % and 2° with the seeds.",
         ..Outcome::default()
     })
