@@ -4,9 +4,9 @@
 use microsim_core::geometry::ellipse;
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    BacillusSpec, BrownianParams, ChemicalSpec, ChemotaxisParams, CoccusSpec, Controller, Exchange, FleeParams, Inputs,
-    Intent, OrganismId, OrganismSpec, PersistentWalkParams, Placement, PlateletSpec, ProbeSpec, RigidCellSpec,
-    RunAndTumbleParams, World, WorldConfig,
+    AmoeboidCellSpec, BacillusSpec, BrownianParams, ChemicalSpec, ChemotaxisParams, CoccusSpec, Controller, Crawl,
+    Exchange, FleeParams, Inputs, Intent, OrganismId, OrganismSpec, PersistentWalkParams, Placement, PlateletSpec,
+    ProbeSpec, RigidCellSpec, RunAndTumbleParams, World, WorldConfig,
 };
 
 /// Bodies of one kind with one controller, so far from each other and from walls that they never meet.
@@ -171,6 +171,10 @@ fn what_a_body_cannot_follow_is_refused() {
     assert_eq!(refused(PlateletSpec::default().into(), &kicks(0.1, 0.1)).0, "controller");
     let walk = |persistence| Controller::persistent_walk(PersistentWalkParams { persistence });
     assert_eq!(refused(bacillus(20.5), &walk(1.0)).0, "speed");
+    for crawl in [Crawl::FrontAndRear, Crawl::Neutrophil] {
+        let cell = AmoeboidCellSpec { crawl, ..AmoeboidCellSpec::default() };
+        assert_eq!(refused(cell.into(), &walk(0.9)).0, "controller.persistence");
+    }
     let tumbling = RunAndTumbleParams { run: 0.04, ..RunAndTumbleParams::default() };
     assert_eq!(refused(bacillus(1.0), &Controller::run_and_tumble(tumbling)).0, "controller.run");
     let fled = Controller::flee(FleeParams::default(), kicks(10.0, 0.1));

@@ -23,14 +23,11 @@ fn law(persistence: f64, speed: f64, time: f64) -> f64 {
     2.0 * speed * speed * persistence * (time - persistence * (1.0 - (-time / persistence).exp()))
 }
 
-const CAUSE: &str = "an amoeboid cell lags behind the heading of its controller by the time in which a front forms and its content follows; it \
-                     keeps its direction for longer than it is told, the more so the shorter the persistence.";
-
 /// The same of cells that crawl.
 fn of_amoeboid_cells() -> Result<Vec<Row>, Error> {
     let spec = AmoeboidCellSpec::default();
     let mut rows = Vec::new();
-    for persistence in [0.2, 1.0, 4.0f32] {
+    for persistence in [1.0, 4.0f32] {
         let walk = Controller::persistent_walk(PersistentWalkParams { persistence });
         let tracks = tracks(&spec.clone().into(), &walk, 2.0 + 20.1 * persistence, 4)?;
         for periods in [1.0, 4.0f32] {
@@ -70,5 +67,5 @@ fn measure() -> Result<Outcome, Error> {
     }
     rows.extend(of_amoeboid_cells()?);
     let plot = Plot { axes: ["time, s", "mean squared displacement, µm²"], is_logarithmic: true, curves };
-    Ok(Outcome { rows, plot: Some(plot), cause: CAUSE })
+    Ok(Outcome { rows, plot: Some(plot), ..Outcome::default() })
 }

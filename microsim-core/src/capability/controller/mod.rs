@@ -173,7 +173,7 @@ impl Controller {
     /// Checks that a body follows it as its law says: one that moves in this way, at this speed, in a world of these settings.
     pub(crate) fn check_body(&self, locomotion: &Locomotion, speed: f32, config: &WorldConfig) -> Result<(), Error> {
         self.chain().try_for_each(|controller| match controller {
-            Self::PersistentWalk(model) => model.check_step(config.dt).and(check_speed(speed, 0.0, config)),
+            Self::PersistentWalk(model) => model.check_body(locomotion, config.dt).and(check_speed(speed, 0.0, config)),
             Self::RunAndTumble(model) => model.check_step(config.dt).and(check_speed(speed, 0.0, config)),
             Self::Brownian(model) => model.check_body(locomotion, config).and(check_speed(speed, 1e-3, config)),
             _ => Ok(()),

@@ -5,17 +5,21 @@
 
 use super::check_time;
 use super::senses::{Senses, Steering};
-use crate::error::{Error, in_range};
+use crate::capability::Locomotion;
+use crate::error::{Error, in_range, out_of_range};
 use crate::geometry::ring::{direction_or, rotate, unit_vector};
 use crate::rng::Rng;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
+/// Shortest persistence that an amoeboid cell follows, s: with 0.2 s its mean squared displacement is three times that of the law.
+const LEAST_OF_A_CELL: f32 = 1.0;
+
 /// Parameters of the persistent random walk, see [`super::Controller::persistent_walk`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PersistentWalkParams {
-    /// Time over which it keeps its direction, s, 0.05 to 10 000; at least three steps.
+    /// Time over which it keeps its direction, s, 0.05 to 10 000; at least three steps, and 1 s in an amoeboid cell.
     pub persistence: f32,
 }
 
@@ -42,8 +46,16 @@ impl PersistentWalk {
         in_range("persistence", self.params.persistence, 0.05, 1e4)
     }
 
-    pub(super) fn check_step(&self, dt: f32) -> Result<(), Error> {
-        check_time("persistence", self.params.persistence, dt)
+    /// Checks that the steps and the body follow it.
+    pub(super) fn check_body(&self, locomotion: &Locomotion, dt: f32) -> Result<(), Error> {
+        let Self { params: PersistentWalkParams { persistence }, .. } = *self;
+        check_time("persistence", persistence, dt)?;
+        let crawls = matches!(locomotion, Locomotion::Crawl { .. } | Locomotion::Protrude(_));
+        if crawls && persistence < LEAST_OF_A_CELL {
+            let accepted = format!("{LEAST_OF_A_CELL} or more for an amoeboid cell, whose front takes time to form");
+            return Err(out_of_range("controller.persistence", persistence.into(), accepted));
+        }
+        Ok(())
     }
 
     pub(super) fn decide(&mut self, senses: &Senses<'_>, rng: &mut Rng) -> Option<Steering> {
