@@ -144,6 +144,22 @@ fn a_body_of_any_kinds_and_mass_makes_no_energy() {
 }
 
 #[test]
+fn a_body_that_is_lighter_than_its_template_makes_no_energy() {
+    let mut builder = Template::builder();
+    for k in 0..6u8 {
+        let place = Vec2::from_angle(TAU * f32::from(k) / 6.0);
+        builder.node(Node { groups: CollisionGroups::NONE, ..Node::disc(place, 0.5, 0.01) });
+    }
+    (0..6).flat_map(|a| (a + 1..6).map(move |b| [a, b])).for_each(|[a, b]| _ = builder.link(a, b, 1e-3));
+    let mut world = room(8);
+    let template = world.add_template(builder.build().unwrap());
+    let id = world.spawn_template(template, Placement::at(200.0, 200.0)).unwrap();
+    world.set_mass(id, 6e-5).unwrap();
+    let most = most_energy(&mut world, &[(id, vec![1e-5; 6])], &mut Rng::new(9, 9));
+    assert!(most < MOST, "{most}");
+}
+
+#[test]
 fn joints_between_any_discs_make_no_energy() {
     let mut rng = Rng::new(6, 6);
     for case in 0..200 {

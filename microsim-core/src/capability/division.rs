@@ -29,7 +29,7 @@ pub struct DivisionParams {
     pub closing_length: f32,
     /// Time after which a furrow that has not closed is abandoned, s, 0.1 to 600.
     pub time_limit: f32,
-    /// Fewest particles of cytoplasm that a lobe must hold, 7 to 1 000 000.
+    /// Fewest particles of cytoplasm that a lobe must hold, 7 to 1 000 000. A division begins where both halves have a tenth more.
     pub least_particles: u32,
     /// Fewest membrane nodes of a lobe, 8 to 4096.
     pub least_nodes: u32,
