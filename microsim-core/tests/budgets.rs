@@ -47,6 +47,8 @@ fn what_takes_much_memory_is_refused_with_its_place() {
     (0..100).for_each(|k| write!(chemicals, "[chemical.c{k:02}]\nspacing = 1.0\n").unwrap());
     let numbers = |count: usize| vec!["1"; count].join(",");
     let corners = |count: usize| format!("{ROOM}[[polygon]]\npoints = [{}]\n", vec!["[1,2]"; count].join(","));
+    let fine = format!("{ROOM}[chemical.c]\nspacing = 1.0\n");
+    let slanted = "[[block]]\nat = [500, 500]\nsize = [900, 1]\nangle = 45\n";
     let long = format!("{:?}", "\n".repeat(100_000));
     let uses = vec!["'$p'"; 50_000].join(",");
     for (text, expected) in [
@@ -54,6 +56,10 @@ fn what_takes_much_memory_is_refused_with_its_place() {
             chemicals,
             "line 14, column 11: chemical.c04.spacing: 1 is out of range \
             (accepted: so large that 0 cells fill the room: 4000000 for all chemicals together)",
+        ),
+        (
+            fine + &slanted.repeat(40),
+            "line 5, column 2: chemical: there are too many cells in obstacles (accepted: at most 16000000 cells",
         ),
         (corners(200_000), "the file and what is set have 1200"),
         (corners(60_000), "line 6, column 10: polygon.0.points: is an array of 60000 (accepted: 3 to 200 corners"),

@@ -316,6 +316,8 @@ fn a_weight_hangs_on_an_obstacle_and_goes_where_that_goes() {
     }
     assert!((at(&world, weight).x - 62.0).abs() < 1.0 && (at(&world, weight).y - 56.0).abs() < 0.2);
     // Put elsewhere at once, it draws the weight after it, even if that was asleep.
+    run(&mut world, 5.0);
+    assert!(world.view().organism(weight).unwrap().is_at_rest());
     world.set_obstacle_pose(crane, Pose::translation(62.0, 70.0)).unwrap();
     run(&mut world, 2.0);
     assert!((at(&world, weight).y - 60.0).abs() < 0.2, "{}", at(&world, weight));

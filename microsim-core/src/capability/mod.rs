@@ -74,3 +74,17 @@ impl Locomotion {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_led_by_a_body_has_a_front() {
+        assert_eq!(Locomotion::None.front(), None);
+        assert_eq!(Locomotion::Tow { max_acceleration: 1.0 }.front(), None);
+        assert_eq!(Locomotion::FrontPull { front: 3 }.front(), Some(3));
+        assert_eq!(Locomotion::Crawl { front_centre: None }.front(), None);
+        assert_eq!(Locomotion::Crawl { front_centre: Some(2) }.front(), Some(2));
+    }
+}

@@ -115,8 +115,8 @@ mod tests {
     use crate::geometry::ring::ellipse;
     use crate::id::OrganismId;
 
-    /// Escapes, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
-    fn escapes(velocity: Vec2, seconds: f32) -> Vec<Option<Vec2>> {
+    /// Directions and speeds of escapes, one for each tenth of a second, of what wants to go to the right at 1 unit/s and moves so.
+    fn escapes(velocity: Vec2, seconds: f32) -> Vec<Option<(Vec2, f32)>> {
         const DT: f32 = 0.1;
         let around = Environment {
             size: Vec2::splat(100.0),
@@ -135,7 +135,7 @@ mod tests {
             let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
             progress.note(true, &senses);
             let steering = progress.way_out(senses.along(Vec2::X), &senses, &mut rng);
-            steering.map(|steering| direction_or(steering.goal - at, Vec2::ZERO))
+            steering.map(|steering| (direction_or(steering.goal - at, Vec2::ZERO), steering.relative_speed))
         };
         (0..(seconds / DT) as u32).map(way_out).collect()
     }
@@ -146,11 +146,21 @@ mod tests {
         let waits = escapes.iter().take_while(|escape| escape.is_none()).count();
         assert!((9..=11).contains(&waits), "{waits} tenths of a second");
         assert!(escapes[waits..].iter().all(Option::is_some));
-        let mut tried: Vec<Vec2> = escapes.into_iter().flatten().collect();
+        let ways: Vec<Vec2> = escapes.into_iter().flatten().map(|(direction, _)| direction).collect();
+        let kept: Vec<usize> = ways.chunk_by(|a, b| a == b).map(<[Vec2]>::len).collect();
+        assert!(kept[..kept.len() - 1].iter().all(|tenths| (6..=9).contains(tenths)), "each for a while: {kept:?}");
+        let mut tried = ways;
         tried.dedup();
         assert!(tried.len() >= 4, "{tried:?}");
         assert!(tried[0].x < 0.0, "{}", tried[0]);
         assert!(tried.windows(2).all(|pair| pair[0].dot(pair[1]) < 0.5), "{tried:?}");
+    }
+
+    #[test]
+    fn it_pushes_harder_the_longer_it_gets_nowhere_up_to_a_limit() {
+        let speeds: Vec<f32> = escapes(Vec2::ZERO, 8.0).into_iter().flatten().map(|(_, speed)| speed).collect();
+        assert!(speeds.is_sorted() && (2.1..2.4).contains(&speeds[0]), "{speeds:?}");
+        assert_eq!(speeds.last(), Some(&4.5));
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub(super) fn read_root(table: &DeTable<'_>, context: &ReadContext<'_>) -> File 
     let config = WorldConfig { size, ..config };
     let obstacles = obstacle::read(&mut root, size);
     let medium = medium::read(&mut root);
-    let chemicals = chemical::read(&mut root, &config);
+    let chemicals = chemical::read(&mut root, &config, &obstacles);
     let controllers = controller::read(&mut root, size, &chemicals);
     let definitions = Definitions {
         prototypes: &prototypes,

@@ -60,8 +60,28 @@ pub(super) fn keep_out(chemical: &mut Chemical, obstacle: &Obstacle) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::WorldConfig;
+    use crate::{Inputs, WorldConfig};
     use glam::Vec2;
+    use parry2d::math::Pose;
+    use parry2d::shape::SharedShape;
+
+    #[test]
+    fn a_wall_that_is_switched_off_lets_chemicals_in_and_one_that_is_switched_on_keeps_them_out() {
+        let mut world = World::new(WorldConfig { size: Vec2::splat(40.0), ..WorldConfig::default() }).unwrap();
+        let spec = ChemicalSpec { initial: 1.0, spacing: 1.0, ..ChemicalSpec::default() };
+        let chemical = world.add_chemical(spec).unwrap();
+        let wall = Obstacle::new(SharedShape::cuboid(4.0, 20.0), Pose::translation(20.0, 20.0));
+        let id = world.add_obstacle(wall).unwrap();
+        let within = |world: &mut World| {
+            (0..300).for_each(|_| world.step(&Inputs::new()));
+            world.chemicals[chemical.0 as usize].concentration(Vec2::splat(20.0))
+        };
+        assert_eq!(within(&mut world), 0.0);
+        world.set_obstacle_enabled(id, false).unwrap();
+        assert!(within(&mut world) > 0.1);
+        world.set_obstacle_enabled(id, true).unwrap();
+        assert_eq!(within(&mut world), 0.0);
+    }
 
     #[test]
     fn all_chemicals_together_have_a_limited_number_of_cells() {

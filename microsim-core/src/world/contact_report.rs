@@ -205,3 +205,34 @@ impl World {
         self.contact_reports.hits = hits;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, Placement, Side, Sides, WorldConfig};
+    use glam::Vec2;
+
+    #[test]
+    fn a_point_is_told_on_the_side_of_the_room_where_its_organism_is() {
+        let sides = Sides { left: Side::Periodic, right: Side::Periodic, ..Sides::default() };
+        let mut world =
+            World::new(WorldConfig { size: Vec2::new(80.0, 60.0), sides, ..WorldConfig::default() }).unwrap();
+        let id = world.spawn(&AgarSpec::default().into(), Placement::at(0.5, 30.0)).unwrap();
+        let node = world.organisms.get(id).unwrap().particles().next().unwrap();
+        let partner = Collider::Wall(Wall::Top);
+        let contact = |x: f32| ContactPoint {
+            organism: id,
+            partner,
+            node,
+            partner_node: None,
+            point: Vec2::new(x, 30.0),
+            normal: Vec2::X,
+            speed: 0.0,
+            impulse: 0.0,
+        };
+        for (x, told) in [(79.5, -0.5), (1.5, 1.5), (81.5, 1.5)] {
+            let point = world.beside_own_node(contact(x)).point;
+            assert!((point - Vec2::new(told, 30.0)).length() < 1e-4, "{x}: {point}");
+        }
+    }
+}

@@ -205,7 +205,7 @@ impl Touching {
 mod tests {
     use super::*;
     use crate::solver::testing::overlapping;
-    use crate::{AgarSpec, Inputs, Placement, PlateletSpec, RigidCellSpec, WorldConfig};
+    use crate::{AgarSpec, CoccusSpec, Inputs, Placement, PlateletSpec, RedCellSpec, RigidCellSpec, WorldConfig};
     use glam::Vec2;
     use std::collections::BTreeSet;
 
@@ -244,6 +244,31 @@ mod tests {
                 }
             }
             assert!(overlaps > 100, "{overlaps}");
+        }
+    }
+
+    #[test]
+    fn who_touches_one_wakes_and_nobody_else() {
+        let mut world = World::new(WorldConfig { gravity: Vec2::ZERO, ..WorldConfig::default() }).unwrap();
+        // Of different templates: bodies of one sleep together.
+        let specs = [
+            AgarSpec::default().into(),
+            CoccusSpec::default().into(),
+            PlateletSpec::default().into(),
+            RedCellSpec::default().into(),
+        ];
+        let spawn = |(k, spec): (u8, &crate::OrganismSpec)| {
+            world.spawn(spec, Placement::at(30.0 + 25.0 * f32::from(k), 45.0)).unwrap()
+        };
+        let all: Vec<OrganismId> = (0..).zip(&specs).map(spawn).collect();
+        let is_at_rest = |world: &World, id| world.view().organism(id).unwrap().is_at_rest();
+        for (touched, other) in [(0, 1), (1, 0)] {
+            (0..180).for_each(|_| world.step(&Inputs::new()));
+            assert!(all.iter().all(|&id| is_at_rest(&world, id)));
+            world.touching.pairs = vec![(all[0], all[1]), (all[2], all[3])];
+            world.wake_up_touching(all[touched]);
+            let rests: Vec<bool> = all.iter().map(|&id| is_at_rest(&world, id)).collect();
+            assert!(!rests[other] && rests[2] && rests[3], "{rests:?}");
         }
     }
 }

@@ -103,3 +103,22 @@ impl World {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AgarSpec, Placement, Region, WorldConfig};
+
+    #[test]
+    fn a_field_accelerates_what_can_move_and_nothing_else() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        world.spawn(&AgarSpec::default().into(), Placement::at(40.0, 45.0)).unwrap();
+        let kind = FieldKind::Uniform { acceleration: Vec2::new(8.0, 0.0) };
+        world.add_field(ForceField { region: Region::All, kind }).unwrap();
+        world.apply_fields(0.25);
+        let velocity = |inv_mass: f32| if inv_mass > 0.0 { Vec2::new(2.0, 0.0) } else { Vec2::ZERO };
+        let p = &world.particles;
+        assert!(p.len() > 1, "empty lanes of its block");
+        assert!((0..p.len()).all(|i| p.velocity(i) == velocity(p.inv_mass[i])));
+    }
+}

@@ -121,8 +121,37 @@ impl Avoidance {
 #[cfg(test)]
 mod tests {
     use super::super::Controller;
+    use super::super::testing::Bench;
     use super::*;
     use crate::{Inputs, Placement, RigidCellSpec, World, WorldConfig};
+
+    /// It and its heading, at 1/60 s.
+    fn bench(backing: f32) -> Bench {
+        let params = AvoidanceParams { spontaneous: 1e5, ..AvoidanceParams::default() };
+        let model = Avoidance { heading: Vec2::X, backing, ..Avoidance::new(params) };
+        assert_eq!(model.validate(), Ok(()), "the default is in its ranges");
+        Bench::new(Controller::Avoidance(model), 1.0 / 60.0)
+    }
+
+    #[test]
+    fn it_sways_by_its_angle_to_both_sides_in_each_period() {
+        let mut bench = bench(0.0);
+        let angles: Vec<f32> = (0..72).map(|_| bench.heading().unwrap().y).collect();
+        let least = angles.iter().copied().min_by(f32::total_cmp).unwrap();
+        let most = angles.iter().copied().max_by(f32::total_cmp).unwrap();
+        let sine = unit_vector(AvoidanceParams::default().sway).y;
+        assert!((most / sine - 1.0).abs() < 0.05 && (least / sine + 1.0).abs() < 0.05, "{least} to {most}");
+    }
+
+    #[test]
+    fn it_backs_up_for_its_time_and_turns_then() {
+        let mut bench = bench(0.5);
+        let speeds: Vec<f32> = (0..40).map(|_| bench.decide().unwrap().relative_speed).collect();
+        let backing = speeds.iter().take_while(|&&speed| speed == -1.0).count();
+        assert!((29..=31).contains(&backing) && speeds[backing..].iter().all(|&speed| speed == 1.0), "{speeds:?}");
+        let Controller::Avoidance(model) = &bench.controller else { unreachable!() };
+        assert!(model.heading.x.abs() < 0.767, "40 to 140 degrees to a side: {}", model.heading);
+    }
 
     #[test]
     fn at_a_wall_it_backs_up_turns_and_swims_on() {

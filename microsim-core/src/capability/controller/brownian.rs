@@ -93,6 +93,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn kicks_last_whole_steps_and_the_speed_limit_leaves_room_for_them() {
+        let walk = |diffusion| Brownian::new(BrownianParams { diffusion, interval: 0.1 });
+        assert!((walk(1.0).time_of_kick(1.0 / 60.0) - 0.1).abs() < 1e-6);
+        assert_eq!(walk(1.0).time_of_kick(0.25), 0.25, "one step at least");
+        let config = WorldConfig { dt: 1.0 / 60.0, max_speed: 60.0, ..WorldConfig::default() };
+        let check = |diffusion| walk(diffusion).check_body(&Locomotion::Tow { max_acceleration: 1.0 }, &config);
+        // max_speed^2 interval / 18
+        assert!(check(19.9).is_ok() && check(20.1).is_err());
+    }
+
+    #[test]
     fn it_diffuses_as_fast_as_asked() {
         for interval in [0.005, 0.1, 0.13] {
             let walk = Controller::brownian(BrownianParams { diffusion: 0.46, interval });

@@ -279,6 +279,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn only_what_knows_where_to_go_or_is_there_to_push_insists() {
+        assert!(Controller::ram(1.0, 1.0, 1.0).insists());
+        assert!(!Controller::avoidance(AvoidanceParams::default()).insists());
+    }
+
+    #[test]
     fn bad_numbers_are_refused_by_name() {
         let field = |controller: Controller| controller.validate().unwrap_err().field().to_owned();
         assert_eq!(field(Controller::wander([1.0, 0.5], 0.0)), "interval[1]");

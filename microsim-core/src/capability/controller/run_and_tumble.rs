@@ -174,6 +174,24 @@ mod tests {
         assert!((measured / expected - 1.0).abs() < 0.05, "{measured} instead of {expected}");
     }
 
+    #[test]
+    fn it_tumbles_for_its_share_of_the_time_and_turns_by_its_angle() {
+        let mut bench = Bench::new(Controller::run_and_tumble(RunAndTumbleParams::default()), 1.0 / 60.0);
+        let ways: Vec<Vec2> = (0..120_000)
+            .map(|_| {
+                let at = bench.at;
+                let steering = bench.decide().unwrap();
+                direction_or(steering.goal - at, Vec2::ZERO) * steering.relative_speed
+            })
+            .collect();
+        let tumbling = ways.iter().filter(|way| **way == Vec2::ZERO).count() as f32 / ways.len() as f32;
+        let runs: Vec<Vec2> = ways.chunk_by(|a, b| a == b).map(|run| run[0]).filter(|way| *way != Vec2::ZERO).collect();
+        let cosine = runs.windows(2).map(|pair| pair[0].dot(pair[1])).sum::<f32>() / (runs.len() - 1) as f32;
+        // 0.14 of 0.14 + 0.86 s; cos 68 degrees times exp(-(36 degrees)^2 / 2)
+        assert!((tumbling / 0.14 - 1.0).abs() < 0.1, "{tumbling}");
+        assert!((cosine - 0.3075).abs() < 0.06, "{cosine} of {}", runs.len());
+    }
+
     /// Mean way up a slope in 20 s, with a saturation relative to the concentration at the start.
     fn drift(chemical: Option<ChemicalId>, saturation: f32) -> f32 {
         let params = RunAndTumbleParams { chemical, saturation: 1.5 * saturation, ..RunAndTumbleParams::default() };

@@ -159,3 +159,38 @@ impl Senses<'_> {
 pub(super) fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ring::ellipse;
+    use crate::{World, WorldConfig};
+
+    /// What an ellipse of half axes 2 and 1 at a point makes of a heading, and its axis.
+    fn along_walls_and_axis(at: Vec2, heading: Vec2) -> [Vec2; 2] {
+        let world = World::new(WorldConfig { size: Vec2::splat(60.0), ..WorldConfig::default() }).unwrap();
+        let (size, period) = (world.config().size, Period::NONE);
+        let (chemicals, others, obstacles) = (&[], &[], &world.obstacles);
+        let around = Environment { size, period, dt: 0.1, chemicals, obstacles, others };
+        let outline: Vec<Vec2> = ellipse(Vec2::new(2.0, 1.0), 16).into_iter().map(|arm| at + arm).collect();
+        let me = OrganismId { index: 0, generation: 0 };
+        let (velocity, speed, radius, arrival) = (Vec2::ZERO, 1.0, 1.5, 0.25);
+        let senses = Senses { me, at, velocity, speed, radius, arrival, outline: &outline, around: &around };
+        [senses.along_walls(heading), senses.axis()]
+    }
+
+    #[test]
+    fn a_wall_is_felt_from_a_third_of_the_radius_on() {
+        let heading = Vec2::new(0.6, -0.8);
+        let felt = |gap: f32| along_walls_and_axis(Vec2::new(30.0, 1.0 + gap), heading)[0];
+        assert_eq!(felt(0.55), heading);
+        let along = felt(0.5);
+        assert!(along.x > 0.9 && along.y > 0.0, "{along}");
+    }
+
+    #[test]
+    fn its_axis_is_the_longer_the_longer_it_is_beside_its_radius() {
+        let [_, axis] = along_walls_and_axis(Vec2::new(30.0, 20.0), Vec2::X);
+        assert!((axis.x.abs() - (2.0 / 1.5 - 1.0)).abs() < 1e-4 && axis.y.abs() < 1e-4, "{axis}");
+    }
+}

@@ -211,6 +211,15 @@ mod tests {
     }
 
     #[test]
+    fn arcs_are_what_protrudes_across_the_end_of_the_ring_too() {
+        let mut network = quiet(49);
+        assert_eq!(network.arcs(), []);
+        network.excite(0, 0.1);
+        network.excite(20, 0.1);
+        assert_eq!(network.arcs(), [(18, 5), (47, 5)]);
+    }
+
+    #[test]
     fn nodes_keep_their_activity_in_another_ring() {
         let mut network = quiet(12);
         network.excite(3, 0.1);

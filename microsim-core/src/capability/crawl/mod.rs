@@ -174,3 +174,86 @@ fn within(value: f32, [low, high]: [f32; 2]) -> f32 {
     let value = if value > low { value } else { low };
     if value < high { value } else { high }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NODES: usize = 49;
+
+    fn outwards() -> Vec<Vec2> {
+        (0..NODES).map(|k| unit_vector(std::f32::consts::TAU * k as f32 / NODES as f32)).collect()
+    }
+
+    fn crawling(params: PseudopodParams) -> Pseudopods {
+        let mut pseudopods = Pseudopods { rng: Rng::new(1, 1), ..Pseudopods::new(params) };
+        pseudopods.network.reset(NODES);
+        pseudopods
+    }
+
+    #[test]
+    fn only_a_crawling_cell_that_holds_nothing_protrudes() {
+        let mut pseudopods = crawling(PseudopodParams::default());
+        assert!(!pseudopods.protrudes());
+        pseudopods.front_centre = Some(3);
+        assert!(pseudopods.protrudes());
+        pseudopods.is_stiff = true;
+        assert!(!pseudopods.protrudes());
+    }
+
+    #[test]
+    fn the_membrane_is_soft_where_it_protrudes_only() {
+        let mut pseudopods = crawling(PseudopodParams { stiffness: 0.5, ..PseudopodParams::default() });
+        assert_eq!(pseudopods.stiffness(), [0.5; NODES]);
+        pseudopods.network.excite(10, 0.1);
+        let stiffness = pseudopods.stiffness();
+        assert!((stiffness[10] - 0.05).abs() < 1e-6 && stiffness[30] == 0.5, "{stiffness:?}");
+    }
+
+    #[test]
+    fn pseudopods_start_at_their_rate_and_all_around() {
+        let outwards = outwards();
+        let posture = Posture { outwards: &outwards, direction: Vec2::ZERO, tempo: 2.0, dt: 0.025 };
+        let starts = |start_rate: f32| {
+            let params = PseudopodParams { start_rate, split_share: 0.0, goal_bias: 0.0, ..PseudopodParams::default() };
+            let mut pseudopods = crawling(params);
+            let mut places = Vec::new();
+            for _ in 0..2000 {
+                pseudopods.advance(&posture);
+                places.extend(outwards.iter().position(|&out| out == pseudopods.last));
+                pseudopods.rest();
+            }
+            places
+        };
+        let mut places = starts(2.0);
+        // 2000 steps of a tenth each, a quarter of the places accepted, eight trials.
+        assert!((150..210).contains(&places.len()), "{}", places.len());
+        places.sort_unstable();
+        places.dedup();
+        assert!(places.len() > 40, "{} nodes of {NODES}", places.len());
+        assert_eq!(starts(0.0), []);
+    }
+
+    #[test]
+    fn where_sides_alternate_always_they_do() {
+        let outwards = outwards();
+        let params = PseudopodParams { alternation: 1.0, split_spread: 0.0, ..PseudopodParams::default() };
+        let mut pseudopods = crawling(params);
+        for side in [1.0, -1.0, 1.0, -1.0] {
+            (pseudopods.last, pseudopods.side) = (Vec2::X, -side);
+            let k = pseudopods.beside_the_last(&outwards, Vec2::X).unwrap();
+            assert!(outwards[k].y * side > 0.5, "{} after one on side {}", outwards[k], -side);
+        }
+    }
+
+    #[test]
+    fn the_push_follows_the_pseudopods_in_a_third_of_a_second() {
+        let outwards = outwards();
+        let params = PseudopodParams { start_rate: 0.0, life: 100.0, ..PseudopodParams::default() };
+        let mut pseudopods = crawling(params);
+        pseudopods.network.excite(0, 0.2);
+        let posture = Posture { outwards: &outwards, direction: Vec2::X, tempo: 0.1, dt: 0.01 };
+        let pushes: Vec<f32> = (0..30).map(|_| (pseudopods.advance(&posture), pseudopods.push.x).1).collect();
+        assert!(pushes[0] > 0.0 && pushes[0] < 0.05 && (0.5..0.75).contains(&pushes[29]), "{pushes:?}");
+    }
+}

@@ -1,14 +1,19 @@
 //! Chemicals: the tables `[chemical.NAME]`, and the fields `secretes` and `takes_up` of organisms.
 
+use crate::collision::obstacle::Obstacle;
 use crate::scenario::reader::{Fields, Read, ReadContext, SpannedValue, ValueType, join, mismatch};
 use crate::{ChemicalId, ChemicalSpec, Exchange, WorldConfig};
+use glam::Vec2;
+
+/// Most cells of chemicals in the boxes of all obstacles together: each is tried whether it lies in the obstacle.
+const MAX_CELLS_IN_OBSTACLES: f32 = 16e6;
 
 /// Chemicals with their names, in the order in which the world gets them.
 pub(crate) type Chemicals = Vec<(String, ChemicalSpec)>;
 
 /// Reads all chemicals of a file.
-pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
-    let (mut chemicals, mut cells) = (Chemicals::new(), 0);
+pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig, obstacles: &[Obstacle]) -> Chemicals {
+    let (mut chemicals, mut cells) = (Chemicals::new(), Some(0));
     for (name, mut fields) in root.named("chemical") {
         let default = ChemicalSpec::default();
         let spec = ChemicalSpec {
@@ -17,11 +22,38 @@ pub(crate) fn read(root: &mut Fields<'_>, config: &WorldConfig) -> Chemicals {
             spacing: fields.or("spacing", default.spacing),
             initial: fields.or("initial", default.initial),
         };
-        cells += fields.context.check(&fields.path, spec.cells_beside(cells, config)).unwrap_or_default();
+        let own = fields.context.check(&fields.path, spec.cells_beside(cells.unwrap_or_default(), config));
+        cells = cells.zip(own).map(|(others, own)| others + own);
         fields.finish();
         chemicals.push((name, spec));
     }
+    if cells.is_some() && !is_soon_closed(&chemicals, config, obstacles) {
+        let accepted =
+            format!("at most {MAX_CELLS_IN_OBSTACLES} cells of chemicals in the boxes of obstacles, all together");
+        root.refuse("chemical", "there are too many cells in obstacles", accepted);
+    }
     chemicals
+}
+
+/// Whether there are few enough cells to try in obstacles.
+fn is_soon_closed(chemicals: &Chemicals, config: &WorldConfig, obstacles: &[Obstacle]) -> bool {
+    let boxes: Vec<[f32; 2]> = obstacles
+        .iter()
+        .filter(|obstacle| obstacle.stops_chemicals())
+        .map(|obstacle| {
+            let bounds = obstacle.aabb();
+            (bounds.maxs.min(config.size) - bounds.mins.max(Vec2::ZERO)).max(Vec2::ZERO).to_array()
+        })
+        .collect();
+    // A row and a column more than fit on every side, as cells that are only touched are tried, too.
+    let cells = |[width, height]: [f32; 2], spacing: f32| (width / spacing + 3.0) * (height / spacing + 3.0);
+    let mut left = MAX_CELLS_IN_OBSTACLES;
+    chemicals.iter().all(|(_, spec)| {
+        boxes.iter().all(|&size| {
+            left -= cells(size, spec.spacing);
+            left >= 0.0
+        })
+    })
 }
 
 /// The chemical of the name at a path; reports it if there is none.

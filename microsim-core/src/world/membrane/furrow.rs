@@ -131,3 +131,36 @@ fn longest_link(organism: &Organism, particles: &Particles) -> f32 {
     links(&organism.outline).map(length).fold(0.0, |longest, length| if length > longest { length } else { longest })
         / rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AmoeboidCellSpec, Placement, WorldConfig};
+
+    #[test]
+    fn lobes_have_at_least_what_is_asked_and_all_of_the_content() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let organism = world.organisms.get(cell).unwrap();
+        let box_of = |[left, right]: [f32; 2]| {
+            [(left, 0.0), (right, 0.0), (right, 90.0), (left, 90.0)].map(|(x, y)| Vec2::new(x, y)).to_vec()
+        };
+        // Between two particles.
+        let (kept, cut) = (box_of([0.0, 80.013]), box_of([80.013, 160.0]));
+        let inside = |lobe: &[Vec2]| {
+            let is_in = |&&i: &&u32| contains_point(lobe, world.particles.position(i as usize));
+            organism.fluid_particles.iter().filter(is_in).count() as u32
+        };
+        let fewer = inside(&kept).min(inside(&cut));
+        assert!(fewer > 0 && inside(&kept) + inside(&cut) == organism.fluid_particles.len() as u32);
+        let check = |least_nodes, least_particles, cut: &[Vec2]| {
+            let params = DivisionParams { least_nodes, least_particles, ..DivisionParams::default() };
+            world.check_lobes(organism, &params, &kept, cut)
+        };
+        assert_eq!(check(4, fewer, &cut), Ok(()));
+        assert_eq!(check(5, fewer, &cut), Err(Refusal::TooSmall));
+        assert_eq!(check(4, fewer + 1, &cut), Err(Refusal::TooSmall));
+        assert_eq!(check(4, 1, &box_of([84.0, 160.0])), Err(Refusal::FurrowOpen), "some are in neither");
+        assert_eq!(check(4, 1, &box_of([76.0, 160.0])), Err(Refusal::FurrowOpen), "some are in both");
+    }
+}

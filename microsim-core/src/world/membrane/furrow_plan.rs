@@ -107,3 +107,35 @@ fn bottom_nodes(organism: &Organism, outline: &[Vec2], centre: Vec2, axis: Vec2)
     let second = nearest(first + count.div_ceil(4)..first + count - count / 4)?;
     Some([first, second].map(|k| organism.outline[k % count]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ring::{ellipse, rotate, unit_vector};
+    use crate::{AmoeboidCellSpec, Placement, WorldConfig};
+
+    #[test]
+    fn the_long_axis_is_that_along_which_an_outline_is_stretched() {
+        for k in 0..12 {
+            let axis = unit_vector(0.26 * k as f32);
+            let centre = Vec2::new(40.0, -7.0);
+            let outline: Vec<Vec2> =
+                ellipse(Vec2::new(3.0, 2.0), 40).into_iter().map(|arm| centre + rotate(arm, axis)).collect();
+            let found = long_axis(&outline, centre);
+            assert!(found.perp_dot(axis).abs() < 1e-3 && (found.length() - 1.0).abs() < 1e-3, "{found} for {axis}");
+        }
+    }
+
+    #[test]
+    fn a_cell_divides_if_the_world_has_room_for_its_nodes() {
+        let plan = |spare: usize| {
+            let mut world = World::new(WorldConfig::default()).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+            let organism = world.organisms.get(cell).unwrap().clone();
+            let slack = (SLACK * organism.outline.len() as f32) as usize;
+            world.config.max_particles = (world.particles.live_count() + slack + spare - 1) as u32;
+            world.plan_furrow(&organism, None).map(|_| ())
+        };
+        assert_eq!([plan(0), plan(1)], [Err(Refusal::WorldFull), Ok(())]);
+    }
+}

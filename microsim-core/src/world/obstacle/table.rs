@@ -157,6 +157,7 @@ fn digest(obstacle: &Obstacle) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{World, WorldConfig};
     use parry2d::shape::SharedShape;
 
     fn ball() -> Obstacle {
@@ -172,5 +173,16 @@ mod tests {
         let again = table.insert(&ball());
         assert_eq!((again.index, again.generation), (0, 1));
         assert!(!table.contains(a) && table.ids().eq([again, b]));
+    }
+
+    #[cfg(feature = "snapshot")]
+    #[test]
+    fn what_is_wrong_with_obstacles_that_are_read_is_said_of_the_right_one() {
+        let mut table = ObstacleTable::default();
+        (0..3).for_each(|_| _ = table.insert(&ball()));
+        let mut obstacles = vec![ball(); 3];
+        obstacles[2].material.friction = -1.0;
+        let refused = World::new(WorldConfig::default()).unwrap().restore_obstacles(table, obstacles).unwrap_err();
+        assert!(refused.contains("obstacles[2].material.friction"), "{refused}");
     }
 }

@@ -110,3 +110,21 @@ fn nearest_edge(outline: &[Vec2], point: Vec2) -> (Vec2, Vec2) {
     }
     (best.1, best.2)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_edge_is_told_with_the_way_out() {
+        let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(x, y)| Vec2::new(x, y));
+        for (point, edge, out) in [
+            (Vec2::new(9.0, 5.0), Vec2::new(10.0, 5.0), Vec2::X),
+            (Vec2::new(12.0, 5.0), Vec2::new(10.0, 5.0), Vec2::X),
+            (Vec2::new(4.0, 0.5), Vec2::new(4.0, 0.0), Vec2::NEG_Y),
+            (Vec2::new(1.0, 7.0), Vec2::new(0.0, 7.0), Vec2::NEG_X),
+        ] {
+            assert_eq!(nearest_edge(&square, point), (edge, out), "{point}");
+        }
+    }
+}

@@ -352,6 +352,22 @@ mod tests {
     }
 
     #[test]
+    fn a_view_tells_for_how_long_a_cell_has_got_nowhere_and_how_much_cytoplasm_it_has() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
+        let mut inputs = Inputs::new();
+        inputs.set(id, Intent::toward(Vec2::new(90.0, 30.0)).unwrap());
+        let dt = world.config().dt;
+        (0..4).for_each(|_| world.step(&inputs));
+        let cell = world.view().organism(id).unwrap();
+        assert!((cell.stalled_for() - 3.0 * dt).abs() < 1e-5, "from the second step on: {}", cell.stalled_for());
+        let radius = |&i: &u32| world.particles.radius[i as usize];
+        let squares: f32 = cell.organism.fluid_particles.iter().map(radius).map(|r| r * r).sum();
+        let area = std::f32::consts::PI * squares;
+        assert!(area > 10.0 && (cell.cytoplasm_area() / area - 1.0).abs() < 1e-3, "{} {area}", cell.cytoplasm_area());
+    }
+
+    #[test]
     fn bounds_hold_every_disc_and_every_side_touches_one() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let id = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 30.0)).unwrap();
