@@ -114,6 +114,30 @@ fn nearest_edge(outline: &[Vec2], point: Vec2) -> (Vec2, Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capability::phagocytosis::{IngestionWay, MealPhase, PreyClass};
+    use crate::{AmoeboidCellSpec, Placement, RigidCellSpec, WorldConfig};
+
+    #[test]
+    fn prey_whose_centre_is_outside_at_the_time_limit_is_expelled() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+        let prey = world.spawn(&RigidCellSpec::default().into(), Placement::at(120.0, 45.0)).unwrap();
+        let edge = world.view().organism(cell).unwrap().bounds().1.x;
+        let params = PhagocytosisParams::default();
+        let mut is_expelled = |off: f32, elapsed: f32| {
+            let by = Vec2::new(edge + off - world.centroid(prey).unwrap().x, 0.0);
+            world.discs_of(prey).collect::<Vec<_>>().into_iter().for_each(|i| shift(&mut world.particles, i, by));
+            let (class, phase, way) = (PreyClass::Soft, MealPhase::Ingesting(elapsed), IngestionWay::Gate);
+            let mut meal = Meal { prey, class, phase, way, gate: Vec::new(), is_expelled: false };
+            let side = world.advance_gate(cell, &mut meal, &params, elapsed);
+            assert_eq!(side, PreySide::Between);
+            meal.is_expelled
+        };
+        let (limit, dt) = (params.time_limit, 1.0 / 60.0);
+        assert!(!is_expelled(2.0, limit - 0.5 * dt) && is_expelled(2.0, limit + 0.5 * dt));
+        assert!(!is_expelled(-3.0, limit + 0.5 * dt), "its centre is inside");
+        assert!(!is_expelled(2.0, limit + 1.5 * dt), "it was decided before");
+    }
 
     #[test]
     fn the_nearest_edge_is_told_with_the_way_out() {
