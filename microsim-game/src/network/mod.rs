@@ -14,6 +14,7 @@ mod message;
 mod moment;
 pub mod pacing;
 mod packet;
+pub mod plan;
 mod post;
 pub mod relay;
 mod report;

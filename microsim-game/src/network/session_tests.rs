@@ -1,12 +1,12 @@
 //! What a player of a match believes of what others send.
 
 use super::*;
-use crate::network::message::round_of;
+use crate::network::plan::{Way, round_of};
 use microsim_core::glam::Vec2;
 
 /// A match of three, as one of them takes part.
 fn session(own: usize) -> Session {
-    Session::new(round_of(3, 1).unwrap(), own, Pacing::USUAL)
+    Session::new(round_of(Way::Versus, 3, 1).unwrap(), own, Pacing::USUAL)
 }
 
 fn packet(ends: Vec<(u8, u32)>, runs: Vec<Run>) -> Vec<u8> {
@@ -137,7 +137,7 @@ fn who_takes_over_before_it_knows_what_its_cell_was_told_is_told_that() {
     let mut session = session(0);
     session.receive(1, &packet(Vec::new(), run(1, 4)), 0);
     session.leave(1);
-    let mut guest = Session::watch(round_of(3, 1).unwrap(), 3, Pacing::USUAL);
+    let mut guest = Session::watch(round_of(Way::Versus, 3, 1).unwrap(), 3, Pacing::USUAL);
     let told = Packet::read(&packet(Vec::new(), Vec::new()), 3).unwrap();
     session.receive_guest(3, &Packet { wants: true, ..told }.write(), 0);
     session.seat(1, 3);

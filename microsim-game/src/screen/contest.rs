@@ -102,7 +102,7 @@ impl Contest {
         if let Some(record) = round.record() {
             context.keep_game(record, Ok(()));
         }
-        let verdict = self.game.way().verdict(&round.scores(), self.game.names());
+        let verdict = self.game.plan().way.verdict(round, self.game.names());
         let verdict = ("verdict", (&verdict).into());
         Some(match self.game.own() {
             Some(own) => words::text_with(Key::MatchEnd, &[verdict, ("player", (&player(own)).into())]),
@@ -218,7 +218,7 @@ impl Screen for Contest {
             draw_prey(pen, &style, &mut taken, round, view, cell);
         }
         let referee = round.referee();
-        let score = self.game.way().summary(&round.scores());
+        let score = self.game.plan().way.summary(round);
         let note = if self.shows_net { self.net() } else { String::new() };
         let time = [referee.time_left(), referee.game().time];
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });

@@ -5,9 +5,9 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, seed_of_match};
 use crate::draw::palette::PLAYERS;
 use crate::input::{Input, Move};
+use crate::network::plan::{Plan, Way};
 use crate::network::room::{Room, Seat};
 use crate::platform;
-use crate::rules::two_players::TwoPlayers;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
 
@@ -45,7 +45,7 @@ impl Lobby {
     }
 
     fn show(&mut self, room: &Room) {
-        let how = words::text(room.way().label());
+        let how = words::text(room.plan().way.label());
         let way = if room.leads() {
             MenuItem::with(Key::RoomPlay, how)
         } else {
@@ -76,8 +76,8 @@ impl Screen for Lobby {
         match choice {
             Some(MenuChoice::Pick(READY) | MenuChoice::Less(READY)) => room.set_ready(!room.is_ready()),
             Some(MenuChoice::Pick(WAY) | MenuChoice::Less(WAY)) if room.leads() => {
-                let is_together = room.way() == TwoPlayers::Together;
-                room.set_way(if is_together { TwoPlayers::Versus } else { TwoPlayers::Together });
+                let is_less = choice == Some(MenuChoice::Less(WAY));
+                room.set_plan(Plan { way: stepped(room.plan().way, is_less), ..room.plan() });
             }
             _ if input.step == Some(Move::Back) || choice == Some(MenuChoice::Pick(LEAVE)) => {
                 context.room = None;
@@ -112,6 +112,13 @@ impl Screen for Lobby {
     fn is_at_stake(&self) -> bool {
         true
     }
+}
+
+/// The way of playing after this one, or before it.
+fn stepped(way: Way, is_less: bool) -> Way {
+    let (ways, step) = (Way::ALL.len(), if is_less { Way::ALL.len() - 1 } else { 1 });
+    let at = Way::ALL.iter().position(|&other| other == way).unwrap_or(0);
+    Way::ALL[(at + step) % ways]
 }
 
 /// Who is there, in which colour, and what is to be said of it.
