@@ -7,6 +7,7 @@ use super::told::Told;
 use super::transport::{Member, Transport};
 use crate::words::{self, Key};
 use microsim_core::Intent;
+use std::time::Duration;
 
 /// Time for which a cell is kept for who was cut, ms.
 const KEPT: u32 = 30_000;
@@ -127,6 +128,11 @@ impl Match {
     /// One frame more, for one who has come late. Returns whether one was taken.
     pub fn catch_up(&mut self) -> bool {
         self.session.is_behind() && self.session.catch_up()
+    }
+
+    /// Notes how long the last frame took.
+    pub fn note_time(&mut self, time: Duration) {
+        self.session.note_time(time);
     }
 
     /// What is played.

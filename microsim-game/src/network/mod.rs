@@ -7,6 +7,7 @@
 //! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
 
 pub mod contest;
+mod cost;
 mod guest;
 #[cfg(any(test, fuzzing))]
 pub mod hostile;

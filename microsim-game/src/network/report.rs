@@ -39,6 +39,12 @@ impl Session {
         self.tally
     }
 
+    /// Most frames that are predicted on this machine.
+    #[must_use]
+    pub fn window(&self) -> u32 {
+        self.cost.window(self.pacing)
+    }
+
     /// Digests of what is final, by frame.
     #[must_use]
     pub fn digests(&self) -> &[(u32, u64)] {
