@@ -1,7 +1,7 @@
 //! Rooms whose members are all in this process.
 
 use super::*;
-use crate::network::plan::Way;
+use crate::network::plan::{FrameRate, Way};
 use microsim_core::Intent;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -85,6 +85,28 @@ fn all_who_are_ready_begin_the_same_match_and_one_who_leaves_is_replaced() {
     let digests: Vec<_> = matches.iter().map(|current| &current.session().digests()[..2]).collect();
     assert_eq!(digests[0], digests[1]);
     assert!(matches.iter().all(|current| current.plan().way == Way::Together));
+}
+
+#[test]
+fn the_first_member_chooses_the_frames_a_second_and_the_seed_for_all_and_for_who_comes_late() {
+    let (mut players, boxes) = players(&["Ada", "Ben"]);
+    let quick = Plan { rate: FrameRate::Quick, ..Plan::default() };
+    players[0].room.set_plan(quick);
+    players[0].room.set_seed(Some(u64::MAX));
+    players[1].room.set_seed(Some(5));
+    run(&mut players, 0..3);
+    assert_eq!((players[1].room.plan(), players[1].room.seed()), (quick, Some(u64::MAX)), "all see it");
+    players.iter_mut().for_each(|player| player.room.set_ready(true));
+    run(&mut players, 3..100);
+    let late = enter(&mut players, &boxes, 2, Notice::Joined(2));
+    players.push(late);
+    run(&mut players, 100..250);
+    assert_eq!(cells(&players), [Some(0), Some(1), None]);
+    for player in &players {
+        let session = player.current.as_ref().unwrap().session();
+        assert_eq!((session.steps(), session.round().world().config().seed), (1, u64::MAX));
+        assert_eq!(session.round().world().step_index(), u64::from(session.frame()));
+    }
 }
 
 /// Two who play, and a member who comes to their room; the match that it is in is a new one.

@@ -149,3 +149,11 @@ fn who_takes_over_before_it_knows_what_its_cell_was_told_is_told_that() {
     }
     assert_eq!((guest.own(), guest.told(1).0.len()), (Some(1), session.told(1).0.len()));
 }
+
+#[test]
+fn a_second_is_a_second_at_any_number_of_frames() {
+    for (pacing, frames) in [(Pacing::USUAL, 30), (Pacing::QUICK, 60)] {
+        let session = Session::watch(round_of(Way::Versus, 2, 1).unwrap(), 3, pacing);
+        assert!((session.seconds(frames) - 1.0).abs() < 1e-5, "{pacing:?}");
+    }
+}

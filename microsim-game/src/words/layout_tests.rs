@@ -248,6 +248,9 @@ fn the_lobby_fits_a_small_window() {
             format!("> {}  {} >", text(Key::RoomReady), text(Key::MenuOff)),
             format!("> {}", text(Key::RoomLeave)),
         ];
+        let seeds = [text(Key::RoomAnySeed), "18446744073709551615"];
+        items.extend(seeds.map(|seed| format!("> {}  {seed} >", text(Key::RoomSeed))));
+        items.push(format!("> {}  60 >", text(Key::RoomRate)));
         items.extend(TwoPlayers::ALL.map(|way| format!("> {}  {} >", text(Key::RoomPlay), text(way.label()))));
         let notes = [Key::RoomComing, Key::RoomOtherVersion, Key::RoomPlays, Key::RoomIsReady, Key::RoomNotReady];
         for note in notes {
