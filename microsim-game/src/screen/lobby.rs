@@ -54,7 +54,7 @@ impl Lobby {
 
     fn show(&mut self, room: &Room) {
         let plan = room.plan();
-        let rate = (60 / plan.rate.pacing().steps).to_string();
+        let rate = format!("{}/s", 60 / plan.rate.pacing().steps);
         let seed = room.seed().map_or_else(|| words::text(Key::RoomAnySeed).to_owned(), |seed| seed.to_string());
         let way = words::text(plan.way.label()).to_owned();
         let choices = [(Key::RoomPlay, way), (Key::RoomRate, rate), (Key::RoomSeed, seed)].map(|(key, value)| {
