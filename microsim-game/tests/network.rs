@@ -40,6 +40,28 @@ fn messages_that_are_late_lost_doubled_and_out_of_order_make_the_same_world() {
 }
 
 #[test]
+fn a_slow_machine_predicts_fewer_frames_in_the_same_world() {
+    for (pacing, cost, expected) in [(Pacing::USUAL, 9.0, 5), (Pacing::QUICK, 9.0, 5), (Pacing::USUAL, 500.0, 3)] {
+        let weather = Weather { latency: 250.0, jitter: 60.0, ..Weather::default() };
+        let mut game = Match::new(2, 8.0, pacing, weather, 1);
+        game.cost[1] = cost;
+        let mut most = [0; 2];
+        while !game.is_over() {
+            game.tick();
+            assert!(game.now < 60_000.0, "nobody waits for ever");
+            let predicted = |session: &Session| session.frame().saturating_sub(session.final_frame());
+            let is_on = game.now > 4000.0 && game.sessions.iter().all(|session| session.frames_over() == 0);
+            for (most, session) in most.iter_mut().zip(&game.sessions).filter(|_| is_on) {
+                *most = predicted(session).max(*most);
+            }
+        }
+        game.check();
+        assert_eq!(game.sessions.iter().map(Session::window).collect::<Vec<_>>(), [pacing.window, expected]);
+        assert!(most[1] == expected && most[0] > expected, "{most:?}");
+    }
+}
+
+#[test]
 fn a_cut_stops_the_others_and_no_longer_than_it_lasts() {
     let mut game = Match::new(2, 3.0, Pacing::USUAL, Weather { latency: 30.0, ..Weather::default() }, 1);
     game.cuts = vec![Cut { from: 0, to: 1, time: 500..1700 }];
@@ -187,10 +209,11 @@ proptest! {
         weather in weather(),
         seed in any::<u64>(),
         leaves in prop::option::of((0u32..4000, 500u32..3000)),
+        cost in prop::array::uniform4(0.0f32..60.0),
     ) {
         let pacing = if is_quick { Pacing::QUICK } else { Pacing::USUAL };
         let mut game = Match::new(players, 4.0, pacing, weather, seed);
-        game.cuts = cuts;
+        (game.cuts, game.cost) = (cuts, cost);
         if let Some((left, away)) = leaves {
             let who = seed as usize % players;
             (game.leaving, game.coming) = (vec![(who, left)], vec![(who, left + away)]);

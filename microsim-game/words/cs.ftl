@@ -240,6 +240,9 @@ colour-purple = fialová
 room-heading = Místnost
 room-ready = Připraveno
 room-play = Hra
+room-rate = Snímky
+room-seed = Číslo náhody
+room-any-seed = náhodně
 room-leave = Odejít
 room-seat = { $number } { $name }, { $colour }: { $note }
 room-own-name = { $name } (ty)
@@ -266,13 +269,14 @@ match-watch = Díváš se.
 match-waiting = Čeká se na ostatní ...
 match-cut = Spojení je přerušeno. Obnovuje se ...
 match-leave = Ještě jednou Escape: odejít ze zápasu
-match-net = { $ping } ms, ztráty { $loss } %, návraty { $back }, snímků nejvýš { $frames }
+match-net = { $ping } ms, ztráty { $loss } %, návraty { $back }, snímků nejvýš { $frames } z { $window }
 match-end = { $verdict }. Tvoje buňka: { $player }.
 match-watched = { $verdict }. Tentokrát jsi jen divák.
 match-over = Zápas skončil.
 match-silent = Někdo neodpovídá, takže je to remíza.
 match-differs = Světy hráčů se před krokem { $step } rozešly, takže je to remíza.
 match-kept = { $record } a { $world } jsou vedle nastavení.
+match-given = { $record } a { $world } jsou mezi staženými soubory.
 match-nobody = V zápase nikdo nepokračuje.
 
 ## Simulace

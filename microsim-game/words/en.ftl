@@ -228,6 +228,9 @@ colour-purple = purple
 room-heading = The room
 room-ready = Ready
 room-play = Play
+room-rate = Frames
+room-seed = Seed
+room-any-seed = by chance
 room-leave = Leave
 room-seat = { $number } { $name }, { $colour }: { $note }
 room-own-name = { $name } (you)
@@ -254,13 +257,14 @@ match-watch = You watch.
 match-waiting = Waiting for the others ...
 match-cut = The connection is cut. Coming back ...
 match-leave = Escape again: leave the match
-match-net = { $ping } ms, { $loss } % lost, back { $back }, frames at most { $frames }
+match-net = { $ping } ms, { $loss } % lost, back { $back }, frames at most { $frames } of { $window }
 match-end = { $verdict }. You were { $player }.
 match-watched = { $verdict }. You watched.
 match-over = The match is over.
 match-silent = Somebody does not answer, so it is a draw.
 match-differs = The worlds of the players differ before step { $step }, so it is a draw.
 match-kept = { $record } and { $world } are beside the settings.
+match-given = { $record } and { $world } are among the downloads.
 match-nobody = nobody goes on with the match
 
 ## Simulations

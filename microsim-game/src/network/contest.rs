@@ -1,13 +1,13 @@
 //! A match of a room: which member has which cell.
 
-use super::message::{Message, Start, round_of, write};
-use super::pacing::Pacing;
+use super::message::{Message, Start, write};
+use super::plan::{Plan, round_of};
 use super::session::Session;
 use super::told::Told;
 use super::transport::{Member, Transport};
-use crate::rules::two_players::TwoPlayers;
 use crate::words::{self, Key};
 use microsim_core::Intent;
+use std::time::Duration;
 
 /// Time for which a cell is kept for who was cut, ms.
 const KEPT: u32 = 30_000;
@@ -27,16 +27,18 @@ pub struct Match {
 
 impl Match {
     pub(super) fn new(start: Start, own: usize, called: u32) -> Option<Self> {
-        let round = round_of(start.seats.len(), start.seed).ok()?;
-        Some(Self::of(start, Session::new(round, own, Pacing::USUAL), called))
+        let round = round_of(start.plan.way, start.seats.len(), start.seed).ok()?;
+        let session = Session::new(round, own, start.plan.rate.pacing());
+        Some(Self::of(start, session, called))
     }
 
     /// A match that is on, as a member comes to it who was invited by `from`; none if that one has no cell in it. Who invites
     /// leads: those before it have left, or took over from a bot, as its packets say.
     pub(super) fn watch(start: Start, member: Member, from: Member, now: u32) -> Option<Self> {
         let first = start.seats.iter().rposition(|&seat| seat == from)?;
-        let round = round_of(start.seats.len(), start.seed).ok()?;
-        let mut game = Self::of(start, Session::watch(round, member, Pacing::USUAL), now);
+        let round = round_of(start.plan.way, start.seats.len(), start.seed).ok()?;
+        let session = Session::watch(round, member, start.plan.rate.pacing());
+        let mut game = Self::of(start, session, now);
         (0..first).for_each(|seat| game.vacate(seat, now));
         game.part(member, now);
         Some(game)
@@ -128,6 +130,11 @@ impl Match {
         self.session.is_behind() && self.session.catch_up()
     }
 
+    /// Notes how long the last frame took.
+    pub fn note_time(&mut self, time: Duration) {
+        self.session.note_time(time);
+    }
+
     /// What is played.
     #[must_use]
     pub fn session(&self) -> &Session {
@@ -140,10 +147,10 @@ impl Match {
         &self.names
     }
 
-    /// How it is played.
+    /// What is played, and how fast.
     #[must_use]
-    pub fn way(&self) -> TwoPlayers {
-        way(self.start.together)
+    pub fn plan(&self) -> Plan {
+        self.start.plan
     }
 
     /// The number of this player in it, from 0 on; none if it watches.
@@ -156,8 +163,4 @@ impl Match {
 /// What somebody without a name is called.
 pub(super) fn numbered(member: Member) -> String {
     words::text_with(Key::TwoPlayer, &[("number", (u32::from(member) + 1).into())])
-}
-
-pub(super) fn way(together: bool) -> TwoPlayers {
-    if together { TwoPlayers::Together } else { TwoPlayers::Versus }
 }

@@ -115,6 +115,7 @@ fn show(session: &mut Session, head: u8, packet: &[u8]) {
 mod tests {
     use super::*;
     use crate::network::message::Start;
+    use crate::network::plan::{FrameRate, Plan, Way};
     use microsim_core::{Intent, glam::Vec2};
     use std::fs;
     use std::path::PathBuf;
@@ -175,7 +176,8 @@ mod tests {
         keep("leave", recorded(|k| ADVANCES | if k < 8 { [1, 2][k % 2] } else { 1 } | third(k, 8, PIECES)));
         let seat = |k| ADVANCES | if k < 4 { [1, 2][k % 2] } else { [1, GUEST][k % 2] } | third(k, 4, 15);
         keep("watch", recorded(seat));
-        let start = Start { number: 1, seed: 7, together: true, seats: vec![0, 1, 3] };
+        let plan = Plan { way: Way::Together, rate: FrameRate::Quick };
+        let start = Start { number: 1, plan, seed: 7, seats: vec![0, 1, 3] };
         keep("start", write(&Message::Start(start)));
     }
 

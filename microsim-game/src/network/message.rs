@@ -1,14 +1,12 @@
 //! What members of a room say to each other, as bytes.
 
+use super::plan::{Plan, Way, round_of};
 use super::transport::Member;
-use crate::rules::round::Round;
-use crate::rules::two_players;
 use microsim_core::Intent;
-use microsim_core::scenario::Scenario;
 use serde::{Deserialize, Serialize};
 
 /// Changes with every change of a message.
-const PROTOCOL: u16 = 2;
+const PROTOCOL: u16 = 3;
 /// Longest name, letters.
 const LONGEST_NAME: usize = 24;
 /// Steps of the run whose digest tells whether two programs compute the same worlds.
@@ -32,7 +30,10 @@ pub(super) struct Hello {
     pub name: String,
     pub is_ready: bool,
     pub is_playing: bool,
-    pub together: bool,
+    /// What it would have played, if it is the first.
+    pub plan: Plan,
+    /// The seed of the next match; none: any.
+    pub seed: Option<u64>,
     /// The number of its last match.
     pub number: u32,
 }
@@ -50,8 +51,8 @@ pub(super) struct Program {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Start {
     pub number: u32,
+    pub plan: Plan,
     pub seed: u64,
-    pub together: bool,
     /// Who plays, in the order of their cells.
     pub seats: Vec<Member>,
 }
@@ -59,19 +60,13 @@ pub(super) struct Start {
 impl Program {
     /// This program.
     pub(super) fn own() -> Self {
-        let digest = round_of(2, 1).map_or(0, |mut round| {
+        let digest = round_of(Way::Versus, 2, 1).map_or(0, |mut round| {
             let right = Intent::toward(round.world().config().size).unwrap_or(Intent::REST);
             (0..PROBE_STEPS).for_each(|_| round.step_all(&[right, right]));
             round.world().digest()
         });
         Self { protocol: PROTOCOL, version: env!("CARGO_PKG_VERSION").to_owned(), digest }
     }
-}
-
-pub(super) fn round_of(players: usize, seed: u64) -> Result<Round, String> {
-    let mut scenario = Scenario::parse(&two_players::text(players), &[]).map_err(|problems| problems.to_string())?;
-    scenario.set_seed(seed);
-    Round::new(&scenario)
 }
 
 pub(super) fn write(message: &Message) -> Vec<u8> {

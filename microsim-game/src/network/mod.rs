@@ -7,6 +7,7 @@
 //! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
 
 pub mod contest;
+mod cost;
 mod guest;
 #[cfg(any(test, fuzzing))]
 pub mod hostile;
@@ -14,6 +15,7 @@ mod message;
 mod moment;
 pub mod pacing;
 mod packet;
+pub mod plan;
 mod post;
 pub mod relay;
 mod report;

@@ -7,7 +7,7 @@ pub struct Pacing {
     pub steps: u32,
     /// Frames after which an own input counts.
     pub delay: u32,
-    /// Most frames that are predicted.
+    /// Most frames that are predicted; a slow machine predicts fewer.
     pub window: u32,
     /// Frames between two digests that are compared.
     pub interval: u32,

@@ -39,6 +39,18 @@ impl Session {
         self.tally
     }
 
+    /// How long so many frames are, s.
+    #[must_use]
+    pub fn seconds(&self, frames: u32) -> f32 {
+        (frames * self.steps()) as f32 * self.round().world().config().dt
+    }
+
+    /// Most frames that are predicted on this machine.
+    #[must_use]
+    pub fn window(&self) -> u32 {
+        self.cost.window(self.pacing)
+    }
+
     /// Digests of what is final, by frame.
     #[must_use]
     pub fn digests(&self) -> &[(u32, u64)] {

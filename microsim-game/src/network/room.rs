@@ -1,10 +1,10 @@
 //! A room: who is there, under which names, who is ready, and the match that they start.
 
-use super::contest::{Match, numbered, way};
+use super::contest::{Match, numbered};
 use super::message::{Hello, Message, Program, Start, clean, clean_text, write};
+use super::plan::Plan;
 use super::transport::{Member, Notice, Transport};
 use crate::rules::round::MOST_PLAYERS;
-use crate::rules::two_players::TwoPlayers;
 use crate::words::Key;
 use microsim_core::Intent;
 
@@ -52,13 +52,14 @@ impl Room {
     #[must_use]
     pub fn new(transport: Box<dyn Transport>, code: &str, name: &str) -> Self {
         let (program, name) = (Program::own(), clean(name));
-        let hello = Hello { program, name, is_ready: false, is_playing: false, together: false, number: 0 };
+        let (plan, seed) = (Plan::default(), None);
+        let hello = Hello { program, name, is_ready: false, is_playing: false, plan, seed, number: 0 };
         let (own, guests, greeted, closed) = (None, Vec::new(), None, None);
         Self { transport, code: code.to_owned(), own, hello, guests, greeted, number: 0, is_playing: false, closed }
     }
 
-    /// Takes in what has come, and says what is to be said. `now` is a clock, ms; `seed` is for a match that begins now, and `current` is
-    /// the match that is on. Returns one that begins.
+    /// Takes in what has come, and says what is to be said. `now` is a clock, ms; `seed` is for a match that begins now without a chosen one,
+    /// and `current` is the match that is on. Returns one that begins.
     pub fn update(&mut self, now: u32, seed: u64, mut current: Option<&mut Match>) -> Option<Match> {
         let mut begun = None;
         for notice in self.transport.poll() {
@@ -75,8 +76,8 @@ impl Room {
             }
         }
         if !self.is_playing && self.leads() && self.is_complete() {
-            let seats = self.members();
-            begun = self.begin(Start { number: self.next_number(), seed, together: self.hello.together, seats }, now);
+            let (number, seats, seed) = (self.next_number(), self.members(), self.hello.seed.unwrap_or(seed));
+            begun = self.begin(Start { number, plan: self.hello.plan, seed, seats }, now);
         }
         if let Some(current) = current.or(begun.as_mut()) {
             self.call(current, now);
@@ -283,17 +284,33 @@ impl Room {
         self.hello.is_ready
     }
 
-    /// Says how the next match is played; it counts if this member is the first.
-    pub fn set_way(&mut self, way: TwoPlayers) {
-        self.hello.together = way == TwoPlayers::Together;
+    /// Says what is played next; it counts if this member is the first.
+    pub fn set_plan(&mut self, plan: Plan) {
+        self.hello.plan = plan;
         self.greeted = None;
     }
 
-    /// How the next match is played.
+    /// What is played next.
     #[must_use]
-    pub fn way(&self) -> TwoPlayers {
+    pub fn plan(&self) -> Plan {
+        self.hello_of_first().plan
+    }
+
+    /// Says the seed of the next match, none for any; it counts if this member is the first.
+    pub fn set_seed(&mut self, seed: Option<u64>) {
+        self.hello.seed = seed;
+        self.greeted = None;
+    }
+
+    /// The seed of the next match, if one was chosen.
+    #[must_use]
+    pub fn seed(&self) -> Option<u64> {
+        self.hello_of_first().seed
+    }
+
+    fn hello_of_first(&self) -> &Hello {
         let first = self.guests.first().filter(|_| !self.leads()).and_then(|guest| guest.hello.as_ref());
-        way(first.unwrap_or(&self.hello).together)
+        first.unwrap_or(&self.hello)
     }
 
     /// Its code.

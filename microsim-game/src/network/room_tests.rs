@@ -1,6 +1,7 @@
 //! Rooms whose members are all in this process.
 
 use super::*;
+use crate::network::plan::{FrameRate, Way};
 use microsim_core::Intent;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -68,10 +69,10 @@ fn all_who_are_ready_begin_the_same_match_and_one_who_leaves_is_replaced() {
     let names: Vec<String> = players[0].room.seats().into_iter().map(|seat| seat.name).collect();
     assert_eq!(names, ["Ann", "B[2Jen", "Player 3"]);
     assert!(players[0].room.leads() && !players[1].room.leads() && players[0].room.seats()[0].is_own);
-    players[0].room.set_way(TwoPlayers::Together);
+    players[0].room.set_plan(Plan { way: Way::Together, ..Plan::default() });
     players[..2].iter_mut().for_each(|player| player.room.set_ready(true));
     run(&mut players, 3..6);
-    assert!(players[0].current.is_none() && players[1].room.way() == TwoPlayers::Together, "one is not ready");
+    assert!(players[0].current.is_none() && players[1].room.plan().way == Way::Together, "one is not ready");
     players[2].room.set_ready(true);
     run(&mut players, 6..50);
     let frames: Vec<u32> = players.iter().map(Player::frame).collect();
@@ -83,7 +84,29 @@ fn all_who_are_ready_begin_the_same_match_and_one_who_leaves_is_replaced() {
     assert!(matches.iter().all(|current| current.session().frame() > 80 && current.session().desync().is_none()));
     let digests: Vec<_> = matches.iter().map(|current| &current.session().digests()[..2]).collect();
     assert_eq!(digests[0], digests[1]);
-    assert!(matches.iter().all(|current| current.way() == TwoPlayers::Together));
+    assert!(matches.iter().all(|current| current.plan().way == Way::Together));
+}
+
+#[test]
+fn the_first_member_chooses_the_frames_a_second_and_the_seed_for_all_and_for_who_comes_late() {
+    let (mut players, boxes) = players(&["Ada", "Ben"]);
+    let quick = Plan { rate: FrameRate::Quick, ..Plan::default() };
+    players[0].room.set_plan(quick);
+    players[0].room.set_seed(Some(u64::MAX));
+    players[1].room.set_seed(Some(5));
+    run(&mut players, 0..3);
+    assert_eq!((players[1].room.plan(), players[1].room.seed()), (quick, Some(u64::MAX)), "all see it");
+    players.iter_mut().for_each(|player| player.room.set_ready(true));
+    run(&mut players, 3..100);
+    let late = enter(&mut players, &boxes, 2, Notice::Joined(2));
+    players.push(late);
+    run(&mut players, 100..250);
+    assert_eq!(cells(&players), [Some(0), Some(1), None]);
+    for player in &players {
+        let session = player.current.as_ref().unwrap().session();
+        assert_eq!((session.steps(), session.round().world().config().seed), (1, u64::MAX));
+        assert_eq!(session.round().world().step_index(), u64::from(session.frame()));
+    }
 }
 
 /// Two who play, and a member who comes to their room; the match that it is in is a new one.
@@ -172,7 +195,7 @@ fn odd_invitations_are_none() {
     let (mut players, boxes) = players(&["a", "b"]);
     run(&mut players, 0..3);
     let invite = |seats: Vec<Member>| {
-        let start = Start { number: 1, seed: 1, together: false, seats };
+        let start = Start { number: 1, plan: Plan::default(), seed: 1, seats };
         Notice::Message { from: 1, bytes: write(&Message::Invite(start)) }
     };
     boxes.borrow_mut()[0].push(invite(vec![0, 1]));
@@ -206,7 +229,8 @@ fn what_a_stranger_sends_changes_nothing() {
     let (mut players, boxes) = players(&["a", "b"]);
     players[0].room.set_ready(true);
     run(&mut players, 0..3);
-    let start = |seats: &[Member], number| Start { number, seed: 1, together: false, seats: seats.to_vec() };
+    let plan = Plan::default();
+    let start = |seats: &[Member], number| Start { number, plan, seed: 1, seats: seats.to_vec() };
     let calls = [start(&[0, 1], 1), start(&[1, 0], 1), start(&[0, 3], 1), start(&[], 1), start(&[0, 1], 0)];
     let calls = calls.into_iter().map(|call| (1, write(&Message::Start(call))));
     for (from, bytes) in calls.chain([(9, vec![0; 9]), (1, vec![255; 900])]) {

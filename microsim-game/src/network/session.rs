@@ -3,6 +3,7 @@
 //!
 //! Inputs of a match are kept from its first frame on (five bytes each), so there is no input that could be too old to be sent.
 
+use super::cost::Cost;
 use super::moment::{Moment, Tally};
 use super::pacing::Pacing;
 use super::packet::{Packet, Run, Takeover};
@@ -13,6 +14,7 @@ use crate::rules::referee::Gain;
 use crate::rules::round::Round;
 use crate::sound::Cue;
 use microsim_core::Intent;
+use std::time::Duration;
 
 /// Frames in which one frame may be left out to wait for a slower player.
 const WAIT_INTERVAL: u32 = 8;
@@ -46,6 +48,9 @@ pub struct Session {
     pub(super) digests: Vec<(u32, u64)>,
     pub(super) desync: Option<u32>,
     pub(super) tally: Tally,
+    /// Frames that the last call took, those that were taken again too.
+    pub(super) taken: u32,
+    pub(super) cost: Cost,
     /// What was heard and earned in the last frame, if one was taken.
     heard: Vec<Cue>,
     gains: Vec<Gain>,
@@ -83,6 +88,8 @@ impl Session {
             digests: Vec::new(),
             desync: None,
             tally: Tally::default(),
+            taken: 0,
+            cost: Cost::default(),
             heard: Vec::new(),
             gains: Vec::new(),
         }
@@ -195,6 +202,7 @@ impl Session {
     /// One frame, if others are not too far behind, with what this player wants to tell its cell from now on. Returns whether a frame
     /// was taken. `now` is a clock, ms.
     pub fn advance(&mut self, wanted: Told) -> bool {
+        self.taken = 0;
         if let Some(wrong) = self.wrong_from.take() {
             self.go_back(wrong);
         }
@@ -204,7 +212,7 @@ impl Session {
         if self.desync.is_some() {
             return false;
         }
-        let most = if self.own.is_some() { self.pacing.window } else { 0 };
+        let most = if self.own.is_some() { self.window() } else { 0 };
         if self.frame >= self.final_frame().saturating_add(most) || self.is_ahead() {
             self.tally.waits += 1;
             return false;
@@ -214,6 +222,12 @@ impl Session {
         }
         self.take_frame();
         true
+    }
+
+    /// Notes how long the last call of [`Session::advance`] took. Where frames take long, fewer are predicted, so that going back takes
+    /// no longer than it may; the worlds are the same.
+    pub fn note_time(&mut self, time: Duration) {
+        self.cost.note(self.taken, time);
     }
 
     fn go_back(&mut self, to: u32) {
@@ -255,6 +269,7 @@ impl Session {
             gains.extend(now.round.gains());
         }
         *frame += 1;
+        self.taken += 1;
         if now.round.is_over() {
             self.over_at.get_or_insert(*frame);
         }

@@ -1,12 +1,12 @@
 //! What a player of a match believes of what others send.
 
 use super::*;
-use crate::network::message::round_of;
+use crate::network::plan::{Way, round_of};
 use microsim_core::glam::Vec2;
 
 /// A match of three, as one of them takes part.
 fn session(own: usize) -> Session {
-    Session::new(round_of(3, 1).unwrap(), own, Pacing::USUAL)
+    Session::new(round_of(Way::Versus, 3, 1).unwrap(), own, Pacing::USUAL)
 }
 
 fn packet(ends: Vec<(u8, u32)>, runs: Vec<Run>) -> Vec<u8> {
@@ -137,7 +137,7 @@ fn who_takes_over_before_it_knows_what_its_cell_was_told_is_told_that() {
     let mut session = session(0);
     session.receive(1, &packet(Vec::new(), run(1, 4)), 0);
     session.leave(1);
-    let mut guest = Session::watch(round_of(3, 1).unwrap(), 3, Pacing::USUAL);
+    let mut guest = Session::watch(round_of(Way::Versus, 3, 1).unwrap(), 3, Pacing::USUAL);
     let told = Packet::read(&packet(Vec::new(), Vec::new()), 3).unwrap();
     session.receive_guest(3, &Packet { wants: true, ..told }.write(), 0);
     session.seat(1, 3);
@@ -148,4 +148,12 @@ fn who_takes_over_before_it_knows_what_its_cell_was_told_is_told_that() {
         guest.receive(0, &bytes, now);
     }
     assert_eq!((guest.own(), guest.told(1).0.len()), (Some(1), session.told(1).0.len()));
+}
+
+#[test]
+fn a_second_is_a_second_at_any_number_of_frames() {
+    for (pacing, frames) in [(Pacing::USUAL, 30), (Pacing::QUICK, 60)] {
+        let session = Session::watch(round_of(Way::Versus, 2, 1).unwrap(), 3, pacing);
+        assert!((session.seconds(frames) - 1.0).abs() < 1e-5, "{pacing:?}");
+    }
 }

@@ -3,7 +3,7 @@
 use super::context::AppContext;
 use super::lobby::clock;
 use super::steer::{Hands, draw_prey};
-use super::{MainScreen, Next, Screen, seed_of_match};
+use super::{MainScreen, Next, Screen, new_seed};
 use crate::draw::palette::PLAYERS;
 use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
@@ -20,12 +20,12 @@ use std::time::Duration;
 const ADVICE_TIME: f64 = 7.0;
 /// Time within which Escape leaves when it is pressed again, s.
 const LEAVING_TIME: f32 = 3.0;
-/// Frames without a new one after which the player is told that others are waited for.
-const WAITING_FRAMES: u32 = 15;
-/// Frames after the end, or after worlds were found to differ, for which the others are told and heard.
-const LAST_WORD: u32 = 60;
-/// The same after which a match with somebody who does not answer is a draw.
-const LONGEST_WAIT: u32 = 900;
+/// Time without a frame after which the player is told that others are waited for, s.
+const WAITING_TIME: f32 = 0.5;
+/// Time after the end, or after worlds were found to differ, for which the others are told and heard, s.
+const LAST_WORD: f32 = 2.0;
+/// Time after which a match with somebody who does not answer is a draw, s.
+const LONGEST_WAIT: f32 = 30.0;
 /// Time for which a cut connection is tried again, s, and time between two trials, s.
 const RETURN_TIME: f32 = 30.0;
 const RETRY_INTERVAL: f32 = 2.0;
@@ -74,7 +74,9 @@ impl Contest {
             let cell = game.own().and_then(|own| round.players().nth(own));
             let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
             let was_equal = game.session().desync().is_none();
+            let began = platform::now();
             let is_taken = room.advance(game, intent, clock());
+            game.note_time(platform::now() - began);
             let parts = was_equal && game.session().desync().is_some();
             *waiting = if is_taken || parts { 0 } else { *waiting + 1 };
             heard.extend_from_slice(game.session().heard());
@@ -90,19 +92,20 @@ impl Contest {
         let session = self.game.session();
         let round = session.round();
         if let (Some(step), Some(parted)) = (session.desync(), session.parted()) {
-            return (self.waiting >= LAST_WORD).then(|| keep_parted(parted, step, &context.store));
+            return (session.seconds(self.waiting) >= LAST_WORD)
+                .then(|| keep_parted(parted, step, &context.store, platform::hand_over));
         }
-        if self.waiting >= LONGEST_WAIT && !round.is_over() {
+        if session.seconds(self.waiting) >= LONGEST_WAIT && !round.is_over() {
             return Some(words::text(Key::MatchSilent).to_owned());
         }
-        let last_word = session.frames_over() + self.waiting;
+        let last_word = session.seconds(session.frames_over() + self.waiting);
         if !session.is_over() && (!round.is_over() || last_word < LAST_WORD) {
             return None;
         }
         if let Some(record) = round.record() {
             context.keep_game(record, Ok(()));
         }
-        let verdict = self.game.way().verdict(&round.scores(), self.game.names());
+        let verdict = self.game.plan().way.verdict(round, self.game.names());
         let verdict = ("verdict", (&verdict).into());
         Some(match self.game.own() {
             Some(own) => words::text_with(Key::MatchEnd, &[verdict, ("player", (&player(own)).into())]),
@@ -137,7 +140,7 @@ impl Contest {
             Key::MatchLeave
         } else if self.cut_since.is_some() {
             Key::MatchCut
-        } else if self.waiting > WAITING_FRAMES {
+        } else if self.game.session().seconds(self.waiting) > WAITING_TIME {
             Key::MatchWaiting
         } else {
             Key::MatchWatch
@@ -156,15 +159,15 @@ impl Contest {
         let (ping, loss) =
             (ping.map_or_else(|| "-".to_owned(), |ping| ping.to_string()), words::number(100.0 * loss, 0));
         let tally = session.tally();
-        let counts = [("back", tally.rollbacks.into()), ("frames", tally.deepest.into())];
+        let frames = [("frames", tally.deepest.into()), ("window", session.window().into())];
         let way = [("ping", (&ping).into()), ("loss", (&loss).into())];
-        words::text_with(Key::MatchNet, &[way, counts].concat())
+        words::text_with(Key::MatchNet, &[&way[..], &[("back", tally.rollbacks.into())], &frames].concat())
     }
 }
 
 impl Screen for Contest {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = seed_of_match(context);
+        let seed = new_seed(context);
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         let current = if self.cut_since.is_none() { Some(&mut self.game) } else { None };
         // No other match begins while this one is on; after a cut this one begins again.
@@ -218,7 +221,7 @@ impl Screen for Contest {
             draw_prey(pen, &style, &mut taken, round, view, cell);
         }
         let referee = round.referee();
-        let score = self.game.way().summary(&round.scores());
+        let score = self.game.plan().way.summary(round);
         let note = if self.shows_net { self.net() } else { String::new() };
         let time = [referee.time_left(), referee.game().time];
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
@@ -241,15 +244,16 @@ impl Screen for Contest {
     }
 }
 
-/// Keeps the round of a match that came apart, as it was at a step. Says so.
-fn keep_parted(round: &Round, step: u64, store: &PlayerFolder) -> String {
-    let parts = [round.record(), round.world().to_snapshot().ok()];
-    let kept = [RECORD, WORLD].into_iter().zip(parts);
-    let kept = kept.filter_map(|(name, bytes)| Some(store.write(name, &bytes?)));
-    let are_kept = kept.filter(Result::is_ok).count() == 2;
+/// Keeps the round of a match that came apart, as it was at a step, and gives it to the player. Says so.
+fn keep_parted(round: &Round, step: u64, store: &PlayerFolder, hand_over: impl Fn(&str, &[u8]) -> bool) -> String {
     let told = words::text_with(Key::MatchDiffers, &[("step", (&step.to_string()).into())]);
-    let files = || words::text_with(Key::MatchKept, &[("record", RECORD.into()), ("world", WORLD.into())]);
-    if are_kept { format!("{told} {}", files()) } else { told }
+    let (Some(record), Ok(world)) = (round.record(), round.world().to_snapshot()) else { return told };
+    let files = [(RECORD, record), (WORLD, world)];
+    let kept = files.iter().filter(|(name, bytes)| store.write(name, bytes).is_ok()).count();
+    let given = files.iter().filter(|(name, bytes)| hand_over(name, bytes)).count();
+    let key = if given == files.len() { Key::MatchGiven } else { Key::MatchKept };
+    let where_found = words::text_with(key, &[("record", RECORD.into()), ("world", WORLD.into())]);
+    if kept.max(given) == files.len() { format!("{told} {where_found}") } else { told }
 }
 
 /// A player, for people.
@@ -271,17 +275,31 @@ mod tests {
     use microsim_core::World;
     use microsim_core::replay::{Player, Replay};
     use microsim_core::scenario::Scenario;
+    use std::cell::RefCell;
 
     #[test]
     fn a_match_that_came_apart_is_kept_as_a_record_and_the_world_at_its_end() {
         let (_folder, store) = Folder::new("parted");
         let mut round = Round::new(&Scenario::parse(two_players::TEXT, &[]).unwrap()).unwrap();
         (0..90).for_each(|_| round.step_all(&[Intent::REST, Intent::REST]));
-        let told = keep_parted(&round, 90, &store);
-        assert!([RECORD, WORLD, "90"].iter().all(|said| told.contains(said)), "{told}");
+        let told = keep_parted(&round, 90, &store, |_, _| false);
+        assert!([RECORD, WORLD, "90", "settings"].iter().all(|said| told.contains(said)), "{told}");
         let world = World::from_snapshot(&store.read(WORLD).unwrap()).unwrap();
         let mut player = Player::new(&Replay::read(&store.read(RECORD).unwrap()).unwrap()).unwrap();
         assert_eq!(player.by_ref().filter(|played| played.is_ok()).count(), 90);
         assert_eq!(player.world().digest(), world.digest());
+    }
+
+    #[test]
+    fn where_what_is_kept_is_out_of_reach_the_files_are_given_to_the_player() {
+        let (_folder, store) = Folder::new("given");
+        let round = Round::new(&Scenario::parse(two_players::TEXT, &[]).unwrap()).unwrap();
+        let given = RefCell::new(Vec::new());
+        let told = keep_parted(&round, 90, &store, |name, bytes| {
+            given.borrow_mut().push((name.to_owned(), bytes.to_vec()));
+            true
+        });
+        let kept = [RECORD, WORLD].map(|name| (name.to_owned(), store.read(name).unwrap()));
+        assert!(*given.borrow() == kept && told.contains("downloads"), "{told}");
     }
 }

@@ -28,12 +28,17 @@ impl Join {
         if key == KeyCode::Backspace {
             self.code.pop();
         }
-        let name = format!("{key:?}");
-        let letter = ["Key", "Kp"].into_iter().find_map(|before| name.strip_prefix(before)).unwrap_or(&name);
-        if letter.len() == 1 && self.code.len() < LONGEST {
-            self.code.push_str(letter);
+        if self.code.len() < LONGEST {
+            self.code.extend(letter(key));
         }
     }
+}
+
+/// The letter or digit of a key.
+pub(super) fn letter(key: KeyCode) -> Option<char> {
+    let name = format!("{key:?}");
+    let name = ["Key", "Kp"].into_iter().find_map(|before| name.strip_prefix(before)).unwrap_or(&name);
+    name.parse().ok()
 }
 
 impl Screen for Join {

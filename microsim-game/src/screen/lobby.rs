@@ -1,20 +1,26 @@
 //! The lobby: who is in the room, who is ready, how the next match is played, and what the last one came to.
 
 use super::context::AppContext;
+use super::join::letter;
 use super::page::MenuPage;
-use super::{MainScreen, Next, Screen, seed_of_match};
+use super::{MainScreen, Next, Screen, new_seed};
 use crate::draw::palette::PLAYERS;
 use crate::input::{Input, Move};
+use crate::network::plan::{Plan, Way};
 use crate::network::room::{Room, Seat};
 use crate::platform;
-use crate::rules::two_players::TwoPlayers;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
+use macroquad::input::KeyCode;
 
 /// Items before those who are there.
 const READY: usize = 0;
 const WAY: usize = 1;
-const LEAVE: usize = 2;
+const RATE: usize = 2;
+const SEED: usize = 3;
+const LEAVE: usize = 4;
+/// Greatest seed that can be typed; greater ones come from the command line.
+const GREATEST_SEED: u64 = 999_999;
 
 #[derive(Debug)]
 pub(super) struct Lobby {
@@ -30,7 +36,9 @@ pub(super) struct Lobby {
 pub(super) fn enter(code: &str, context: &mut AppContext) -> Result<Lobby, String> {
     context.room = None;
     let transport = platform::open_room(&context.party.server, code, &context.party.key)?;
-    context.room = Some(Room::new(transport, code, &context.party.name));
+    let mut room = Room::new(transport, code, &context.party.name);
+    room.set_seed(context.game.seed);
+    context.room = Some(room);
     Ok(Lobby::new(None))
 }
 
@@ -45,23 +53,28 @@ impl Lobby {
     }
 
     fn show(&mut self, room: &Room) {
-        let how = words::text(room.way().label());
-        let way = if room.leads() {
-            MenuItem::with(Key::RoomPlay, how)
-        } else {
-            MenuItem::new(format!("{}: {how}", words::text(Key::RoomPlay)))
-        };
+        let plan = room.plan();
+        let rate = format!("{}/s", 60 / plan.rate.pacing().steps);
+        let seed = room.seed().map_or_else(|| words::text(Key::RoomAnySeed).to_owned(), |seed| seed.to_string());
+        let way = words::text(plan.way.label()).to_owned();
+        let choices = [(Key::RoomPlay, way), (Key::RoomRate, rate), (Key::RoomSeed, seed)].map(|(key, value)| {
+            if room.leads() {
+                MenuItem::with(key, value)
+            } else {
+                MenuItem::new(format!("{}: {value}", words::text(key)))
+            }
+        });
         let seats = (1..).zip(PLAYERS).zip(room.seats());
         let seats = seats.map(|((number, (colour, _)), seat)| MenuItem::new(seat_label(number, colour, seat)));
-        let items = [MenuItem::switch(Key::RoomReady, room.is_ready()), way, MenuItem::new(Key::RoomLeave)];
-        self.page.menu.items = items.into_iter().chain(seats).collect();
+        let items = [MenuItem::switch(Key::RoomReady, room.is_ready())].into_iter().chain(choices);
+        self.page.menu.items = items.chain([MenuItem::new(Key::RoomLeave)]).chain(seats).collect();
         self.page.menu.set_focus(self.page.menu.focus());
     }
 }
 
 impl Screen for Lobby {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = seed_of_match(context);
+        let seed = new_seed(context);
         let Some(room) = &mut context.room else { return Next::Show(MainScreen::Title) };
         if let Some(game) = room.update(clock(), seed, None) {
             return Next::Show(MainScreen::Contest(Box::new(game)));
@@ -75,13 +88,16 @@ impl Screen for Lobby {
         let choice = self.page.update(input, &context.pen);
         match choice {
             Some(MenuChoice::Pick(READY) | MenuChoice::Less(READY)) => room.set_ready(!room.is_ready()),
-            Some(MenuChoice::Pick(WAY) | MenuChoice::Less(WAY)) if room.leads() => {
-                let is_together = room.way() == TwoPlayers::Together;
-                room.set_way(if is_together { TwoPlayers::Versus } else { TwoPlayers::Together });
-            }
+            Some(choice) if room.leads() && change(room, choice) => {}
             _ if input.step == Some(Move::Back) || choice == Some(MenuChoice::Pick(LEAVE)) => {
                 context.room = None;
                 return Next::Show(MainScreen::Title);
+            }
+            _ if room.leads() && self.page.menu.focus() == SEED => {
+                let seed = input.key.map_or(room.seed(), |key| typed(room.seed(), key));
+                if seed != room.seed() {
+                    room.set_seed(seed);
+                }
             }
             _ => {}
         }
@@ -114,6 +130,38 @@ impl Screen for Lobby {
     }
 }
 
+/// Changes what is played next, as the menu says. Returns whether the item was one of those.
+fn change(room: &mut Room, choice: MenuChoice) -> bool {
+    let (plan, seed) = (room.plan(), room.seed());
+    match choice {
+        MenuChoice::Pick(WAY) => room.set_plan(Plan { way: stepped(plan.way, 1), ..plan }),
+        MenuChoice::Less(WAY) => room.set_plan(Plan { way: stepped(plan.way, Way::ALL.len() - 1), ..plan }),
+        MenuChoice::Pick(RATE) | MenuChoice::Less(RATE) => {
+            room.set_plan(Plan { rate: plan.rate.other(), ..plan });
+        }
+        MenuChoice::Pick(SEED) => room.set_seed(Some(seed.map_or(0, |seed| seed.saturating_add(1)))),
+        MenuChoice::Less(SEED) => room.set_seed(seed.and_then(|seed| seed.checked_sub(1))),
+        _ => return false,
+    }
+    true
+}
+
+/// The way of playing so many places after this one.
+fn stepped(way: Way, places: usize) -> Way {
+    let at = Way::ALL.iter().position(|&other| other == way).unwrap_or(0);
+    Way::ALL[(at + places) % Way::ALL.len()]
+}
+
+/// A seed after one more key: none is any.
+fn typed(seed: Option<u64>, key: KeyCode) -> Option<u64> {
+    if key == KeyCode::Backspace {
+        return seed.map(|seed| seed / 10).filter(|&seed| seed > 0);
+    }
+    let digit = letter(key).and_then(|letter| letter.to_digit(10));
+    let longer = digit.and_then(|digit| seed.unwrap_or(0).checked_mul(10)?.checked_add(digit.into()));
+    longer.filter(|&longer| longer <= GREATEST_SEED).or(seed)
+}
+
 /// Who is there, in which colour, and what is to be said of it.
 fn seat_label(number: u32, colour: Key, seat: Seat) -> String {
     let own = || words::text_with(Key::RoomOwnName, &[("name", (&seat.name).into())]);
@@ -121,4 +169,51 @@ fn seat_label(number: u32, colour: Key, seat: Seat) -> String {
     let said = [("colour", words::text(colour)), ("note", words::text(seat.note)), ("name", name.as_str())];
     let said = said.map(|(variable, text)| (variable, text.into()));
     words::text_with(Key::RoomSeat, &[&said[..], &[("number", number.into())]].concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::plan::FrameRate;
+    use crate::network::transport::{Member, Notice, Transport};
+
+    #[test]
+    fn digits_make_a_seed_and_without_digits_it_is_any() {
+        let keys = |seed, keys: &[KeyCode]| keys.iter().fold(seed, |seed, &key| typed(seed, key));
+        assert_eq!(keys(None, &[KeyCode::Key4, KeyCode::A, KeyCode::Kp2, KeyCode::F1]), Some(42));
+        assert_eq!(keys(Some(42), &[KeyCode::Backspace]), Some(4));
+        assert_eq!(keys(Some(42), &[KeyCode::Backspace; 3]), None);
+        assert_eq!(keys(None, &[KeyCode::Key9; 8]), Some(GREATEST_SEED));
+        assert_eq!(keys(Some(u64::MAX), &[KeyCode::Key9]), Some(u64::MAX));
+    }
+
+    /// A way into a room in which nobody else is.
+    #[derive(Debug)]
+    struct Alone;
+
+    impl Transport for Alone {
+        fn poll(&mut self) -> Vec<Notice> {
+            vec![Notice::Welcome { member: 0, others: Vec::new() }]
+        }
+
+        fn send(&mut self, _: Member, _: &[u8]) {}
+    }
+
+    #[test]
+    fn the_menu_of_the_first_member_changes_what_is_played() {
+        let mut room = Room::new(Box::new(Alone), "ABCD", "Ada");
+        assert!(room.update(0, 7, None).is_none() && room.leads());
+        let mut after = |choices: &[MenuChoice]| {
+            assert!(choices.iter().all(|&choice| change(&mut room, choice)));
+            (room.plan(), room.seed())
+        };
+        let quick = Plan { way: Way::Versus, rate: FrameRate::Quick };
+        assert_eq!(after(&[MenuChoice::Pick(RATE)]), (quick, None));
+        assert_eq!(after(&[MenuChoice::Less(WAY)]).0.way, Way::ALL[Way::ALL.len() - 1]);
+        assert_eq!(after(&[MenuChoice::Pick(WAY), MenuChoice::Less(SEED)]), (quick, None));
+        assert_eq!(after(&[MenuChoice::Pick(SEED); 3]).1, Some(2));
+        assert_eq!(after(&[MenuChoice::Less(SEED)]).1, Some(1));
+        assert_eq!(after(&[MenuChoice::Less(SEED); 2]), (quick, None));
+        assert!(!change(&mut room, MenuChoice::Pick(LEAVE)));
+    }
 }

@@ -196,11 +196,6 @@ impl Paused {
     }
 }
 
-/// The seed of a match that begins here: the one that was asked for, or a new one.
-fn seed_of_match(context: &AppContext) -> u64 {
-    context.game.seed.unwrap_or_else(|| new_seed(context))
-}
-
 /// Every round has a seed of its own, except for pictures that must come out the same.
 fn new_seed(context: &AppContext) -> u64 {
     let milliseconds = 1000.0 * miniquad::date::now();

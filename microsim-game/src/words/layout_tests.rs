@@ -248,6 +248,15 @@ fn the_lobby_fits_a_small_window() {
             format!("> {}  {} >", text(Key::RoomReady), text(Key::MenuOff)),
             format!("> {}", text(Key::RoomLeave)),
         ];
+        let seeds = [text(Key::RoomAnySeed), "18446744073709551615"];
+        items.extend(seeds.map(|seed| format!("> {}  {seed} >", text(Key::RoomSeed))));
+        // On both sides of the arrow that steps back.
+        let values = [(Key::RoomRate, "60/s"), (Key::RoomSeed, text(Key::RoomAnySeed)), (Key::RoomSeed, "999999")];
+        for (label, value) in values {
+            let halves = [format!("> {}", text(label)), format!("{value} >")];
+            let widths = halves.map(|half| measure(TextSize::Body, &half) + 0.5 * (layout.item.x - room));
+            assert!(widths[0] <= 0.52 * layout.item.x && widths[1] <= 0.4 * layout.item.x, "{value}: {widths:?}");
+        }
         items.extend(TwoPlayers::ALL.map(|way| format!("> {}  {} >", text(Key::RoomPlay), text(way.label()))));
         let notes = [Key::RoomComing, Key::RoomOtherVersion, Key::RoomPlays, Key::RoomIsReady, Key::RoomNotReady];
         for note in notes {

@@ -10,7 +10,7 @@ use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use std::ops::Range;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Frames between two decisions of a bot: about as often as a hand turns.
 const DECISION: u32 = 6;
@@ -59,6 +59,8 @@ pub(crate) struct Match {
     pub(crate) cuts: Vec<Cut>,
     /// Frames that a member's machine makes of one of the match, at a time in ms.
     pub(crate) speed: fn(usize, f32) -> f32,
+    /// Time that a frame costs each member, ms.
+    pub(crate) cost: [f32; 4],
     /// When players leave, ms.
     pub(crate) leaving: Vec<(usize, u32)>,
     /// When members come, or come back, ms: they watch until a bot's cell is theirs.
@@ -94,6 +96,7 @@ impl Match {
             longest_wait: vec![0; 4],
             cuts: Vec::new(),
             speed: |_, _| 1.0,
+            cost: [0.0; 4],
             leaving: Vec::new(),
             coming: Vec::new(),
             players,
@@ -170,7 +173,11 @@ impl Match {
         let session = &mut self.sessions[member];
         // As many as a window takes in a frame.
         (0..20).take_while(|_| session.is_behind() && session.catch_up()).for_each(drop);
-        let is_taken = session.advance(told) || session.round().is_over();
+        let before = session.tally().repeated;
+        let is_taken = session.advance(told);
+        let frames = session.tally().repeated - before + u32::from(is_taken);
+        session.note_time(Duration::from_secs_f32(self.cost[member] * frames as f32 / 1000.0));
+        let is_taken = is_taken || session.round().is_over();
         self.waits[member] = if is_taken { 0 } else { self.waits[member] + 1 };
         self.longest_wait[member] = self.longest_wait[member].max(self.waits[member]);
         let (packets, guests) = (session.packets(self.now as u32), session.guest_packets(self.now as u32));

@@ -135,6 +135,12 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::write(path, bytes)
 }
 
+/// Nothing: the player finds what is kept.
+#[must_use]
+pub fn hand_over(_: &str, _: &[u8]) -> bool {
+    false
+}
+
 /// Files that were dropped on the window in this frame.
 #[must_use]
 pub fn dropped_files() -> Vec<PathBuf> {
