@@ -19,6 +19,7 @@ pub mod path;
 pub mod prey;
 pub mod referee;
 pub mod round;
+pub mod seating;
 pub mod slide_bot;
 pub mod two_players;
 

@@ -1,6 +1,7 @@
 //! Two under glass: two cells on one slide, which is data, `games/two-under-glass.toml`. Both are scored for themselves.
 
 use super::bot::{Bot, Policy};
+use super::seating::seat;
 use crate::words::{Key, text_with};
 
 /// Name of its scenario.
@@ -8,8 +9,9 @@ pub const NAME: &str = "two-under-glass";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../games/two-under-glass.toml");
 
-/// Where the cells of the players end in it.
+/// Where the cells of the players end in it, and those of more players: the third is beside the first, the fourth beside the second.
 const OBSTACLES: &str = "# --- What is in their way";
+const MORE: [(usize, [f32; 2]); 2] = [(3, [24.0, 66.0]), (4, [120.0, 15.0])];
 
 /// How two cells play.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,13 +83,10 @@ impl TwoPlayers {
     }
 }
 
-/// The scenario for so many players, 2 to 4: the third cell is beside the first one, the fourth beside the second.
+/// The scenario for so many players, 2 to 4.
 #[must_use]
 pub fn text(players: usize) -> String {
-    let extra = [(3, [24.0, 66.0]), (4, [120.0, 15.0])].into_iter().filter(|(number, _)| *number <= players);
-    let cells = extra.map(|(k, at)| format!("[[spawn]]\nof = \"hunter\"\nname = \"player-{k}\"\nat = {at:?}\n\n"));
-    // Before all that finds a free place of its own.
-    TEXT.replacen(OBSTACLES, &(cells.collect::<String>() + OBSTACLES), 1)
+    seat(TEXT, OBSTACLES, players, "of = \"hunter\"", &MORE)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
 use crate::rules::bot::Bot;
-use crate::rules::food_chain::change::is_own;
+use crate::rules::food_chain::change::line_of;
 use crate::rules::food_chain::{NAME, threats_and_victims};
 use crate::rules::game::GameChoice;
 use crate::rules::hint::Hints;
@@ -243,7 +243,7 @@ impl Play {
     fn life(&self) -> Option<(String, [f32; 2])> {
         let (chain, world) = (self.round.chain()?, self.round.world());
         let cell = world.view().organism(self.round.player())?;
-        let sisters = world.view().organisms().filter(|other| is_own(*other)).count().saturating_sub(1);
+        let sisters = world.view().organisms().filter(|other| line_of(*other) == line_of(cell)).count().saturating_sub(1);
         let time = world.time() as f32;
         let reserve = chain.reserve(cell, time).min(FULL_RESERVE);
         Some((food_chain::summary(time, chain.size(cell), sisters), [reserve, FULL_RESERVE]))
@@ -305,10 +305,10 @@ impl Screen for Play {
             return self.played.restart();
         }
         if let Some(change) = context.chosen.take() {
-            self.round.choose(change);
+            self.round.choose(0, change);
         }
         if input.presses(Action::Divide) {
-            self.round.divide();
+            self.round.divide(0);
         }
         self.run(input, context);
         context.play(&self.heard);
@@ -322,7 +322,7 @@ impl Screen for Play {
                 (None, false, None) => Overlay::End(result, self.played),
             });
         }
-        self.round.offer().map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
+        self.round.offer(0).map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
     }
 
     fn draw(&mut self, context: &mut AppContext) {
