@@ -22,6 +22,7 @@ pub mod round;
 pub mod seating;
 pub mod slide_bot;
 pub mod two_players;
+pub mod verdict;
 
 #[cfg(test)]
 mod tests;

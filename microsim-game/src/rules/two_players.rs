@@ -2,6 +2,7 @@
 
 use super::bot::{Bot, Policy};
 use super::seating::seat;
+use super::verdict::verdict;
 use crate::words::{Key, text_with};
 
 /// Name of its scenario.
@@ -62,24 +63,13 @@ impl TwoPlayers {
         if self == Self::Together {
             return text_with(Key::TwoTogetherEnd, &[("points", scores.iter().sum::<u32>().into())]);
         }
-        let best = scores.iter().copied().max().unwrap_or_default();
-        let mut winners = (1..).zip(scores).filter(|(_, points)| **points == best).map(|(k, _)| k);
-        match (winners.next(), winners.next()) {
-            (Some(winner), None) => {
-                let others = (1..).zip(scores).filter(|(k, _)| *k != winner).map(|(_, points)| points.to_string());
-                let others = others.collect::<Vec<String>>().join(", ");
-                let number = || text_with(Key::TwoPlayer, &[("number", (winner as u32).into())]);
-                let name = names.get(winner - 1).cloned().unwrap_or_else(number);
-                let key = match (self, winner) {
-                    (Self::Bot, 1) => Key::TwoYouWin,
-                    (Self::Bot, _) => Key::TwoBotWins,
-                    _ => Key::TwoWins,
-                };
-                text_with(key, &[("name", (&name).into()), ("best", best.into()), ("others", (&others).into())])
-            }
-            _ if scores.iter().all(|&points| points == best) => text_with(Key::TwoDraw, &[("points", best.into())]),
-            _ => text_with(Key::TwoDrawBest, &[("points", best.into())]),
-        }
+        let is_first = scores.first() == scores.iter().max();
+        let win = match self {
+            Self::Bot if is_first => Key::TwoYouWin,
+            Self::Bot => Key::TwoBotWins,
+            _ => Key::TwoWins,
+        };
+        verdict([win, Key::TwoDraw, Key::TwoDrawBest], scores, names)
     }
 }
 
